@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/camera_rig.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace ods {
+
+static PoleMerge make_merge(const PoleMergeSetting& setting) {
+  assert(setting.mode == kMergeNone || (setting.start < setting.end && setting.exponent > 0.0f));
+  PoleMerge merge;
+  merge.mode = setting.mode;
+  merge.start = glm::radians(setting.start);
+  merge.end = glm::radians(setting.end);
+  merge.exponent = setting.exponent;
+  return merge;
+}
+
+Camera make_camera(const CameraRig& rig) {
+  assert(rig.ipd >= 0.0f);
+  const double yaw = glm::radians(static_cast<double>(rig.yaw));
+  const double pitch = glm::radians(static_cast<double>(rig.pitch));
+  const double roll = glm::radians(static_cast<double>(rig.roll));
+  // Columns of Ry(-yaw) * Rx(pitch) * Rz(-roll).
+  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
+  const double cr = std::cos(roll), sr = std::sin(roll);
+  const glm::dvec3 level_right(cy, 0.0, sy);
+  const glm::dvec3 back(-sy * cp, -sp, cy * cp);
+  const glm::dvec3 level_up = glm::cross(back, level_right);
+  Camera camera;
+  camera.center = rig.position;
+  camera.right = vec3(cr * level_right - sr * level_up);
+  camera.up = vec3(sr * level_right + cr * level_up);
+  camera.back = vec3(back);
+  camera.ipd = rig.ipd;
+  camera.top = make_merge(rig.top);
+  camera.bottom = make_merge(rig.bottom);
+  return camera;
+}
+
+}  // namespace ods

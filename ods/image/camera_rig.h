@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The camera as people set it: degrees, metres, defaults. make_camera() turns it into the kernel's record.
+//
+// World: right-handed, +Y up; with yaw = pitch = roll = 0 the middle of the picture looks along -Z and +X is to the
+// right (glTF's own camera). Angles are applied as roll, then pitch, then yaw.
+#pragma once
+#include "ods/kernel/camera/camera.h"
+
+namespace ods {
+
+// How the distance between the eyes shrinks towards one pole, so that the picture stays whole when looked at there.
+// Elevations are degrees from the horizon (0) towards the pole (90), 0 <= start < end <= 90.
+struct PoleMergeSetting {
+  int mode = kMergeNone;  // kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep
+  float start = 60.0f;
+  float end = 90.0f;
+  float exponent = 1.0f;  // the curve raised to this power, > 0
+};
+
+struct CameraRig {
+  vec3 position{0.0f, 0.0f, 0.0f};
+  float yaw = 0.0f;    // degrees to the right
+  float pitch = 0.0f;  // degrees up; tilts the viewing circle with it
+  float roll = 0.0f;   // degrees clockwise
+  float ipd = 0.065f;  // distance between the eyes, metres; 0 is mono
+  PoleMergeSetting top;
+  PoleMergeSetting bottom;
+};
+
+// Precondition: every field finite, ipd >= 0.
+Camera make_camera(const CameraRig& rig);
+
+}  // namespace ods

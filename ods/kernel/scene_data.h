@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scene as the kernel reads it: plain records in flat arrays, the same bytes on every device (scalar layout).
+// Metres, right-handed, +Y up. Colours and radiances are linear, Rec. 709 primaries. Angles are radians.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/math.h"
+namespace ods {
+#endif
+
+struct Vertex {
+  vec3 position;
+  vec3 normal;   // unit length
+  vec4 tangent;  // xyz unit length, w = +1 or -1 gives the bitangent's side (glTF); xyz = 0: no tangent
+  vec2 uv0;
+  vec2 uv1;
+  vec4 color;  // linear, multiplies the base colour; 1,1,1,1 where the file has none
+};
+
+// One run of triangles with one material (a glTF primitive). Its triangles index vertices from first_vertex on.
+struct Mesh {
+  uint first_vertex;
+  uint vertex_count;
+  uint first_triangle;
+  uint triangle_count;
+  int material;
+};
+
+// A mesh standing in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
+struct Instance {
+  vec4 row0;
+  vec4 row1;
+  vec4 row2;
+  int mesh;
+  int first_light;  // index of the light of its first triangle, -1 when the mesh does not glow; made by make_lights()
+};
+
+const int kWrapRepeat = 0;
+const int kWrapMirror = 1;
+const int kWrapClamp = 2;
+
+// An image with its sampler. Texels are rows from the top, 8 bits each of R, G, B, A with R in the low byte.
+struct Texture {
+  uint first_texel;
+  int width;
+  int height;
+  int wrap_u;
+  int wrap_v;
+  int srgb;     // 1: R, G, B are stored with the sRGB curve
+  int nearest;  // 1: no interpolation
+};
+
+// Which texture a material reads, and how its coordinates get there (KHR_texture_transform):
+// uv' = offset + axis_u * uv.x + axis_v * uv.y.
+struct TextureSlot {
+  int texture;  // -1: none, reads as 1 everywhere
+  int uv_set;   // 0 or 1
+  vec2 offset;
+  vec2 axis_u;
+  vec2 axis_v;
+};
+
+const int kAlphaOpaque = 0;
+const int kAlphaMask = 1;
+const int kAlphaBlend = 2;
+
+// glTF 2.0 metallic-roughness with KHR_materials_unlit, _emissive_strength, _ior, _transmission and _volume.
+struct Material {
+  vec4 base_color;
+  vec3 emission;  // radiance; the strength is multiplied in
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float ior;
+  float transmission;
+  float thickness;             // > 0: the mesh encloses a volume and refracts; 0: thin sheet
+  vec3 attenuation_color;      // what is left of white light after attenuation_distance inside the volume
+  float attenuation_distance;  // metres; infinite or <= 0: clear
+  int alpha_mode;
+  float alpha_cutoff;
+  int double_sided;
+  int unlit;
+  TextureSlot base_color_slot;          // rgb: colour, a: alpha
+  TextureSlot metallic_roughness_slot;  // g: roughness, b: metallic
+  TextureSlot normal_slot;
+  TextureSlot emission_slot;
+  TextureSlot transmission_slot;  // r
+};
+
+const int kLightTriangle = 0;
+const int kLightPoint = 1;
+const int kLightSpot = 2;
+const int kLightDirectional = 3;
+const int kLightEnvironment = 4;
+
+// One entry of the table that lights are picked from, with Walker's alias beside it.
+struct Light {
+  int kind;
+  int instance;       // triangle: which instance,
+  int triangle;       //           and which triangle of its mesh
+  vec3 position;      // point, spot
+  vec3 direction;     // spot, directional: unit vector along which the light shines
+  vec3 intensity;     // point, spot: W/sr (glTF: cd); directional: W/m2 (glTF: lux)
+  float range;        // point, spot: metres; <= 0: unlimited
+  float cone_scale;   // spot: clamp(cos * scale + offset, 0, 1) squared fades from inner to outer cone
+  float cone_offset;  //
+  float probability;  // of being picked
+  float alias_threshold;
+  int alias;
+};
+
+// One texel of a lat-long environment (rows from the top, centre of the picture along -Z of the world).
+struct EnvironmentTexel {
+  vec3 radiance;
+  float probability;  // of being picked
+  float alias_threshold;
+  int alias;
+};
+
+// What the kernel needs to know of the environment beside its texels.
+struct EnvironmentInfo {
+  vec3 uniform_radiance;  // used when width = 0
+  int width;
+  int height;
+  int light;  // index in the light table, -1 when it is not sampled as a light
+};
+
+// Where a ray met the scene. (u, v) are the barycentric coordinates of the triangle's second and third corner.
+struct Hit {
+  float t;  // distance along the ray; negative when the ray left the scene
+  float u;
+  float v;
+  int instance;
+  int triangle;  // counted from its mesh's first_triangle
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 20 && sizeof(Instance) == 56 && sizeof(Texture) == 28);
+static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 72);
+static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
+}  // namespace ods
+#endif

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a scene is rendered, on any device.
+#pragma once
+#include <cstdint>
+
+namespace ods {
+
+enum class Eyes { kBothEyes, kLeftEye, kRightEye, kMonoEye };
+
+enum class PixelFilter { kBlackmanHarris, kBox };
+
+// Which of the two ways to find light is used; both is right, one alone is for proving that they agree.
+enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
+
+struct RenderOptions {
+  int width = 2048;  // of one eye; its height is half of it
+  int samples = 64;  // per pixel
+  int bounces = 8;   // a path has up to bounces + 1 segments
+  Eyes eyes = Eyes::kBothEyes;
+  PixelFilter filter = PixelFilter::kBlackmanHarris;  // 1.5 pixels radius; the box is 1 pixel wide
+  uint32_t seed = 0;
+  int threads = 0;  // 0: all of the machine's
+  LightSampling light_sampling = LightSampling::kBoth;
+};
+
+}  // namespace ods

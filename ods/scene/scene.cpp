@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/scene.h"
+
+#include <cassert>
+
+namespace ods {
+
+TextureSlot no_texture() {
+  TextureSlot slot;
+  slot.texture = -1;
+  slot.uv_set = 0;
+  slot.offset = vec2(0.0f);
+  slot.axis_u = vec2(1.0f, 0.0f);
+  slot.axis_v = vec2(0.0f, 1.0f);
+  return slot;
+}
+
+Material default_material() {
+  Material material;
+  material.base_color = vec4(1.0f);
+  material.emission = vec3(0.0f);
+  material.metallic = 0.0f;
+  material.roughness = 1.0f;
+  material.normal_scale = 1.0f;
+  material.ior = 1.5f;
+  material.transmission = 0.0f;
+  material.thickness = 0.0f;
+  material.attenuation_color = vec3(1.0f);
+  material.attenuation_distance = 0.0f;
+  material.alpha_mode = kAlphaOpaque;
+  material.alpha_cutoff = 0.5f;
+  material.double_sided = 1;
+  material.unlit = 0;
+  material.base_color_slot = no_texture();
+  material.metallic_roughness_slot = no_texture();
+  material.normal_slot = no_texture();
+  material.emission_slot = no_texture();
+  material.transmission_slot = no_texture();
+  return material;
+}
+
+int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material) {
+  assert(material >= 0);
+  Mesh mesh;
+  mesh.first_vertex = static_cast<uint>(scene.vertices.size());
+  mesh.vertex_count = static_cast<uint>(vertices.size());
+  mesh.first_triangle = static_cast<uint>(scene.triangles.size());
+  mesh.triangle_count = static_cast<uint>(triangles.size());
+  mesh.material = material;
+  scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
+  scene.triangles.insert(scene.triangles.end(), triangles.begin(), triangles.end());
+  scene.meshes.push_back(mesh);
+  return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world) {
+  assert(mesh >= 0 && mesh < static_cast<int>(scene.meshes.size()));
+  const glm::mat4 rows = glm::transpose(object_to_world);
+  Instance instance;
+  instance.row0 = rows[0];
+  instance.row1 = rows[1];
+  instance.row2 = rows[2];
+  instance.mesh = mesh;
+  instance.first_light = -1;
+  scene.instances.push_back(instance);
+}
+
+Bounds scene_bounds(const Scene& scene) {
+  Bounds bounds;
+  bool empty = true;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    for (uint i = 0; i < mesh.vertex_count; i++) {
+      const vec4 p(scene.vertices[mesh.first_vertex + i].position, 1.0f);
+      const vec3 world(dot(instance.row0, p), dot(instance.row1, p), dot(instance.row2, p));
+      bounds.low = empty ? world : min(bounds.low, world);
+      bounds.high = empty ? world : max(bounds.high, world);
+      empty = false;
+    }
+  }
+  return bounds;
+}
+
+}  // namespace ods

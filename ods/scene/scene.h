@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is rendered. A Scene is the kernel's own records (ods/kernel/scene_data.h) in vectors, plus what people want to
+// know of it; loaders and built-in scenes fill it, renderers read it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ods/image/camera_rig.h"
+#include "ods/kernel/scene_data.h"
+
+namespace ods {
+
+// KHR_lights_punctual in world space; every field as in Light.
+struct PunctualLight {
+  int kind = kLightPoint;  // kLightPoint, kLightSpot or kLightDirectional
+  vec3 position{0.0f};
+  vec3 direction{0.0f, 0.0f, -1.0f};
+  vec3 intensity{1.0f};
+  float range = 0.0f;
+  float inner_cone = 0.0f;  // radians from the axis
+  float outer_cone = 0.7853982f;
+};
+
+// Light from infinitely far away: the same everywhere, or a lat-long picture whose centre looks along -Z.
+struct Environment {
+  vec3 radiance{0.0f};  // multiplies the picture where there is one
+  int width = 0;        // 0: uniform
+  int height = 0;
+  std::vector<vec3> texels;  // rows from the top
+};
+
+// A place the scene itself proposes to look from (a camera of the file, or a built-in scene's own).
+struct ViewPoint {
+  std::string name;
+  vec3 position{0.0f};
+  float yaw = 0.0f;  // degrees, as in CameraRig
+  float pitch = 0.0f;
+  float roll = 0.0f;
+};
+
+struct Scene {
+  std::string name;
+
+  std::vector<Vertex> vertices;
+  std::vector<uvec3> triangles;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Material> materials;  // never empty once a mesh exists
+  std::vector<Texture> textures;
+  std::vector<uint> texels;
+
+  std::vector<PunctualLight> lights;
+  Environment environment;
+
+  std::vector<ViewPoint> view_points;
+  std::vector<std::string> warnings;  // parts of the file that are not rendered, one line each
+};
+
+// A white, rough, opaque dielectric with no textures: glTF's defaults, and where every material starts.
+Material default_material();
+
+// A slot that reads nothing.
+TextureSlot no_texture();
+
+// Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
+int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material);
+
+// Stands a mesh in the world. Precondition: mesh exists; the matrix is finite (columns as in glTF).
+void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world);
+
+struct Bounds {
+  vec3 low{0.0f};
+  vec3 high{0.0f};  // low > high on no axis; both 0 for an empty scene
+};
+
+// The box around every instanced vertex.
+Bounds scene_bounds(const Scene& scene);
+
+}  // namespace ods
