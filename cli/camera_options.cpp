@@ -26,9 +26,10 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& word) {
   bool legal = mode && numbers.size() <= 3 && numbers.empty() == (comma == word.size()) && merge.start >= 0.0f &&
                merge.start < merge.end && merge.end <= 90.0f && merge.exponent > 0.0f && merge.exponent <= 100.0f;
   if (!legal) {
-    throw UsageError(fmt::format("{} is none, linear, cosine or smoothstep, then ,START,END in degrees (0 <= START < "
-                                 "END <= 90) and ,EXPONENT (above 0, at most 100), not '{}'",
-                                 name, word));
+    throw UsageError(
+        fmt::format("{} is none, linear, cosine or smoothstep, then ,START,END in degrees (0 <= START < "
+                    "END <= 90) and ,EXP (above 0, at most 100), not '{}'",
+                    name, word));
   }
   merge.mode = *mode;
   return merge;
@@ -36,10 +37,9 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& word) {
 
 vec3 parse_position(const std::string& word) {
   std::vector<float> numbers = parse_numbers(word);
-  for (float number : numbers) {
-    if (std::abs(number) > 1e6f) numbers.clear();
-  }
-  if (numbers.size() != 3) throw UsageError("--position is X,Y,Z in metres, each within 1e6, not '" + word + "'");
+  bool legal = numbers.size() == 3;
+  for (float number : numbers) legal = legal && std::abs(number) <= 1e6f;
+  if (!legal) throw UsageError("--position is X,Y,Z in metres, each within 1e6, not '" + word + "'");
   return {numbers[0], numbers[1], numbers[2]};
 }
 
@@ -50,8 +50,8 @@ const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
     names.push_back(view.name);
   }
   if (names.empty()) throw UsageError("--camera: the scene has no camera; use --position X,Y,Z");
-  throw UsageError(fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name,
-                               did_you_mean(name, names)));
+  throw UsageError(
+      fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name, did_you_mean(name, names)));
 }
 
 // Where to stand when nobody says.
@@ -82,9 +82,11 @@ ViewPoint default_view(const Scene& scene) {
 void add_camera_options(Options& options, CameraOptions& camera) {
   CameraRig& rig = camera.rig;
   options.group("Camera");
-  options.text("--camera", "NAME", camera.view_point, "a camera of the file (ods info lists them); its first by default");
-  options.custom("--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_position(word); },
-                 "metres, +Y up; eyes stand left and right of it");
+  options.text("--camera", "NAME", camera.view_point,
+               "a camera of the file (ods info lists them); its first by default");
+  options.custom(
+      "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_position(word); },
+      "metres, +Y up; eyes stand left and right of it");
   options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right; at 0 the middle looks along -Z");
   options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; tilts the horizon");
   options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; tilts the horizon");
@@ -92,16 +94,17 @@ void add_camera_options(Options& options, CameraOptions& camera) {
   auto set_both = [&](const std::string& word) { rig.top = rig.bottom = parse_merge("--merge", word); };
   auto set_top = [&](const std::string& word) { rig.top = parse_merge("--merge-top", word); };
   auto set_bottom = [&](const std::string& word) { rig.bottom = parse_merge("--merge-bottom", word); };
-  const char* merge_unit = "MODE[,START[,END[,EXPONENT]]]";
-  options.custom("--merge", merge_unit, "none,60,90,1", set_both,
-                 "bring the eyes together towards the poles: none, linear, cosine or smoothstep, from and to degrees of "
-                 "elevation, the curve raised to a power");
+  const char* merge_unit = "MODE[,START[,END[,EXP]]]";
+  options.custom(
+      "--merge", merge_unit, "none,60,90,1", set_both,
+      "bring the eyes together towards the poles: none, linear, cosine or smoothstep; from START to END degrees "
+      "of elevation; the curve raised to the power EXP");
   options.custom("--merge-top", merge_unit, "", set_top, "above only");
   options.custom("--merge-bottom", merge_unit, "", set_bottom, "below only");
 }
 
 CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
-  ViewPoint view = !camera.view_point.empty()    ? find_view_point(scene, camera.view_point)
+  ViewPoint view = !camera.view_point.empty()   ? find_view_point(scene, camera.view_point)
                    : !scene.view_points.empty() ? scene.view_points.front()
                                                 : default_view(scene);
   bool from_file = !scene.view_points.empty();

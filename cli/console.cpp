@@ -36,9 +36,12 @@ int fail(ExitCode code, std::string text) {
 
 int fail(const ods::Error& error) {
   switch (error.kind()) {
-    case ods::ErrorKind::kInput: return fail(kExitInput, error.what());
-    case ods::ErrorKind::kOutput: return fail(kExitOutput, error.what());
-    case ods::ErrorKind::kCancelled: break;
+    case ods::ErrorKind::kInput:
+      return fail(kExitInput, error.what());
+    case ods::ErrorKind::kOutput:
+      return fail(kExitOutput, error.what());
+    case ods::ErrorKind::kCancelled:
+      break;
   }
   std::fputs("ods: interrupted, no file was written\n", stderr);
   return 128 + interrupt_signal();

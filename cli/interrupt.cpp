@@ -30,4 +30,6 @@ void catch_interrupts() {
   }
 }
 
-int interrupt_signal() { return received; }
+int interrupt_signal() {
+  return received;
+}

@@ -73,7 +73,10 @@ int main(int argc, char** argv) {
     print_help(stdout);
     return kExitOk;
   }
-  if (std::strcmp(name, "--version") == 0) return run("ods_version", argc - 1, argv + 1);
+  if (std::strcmp(name, "--version") == 0) {
+    std::puts("ods " ODS_VERSION "\n" ODS_LIBRARIES);
+    return kExitOk;
+  }
   for (const Command& command : kCommands) {
     if (std::strcmp(name, command.name) == 0) return run(command.function, argc - 1, argv + 1);
   }

@@ -7,28 +7,28 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
+#include <sstream>
 
 #include "cli/console.h"
 #include "cli/suggest.h"
 
 namespace {
 
-// The whole word as a number. Nothing for anything else, NaN and infinity included.
+// The whole word as a number.
 template <class T>
 std::optional<T> parse_number(std::string_view word) {
   T value{};
   auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(static_cast<double>(value))) return {};
+  if (error != std::errc() || end != word.data() + word.size()) return {};
   return value;
 }
 
 template <class T>
 T number_between(const std::string& name, const std::string& word, T low, T high) {
   std::optional<T> value = parse_number<T>(word);
-  if (!value || *value < low || *value > high) {
-    throw UsageError(fmt::format("{} is a {}number from {} to {}, not '{}'", name, std::is_integral_v<T> ? "whole " : "",
-                                 low, high, word));
+  if (!value || !(*value >= low && *value <= high)) {  // NaN too
+    throw UsageError(fmt::format("{} is a {}number from {} to {}, not '{}'", name,
+                                 std::is_integral_v<T> ? "whole " : "", low, high, word));
   }
   return *value;
 }
@@ -48,34 +48,54 @@ std::vector<float> parse_numbers(const std::string& text) {
 }
 
 Options::Options(const std::string& command, const std::string& summary, const std::string& examples)
-    : app_(std::make_unique<CLI::App>(summary + "\n\nExamples:\n" + examples, "ods " + command)) {
-  app_->set_help_flag("-h,--help", "this text");
-  app_->get_formatter()->column_width(36);
-  app_->get_formatter()->label("OPTIONS", "[OPTIONS]");
+    : app_(std::make_unique<CLI::App>("", "ods " + command)) {
+  help_ = fmt::format("{}\n\nExamples:\n{}\n\nUsage: ods {} ", summary, examples, command);
+  app_->set_help_flag("-h,--help");
 }
 
 Options::~Options() = default;
 
+// One row of help: the name, and beside it the text in lines that fit a terminal.
+void Options::explain(const std::string& name, const std::string& unit, const std::string& text) {
+  const size_t kTextColumn = 30, kLineWidth = 100;
+  std::string line = "  " + name + (unit.empty() ? "" : " " + unit);
+  if (line.size() + 2 > kTextColumn) {
+    help_ += line + "\n";
+    line.clear();
+  }
+  line.resize(kTextColumn, ' ');
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() + word.size() > kLineWidth) {
+      help_ += line + "\n";
+      line.assign(kTextColumn, ' ');
+    }
+    line += (line.back() == ' ' ? "" : " ") + word;
+  }
+  help_ += line + "\n";
+}
+
 void Options::custom(const std::string& name, const std::string& unit, const std::string& fallback,
                      const std::function<void(const std::string&)>& set, const std::string& text) {
-  std::string with_default = fallback.empty() ? text : text + " [" + fallback + "]";
+  explain(name, unit, fallback.empty() ? text : text + " [" + fallback + "]");
   // The last one wins, so that a script can append to a command line.
-  app_->add_option_function<std::string>(name, set, with_default)
-      ->type_name(unit)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-      ->group(group_);
+  app_->add_option_function<std::string>(name, set)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
 void Options::argument(const std::string& name, std::string& value, const std::string& text) {
-  app_->add_option(name, value, text)->required()->type_name("");
+  app_->add_option(name, value)->required();
+  help_ += fmt::format("{} [OPTION...]\n", name);
+  explain(name, "", text);
 }
 
 void Options::flag(const std::string& name, bool& value, const std::string& text) {
-  app_->add_flag(name, value, text)->group(group_);
+  app_->add_flag(name, value);
+  explain(name, "", text);
 }
 
 void Options::text(const std::string& name, const std::string& unit, std::string& value, const std::string& text) {
-  custom(name, unit, value, [&value](const std::string& word) { value = word; }, text);
+  custom(
+      name, unit, value, [&value](const std::string& word) { value = word; }, text);
 }
 
 void Options::number(const std::string& name, int& value, int low, int high, const std::string& text) {
@@ -111,9 +131,11 @@ void Options::choice(const std::string& name, const std::vector<std::string>& na
   custom(name, fmt::format("{}", fmt::join(names, "|")), fallback, pick, text);
 }
 
-bool Options::given(const std::string& name) const { return app_->count(name) > 0; }
+bool Options::given(const std::string& name) const {
+  return app_->count(name) > 0;
+}
 
-std::string Options::explain_extras() const {
+std::string Options::describe_extras() const {
   std::string first = app_->remaining().front();
   std::vector<std::string> names;
   for (const CLI::Option* option : app_->get_options()) {
@@ -128,10 +150,10 @@ bool Options::parse(int argc, char** argv) {
     app_->parse(argc, argv);
     return true;
   } catch (const CLI::CallForHelp&) {
-    std::fputs(app_->help().c_str(), stdout);
+    std::fputs(help_.c_str(), stdout);
     return false;
   } catch (const CLI::ExtrasError&) {
-    throw UsageError(explain_extras());
+    throw UsageError(describe_extras());
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }

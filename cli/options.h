@@ -15,8 +15,7 @@
 
 namespace CLI {
 class App;
-class Option;
-}  // namespace CLI
+}
 
 class Options {
  public:
@@ -25,7 +24,7 @@ class Options {
   ~Options();
 
   // Options added from here on stand under this heading in help.
-  void group(const std::string& heading) { group_ = heading; }
+  void group(const std::string& heading) { help_ += "\n" + heading + ":\n"; }
 
   void argument(const std::string& name, std::string& value, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
@@ -41,7 +40,8 @@ class Options {
               const std::string& text) {
     std::vector<std::string> names;
     for (T member : all) names.emplace_back(name_of(member));
-    choice(name, names, std::string(name_of(value)), [&value, &all](size_t i) { value = all[i]; }, text);
+    choice(
+        name, names, std::string(name_of(value)), [&value, &all](size_t i) { value = all[i]; }, text);
   }
 
   // Whatever set makes of the word; it throws UsageError.
@@ -56,11 +56,12 @@ class Options {
  private:
   void choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
               const std::function<void(size_t)>& set, const std::string& text);
-  std::string explain_extras() const;
+  void explain(const std::string& name, const std::string& unit, const std::string& text);
+  std::string describe_extras() const;
 
   std::unique_ptr<CLI::App> app_;
-  std::string group_;
+  std::string help_;
 };
 
-// "1.5" or "1,0.5,2": finite numbers between commas, nothing else; empty when it is anything else.
+// "1.5" or "1,0.5,2": numbers between commas, NaN and infinity among them; empty when it is anything else.
 std::vector<float> parse_numbers(const std::string& text);

@@ -9,14 +9,22 @@
 
 std::string_view progress_mode_name(ProgressMode mode) {
   switch (mode) {
-    case ProgressMode::kAuto: return "auto";
-    case ProgressMode::kBar: return "bar";
-    case ProgressMode::kPlain: return "plain";
-    case ProgressMode::kJson: return "json";
-    case ProgressMode::kNone: return "none";
-    case ProgressMode::kDeadline: return "deadline";
-    case ProgressMode::kOpenJd: return "openjd";
-    case ProgressMode::kTractor: return "tractor";
+    case ProgressMode::kAuto:
+      return "auto";
+    case ProgressMode::kBar:
+      return "bar";
+    case ProgressMode::kPlain:
+      return "plain";
+    case ProgressMode::kJson:
+      return "json";
+    case ProgressMode::kNone:
+      return "none";
+    case ProgressMode::kDeadline:
+      return "deadline";
+    case ProgressMode::kOpenJd:
+      return "openjd";
+    case ProgressMode::kTractor:
+      return "tractor";
   }
   return "";
 }
@@ -35,7 +43,9 @@ std::string duration_text(double seconds) {
 
 namespace {
 
-double seconds_left(double done, double seconds) { return done > 0.0 ? seconds * (1.0 - done) / done : 0.0; }
+double seconds_left(double done, double seconds) {
+  return done > 0.0 ? seconds * (1.0 - done) / done : 0.0;
+}
 
 std::string time_left(double done, double seconds) {
   return done > 0.0 && done < 1.0 ? ", " + duration_text(seconds_left(done, seconds)) + " left" : "";
@@ -45,7 +55,8 @@ std::string time_left(double done, double seconds) {
 
 void ProgressLines::draw_bar(double done, double seconds) {
   const double kRedrawSeconds = 0.1;
-  if (last_drawn_ >= 0.0 && seconds < last_drawn_ + kRedrawSeconds) return;
+  if (drawn_ && seconds < last_drawn_ + kRedrawSeconds) return;
+  drawn_ = true;
   last_drawn_ = seconds;
   const size_t kWidth = 32;
   size_t filled = static_cast<size_t>(done * static_cast<double>(kWidth));
@@ -60,19 +71,30 @@ void ProgressLines::report(double done, double seconds) {
   int percent = static_cast<int>(100.0 * done + 1e-9);
   int step = mode_ == ProgressMode::kPlain ? percent / 10 : percent;
   if (step == last_step_) return;
+  if (mode_ == ProgressMode::kPlain && (step == 0 || seconds < last_drawn_ + 1.0)) return;  // no flood for a short job
   last_step_ = step;
+  last_drawn_ = seconds;
   switch (mode_) {
     case ProgressMode::kAuto:
     case ProgressMode::kBar:
-    case ProgressMode::kNone: return;
-    case ProgressMode::kPlain: out_ << fmt::format("ods: {} %{}\n", percent, time_left(done, seconds)); break;
+    case ProgressMode::kNone:
+      return;
+    case ProgressMode::kPlain:
+      out_ << fmt::format("ods: {} %{}\n", percent, time_left(done, seconds));
+      break;
     case ProgressMode::kJson:
       out_ << fmt::format("{{\"progress\":{:.2f},\"seconds\":{:.1f},\"seconds_left\":{:.1f}}}\n", percent / 100.0,
                           seconds, seconds_left(done, seconds));
       break;
-    case ProgressMode::kDeadline: out_ << fmt::format("Progress: {}%\n", percent); break;
-    case ProgressMode::kOpenJd: out_ << fmt::format("openjd_progress: {}\n", percent); break;
-    case ProgressMode::kTractor: out_ << fmt::format("ALF_PROGRESS {}%\n", percent); break;
+    case ProgressMode::kDeadline:
+      out_ << fmt::format("Progress: {}%\n", percent);
+      break;
+    case ProgressMode::kOpenJd:
+      out_ << fmt::format("openjd_progress: {}\n", percent);
+      break;
+    case ProgressMode::kTractor:
+      out_ << fmt::format("ALF_PROGRESS {}%\n", percent);
+      break;
   }
   out_ << std::flush;
 }
@@ -83,7 +105,7 @@ void ProgressLines::fail(const std::string& why) {
 }
 
 void ProgressLines::clear() {
-  if (mode_ != ProgressMode::kBar || last_drawn_ < 0.0) return;
+  if (!drawn_) return;
   out_ << "\r\x1b[K" << std::flush;
-  last_drawn_ = -1.0;
+  drawn_ = false;
 }

@@ -10,7 +10,7 @@
 enum class ProgressMode {
   kAuto,      // the bar on a terminal, plain lines elsewhere
   kBar,       // one line that redraws itself
-  kPlain,     // a line for every tenth
+  kPlain,     // a line for every tenth, at most one a second
   kJson,      // {"progress":0.42,"seconds":10.5,"seconds_left":14.5} for every hundredth
   kNone,      //
   kDeadline,  // "Progress: 42%"           AWS Thinkbox Deadline
@@ -18,9 +18,9 @@ enum class ProgressMode {
   kTractor,   // "ALF_PROGRESS 42%"        Pixar Tractor
 };
 
-inline constexpr ProgressMode kProgressModes[] = {
-    ProgressMode::kAuto, ProgressMode::kBar,      ProgressMode::kPlain,  ProgressMode::kJson,
-    ProgressMode::kNone, ProgressMode::kDeadline, ProgressMode::kOpenJd, ProgressMode::kTractor};
+inline constexpr ProgressMode kProgressModes[] = {ProgressMode::kAuto,   ProgressMode::kBar,    ProgressMode::kPlain,
+                                                  ProgressMode::kJson,   ProgressMode::kNone,   ProgressMode::kDeadline,
+                                                  ProgressMode::kOpenJd, ProgressMode::kTractor};
 std::string_view progress_mode_name(ProgressMode mode);
 
 // A farm reads stdout; everything else is for stderr.
@@ -52,5 +52,6 @@ class ProgressLines {
   ProgressMode mode_;
   std::ostream& out_;
   int last_step_ = -1;
-  double last_drawn_ = -1.0;
+  double last_drawn_ = 0.0;  // seconds
+  bool drawn_ = false;       // the bar is on the screen
 };

@@ -24,9 +24,10 @@ void add_scene_argument(Options& options, SceneSource& source) {
 }
 
 void add_light_options(Options& options, SceneSource& source) {
-  options.text("--env", "FILE|R,G,B|X", source.environment,
-               "light from all around: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; replaces the scene's "
-               "own. A scene with no light at all gets 1");
+  options.text(
+      "--env", "FILE|R,G,B|X", source.environment,
+      "light from all around: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; replaces the scene's "
+      "own. A scene with no light at all gets 1");
 }
 
 Scene open_scene(const SceneSource& source) {
@@ -53,7 +54,7 @@ void add_environment(Scene& scene, const SceneSource& source) {
   if (source.environment.empty()) {
     if (has_light(scene)) return;
     note("the scene has no light; a white sky lights it (--env sets another)");
-    scene.environment = {.radiance = vec3(1.0f)};
+    scene.environment.radiance = vec3(1.0f);
     return;
   }
   std::vector<float> numbers = parse_numbers(source.environment);
@@ -63,6 +64,8 @@ void add_environment(Scene& scene, const SceneSource& source) {
   }
   bool legal = numbers.size() == 1 || numbers.size() == 3;
   for (float number : numbers) legal = legal && number >= 0.0f && number <= 1e6f;
-  if (!legal) throw UsageError("--env is a file, R,G,B or one brightness, from 0 to 1e6, not '" + source.environment + "'");
-  scene.environment = {.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2])};
+  if (!legal)
+    throw UsageError("--env is a file, R,G,B or one brightness, from 0 to 1e6, not '" + source.environment + "'");
+  scene.environment = {};
+  scene.environment.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
 }
