@@ -40,7 +40,7 @@ std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file) {
   if (bytes.starts_with("\xff\xd8\xff"sv)) return FileFormat::kJpeg;
   if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return FileFormat::kTiff;
   if (bytes.starts_with("II+\0"sv) || bytes.starts_with("MM\0+"sv)) return FileFormat::kTiff;
-  if (bytes.starts_with("RIFF"sv) && bytes.substr(8).starts_with("WEBP"sv)) return FileFormat::kWebp;
+  if (bytes.starts_with("RIFF"sv) && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP"sv) return FileFormat::kWebp;
   if (bytes.starts_with("#?RADIANCE"sv) || bytes.starts_with("#?RGBE"sv)) return FileFormat::kHdr;
   if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return FileFormat::kExr;
   return std::nullopt;

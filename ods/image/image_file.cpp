@@ -14,7 +14,7 @@
 #include <memory>
 
 #include "ods/base/error.h"
-#include "ods/image/png_xmp.h"
+#include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
 
 namespace ods {
@@ -86,6 +86,7 @@ static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std:
 }
 
 struct Reader {
+  std::vector<std::byte> png;  // where it is one
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
@@ -98,7 +99,15 @@ static Reader open_reader(std::span<const std::byte> file, const std::string& na
   Reader reader;
   reader.input = OIIO::ImageInput::create(plugin_name(*format));
   if (!reader.input) throw cannot_read(name, fmt::format("OpenImageIO here has no {} reader", plugin_name(*format)));
-  reader.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(file.data()), file.size());
+  std::span<const std::byte> content = file;
+  if (*format == FileFormat::kPng) {
+    std::optional<std::vector<std::byte>> png = essential_png(file);
+    if (!png) throw cannot_read(name, "the PNG is cut short or damaged");
+    reader.png = std::move(*png);
+    content = reader.png;
+  }
+  reader.memory =
+      std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(content.data()), content.size());
   reader.input->set_ioproxy(reader.memory.get());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
