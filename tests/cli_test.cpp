@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -21,8 +19,6 @@
 #include "tests/temporary_folder.h"
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // A running ods, its stdout and stderr in pipes.
 class Ods {
@@ -99,7 +95,7 @@ class Ods {
 class Cli : public ::testing::Test {
  protected:
   // ods with these words, to its end.
-  int ods(const std::string& words, rlim_t largest_file = RLIM_INFINITY) {
+  int run(const std::string& words, rlim_t largest_file = RLIM_INFINITY) {
     std::istringstream stream(words);
     std::vector<std::string> arguments;
     for (std::string word; stream >> word;) arguments.push_back(word);
@@ -110,16 +106,12 @@ class Cli : public ::testing::Test {
     return code;
   }
 
-  std::string path(const std::string& name) const { return (folder.path / name).string(); }
-
   // A command that renders a picture of next to nothing into the folder.
   std::string render(const std::string& words = "") const {
-    return "render furnace --width 16 --samples 1 -o " + path("picture.png") + " " + words;
+    return "render furnace --width 16 --samples 1 -o " + folder.path("picture.png") + " " + words;
   }
 
-  size_t files() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()));
-  }
+  size_t files() const { return folder.names().size(); }
 
   // Nothing but one line, which starts as every error does.
   void expect_one_error() const {
@@ -130,35 +122,36 @@ class Cli : public ::testing::Test {
     EXPECT_EQ(files(), 0u);
   }
 
-  TemporaryFolder folder;
+  ods::TemporaryFolder folder;
   std::string out;
   std::string err;
 };
 
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "scenes --help"}) {
-    EXPECT_EQ(ods(words), 0) << words;
+    EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
-    EXPECT_LT(out.find("Examples:"), out.find(words[0] == 'r' ? "Picture:" : ":\n", out.find("Examples:") + 10)) << words;
+    EXPECT_LT(out.find("Examples:"), out.find(words[0] == 'r' ? "Picture:" : ":\n", out.find("Examples:") + 10))
+        << words;
   }
 }
 
 TEST_F(Cli, HelpPrintsDefaults) {
-  ods("render --help");
+  run("render --help");
   for (const char* part : {"--width N", "[2048]", "[0.065]", "[blackman-harris]", "[top-bottom]", "draft"}) {
     EXPECT_NE(out.find(part), std::string::npos) << part;
   }
 }
 
 TEST_F(Cli, NothingToDoIsExplained) {
-  EXPECT_EQ(ods(""), 2);
+  EXPECT_EQ(run(""), 2);
   EXPECT_EQ(out, "");
   EXPECT_NE(err.find("Commands:\n  render"), std::string::npos);
 }
 
 TEST_F(Cli, VersionNamesTheLibraries) {
-  EXPECT_EQ(ods("--version"), 0);
+  EXPECT_EQ(run("--version"), 0);
   for (const char* part : {"ods 0", "Embree 3", "OpenImageIO 2", "oneTBB 202", "tinygltf 2", "fmt ", "CLI11 2"}) {
     if (std::string_view(part) == "Embree 3" && out.find("Embree 4") != std::string::npos) continue;
     EXPECT_NE(out.find(part), std::string::npos) << part << " in " << out;
@@ -166,99 +159,135 @@ TEST_F(Cli, VersionNamesTheLibraries) {
 }
 
 TEST_F(Cli, ScenesAreListed) {
-  EXPECT_EQ(ods("scenes"), 0);
+  EXPECT_EQ(run("scenes"), 0);
   EXPECT_NE(out.find("room "), std::string::npos);
   EXPECT_EQ(err, "");
 }
 
 TEST_F(Cli, SlipsGetASuggestion) {
-  EXPECT_EQ(ods("rendr"), 2);
+  EXPECT_EQ(run("rendr"), 2);
   expect_one_error();
   EXPECT_NE(err.find("did you mean 'render'?"), std::string::npos) << err;
-  EXPECT_EQ(ods(render("--sampels 2")), 2);
+  EXPECT_EQ(run(render("--sampels 2")), 2);
   expect_one_error();
   EXPECT_NE(err.find("did you mean '--samples'?"), std::string::npos) << err;
-  EXPECT_EQ(ods("zzzzzzzz"), 2);
+  EXPECT_EQ(run("zzzzzzzz"), 2);
   EXPECT_EQ(err.find("did you mean"), std::string::npos) << err;
 }
 
 TEST_F(Cli, BadOptionsAreUsageErrors) {
-  for (const char* words :
-       {"--width 0", "--width 17", "--width -2", "--width 1e9", "--width 99999999999999999999", "--width x", "--width 8.5",
-        "--samples 0", "--samples -5", "--bounces -1", "--seed -1", "--threads -1", "--ipd nan", "--ipd -0.1", "--ipd inf",
-        "--env nan", "--env 1,2", "--env -1", "--env 1,1,1,1", "--position 1,2", "--position a,b,c", "--position nan,0,0",
-        "--yaw nan", "--yaw ninety", "--eyes three", "--layout diagonal", "--tone loud", "--filter tent", "--quality best",
-        "--exposure inf", "--merge cubic", "--merge cosine,80,60", "--merge cosine,10,95", "--merge cosine,", "--merge ,",
-        "--merge cosine,60,90,0", "--merge cosine,60,90,1,1", "--merge-top nan", "--progress loudly", "--camera nowhere",
-        "--scene -1", "--scene 0.5", "--unknown", "surplus", "--width"}) {
-    EXPECT_EQ(ods(render(words)), 2) << words;
+  for (const char* words : {"--width 0",
+                            "--width 17",
+                            "--width -2",
+                            "--width 1e9",
+                            "--width 99999999999999999999",
+                            "--width x",
+                            "--width 8.5",
+                            "--samples 0",
+                            "--samples -5",
+                            "--bounces -1",
+                            "--seed -1",
+                            "--threads -1",
+                            "--ipd nan",
+                            "--ipd -0.1",
+                            "--ipd inf",
+                            "--env nan",
+                            "--env 1,2",
+                            "--env -1",
+                            "--env 1,1,1,1",
+                            "--position 1,2",
+                            "--position a,b,c",
+                            "--position nan,0,0",
+                            "--yaw nan",
+                            "--yaw ninety",
+                            "--eyes three",
+                            "--layout diagonal",
+                            "--tone loud",
+                            "--filter tent",
+                            "--quality best",
+                            "--exposure inf",
+                            "--merge cubic",
+                            "--merge cosine,80,60",
+                            "--merge cosine,10,95",
+                            "--merge cosine,",
+                            "--merge ,",
+                            "--merge cosine,60,90,0",
+                            "--merge cosine,60,90,1,1",
+                            "--merge-top nan",
+                            "--progress loudly",
+                            "--camera nowhere",
+                            "--scene -1",
+                            "--scene 0.5",
+                            "--unknown",
+                            "surplus",
+                            "--width"}) {
+    EXPECT_EQ(run(render(words)), 2) << words;
     expect_one_error();
   }
-  EXPECT_EQ(ods("render"), 2);
-  EXPECT_EQ(ods("render furnace"), 2);
+  EXPECT_EQ(run("render"), 2);
+  EXPECT_EQ(run("render furnace"), 2);
   expect_one_error();
 }
 
 TEST_F(Cli, AbsentAndBrokenInputsAreInputErrors) {
   for (const char* name : {"absent.glb", "absent.gltf", "absent"}) {
-    EXPECT_EQ(ods("render " + path(name) + " -o " + path("picture.png")), 3) << name;
+    EXPECT_EQ(run("render " + folder.path(name) + " -o " + folder.path("picture.png")), 3) << name;
     expect_one_error();
-    EXPECT_EQ(ods("info " + path(name)), 3) << name;
+    EXPECT_EQ(run("info " + folder.path(name)), 3) << name;
     expect_one_error();
   }
-  EXPECT_EQ(ods(render("--env " + path("absent.hdr"))), 3);
+  EXPECT_EQ(run(render("--env " + folder.path("absent.hdr"))), 3);
   expect_one_error();
-  EXPECT_EQ(ods("render " + folder.path.string() + " -o " + path("picture.png")), 3);
+  EXPECT_EQ(run("render " + folder.path("") + " -o " + folder.path("picture.png")), 3);
   expect_one_error();
 }
 
 TEST_F(Cli, OutputThatCannotBeIsFoundBeforeRendering) {
   // Would take hours if it were rendered first.
   const std::string hours = "render furnace --width 8192 --samples 100000 -o ";
-  for (const std::string& output : {std::string("/proc/picture.png"), path("picture.unknown"), path("picture"),
-                                    folder.path.string(), std::string("/dev/full/picture.png")}) {
-    EXPECT_EQ(ods(hours + output), 4) << output;
+  for (const std::string& output : {std::string("/proc/picture.png"), folder.path("picture.unknown"),
+                                    folder.path("picture"), folder.path(""), std::string("/dev/full/picture.png")}) {
+    EXPECT_EQ(run(hours + output), 4) << output;
     expect_one_error();
   }
 }
 
 TEST_F(Cli, AFullDiskLeavesNoFile) {
   for (const char* name : {"picture.png", "picture.exr", "picture.jpg", "picture.tif", "picture.hdr", "picture.webp"}) {
-    EXPECT_EQ(ods("render furnace -q --width 64 --samples 1 -o " + path(name), 64), 4) << name;
+    EXPECT_EQ(run("render furnace -q --width 64 --samples 1 -o " + folder.path(name), 64), 4) << name;
     expect_one_error();
   }
 }
 
 TEST_F(Cli, StdoutHoldsTheFileAndNothingElse) {
-  EXPECT_EQ(ods(render("--progress plain")), 0) << err;
-  EXPECT_EQ(out, path("picture.png") + "\n");
+  EXPECT_EQ(run(render("--progress plain")), 0) << err;
+  EXPECT_EQ(out, folder.path("picture.png") + "\n");
   EXPECT_NE(err.find("ods: camera at "), std::string::npos) << err;
   EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(Cli, QuietIsQuiet) {
-  EXPECT_EQ(ods(render("-q")), 0);
+  EXPECT_EQ(run(render("-q")), 0);
   EXPECT_EQ(err, "");
 }
 
 TEST_F(Cli, EveryEyeItsFile) {
-  EXPECT_EQ(ods("render furnace -q --width 16 --samples 1 -o " + path("eye_%V.png")), 0) << err;
-  EXPECT_EQ(out, path("eye_left.png") + "\n" + path("eye_right.png") + "\n");
+  EXPECT_EQ(run("render furnace -q --width 16 --samples 1 -o " + folder.path("eye_%V.png")), 0) << err;
+  EXPECT_EQ(out, folder.path("eye_left.png") + "\n" + folder.path("eye_right.png") + "\n");
   EXPECT_EQ(files(), 2u);
 }
 
 TEST_F(Cli, TheSameSeedGivesTheSameFile) {
   auto picture = [&](const std::string& words) {
-    EXPECT_EQ(ods(render("-q " + words)), 0) << err;
-    std::ifstream file(path("picture.png"), std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    EXPECT_EQ(run(render("-q " + words)), 0) << err;
+    return folder.read("picture.png");
   };
   const std::string one = picture("--samples 3 --threads 1 --env 1 --seed 7");
   EXPECT_EQ(one, picture("--samples 3 --threads 2 --env 1 --seed 7"));
 }
 
 TEST_F(Cli, OptionsAreFreeInTheirOrderAndTheLastWins) {
-  EXPECT_EQ(ods("render --width 64 -q -o " + path("picture.png") + " --samples 1 furnace --width 16"), 0) << err;
+  EXPECT_EQ(run("render --width 64 -q -o " + folder.path("picture.png") + " --samples 1 furnace --width 16"), 0) << err;
   EXPECT_EQ(files(), 1u);
 }
 
@@ -266,17 +295,18 @@ TEST_F(Cli, FarmsReadTheirLinesOnStdout) {
   const std::vector<std::pair<std::string, std::string>> modes = {
       {"deadline", "Progress: 100%\n"}, {"openjd", "openjd_progress: 100\n"}, {"tractor", "ALF_PROGRESS 100%\n"}};
   for (const auto& [mode, line] : modes) {
-    EXPECT_EQ(ods(render("--progress " + mode)), 0);
+    EXPECT_EQ(run(render("--progress " + mode)), 0);
     EXPECT_NE(out.find(line), std::string::npos) << out;
     EXPECT_EQ(err.find(line), std::string::npos) << err;
   }
-  EXPECT_EQ(ods("render absent.glb --progress openjd -o " + path("a.png")), 3);
+  EXPECT_EQ(run("render absent.glb --progress openjd -o " + folder.path("a.png")), 3);
   EXPECT_TRUE(out.starts_with("openjd_fail: ")) << out;
 }
 
 TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
   for (const int number : {SIGINT, SIGTERM}) {
-    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "--progress", "json", "-o", path("a.png")});
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "--progress", "json", "-o",
+                 folder.path("a.png")});
     command.wait_for("camera at");
     command.kill(number);
     EXPECT_EQ(command.finish(), 128 + number) << command.err;

@@ -80,7 +80,9 @@ TEST(Progress, TheBarIsTakenOffTheScreen) {
   EXPECT_TRUE(text.ends_with("\r\x1b[K"));
 }
 
-TEST(Progress, NoneIsSilent) { EXPECT_EQ(shown(ProgressMode::kNone), ""); }
+TEST(Progress, NoneIsSilent) {
+  EXPECT_EQ(shown(ProgressMode::kNone), "");
+}
 
 TEST(Progress, Durations) {
   EXPECT_EQ(duration_text(0.04), "0.0 s");
