@@ -165,23 +165,23 @@ void TextureTable::decode_images() {
   std::vector<size_t> used = images_;
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<DecodedImage> decoded(used.size());
+  std::vector<CodeImage> decoded(used.size());
   tbb::parallel_for(size_t(0), used.size(), [&](size_t i) {
     const std::vector<unsigned char> bytes = image_bytes(file_, used[i]);
     const std::string name = fmt::format("{}: image {}", file_.path, used[i]);
     if (bytes.empty()) fail(file_, fmt::format("image {} is empty", used[i]));
-    decoded[i] = decode_image(bytes.data(), bytes.size(), name);
+    decoded[i] = decode_image(std::as_bytes(Bytes(bytes)), name);
   });
   size_t total = 0;
-  for (const DecodedImage& image : decoded) total += image.texels.size();
+  for (const CodeImage& image : decoded) total += image.pixels.size();
   if (total > std::numeric_limits<uint>::max())
     fail(file_, "has more than four billion texels; make its images smaller");
   scene_.texels.reserve(total);
   std::vector<uint> first_texels;
-  for (DecodedImage& image : decoded) {
+  for (CodeImage& image : decoded) {
     first_texels.push_back(static_cast<uint>(scene_.texels.size()));
-    scene_.texels.insert(scene_.texels.end(), image.texels.begin(), image.texels.end());
-    image.texels = {};
+    scene_.texels.insert(scene_.texels.end(), image.pixels.begin(), image.pixels.end());
+    image.pixels = {};
   }
   for (size_t i = 0; i < images_.size(); i++) {
     const auto k = static_cast<size_t>(std::lower_bound(used.begin(), used.end(), images_[i]) - used.begin());
