@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "cli/console.h"
-#include "cli/suggest.h"
+#include "ods/base/suggest.h"
 
 using ods::CameraRig, ods::PoleMergeSetting, ods::Scene, ods::vec3, ods::ViewPoint;
 
@@ -50,8 +50,8 @@ const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
     names.push_back(view.name);
   }
   if (names.empty()) throw UsageError("--camera: the scene has no camera; use --position X,Y,Z");
-  throw UsageError(
-      fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name, did_you_mean(name, names)));
+  throw UsageError(fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name,
+                               ods::did_you_mean(name, names)));
 }
 
 // Where to stand when nobody says.
@@ -79,14 +79,18 @@ ViewPoint default_view(const Scene& scene) {
 
 }  // namespace
 
-void add_camera_options(Options& options, CameraOptions& camera) {
-  CameraRig& rig = camera.rig;
+void add_place_options(Options& options, CameraOptions& camera) {
   options.group("Camera");
   options.text("--camera", "NAME", camera.view_point,
                "a camera of the file (ods info lists them); its first by default");
   options.custom(
       "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_position(word); },
       "metres, +Y up; eyes stand left and right of it");
+}
+
+void add_camera_options(Options& options, CameraOptions& camera) {
+  CameraRig& rig = camera.rig;
+  add_place_options(options, camera);
   options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right; at 0 the middle looks along -Z");
   options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; tilts the horizon");
   options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; tilts the horizon");

@@ -19,6 +19,8 @@ struct CameraOptions {
   std::optional<float> roll;
 };
 
+// --camera and --position alone, and all of them.
+void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);
 
 // The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or

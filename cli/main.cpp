@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "cli/exit_code.h"
-#include "cli/suggest.h"
+#include "ods/base/suggest.h"
 
 namespace {
 
@@ -57,7 +57,7 @@ int unknown_command(const char* name) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.push_back(command.name);
   std::fprintf(stderr, "ods: error: there is no command '%s'%s (ods --help lists them)\n", name,
-               did_you_mean(name, names).c_str());
+               ods::did_you_mean(name, names).c_str());
   return kExitUsage;
 }
 

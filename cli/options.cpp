@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "cli/console.h"
-#include "cli/suggest.h"
+#include "ods/base/suggest.h"
 
 namespace {
 
@@ -141,7 +141,7 @@ std::string Options::describe_extras() const {
   for (const CLI::Option* option : app_->get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
-  if (first.starts_with("-")) return fmt::format("there is no option '{}'{}", first, did_you_mean(first, names));
+  if (first.starts_with("-")) return fmt::format("there is no option '{}'{}", first, ods::did_you_mean(first, names));
   return fmt::format("'{}' is one argument too many", first);
 }
 

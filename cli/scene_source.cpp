@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "cli/console.h"
-#include "ods/scene/builtin.h"
 #include "ods/scene/environment.h"
 #include "ods/scene/load.h"
 
@@ -27,24 +26,24 @@ void add_light_options(Options& options, SceneSource& source) {
   options.text(
       "--env", "FILE|R,G,B|X", source.environment,
       "light from all around: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; replaces the scene's "
-      "own. A scene with no light at all gets 1");
+      "own. A scene without lamps gets 1");
 }
 
 Scene open_scene(const SceneSource& source) {
-  Scene scene = ods::is_builtin(source.name) ? ods::make_builtin(source.name)
-                                             : ods::load_scene(source.name, {.scene = source.scene});
+  Scene scene = ods::load_scene(source.name, {.scene = source.scene});
   for (const std::string& warning : scene.warnings) note("warning: " + warning);
   return scene;
 }
 
 namespace {
 
+// Glowing textures do not count: most are the little lamps of a gadget, which leave its picture black.
 bool has_light(const Scene& scene) {
   if (!scene.lights.empty() || scene.environment.radiance != vec3(0.0f)) return true;
   return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const ods::Instance& instance) {
     const ods::Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const ods::Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    return material.unlit != 0 || material.emission != vec3(0.0f);
+    return material.unlit != 0 || (material.emission != vec3(0.0f) && material.emission_slot.texture < 0);
   });
 }
 
@@ -53,7 +52,7 @@ bool has_light(const Scene& scene) {
 void add_environment(Scene& scene, const SceneSource& source) {
   if (source.environment.empty()) {
     if (has_light(scene)) return;
-    note("the scene has no light; a white sky lights it (--env sets another)");
+    note("the scene has no lamps; a white sky lights it (--env sets another, --env 0 none)");
     scene.environment.radiance = vec3(1.0f);
     return;
   }

@@ -20,5 +20,5 @@ void add_light_options(Options& options, SceneSource& source);
 // Reads the scene and notes what of it is not rendered.
 ods::Scene open_scene(const SceneSource& source);
 
-// Puts the environment asked for around the scene. A scene with no light at all gets a white sky, and a note.
+// Puts the environment asked for around the scene. A scene without lamps gets a white sky, and a note.
 void add_environment(ods::Scene& scene, const SceneSource& source);
