@@ -141,11 +141,12 @@ struct Layer {
   const Image EyeImage::*image;
   std::string_view name;
   std::string_view channels;
+  bool wide;  // always 32 bits
 };
-static const Layer kLayers[] = {{&EyeImage::radiance, "", "RGB"},
-                                {&EyeImage::depth, "", "Z"},
-                                {&EyeImage::normal, "N", "XYZ"},
-                                {&EyeImage::albedo, "albedo", "RGB"}};
+static const Layer kLayers[] = {{&EyeImage::radiance, "", "RGB", false},
+                                {&EyeImage::depth, "", "Z", true},
+                                {&EyeImage::normal, "N", "XYZ", false},
+                                {&EyeImage::albedo, "albedo", "RGB", false}};
 
 static std::string channel_name(const Layer& layer, char channel, std::string_view view, bool default_view) {
   std::string name;
@@ -157,7 +158,7 @@ static std::string channel_name(const Layer& layer, char channel, std::string_vi
 static void add_exr_channels(std::vector<Channel>& channels, bool half, std::string_view view, bool default_view) {
   for (const Layer& layer : kLayers) {
     for (char channel : layer.channels) {
-      const Sample sample = half && channel != 'Z' ? Sample::kHalf : Sample::kFloat;
+      const Sample sample = half && !layer.wide ? Sample::kHalf : Sample::kFloat;
       channels.push_back({channel_name(layer, channel, view, default_view), sample});
     }
   }
@@ -171,8 +172,7 @@ static float finite(float value, float lowest, float highest) {
 static void fill_exr_row(const EyeImage& eye, int y, bool half, float* out, size_t stride) {
   for (const Layer& layer : kLayers) {
     const Image& image = eye.*layer.image;
-    const bool wide = !half || &image == &eye.depth;
-    const float limit = wide ? std::numeric_limits<float>::max() : 65504.0f;
+    const float limit = half && !layer.wide ? 65504.0f : std::numeric_limits<float>::max();
     const float* in = image.at(0, y);
     for (int x = 0; x < image.width; x++) {
       for (int c = 0; c < image.channels; c++)
