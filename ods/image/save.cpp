@@ -92,7 +92,9 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig& rig, La
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   }
   if (eyes.size() == 1) {
-    text("textureformat", "LatLong Environment");  // makes OpenImageIO write envmap
+    // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
+    text("textureformat", "LatLong Environment");
+    attributes.push_back({"openexr:levelmode", 0});
     if (eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
   }
   text("ods:version", ODS_VERSION);
