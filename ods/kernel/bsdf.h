@@ -133,6 +133,7 @@ struct BsdfEvaluator : SurfaceReader {
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
     float f0 = root * root;
+    float f90 = clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 has no gloss at grazing angles either (Lagarde 2014)
 
     vec2 albedo = vec2(1.0f, 0.0f);
     float s = schlick(bsdf.wo.z);
@@ -145,8 +146,8 @@ struct BsdfEvaluator : SurfaceReader {
     float opaque_gain = 1.0f + f0 * lost;
     vec3 metal_gain = vec3(1.0f) + base * lost;
     bsdf.gloss_f0 = base * metal_gain * metal + vec3(opaque * f0 * opaque_gain);
-    bsdf.gloss_f90 = metal_gain * metal + vec3(opaque * opaque_gain);
-    float covered = min((f0 * albedo.x + albedo.y) * opaque_gain, 1.0f);
+    bsdf.gloss_f90 = metal_gain * metal + vec3(opaque * f90 * opaque_gain);
+    float covered = min((f0 * albedo.x + f90 * albedo.y) * opaque_gain, 1.0f);
     bsdf.diffuse = base * (opaque * (1.0f - covered));
     bsdf.glass = base;
     bsdf.glass_gain = clear;

@@ -18,17 +18,17 @@ struct FilterSampler : SceneView {
 #endif
 
   // Offset from the pixel's centre along one axis, in pixels.
-  inline float filter_offset(int filter, float u) {
-    if (filter == kFilterBox) return u - 0.5f;
+  inline float filter_offset(int shape, float u) {
+    if (shape == kFilterBox) return u - 0.5f;
     float at = u * float(kFilterSize - 1);
     int i = min(int(at), kFilterSize - 2);
     return mix(scene_table(kFilterTable + i), scene_table(kFilterTable + i + 1), at - float(i));
   }
 
   // Image position of a sample of pixel (x, y). It may lie outside 0..1: the camera goes on there.
-  inline vec2 filtered_position(int filter, int x, int y, int width, int height, vec2 u) {
-    return vec2((float(x) + 0.5f + filter_offset(filter, u.x)) / float(width),
-                (float(y) + 0.5f + filter_offset(filter, u.y)) / float(height));
+  inline vec2 filtered_position(int shape, int x, int y, int width, int height, vec2 u) {
+    return vec2((float(x) + 0.5f + filter_offset(shape, u.x)) / float(width),
+                (float(y) + 0.5f + filter_offset(shape, u.y)) / float(height));
   }
 
 #ifdef __cplusplus
