@@ -2,16 +2,187 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/cpu/render.h"
 
-namespace ods {
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
-Picture render_cpu(const Scene&, const CameraRig&, const RenderOptions& options, const Progress&) {
-  Picture picture;  // placeholder while the kernel is being written
-  const int count = options.eyes == Eyes::kBothEyes ? 2 : 1;
-  for (int i = 0; i < count; i++) {
+#include <atomic>
+#include <cassert>
+#include <mutex>
+
+#include "ods/base/error.h"
+#include "ods/cpu/embree_scene.h"
+#include "ods/kernel/path.h"
+#include "ods/scene/lights.h"
+#include "ods/scene/tables.h"
+
+namespace ods {
+namespace {
+
+constexpr int kTileSize = 16;
+
+// All that stays the same from pixel to pixel.
+struct Job {
+  const EmbreeScene& embree;
+  PathTracer tracer;
+  Camera camera;
+  RenderOptions options;
+  PathSettings settings;
+  int filter;
+};
+
+struct Pixel {
+  vec3 radiance{0.0f};
+  vec3 normal{0.0f};
+  vec3 albedo{0.0f};
+  float depth = kFarDepth;
+};
+
+// The render loop. Inlining all of the kernel here makes it a quarter faster.
+[[gnu::flatten]] void trace_path(Job& job, const PathSettings& settings) {
+  PathTracer& tracer = job.tracer;
+  const PathState& path = tracer.path;
+  while (path.alive) {
+    tracer.shade(job.embree.closest_hit(tracer, path.ray, tracer.path_ray_key(false)), settings);
+    if (path.shadow_pending &&
+        !job.embree.occluded(tracer, path.shadow_ray, path.shadow_length, tracer.path_ray_key(true))) {
+      tracer.add_shadow_light();
+    }
+  }
+}
+
+// Depths are not averaged: they belong to the ray through the pixel's centre.
+float center_depth(Job& job, int eye, int x, int y, uint seed) {
+  const int width = job.options.width, height = width / 2;
+  const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+  PathSettings first_hit_only = job.settings;
+  first_hit_only.bounces = 0;
+  job.tracer.start_path(camera_ray(job.camera, eye, uv), seed, 0u);
+  trace_path(job, first_hit_only);
+  const float depth = job.tracer.path.depth;
+  return depth < 0.0f ? kFarDepth : depth;
+}
+
+Pixel render_pixel(Job& job, int eye, int x, int y) {
+  const int width = job.options.width, height = width / 2;
+  const uint seed = hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), static_cast<uint>(y * width + x));
+  const PathState& path = job.tracer.path;
+  Pixel pixel;
+  for (int i = 0; i < job.options.samples; i++) {
+    const uint index = static_cast<uint>(i);
+    const vec2 place = random_pair(seed, index, kPixelPair);
+    const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
+    job.tracer.start_path(camera_ray(job.camera, eye, uv), seed, index);
+    trace_path(job, job.settings);
+    pixel.radiance += path.radiance;
+    pixel.normal += path.normal;
+    pixel.albedo += path.albedo;
+  }
+  const float share = 1.0f / static_cast<float>(job.options.samples);
+  pixel.radiance *= share;
+  pixel.normal *= share;
+  pixel.albedo *= share;
+  pixel.depth = center_depth(job, eye, x, y, seed);
+  return pixel;
+}
+
+void put(Image& image, int x, int y, vec3 value) {
+  float* at = image.at(x, y);
+  at[0] = value.x, at[1] = value.y, at[2] = value.z;
+}
+
+void render_tile(Job job, int tile, EyeImage& image) {
+  const int width = image.radiance.width, height = image.radiance.height;
+  const int across = (width + kTileSize - 1) / kTileSize;
+  const int x0 = tile % across * kTileSize, y0 = tile / across * kTileSize;
+  for (int y = y0; y < std::min(y0 + kTileSize, height); y++) {
+    for (int x = x0; x < std::min(x0 + kTileSize, width); x++) {
+      const Pixel pixel = render_pixel(job, image.eye, x, y);
+      put(image.radiance, x, y, pixel.radiance);
+      put(image.normal, x, y, pixel.normal);
+      put(image.albedo, x, y, pixel.albedo);
+      *image.depth.at(x, y) = pixel.depth;
+    }
+  }
+}
+
+std::vector<int> eyes_of(Eyes eyes) {
+  switch (eyes) {
+    case Eyes::kBothEyes:
+      return {kLeft, kRight};
+    case Eyes::kLeftEye:
+      return {kLeft};
+    case Eyes::kRightEye:
+      return {kRight};
+    case Eyes::kMonoEye:
+      return {kMono};
+  }
+  return {};
+}
+
+PathTracer make_tracer(const Scene& scene, const LightTable& lights) {
+  PathTracer tracer;
+  tracer.vertices = scene.vertices.data();
+  tracer.triangles = scene.triangles.data();
+  tracer.meshes = scene.meshes.data();
+  tracer.instances = lights.instances.data();
+  tracer.materials = scene.materials.data();
+  tracer.textures = scene.textures.data();
+  tracer.texels = scene.texels.data();
+  tracer.lights = lights.lights.data();
+  tracer.light_count = static_cast<int>(lights.lights.size());
+  tracer.environment = lights.environment;
+  tracer.environment_texels = lights.environment_texels.data();
+  tracer.tables = kernel_tables().data();
+  return tracer;
+}
+
+// Both eyes' tiles in one pool of work; progress is told by whoever finishes a tile.
+void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
+  const Image& first = picture.eyes.front().radiance;
+  const int per_eye = ((first.width + kTileSize - 1) / kTileSize) * ((first.height + kTileSize - 1) / kTileSize);
+  const int total = per_eye * static_cast<int>(picture.eyes.size());
+  std::atomic<int> done = 0;
+  std::atomic<bool> stop = false;
+  std::mutex reporting;
+  tbb::parallel_for(0, total, [&](int tile) {
+    if (stop || (progress.cancelled && progress.cancelled())) {
+      stop = true;
+      return;
+    }
+    render_tile(job, tile % per_eye, picture.eyes[static_cast<size_t>(tile / per_eye)]);
+    done++;
+    if (progress.report && reporting.try_lock()) {
+      progress.report(static_cast<double>(done) / total);
+      reporting.unlock();
+    }
+  });
+  if (stop) throw Error(ErrorKind::kCancelled, "rendering was stopped");
+  if (progress.report) progress.report(1.0);
+}
+
+}  // namespace
+
+Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& options, const Progress& progress) {
+  assert(options.width > 0 && options.width % 2 == 0 && options.samples > 0 && options.bounces >= 0);
+  Picture picture;
+  for (int eye : eyes_of(options.eyes)) {
     const int w = options.width, h = options.width / 2;
-    const int eye = options.eyes == Eyes::kBothEyes ? i : options.eyes == Eyes::kMonoEye ? kMono : options.eyes == Eyes::kLeftEye ? kLeft : kRight;
     picture.eyes.push_back({eye, Image(w, h, 3), Image(w, h, 1), Image(w, h, 3), Image(w, h, 3)});
   }
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    const LightTable lights = make_lights(scene);
+    const EmbreeScene embree(scene);
+    const Job job{embree,
+                  make_tracer(scene, lights),
+                  make_camera(rig),
+                  options,
+                  {options.bounces, static_cast<int>(options.light_sampling)},
+                  options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris};
+    render_tiles(job, picture, progress);
+  });
   return picture;
 }
 

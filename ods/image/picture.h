@@ -17,8 +17,14 @@ struct Image {
 
   Image() = default;
   Image(int w, int h, int c)
-      : width(w), height(h), channels(c), pixels(static_cast<size_t>(w) * static_cast<size_t>(h) * static_cast<size_t>(c)) {}
-  float* at(int x, int y) { return pixels.data() + (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * static_cast<size_t>(channels); }
+      : width(w),
+        height(h),
+        channels(c),
+        pixels(static_cast<size_t>(w) * static_cast<size_t>(h) * static_cast<size_t>(c)) {}
+  float* at(int x, int y) {
+    return pixels.data() + (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) *
+                               static_cast<size_t>(channels);
+  }
   const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
 };
 
@@ -26,11 +32,11 @@ struct Image {
 inline constexpr float kFarDepth = 1e10f;
 
 struct EyeImage {
-  int eye = 0;      // kLeft, kRight or kMono (ods/kernel/camera/camera.h)
-  Image radiance;   // 3 channels, Rec. 709 primaries
-  Image depth;      // 1 channel: metres along the pixel centre's ray from its own origin; kFarDepth where it met nothing
-  Image normal;     // 3 channels: world space, first hit, averaged over the pixel; 0 where nothing was met
-  Image albedo;     // 3 channels: first hit, averaged over the pixel
+  int eye = 0;     // kLeft, kRight or kMono (ods/kernel/camera/camera.h)
+  Image radiance;  // 3 channels, Rec. 709 primaries
+  Image depth;     // 1 channel: metres along the pixel centre's ray from its own origin; kFarDepth where it met nothing
+  Image normal;    // 3 channels: world space, first hit, averaged over the pixel; 0 where nothing was met
+  Image albedo;    // 3 channels: first hit, averaged over the pixel
 };
 
 // One eye, or two in the order left, right. All of one size.

@@ -66,7 +66,9 @@ inline float eye_radius(Camera camera, float phi) {
   return 0.5f * camera.ipd * factor;
 }
 
-inline float eye_side(int eye) { return eye == kLeft ? -1.0f : eye == kRight ? 1.0f : 0.0f; }
+inline float eye_side(int eye) {
+  return eye == kLeft ? -1.0f : eye == kRight ? 1.0f : 0.0f;
+}
 
 inline Ray camera_ray(Camera camera, int eye, vec2 uv) {
   float theta = (uv.x - 0.5f) * (2.0f * kPi);
@@ -77,8 +79,7 @@ inline Ray camera_ray(Camera camera, int eye, vec2 uv) {
   float offset = eye_side(eye) * eye_radius(camera, phi);
   Ray ray;
   ray.origin = camera.center + (offset * cos_theta) * camera.right + (offset * sin_theta) * camera.back;
-  ray.direction =
-      (sin_theta * cos_phi) * camera.right + sin(phi) * camera.up - (cos_theta * cos_phi) * camera.back;
+  ray.direction = (sin_theta * cos_phi) * camera.right + sin(phi) * camera.up - (cos_theta * cos_phi) * camera.back;
   return ray;
 }
 

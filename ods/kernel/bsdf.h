@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a surface scatters light: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
+//
+// Three lobes share every material:
+//   gloss    GGX reflection of metals and dielectrics, Schlick's Fresnel, scaled up by what single scattering loses
+//            (Turquin, "Practical multiple scattering compensation for microfacet models", 2019);
+//   diffuse  Lambert under the dielectric, scaled by what the gloss above it lets through;
+//   glass    reflection and refraction at a dielectric interface (Walter et al. 2007), or through a thin sheet
+//            (KHR_materials_transmission), scaled up likewise.
+// A white surface of any mixture and roughness reflects and lets through exactly what it receives.
+//
+// Radiance is carried divided by the square of the refractive index, so refraction does not change it.
+// A new material becomes another lobe here; the path loop only calls make_bsdf, bsdf_value and sample_bsdf.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/ggx.h"
+#include "ods/kernel/surface.h"
+namespace ods {
+#endif
+
+const float kSmoothAlpha = 1e-3f;  // below it gloss and glass are mirrors: one direction, no density
+
+struct Bsdf {
+  vec3 wo;  // towards the viewer, in the frame below
+  vec3 tangent;
+  vec3 bitangent;
+  vec3 normal;
+  vec3 geometric;
+  float alpha;
+  float eta;      // index beyond / index on the viewer's side
+  bool thin;      // glass is a sheet: light goes straight through
+  vec3 gloss_f0;  // reflectance head-on and at grazing, weights and compensation included
+  vec3 gloss_f90;
+  vec3 diffuse;      // albedo, all weights included
+  vec3 glass;        // tint of what goes through
+  float glass_gain;  // weight and compensation of the glass lobe
+  float p_gloss;     // chances of the lobes, their sum is 1
+  float p_diffuse;
+  float p_glass;
+};
+
+struct BsdfValue {
+  vec3 value;     // BSDF times cosine
+  float density;  // of sample_bsdf, per solid angle
+};
+
+struct BsdfSample {
+  vec3 direction;  // world, unit length
+  vec3 weight;     // BSDF times cosine over density; 0: the path ends
+  float density;   // 0: a mirror direction, that light sampling cannot find
+  bool through;    // the direction leaves on the other side
+};
+
+inline vec3 bsdf_to_local(Bsdf bsdf, vec3 w) {
+  return vec3(dot(w, bsdf.tangent), dot(w, bsdf.bitangent), dot(w, bsdf.normal));
+}
+
+inline vec3 bsdf_to_world(Bsdf bsdf, vec3 w) {
+  return bsdf.tangent * w.x + bsdf.bitangent * w.y + bsdf.normal * w.z;
+}
+
+#ifdef __cplusplus
+struct BsdfEvaluator : SurfaceReader {
+#endif
+
+  // Albedo of the gloss lobe without compensation, Schlick's two parts: x for f0, y for f90 - f0... so that
+  // albedo = f0 * x + f90 * y; x + y is the albedo of a perfect mirror.
+  inline vec2 ggx_albedo(float roughness, float cosine) {
+    float r = clamp(roughness, 0.0f, 1.0f) * float(kGgxSize - 1);
+    float c = clamp(cosine, 0.0f, 1.0f) * float(kGgxSize - 1);
+    int r0 = min(int(r), kGgxSize - 2);
+    int c0 = min(int(c), kGgxSize - 2);
+    float fr = r - float(r0);
+    float fc = c - float(c0);
+    int at = kGgxTable + 2 * (r0 * kGgxSize + c0);
+    int next = at + 2 * kGgxSize;
+    float x = mix(mix(scene_table(at), scene_table(at + 2), fc), mix(scene_table(next), scene_table(next + 2), fc), fr);
+    float y = mix(mix(scene_table(at + 1), scene_table(at + 3), fc),
+                  mix(scene_table(next + 1), scene_table(next + 3), fc), fr);
+    return vec2(x, y);
+  }
+
+  // Albedo of the rough glass lobe, what is reflected and what goes through together.
+  inline float glass_albedo(float eta, float roughness, float cosine) {
+    // Both axes of the table are stretched so that eta = 1, where nothing happens, lies on its edge.
+    float reflectance = abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f;
+    float e = clamp(reflectance, 0.0f, 1.0f) * float(kGlassSize - 1);
+    float r = clamp(roughness, 0.0f, 1.0f) * float(kGlassSize - 1);
+    float c = clamp(cosine, 0.0f, 1.0f) * float(kGlassSize - 1);
+    int e0 = min(int(e), kGlassSize - 2);
+    int r0 = min(int(r), kGlassSize - 2);
+    int c0 = min(int(c), kGlassSize - 2);
+    float fe = e - float(e0);
+    float fr = r - float(r0);
+    float fc = c - float(c0);
+    int side = eta >= 1.0f ? 0 : 1;
+    float sum = 0.0f;
+    for (int corner = 0; corner < 8; corner++) {
+      int de = corner & 1;
+      int dr = (corner >> 1) & 1;
+      int dc = corner >> 2;
+      float weight = (de == 1 ? fe : 1.0f - fe) * (dr == 1 ? fr : 1.0f - fr) * (dc == 1 ? fc : 1.0f - fc);
+      int row = (side * kGlassSize + e0 + de) * kGlassSize + r0 + dr;
+      sum += weight * scene_table(kGlassTable + row * kGlassSize + c0 + dc);
+    }
+    return sum;
+  }
+
+  // direction: of the ray that arrived. eta: index beyond the surface over the index on the ray's side.
+  inline Bsdf make_bsdf(Surface surface, vec3 direction, float eta) {
+    Bsdf bsdf;
+    bsdf.normal = surface.normal;
+    bsdf.geometric = surface.geometric;
+    // Source of the frame: Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+    vec3 n = surface.normal;
+    float side = n.z < 0.0f ? -1.0f : 1.0f;
+    float a = -1.0f / (side + n.z);
+    float b = n.x * n.y * a;
+    bsdf.tangent = vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
+    bsdf.bitangent = vec3(b, side + n.y * n.y * a, -n.y);
+    bsdf.wo = bsdf_to_local(bsdf, -direction);
+    bsdf.wo.z = max(bsdf.wo.z, 1e-5f);
+    float roughness = clamp(surface.roughness, 0.0f, 1.0f);
+    bsdf.alpha = roughness * roughness;
+    bsdf.eta = eta;
+    bsdf.thin = !surface.volume;
+
+    float metal = clamp(surface.metallic, 0.0f, 1.0f);
+    float clear = (1.0f - metal) * clamp(surface.transmission, 0.0f, 1.0f);
+    float opaque = 1.0f - metal - clear;
+    vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
+    float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
+    float f0 = root * root;
+    float f90 = clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 has no gloss at grazing angles either (Lagarde 2014)
+
+    vec2 albedo = vec2(1.0f, 0.0f);
+    float s = schlick(bsdf.wo.z);
+    if (bsdf.alpha >= kSmoothAlpha) {
+      albedo = ggx_albedo(roughness, bsdf.wo.z);
+    } else {
+      albedo = vec2(1.0f - s, s);
+    }
+    float lost = 1.0f / max(albedo.x + albedo.y, 1e-3f) - 1.0f;
+    float opaque_gain = 1.0f + f0 * lost;
+    vec3 metal_gain = vec3(1.0f) + base * lost;
+    bsdf.gloss_f0 = base * metal_gain * metal + vec3(opaque * f0 * opaque_gain);
+    bsdf.gloss_f90 = metal_gain * metal + vec3(opaque * f90 * opaque_gain);
+    float covered = min((f0 * albedo.x + f90 * albedo.y) * opaque_gain, 1.0f);
+    bsdf.diffuse = base * (opaque * (1.0f - covered));
+    bsdf.glass = base;
+    bsdf.glass_gain = clear;
+    if (clear > 0.0f && bsdf.alpha >= kSmoothAlpha) {
+      float kept = bsdf.thin ? albedo.x + albedo.y : glass_albedo(eta, roughness, bsdf.wo.z);
+      bsdf.glass_gain = clear / max(kept, 0.1f);
+    }
+
+    float gloss = luminance(bsdf.gloss_f0 * albedo.x + bsdf.gloss_f90 * albedo.y);
+    float diffuse = luminance(bsdf.diffuse);
+    float total = gloss + diffuse + clear;
+    float scale = total > 0.0f ? 1.0f / total : 0.0f;
+    bsdf.p_gloss = gloss * scale;
+    bsdf.p_diffuse = diffuse * scale;
+    bsdf.p_glass = clear * scale;
+    return bsdf;
+  }
+
+  inline vec3 gloss_fresnel(Bsdf bsdf, float cosine) {
+    return bsdf.gloss_f0 + (bsdf.gloss_f90 - bsdf.gloss_f0) * schlick(cosine);
+  }
+
+  inline float glass_fresnel(Bsdf bsdf, float cosine) {
+    return fresnel_dielectric(cosine, bsdf.eta);
+  }
+
+  // Value and density of reflection off microfacets, Fresnel left out.
+  inline vec2 reflection_value(Bsdf bsdf, vec3 wi) {
+    vec3 h = normalize(bsdf.wo + wi);
+    float lambda_o = ggx_lambda(bsdf.wo, bsdf.alpha);
+    float d = ggx_density(h, bsdf.alpha);
+    float value = d / (4.0f * bsdf.wo.z * (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)));
+    float density = d / (4.0f * bsdf.wo.z * (1.0f + lambda_o));
+    return vec2(value, density);
+  }
+
+  // The same for refraction to wi (wi.z < 0).
+  inline vec2 refraction_value(Bsdf bsdf, vec3 wi) {
+    vec3 h = bsdf.wo + wi * bsdf.eta;
+    float size = length(h);
+    if (size < 1e-6f) return vec2(0.0f);
+    h = h * ((h.z < 0.0f ? -1.0f : 1.0f) / size);
+    float o = dot(bsdf.wo, h);
+    float i = dot(wi, h);
+    if (o <= 0.0f || i >= 0.0f) return vec2(0.0f);
+    float denominator = o + bsdf.eta * i;
+    float jacobian = bsdf.eta * bsdf.eta * -i / max(denominator * denominator, 1e-12f);
+    float lambda_o = ggx_lambda(bsdf.wo, bsdf.alpha);
+    float d = ggx_density(h, bsdf.alpha) * o * jacobian / bsdf.wo.z;
+    return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)), d / (1.0f + lambda_o));
+  }
+
+  // BSDF times cosine towards a direction (world), and the density with which sample_bsdf finds it. Mirrors are left
+  // out.
+  inline BsdfValue bsdf_value(Bsdf bsdf, vec3 direction) {
+    BsdfValue result;
+    result.value = vec3(0.0f);
+    result.density = 0.0f;
+    vec3 wi = bsdf_to_local(bsdf, direction);
+    bool above = wi.z > 0.0f;
+    // A direction that shading normal and triangle put on different sides carries nothing: light would leak.
+    if (above != (dot(direction, bsdf.geometric) > 0.0f) || abs(wi.z) < 1e-6f) return result;
+    bool rough = bsdf.alpha >= kSmoothAlpha;
+    if (above) {
+      result.value = bsdf.diffuse * (wi.z / kPi);
+      result.density = bsdf.p_diffuse * wi.z / kPi;
+      if (rough) {
+        float cosine = dot(bsdf.wo, normalize(bsdf.wo + wi));
+        vec2 reflection = reflection_value(bsdf, wi);
+        result.value += gloss_fresnel(bsdf, cosine) * reflection.x;
+        result.density += bsdf.p_gloss * reflection.y;
+        if (bsdf.p_glass > 0.0f) {
+          float fresnel = glass_fresnel(bsdf, cosine);
+          result.value += vec3(bsdf.glass_gain * fresnel * reflection.x);
+          result.density += bsdf.p_glass * fresnel * reflection.y;
+        }
+      }
+    } else if (rough && bsdf.p_glass > 0.0f) {
+      vec3 mirrored = vec3(wi.x, wi.y, -wi.z);
+      vec2 passage = bsdf.thin ? reflection_value(bsdf, mirrored) : refraction_value(bsdf, wi);
+      vec3 h = bsdf.thin ? normalize(bsdf.wo + mirrored) : normalize(bsdf.wo + wi * bsdf.eta);
+      float let_through = 1.0f - glass_fresnel(bsdf, abs(dot(bsdf.wo, h)));
+      result.value = bsdf.glass * (bsdf.glass_gain * let_through * passage.x);
+      result.density = bsdf.p_glass * let_through * passage.y;
+    }
+    return result;
+  }
+
+  // Glass: picks reflection or passage by Fresnel with the left-over of pick (0..1). Local directions.
+  inline vec3 sample_glass(Bsdf bsdf, vec3 h, float pick) {
+    bool reflected = pick < glass_fresnel(bsdf, dot(bsdf.wo, h));
+    vec3 mirror = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;
+    if (reflected) return mirror;
+    if (bsdf.thin) return vec3(mirror.x, mirror.y, -mirror.z);
+    return refract_through(bsdf.wo, h, bsdf.eta);
+  }
+
+  // The mirror-like parts of a smooth surface have no density; each is chosen with its own chance.
+  inline BsdfSample sample_mirror(Bsdf bsdf, bool glass, float pick) {
+    vec3 up = vec3(0.0f, 0.0f, 1.0f);
+    vec3 wi = glass ? sample_glass(bsdf, up, pick) : vec3(-bsdf.wo.x, -bsdf.wo.y, bsdf.wo.z);
+    BsdfSample result;
+    result.direction = normalize(bsdf_to_world(bsdf, wi));
+    result.density = 0.0f;
+    result.through = wi.z < 0.0f;
+    result.weight = vec3(0.0f);
+    if (glass) {
+      vec3 tint = result.through ? bsdf.glass : vec3(1.0f);
+      result.weight = tint * (bsdf.glass_gain / bsdf.p_glass);
+    } else {
+      result.weight = gloss_fresnel(bsdf, bsdf.wo.z) * (1.0f / bsdf.p_gloss);
+    }
+    if (wi.z == 0.0f || result.through != (dot(result.direction, bsdf.geometric) < 0.0f)) result.weight = vec3(0.0f);
+    return result;
+  }
+
+  // pick chooses the lobe, uv the direction; all uniform in [0, 1).
+  inline BsdfSample sample_bsdf(Bsdf bsdf, float pick, vec2 uv) {
+    bool rough = bsdf.alpha >= kSmoothAlpha;
+    bool glass = false;
+    vec3 wi = vec3(0.0f);
+    vec3 h = vec3(0.0f, 0.0f, 1.0f);
+    if (pick < bsdf.p_diffuse) {
+      float r = sqrt(uv.x);
+      float phi = 2.0f * kPi * uv.y;
+      wi = vec3(r * cos(phi), r * sin(phi), sqrt(max(1.0f - uv.x, 1e-9f)));
+    } else if (pick < bsdf.p_diffuse + bsdf.p_gloss || bsdf.p_glass <= 0.0f) {
+      if (!rough) return sample_mirror(bsdf, false, 0.0f);
+      h = ggx_sample_visible(bsdf.wo, bsdf.alpha, uv);
+      wi = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;
+    } else {
+      float left_over = clamp((pick - bsdf.p_diffuse - bsdf.p_gloss) / bsdf.p_glass, 0.0f, 0.9999999f);
+      if (!rough) return sample_mirror(bsdf, true, left_over);
+      h = ggx_sample_visible(bsdf.wo, bsdf.alpha, uv);
+      glass = left_over >= glass_fresnel(bsdf, dot(bsdf.wo, h));
+      wi = sample_glass(bsdf, h, left_over);
+    }
+    BsdfSample result;
+    result.direction = bsdf_to_world(bsdf, wi);
+    result.through = wi.z < 0.0f;
+    result.weight = vec3(0.0f);
+    result.density = 0.0f;
+    // A microfacet may reflect into the surface, or refract back out: single scattering loses such light.
+    float size = length(result.direction);
+    if (result.through != glass || !(size > 0.5f)) return result;
+    result.direction = result.direction * (1.0f / size);
+    BsdfValue value = bsdf_value(bsdf, result.direction);
+    result.density = value.density;
+    if (value.density > 0.0f) result.weight = value.value * (1.0f / value.density);
+    return result;
+  }
+
+#ifdef __cplusplus
+};
+}  // namespace ods
+#endif

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pixel filter by importance sampling: a sample's place is drawn from the filter, so every sample weighs the same,
+// belongs to one pixel, and pixels can be rendered in any order.
+// Source: Ernst, Stamminger and Greiner, "Filter Importance Sampling", 2006.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/scene_view.h"
+namespace ods {
+#endif
+
+const int kFilterBlackmanHarris = 0;  // 1.5 pixels radius
+const int kFilterBox = 1;             // the pixel itself
+
+#ifdef __cplusplus
+struct FilterSampler : SceneView {
+#endif
+
+  // Offset from the pixel's centre along one axis, in pixels.
+  inline float filter_offset(int shape, float u) {
+    if (shape == kFilterBox) return u - 0.5f;
+    float at = u * float(kFilterSize - 1);
+    int i = min(int(at), kFilterSize - 2);
+    return mix(scene_table(kFilterTable + i), scene_table(kFilterTable + i + 1), at - float(i));
+  }
+
+  // Image position of a sample of pixel (x, y). It may lie outside 0..1: the camera goes on there.
+  inline vec2 filtered_position(int shape, int x, int y, int width, int height, vec2 u) {
+    return vec2((float(x) + 0.5f + filter_offset(shape, u.x)) / float(width),
+                (float(y) + 0.5f + filter_offset(shape, u.y)) / float(height));
+  }
+
+#ifdef __cplusplus
+};
+}  // namespace ods
+#endif

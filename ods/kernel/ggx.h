@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The GGX microfacet distribution in a frame whose z axis is the surface normal, and Fresnel's reflectances.
+// Sources: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007; Heitz, "Understanding the
+// Masking-Shadowing Function", 2014; Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/camera/camera.h"
+#include "ods/kernel/math.h"
+namespace ods {
+#endif
+
+// Density of microfacet normals h, per projected area. alpha = roughness squared, > 0.
+inline float ggx_density(vec3 h, float alpha) {
+  float a2 = alpha * alpha;
+  float c = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
+  return 1.0f / (kPi * a2 * c * c);
+}
+
+// Smith's auxiliary function; masking is 1 / (1 + lambda).
+inline float ggx_lambda(vec3 w, float alpha) {
+  float z2 = max(w.z * w.z, 1e-12f);
+  return 0.5f * (sqrt(1.0f + alpha * alpha * (w.x * w.x + w.y * w.y) / z2) - 1.0f);
+}
+
+// A normal as seen from wo (wo.z > 0), with density ggx_visible_density().
+inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
+  vec3 stretched = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
+  float phi = 2.0f * kPi * u.x;
+  float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
+  float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
+  vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
+  return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9f)));
+}
+
+inline float ggx_visible_density(vec3 wo, vec3 h, float alpha) {
+  return max(dot(wo, h), 0.0f) * ggx_density(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
+}
+
+// Schlick's share of grazing reflectance at the cosine between ray and microfacet.
+inline float schlick(float cosine) {
+  float m = clamp(1.0f - cosine, 0.0f, 1.0f);
+  float m2 = m * m;
+  return m2 * m2 * m;
+}
+
+// Reflectance of a smooth interface between dielectrics; eta = index beyond / index on the ray's side.
+inline float fresnel_dielectric(float cosine, float eta) {
+  float sin2 = (1.0f - cosine * cosine) / (eta * eta);
+  if (sin2 >= 1.0f) return 1.0f;
+  float beyond = sqrt(1.0f - sin2);
+  float parallel = (eta * cosine - beyond) / (eta * cosine + beyond);
+  float perpendicular = (cosine - eta * beyond) / (cosine + eta * beyond);
+  return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+// Direction through an interface with microfacet normal h (dot(wo, h) > 0); zero at total reflection.
+inline vec3 refract_through(vec3 wo, vec3 h, float eta) {
+  float cosine = dot(wo, h);
+  float sin2 = (1.0f - cosine * cosine) / (eta * eta);
+  if (sin2 >= 1.0f) return vec3(0.0f);
+  return h * (cosine / eta - sqrt(1.0f - sin2)) - wo * (1.0f / eta);
+}
+
+#ifdef __cplusplus
+}  // namespace ods
+#endif

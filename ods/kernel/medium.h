@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which medium a ray travels in when volumes of glass and liquid touch or overlap.
+//
+// A ray keeps the set of volumes it is inside of. Where several overlap, the one with the highest refractive index
+// counts: model wine a little into the wall of its glass and the wall stays glass, from either side.
+// After Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002; glTF has no priorities, so density
+// stands in for them.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/light.h"
+namespace ods {
+#endif
+
+const int kMaxMedia = 4;  // deeper nestings count as if the innermost were not there
+
+struct Media {
+  int material[kMaxMedia];
+  int count;
+};
+
+inline Media no_media() {
+  Media media;
+  for (int i = 0; i < kMaxMedia; i++) media.material[i] = -1;
+  media.count = 0;
+  return media;
+}
+
+inline Media enter_medium(Media media, int material) {
+  if (media.count < kMaxMedia) {
+    media.material[media.count] = material;
+    media.count += 1;
+  }
+  return media;
+}
+
+inline Media leave_medium(Media media, int material) {
+  for (int i = media.count - 1; i >= 0; i--) {
+    if (media.material[i] == material) {
+      media.count -= 1;
+      media.material[i] = media.material[media.count];
+      return media;
+    }
+  }
+  return media;
+}
+
+inline bool inside_medium(Media media, int material) {
+  bool found = false;
+  for (int i = 0; i < media.count; i++) found = found || media.material[i] == material;
+  return found;
+}
+
+#ifdef __cplusplus
+struct MediumReader : LightSampler {
+#endif
+
+  // The material of the medium that counts, -1 in air.
+  inline int current_medium(Media media) {
+    int best = -1;
+    for (int i = 0; i < media.count; i++) {
+      int candidate = media.material[i];
+      if (best < 0) {
+        best = candidate;
+      } else {
+        float index = scene_material(candidate).ior;
+        float best_index = scene_material(best).ior;
+        if (index > best_index || (index == best_index && candidate < best)) best = candidate;
+      }
+    }
+    return best;
+  }
+
+  inline float medium_ior(int medium) {
+    return medium < 0 ? 1.0f : max(scene_material(medium).ior, 1.0f);
+  }
+
+  // What is left of light after a distance in a medium (Beer and Lambert; KHR_materials_volume).
+  inline vec3 medium_transmittance(int medium, float distance) {
+    if (medium < 0) return vec3(1.0f);
+    Material material = scene_material(medium);
+    float reach = material.attenuation_distance;
+    if (!(reach > 0.0f) || reach > 1e30f) return vec3(1.0f);
+    vec3 color = clamp(material.attenuation_color, vec3(1e-6f), vec3(1.0f));
+    return exp(log(color) * (min(distance, 1e30f) / reach));
+  }
+
+#ifdef __cplusplus
+};
+}  // namespace ods
+#endif

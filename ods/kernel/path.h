@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One step of a path. The device owns the loop:
+//
+//   start_path(...);
+//   while (path.alive) {
+//     shade(closest_hit(path.ray), settings);
+//     if (path.shadow_pending && !occluded(path.shadow_ray, path.shadow_length)) add_shadow_light();
+//   }
+//
+// shade() traces nothing: it consumes a hit, adds light, and leaves the next ray, and a shadow ray with the light that
+// it would bring. The state is `path`: a member of PathTracer in C++, a global of the invocation in a shader. (Passed
+// and returned by value, as a first version did, its copies cost a third of the time on the CPU.) A path gathers light
+// in two ways, a ray towards a picked light and the scattered ray that happens to meet one, weighted by the power
+// heuristic (Veach 1997).
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/medium.h"
+#include "ods/kernel/random.h"
+namespace ods {
+#endif
+
+const int kLightSamplingBoth = 0;
+const int kLightSamplingLightsOnly = 1;
+const int kLightSamplingBsdfOnly = 2;
+
+struct PathSettings {
+  int bounces;  // a path has at most bounces + 1 segments
+  int light_sampling;
+};
+
+struct PathState {
+  Ray ray;
+  vec3 throughput;
+  vec3 radiance;
+  bool alive;
+  int bounce;
+  int passed;       // surfaces gone through without a bounce since the last one
+  float density;    // with which the ray's direction was found; 0: camera or mirror, no other way would find it
+  float travelled;  // from the last bounce to the ray's origin
+  Media media;
+  uint seed;   // of the pixel
+  uint index;  // of the sample
+
+  Ray shadow_ray;
+  float shadow_length;
+  vec3 shadow_light;
+  bool shadow_pending;
+
+  // First hit, for the layers beside the picture.
+  float depth;  // along the camera's ray from its own origin; negative: nothing was met
+  vec3 normal;
+  vec3 albedo;
+};
+
+const int kMaxPassed = 64;
+
+// Number pairs of a path: 0 places the sample in its pixel, then four for each bounce.
+const uint kPixelPair = 0u;
+const uint kScatterPair = 1u;  // lobe, roulette
+const uint kDirectionPair = 2u;
+const uint kLightPair = 3u;
+const uint kLightPointPair = 4u;
+const uint kPairsPerBounce = 4u;
+
+#ifdef __cplusplus
+struct PathTracer : MediumReader {
+#endif
+
+  PathState path;
+
+  inline void start_path(Ray ray, uint seed, uint index) {
+    path.ray = ray;
+    path.throughput = vec3(1.0f);
+    path.radiance = vec3(0.0f);
+    path.alive = true;
+    path.bounce = 0;
+    path.passed = 0;
+    path.density = 0.0f;
+    path.travelled = 0.0f;
+    path.media = no_media();
+    path.seed = seed;
+    path.index = index;
+    path.shadow_pending = false;
+    path.depth = -1.0f;
+    path.normal = vec3(0.0f);
+    path.albedo = vec3(0.0f);
+  }
+
+  inline void add_shadow_light() {
+    path.radiance += path.shadow_light;
+  }
+
+  inline vec2 path_random(uint pair) {
+    return random_pair(path.seed, path.index, pair + uint(path.bounce) * kPairsPerBounce);
+  }
+
+  // Lottery number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
+  inline float alpha_draw(uint ray_key, Hit hit) {
+    return unit_float(hash_pair(ray_key, hash_pair(uint(hit.instance), uint(hit.triangle))));
+  }
+
+  // Numbers the path's next ray (shadow: its shadow ray) for alpha_draw().
+  inline uint path_ray_key(bool shadow) {
+    return hash_pair(hash_pair(path.seed, path.index), uint(path.bounce) * 2u + (shadow ? 1u : 0u));
+  }
+
+  // Weight of light that was found with density a and could have been found with density b too.
+  inline float power_heuristic(float a, float b) {
+    float ratio = b / a;
+    return 1.0f / (1.0f + ratio * ratio);
+  }
+
+  // Weight of light that the path's own ray has met, which light sampling finds with light_density.
+  inline float scattered_weight(PathSettings settings, float light_density) {
+    if (path.density <= 0.0f || light_density <= 0.0f) return 1.0f;
+    if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
+    if (settings.light_sampling == kLightSamplingLightsOnly) return 0.0f;
+    return power_heuristic(path.density, light_density);
+  }
+
+  inline void meet_environment(PathSettings settings) {
+    float weight = scattered_weight(settings, environment_density(path.ray.direction));
+    path.radiance += path.throughput * environment_radiance(path.ray.direction) * weight;
+    path.alive = false;
+  }
+
+  // Goes on straight through a surface that does not count.
+  inline void pass_through(Surface surface, float t) {
+    path.ray.origin = offset_point(surface.position, -surface.geometric);
+    path.travelled += t;
+    path.passed += 1;
+    if (path.passed > kMaxPassed) path.alive = false;
+  }
+
+  // Leaves a shadow ray towards a picked light.
+  inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
+    if (scene_light_count() == 0) return;
+    LightSample light = sample_light(surface.position, path_random(kLightPair), path_random(kLightPointPair));
+    if (!light.valid) return;
+    BsdfValue scattered = bsdf_value(bsdf, light.direction);
+    bool through = dot(light.direction, surface.geometric) < 0.0f;
+    float weight = light.density > 0.0f ? 1.0f / light.density : 1.0f;
+    if (light.density > 0.0f && settings.light_sampling == kLightSamplingBoth) {
+      weight = weight * power_heuristic(light.density, scattered.density);
+    }
+    vec3 arriving = light.radiance * medium_transmittance(through ? beyond : medium, light.distance) * weight;
+    path.shadow_light = path.throughput * scattered.value * arriving;
+    if (!(max(path.shadow_light.x, max(path.shadow_light.y, path.shadow_light.z)) > 0.0f)) return;
+    path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
+    path.shadow_ray.direction = light.direction;
+    path.shadow_length = light.distance * 0.9999f;
+    path.shadow_pending = true;
+  }
+
+  // Ends dim paths at random and makes the others brighter by as much: no bias. Source: Arvo and Kirk, 1990.
+  inline void play_roulette(float draw) {
+    float chance = max(path.throughput.x, max(path.throughput.y, path.throughput.z));
+    if (chance >= 1.0f) return;
+    path.alive = draw < chance;
+    if (path.alive) path.throughput = path.throughput * (1.0f / chance);
+  }
+
+  inline void scatter(Surface surface, Bsdf bsdf, Media beyond) {
+    vec2 pick = path_random(kScatterPair);
+    BsdfSample found = sample_bsdf(bsdf, pick.x, path_random(kDirectionPair));
+    path.throughput = path.throughput * found.weight;
+    path.ray.origin = offset_point(surface.position, found.through ? -surface.geometric : surface.geometric);
+    path.ray.direction = found.direction;
+    path.density = found.density;
+    path.travelled = 0.0f;
+    path.passed = 0;
+    if (found.through && surface.volume) path.media = beyond;
+    path.bounce += 1;
+    play_roulette(pick.y);
+  }
+
+  inline void note_first_hit(Surface surface, float t) {
+    path.depth = path.travelled + t;
+    path.normal = surface.normal;
+    path.albedo = surface.base_color;
+  }
+
+  inline void shade(Hit hit, PathSettings settings) {
+    path.shadow_pending = false;
+    int medium = current_medium(path.media);
+    if (hit.t < 0.0f) {
+      path.throughput = path.throughput * medium_transmittance(medium, 1e30f);
+      meet_environment(settings);
+      return;
+    }
+    int material_index = scene_mesh(scene_instance(hit.instance).mesh).material;
+    Surface surface = surface_at(hit, path.ray.direction);
+
+    // glTF culls the backs of single-sided surfaces: the camera looks through them, light does not.
+    bool volume = surface.volume;
+    if (path.bounce == 0 && !surface.front && scene_material(material_index).double_sided == 0 && !volume) {
+      pass_through(surface, hit.t);
+      return;
+    }
+
+    Media beyond_media = path.media;
+    if (volume) {
+      // A ray that meets the inside of a volume it never entered started in there.
+      if (!surface.front && !inside_medium(path.media, material_index)) {
+        path.media = enter_medium(path.media, material_index);
+        medium = current_medium(path.media);
+      }
+      if (surface.front) beyond_media = enter_medium(path.media, material_index);
+      if (!surface.front) beyond_media = leave_medium(path.media, material_index);
+    }
+    int beyond = current_medium(beyond_media);
+    path.throughput = path.throughput * medium_transmittance(medium, hit.t);
+    if (volume && beyond == medium) {
+      path.media = beyond_media;
+      pass_through(surface, hit.t);
+      return;
+    }
+
+    if (path.bounce == 0) note_first_hit(surface, hit.t);
+    if (scene_material(material_index).unlit == 1) {
+      path.radiance += path.throughput * surface.base_color;
+      path.alive = false;
+      return;
+    }
+    if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
+      float distance = path.travelled + hit.t;
+      float weight = scattered_weight(settings, triangle_density(hit, path.ray.direction, distance));
+      path.radiance += path.throughput * surface.emission * weight;
+    }
+    if (path.bounce == settings.bounces) {
+      path.alive = false;
+      return;
+    }
+    Bsdf bsdf = make_bsdf(surface, path.ray.direction, volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior);
+    if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, medium, beyond);
+    scatter(surface, bsdf, beyond_media);
+  }
+
+#ifdef __cplusplus
+};
+}  // namespace ods
+#endif

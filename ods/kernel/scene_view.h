@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All that the kernel may read. C++ sees the arrays as pointers; a shader defines the same functions over its buffers.
+// Nothing here traces a ray.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/scene_data.h"
+namespace ods {
+#endif
+
+// Tables that the host computes once (ods/scene/tables.h), all in one array of floats.
+const int kSrgbTable = 0;  // 256 entries: an 8-bit sRGB value -> linear
+const int kSrgbSize = 256;
+const int kFilterTable = kSrgbTable + kSrgbSize;  // inverse distribution of the pixel filter, 0..1 -> pixels
+const int kFilterSize = 513;
+const int kGgxTable = kFilterTable + kFilterSize;  // [roughness][cosine][2]: see ggx_albedo() in bsdf.h
+const int kGgxSize = 32;
+const int kGlassTable = kGgxTable + 2 * kGgxSize * kGgxSize;  // [in, out][reflectance][roughness][cosine]
+const int kGlassSize = 16;
+const int kTablesSize = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize;
+
+#ifdef __cplusplus
+struct SceneView {
+  const Vertex* vertices = nullptr;
+  const uvec3* triangles = nullptr;
+  const Mesh* meshes = nullptr;
+  const Instance* instances = nullptr;
+  const Material* materials = nullptr;
+  const Texture* textures = nullptr;
+  const uint* texels = nullptr;
+  const Light* lights = nullptr;
+  int light_count = 0;
+  EnvironmentInfo environment = {};
+  const EnvironmentTexel* environment_texels = nullptr;
+  const float* tables = nullptr;
+
+  const Vertex& scene_vertex(uint i) const { return vertices[i]; }
+  const uvec3& scene_triangle(uint i) const { return triangles[i]; }
+  const Mesh& scene_mesh(int i) const { return meshes[i]; }
+  const Instance& scene_instance(int i) const { return instances[i]; }
+  const Material& scene_material(int i) const { return materials[i]; }
+  const Texture& scene_texture(int i) const { return textures[i]; }
+  uint scene_texel(uint i) const { return texels[i]; }
+  const Light& scene_light(int i) const { return lights[i]; }
+  int scene_light_count() const { return light_count; }
+  const EnvironmentInfo& scene_environment() const { return environment; }
+  const EnvironmentTexel& scene_environment_texel(int i) const { return environment_texels[i]; }
+  float scene_table(int i) const { return tables[i]; }
+};
+}  // namespace ods
+#endif

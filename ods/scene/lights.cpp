@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/lights.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "ods/kernel/light.h"
+#include "ods/scene/tables.h"
+
+namespace ods {
+
+// Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991.
+AliasTable make_alias_table(const std::vector<double>& weights) {
+  const size_t n = weights.size();
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  AliasTable table{std::vector<float>(n), std::vector<float>(n, 1.0f), std::vector<int>(n)};
+  std::vector<double> share(n);
+  std::vector<size_t> poor, rich;
+  for (size_t i = 0; i < n; i++) {
+    const double probability = total > 0.0 ? weights[i] / total : 1.0 / static_cast<double>(n);
+    table.probability[i] = static_cast<float>(probability);
+    table.alias[i] = static_cast<int>(i);
+    share[i] = probability * static_cast<double>(n);
+    (share[i] < 1.0 ? poor : rich).push_back(i);
+  }
+  while (!poor.empty() && !rich.empty()) {
+    const size_t low = poor.back(), high = rich.back();
+    poor.pop_back();
+    table.threshold[low] = static_cast<float>(share[low]);
+    table.alias[low] = static_cast<int>(high);
+    share[high] -= 1.0 - share[low];
+    if (share[high] < 1.0) {
+      rich.pop_back();
+      poor.push_back(high);
+    }
+  }
+  return table;
+}
+
+static double environment_mean(const std::vector<double>& texel_weights) {
+  // The weights are radiance times solid angle.
+  return std::accumulate(texel_weights.begin(), texel_weights.end(), 0.0) / (4.0 * std::acos(-1.0));
+}
+
+// Brightness of each texel times its solid angle. A texel's neighbours count, because interpolation spreads them.
+static std::vector<double> environment_weights(const Environment& environment) {
+  const int w = environment.width, h = environment.height;
+  const double pi = std::acos(-1.0);
+  std::vector<double> weights(environment.texels.size());
+  for (int y = 0; y < h; y++) {
+    const double angle = 2.0 * pi / w * (std::cos(pi * y / h) - std::cos(pi * (y + 1) / h));
+    for (int x = 0; x < w; x++) {
+      double sum = 0.0;
+      for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+          const int column = (x + dx + w) % w, row = std::clamp(y + dy, 0, h - 1);
+          const double share = (dx == 0 ? 0.75 : 0.125) * (dy == 0 ? 0.75 : 0.125);
+          const vec3 texel =
+              environment.texels[static_cast<size_t>(row) * static_cast<size_t>(w) + static_cast<size_t>(column)];
+          sum += share * luminance(texel * environment.radiance);
+        }
+      }
+      weights[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = sum * angle;
+    }
+  }
+  return weights;
+}
+
+static Light blank_light(int kind) {
+  Light light{};
+  light.kind = kind;
+  light.instance = -1;
+  light.triangle = -1;
+  light.direction = vec3(0.0f, 0.0f, -1.0f);
+  return light;
+}
+
+static Light make_punctual(const PunctualLight& source) {
+  Light light = blank_light(source.kind);
+  light.position = source.position;
+  light.direction = source.direction;
+  light.intensity = source.intensity;
+  light.range = source.range;
+  // KHR_lights_punctual's reference fall-off between the cones.
+  const float inner = std::cos(source.inner_cone), outer = std::cos(source.outer_cone);
+  light.cone_scale = 1.0f / std::max(0.001f, inner - outer);
+  light.cone_offset = -outer * light.cone_scale;
+  return light;
+}
+
+static double punctual_power(const PunctualLight& source, double scene_radius) {
+  const double pi = std::acos(-1.0);
+  const double strength = luminance(source.intensity);
+  if (source.kind == kLightDirectional) return strength * pi * scene_radius * scene_radius;
+  if (source.kind == kLightSpot) return strength * 2.0 * pi * (1.0 - std::cos(source.outer_cone));
+  return strength * 4.0 * pi;
+}
+
+// Reads scene data through the kernel, so that textures mean the same here and there.
+static LightSampler scene_reader(const Scene& scene) {
+  LightSampler reader;
+  reader.vertices = scene.vertices.data();
+  reader.triangles = scene.triangles.data();
+  reader.meshes = scene.meshes.data();
+  reader.instances = scene.instances.data();
+  reader.materials = scene.materials.data();
+  reader.textures = scene.textures.data();
+  reader.texels = scene.texels.data();
+  reader.tables = kernel_tables().data();
+  return reader;
+}
+
+static double triangle_power(LightSampler& reader, const Scene& scene, int instance_index, int triangle) {
+  Hit hit{0.0f, 0.0f, 0.0f, instance_index, triangle};
+  const Instance& instance = scene.instances[static_cast<size_t>(instance_index)];
+  const Material& material =
+      scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
+  const auto corners = reader.corners_of(hit);
+  const vec3 a = to_world(instance, corners.a.position);
+  const vec3 area =
+      0.5f * cross(to_world(instance, corners.b.position) - a, to_world(instance, corners.c.position) - a);
+  const float size = length(area);
+  if (!(size > 0.0f) || !std::isfinite(size)) return 0.0;
+  double brightness = 0.0;
+  for (int i = 0; i < 16; i++) {
+    const float root = std::sqrt((static_cast<float>(i / 4) + 0.5f) / 4.0f);
+    const float across = (static_cast<float>(i % 4) + 0.5f) / 4.0f;
+    hit.u = root * (1.0f - across);
+    hit.v = root * across;
+    const auto k = reader.corners_of(hit);
+    const vec4 glow = reader.slot_at(material.emission_slot, reader.uv0_of(k), reader.uv1_of(k));
+    brightness += luminance(material.emission * vec3(glow)) / 16.0;
+  }
+  return brightness * static_cast<double>(size) * std::acos(-1.0) * (material.double_sided == 1 ? 2.0 : 1.0);
+}
+
+static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<double>& powers) {
+  LightSampler reader = scene_reader(scene);
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+    const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+    if (material.unlit == 1 || !(luminance(material.emission) > 0.0f)) continue;
+    table.instances[i].first_light = static_cast<int>(table.lights.size());
+    for (uint t = 0; t < mesh.triangle_count; t++) {
+      Light light = blank_light(kLightTriangle);
+      light.instance = static_cast<int>(i);
+      light.triangle = static_cast<int>(t);
+      table.lights.push_back(light);
+      powers.push_back(triangle_power(reader, scene, static_cast<int>(i), static_cast<int>(t)));
+    }
+  }
+}
+
+static void add_environment_light(const Scene& scene, double scene_radius, LightTable& table,
+                                  std::vector<double>& powers) {
+  const Environment& source = scene.environment;
+  assert(source.width == 0 ||
+         source.texels.size() == static_cast<size_t>(source.width) * static_cast<size_t>(source.height));
+  table.environment.uniform_radiance = source.radiance;
+  table.environment.width = source.width;
+  table.environment.height = source.height;
+  table.environment.light = -1;
+  if (source.width == 0) return;
+  const std::vector<double> weights = environment_weights(source);
+  const AliasTable alias = make_alias_table(weights);
+  table.environment_texels.reserve(source.texels.size());
+  for (size_t i = 0; i < source.texels.size(); i++) {
+    table.environment_texels.push_back(
+        {source.texels[i] * source.radiance, alias.probability[i], alias.threshold[i], alias.alias[i]});
+  }
+  const double pi = std::acos(-1.0);
+  double power = environment_mean(weights) * 4.0 * pi * pi * scene_radius * scene_radius;
+  if (!(power > 0.0)) return;
+  const double others = std::accumulate(powers.begin(), powers.end(), 0.0);
+  if (others > 0.0) power = std::min(power, others);
+  table.environment.light = static_cast<int>(table.lights.size());
+  table.lights.push_back(blank_light(kLightEnvironment));
+  powers.push_back(power);
+}
+
+LightTable make_lights(const Scene& scene) {
+  LightTable table;
+  table.instances = scene.instances;
+  std::vector<double> powers;
+  const Bounds bounds = scene_bounds(scene);
+  const double radius = std::max(0.5 * static_cast<double>(length(bounds.high - bounds.low)), 1e-3);
+  add_triangle_lights(scene, table, powers);
+  for (const PunctualLight& source : scene.lights) {
+    const double power = punctual_power(source, radius);
+    if (!(power > 0.0)) continue;
+    table.lights.push_back(make_punctual(source));
+    powers.push_back(power);
+  }
+  add_environment_light(scene, radius, table, powers);
+  const AliasTable alias = make_alias_table(powers);
+  for (size_t i = 0; i < table.lights.size(); i++) {
+    table.lights[i].probability = alias.probability[i];
+    table.lights[i].alias_threshold = alias.threshold[i];
+    table.lights[i].alias = alias.alias[i];
+  }
+  return table;
+}
+
+}  // namespace ods

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scene's lights as the kernel picks them: by power.
+#pragma once
+#include <vector>
+
+#include "ods/scene/scene.h"
+
+namespace ods {
+
+struct LightTable {
+  std::vector<Light> lights;  // each glowing triangle, each punctual light, and the environment last
+  std::vector<EnvironmentTexel> environment_texels;
+  EnvironmentInfo environment;
+  std::vector<Instance> instances;  // the scene's, with first_light filled in
+};
+
+// Powers are estimates: a glowing triangle's is its area times the mean of its emission at 16 points. An environment
+// gets at most half of the picks where other lights exist, since walls may hide it. A uniform environment is left to
+// the scattered rays, which find it as well as any other way could.
+LightTable make_lights(const Scene& scene);
+
+// Walker's alias table: entry i is kept when the left-over of the pick is below threshold[i], else alias[i] is taken.
+// Weights are finite, not negative; all zero counts as all equal.
+struct AliasTable {
+  std::vector<float> probability;
+  std::vector<float> threshold;
+  std::vector<int> alias;
+};
+AliasTable make_alias_table(const std::vector<double>& weights);
+
+}  // namespace ods

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole kernel as GLSL, in the order in which its headers build on each other.
+#define inline
+#include "ods/kernel/camera/camera.h"
+#include "ods/kernel/camera/project.h"
+#include "ods/kernel/scene_data.h"
+#include "ods/kernel/random.h"
+#include "ods/kernel/scene_view.h"
+#include "scene_view.glsl"
+#include "ods/kernel/filter.h"
+#include "ods/kernel/texture.h"
+#include "ods/kernel/surface.h"
+#include "ods/kernel/ggx.h"
+#include "ods/kernel/bsdf.h"
+#include "ods/kernel/light.h"
+#include "ods/kernel/medium.h"
+#include "ods/kernel/path.h"

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The shader's side of ods/kernel/scene_view.h: the same functions over buffers reached by their addresses.
+layout(buffer_reference, scalar) readonly buffer Vertices { Vertex at[]; };
+layout(buffer_reference, scalar) readonly buffer Triangles { uvec3 at[]; };
+layout(buffer_reference, scalar) readonly buffer Meshes { Mesh at[]; };
+layout(buffer_reference, scalar) readonly buffer Instances { Instance at[]; };
+layout(buffer_reference, scalar) readonly buffer Materials { Material at[]; };
+layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
+layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
+layout(buffer_reference, scalar) readonly buffer Lights { Light at[]; };
+layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
+layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
+
+struct View {
+  Camera camera;
+  EnvironmentInfo environment;
+  int light_count;
+  int bounces;
+  Vertices vertices;
+  Triangles triangles;
+  Meshes meshes;
+  Instances instances;
+  Materials materials;
+  Textures textures;
+  Texels texels;
+  Lights lights;
+  EnvironmentTexels environment_texels;
+  Tables tables;
+};
+layout(binding = 2, scalar) uniform ViewBuffer { View view; };
+
+Vertex scene_vertex(uint i) { return view.vertices.at[i]; }
+uvec3 scene_triangle(uint i) { return view.triangles.at[i]; }
+Mesh scene_mesh(int i) { return view.meshes.at[i]; }
+Instance scene_instance(int i) { return view.instances.at[i]; }
+Material scene_material(int i) { return view.materials.at[i]; }
+Texture scene_texture(int i) { return view.textures.at[i]; }
+uint scene_texel(uint i) { return view.texels.at[i]; }
+Light scene_light(int i) { return view.lights.at[i]; }
+int scene_light_count() { return view.light_count; }
+EnvironmentInfo scene_environment() { return view.environment; }
+EnvironmentTexel scene_environment_texel(int i) { return view.environment_texels.at[i]; }
+float scene_table(int i) { return view.tables.at[i]; }
