@@ -185,6 +185,19 @@ TEST(GltfBadInput, ASmallFileCannotAskForMuch) {
   EXPECT_NE(error_of(file.glb()).find("far more geometry"), std::string::npos);
 }
 
+TEST(GltfBadInput, OnePictureUnderManyNamesIsReadOnce) {
+  GltfBuilder file = make_triangle();
+  const int view = file.add_view(small_png());
+  for (int i = 0; i < 100; i++) {
+    file.json["images"].push_back({{"bufferView", view}});
+    file.json["textures"].push_back({{"source", i}});
+    file.json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.textures.size(), 100u);
+  EXPECT_EQ(scene.texels.size(), 4u);
+}
+
 TEST(GltfBadInput, VerticesThatAreNowhere) {
   for (const float bad : {kNan, kInfinity, -kInfinity, 1e30f}) {
     GltfBuilder file = make_triangle();  // one sound triangle, one with a bad corner

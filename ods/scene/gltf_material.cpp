@@ -5,6 +5,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -142,7 +143,7 @@ int TextureTable::texture(int index, bool srgb) {
     warn(scene_, fmt::format("texture {} has no picture that ods can read; it is left white", index));
     return made_[{index, srgb}] = -1;
   }
-  if (image < 0 || static_cast<size_t>(image) >= file_.image_uris.size()) {
+  if (image < 0 || static_cast<size_t>(image) >= file_.images.size()) {
     fail(file_, fmt::format("image {} does not exist; the file is damaged", image));
   }
   Texture texture{};
@@ -157,7 +158,7 @@ int TextureTable::texture(int index, bool srgb) {
     texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
   scene_.textures.push_back(texture);
-  images_.push_back(static_cast<size_t>(image));
+  images_.push_back(file_.images[static_cast<size_t>(image)].first);
   return made_[{index, srgb}] = static_cast<int>(images_.size()) - 1;
 }
 
@@ -166,11 +167,18 @@ void TextureTable::decode_images() {
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   std::vector<CodeImage> decoded(used.size());
+  // One small picture may be much; a hundred names for it would be a hundred times that.
+  constexpr size_t kSmallTexels = size_t(1) << 26, kTexelsPerByte = 1024;
+  std::atomic<size_t> allowed = kSmallTexels + kTexelsPerByte * file_.size, taken = 0;
   tbb::parallel_for(size_t(0), used.size(), [&](size_t i) {
-    const std::vector<unsigned char> bytes = image_bytes(file_, used[i]);
+    const std::vector<unsigned char> bytes = image_bytes(file_, file_.images[used[i]]);
     const std::string name = fmt::format("{}: image {}", file_.path, used[i]);
     if (bytes.empty()) fail(file_, fmt::format("image {} is empty", used[i]));
+    const std::string& uri = file_.images[used[i]].uri;
+    if (!uri.empty() && !uri.starts_with("data:")) allowed += kTexelsPerByte * bytes.size();  // beyond file_.size
+    if (taken > allowed) fail(file_, "holds far more texels than a file of its size can; it looks damaged");
     decoded[i] = decode_image(std::as_bytes(Bytes(bytes)), name);
+    taken += decoded[i].pixels.size();
   });
   size_t total = 0;
   for (const CodeImage& image : decoded) total += image.pixels.size();

@@ -81,8 +81,8 @@ struct Attributes {
   AccessorView position, normal, tangent, uv0, uv1, color;
 };
 
-static AccessorView read_attribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name, int components,
-                                size_t count) {
+static AccessorView read_attribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name,
+                                   int components, size_t count) {
   const auto found = primitive.attributes.find(name);
   if (found == primitive.attributes.end()) return {};
   const AccessorView attribute = open_accessor(file, found->second);

@@ -29,15 +29,21 @@ using Bytes = std::span<const unsigned char>;
 // Nothing in a Scene lies further from its origin than this: squared areas still fit a float.
 inline constexpr float kFarthest = 1e9f;  // metres
 
+struct ImageSource {
+  std::string uri;  // empty where the picture lies in the buffer view
+  int view = -1;
+  size_t first = 0;  // the first image with the same source: the one that is read
+};
+
 // A file being read. The model's own buffers and images stay empty: tinygltf reads the records, we the bytes, so that
 // nothing is copied, loaded twice or believed about its size.
 struct GltfFile {
   std::string path;
   std::shared_ptr<const tinygltf::Model> model;
   std::vector<Bytes> buffers;
-  std::vector<std::string> image_uris;  // empty where the picture lies in image_views
-  std::vector<int> image_views;         // buffer view, or -1
+  std::vector<ImageSource> images;
   std::vector<std::shared_ptr<const std::vector<unsigned char>>> storage;  // what buffers point into
+  size_t size = 0;                                                         // bytes of the file and of its buffers
   size_t budget = 0;  // how many more corners and instances a file of this size may ask for
 };
 
@@ -56,7 +62,7 @@ void spend(GltfFile& file, size_t count);
 GltfFile open_gltf(const std::string& path);
 GltfFile open_gltf_bytes(Bytes bytes, const std::string& path);
 Bytes buffer_view_bytes(const GltfFile& file, int view);
-std::vector<unsigned char> image_bytes(const GltfFile& file, size_t image);
+std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
 
 // --- gltf_accessor.cpp
 // One accessor, checked to lie inside its buffer: at(i) is element i as floats (normalized integers mapped as the

@@ -138,6 +138,11 @@ static std::string decode_percent(const std::string& uri) {
   return text;
 }
 
+// The same for every way to write the same file, so that nothing is read twice.
+static std::string uri_key(const std::string& uri) {
+  return uri.starts_with("data:") ? uri : std::filesystem::path(decode_percent(uri)).lexically_normal().string();
+}
+
 static Storage read_uri(const GltfFile& file, const std::string& uri) {
   if (uri.starts_with("data:")) {
     const size_t comma = uri.find(";base64,");
@@ -168,11 +173,11 @@ static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
     Bytes bytes = binary;
     if (buffer.contains("uri") && buffer["uri"].is_string()) {
       const std::string uri = buffer["uri"].get<std::string>();
-      Storage& storage = loaded[uri];
+      Storage& storage = loaded[uri_key(uri)];
       if (!storage) {
         storage = read_uri(file, uri);
         file.storage.push_back(storage);
-        file.budget += 16 * storage->size();
+        file.size += storage->size();
       }
       bytes = *storage;
     } else if (index > 0) {
@@ -188,12 +193,16 @@ static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
 }
 
 static void take_images(GltfFile& file, const Json& json) {
+  std::map<std::pair<std::string, int>, size_t> first;
   for (const Json& image : json) {
-    if (!image.is_object()) fail(file, fmt::format("image {} is not an object", file.image_uris.size()));
-    const bool has_uri = image.contains("uri") && image["uri"].is_string();
-    const bool has_view = image.contains("bufferView") && image["bufferView"].is_number_integer();
-    file.image_uris.push_back(has_uri ? image["uri"].get<std::string>() : "");
-    file.image_views.push_back(has_view ? image["bufferView"].get<int>() : -1);
+    const size_t index = file.images.size();
+    if (!image.is_object()) fail(file, fmt::format("image {} is not an object", index));
+    ImageSource source;
+    if (image.contains("uri") && image["uri"].is_string()) source.uri = image["uri"].get<std::string>();
+    if (image.contains("bufferView") && image["bufferView"].is_number_integer())
+      source.view = image["bufferView"].get<int>();
+    source.first = first.emplace(std::pair(uri_key(source.uri), source.view), index).first->second;
+    file.images.push_back(source);
   }
 }
 
@@ -222,9 +231,9 @@ Bytes buffer_view_bytes(const GltfFile& file, int index) {
   return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
-std::vector<unsigned char> image_bytes(const GltfFile& file, size_t image) {
-  if (!file.image_uris[image].empty()) return *read_uri(file, file.image_uris[image]);
-  const Bytes bytes = buffer_view_bytes(file, file.image_views[image]);
+std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image) {
+  if (!image.uri.empty()) return *read_uri(file, image.uri);
+  const Bytes bytes = buffer_view_bytes(file, image.view);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -251,7 +260,7 @@ static std::shared_ptr<const tinygltf::Model> parse_model(const GltfFile& file, 
 }
 
 static void parse(GltfFile& file, Bytes bytes) {
-  file.budget = (size_t(1) << 20) + 16 * bytes.size();
+  file.size = bytes.size();
   const Chunks chunks = split_container(file, bytes);
   Json json = parse_json(file, chunks.json);
   const Json buffers = take(file, json, "buffers");
@@ -259,6 +268,7 @@ static void parse(GltfFile& file, Bytes bytes) {
   file.model = parse_model(file, json);
   take_buffers(file, buffers, chunks.binary);
   take_images(file, images);
+  file.budget = (size_t(1) << 20) + 16 * file.size;
 }
 
 GltfFile open_gltf(const std::string& path) {
