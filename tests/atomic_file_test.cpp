@@ -112,7 +112,8 @@ TEST(AtomicFile, NoticesAFullDisk) {
     AtomicFile file(disk.folder().path("a.txt"));
     const std::string megabyte(1 << 20, 'x');
     std::fwrite(megabyte.data(), 1, megabyte.size(), file.stream());
-    EXPECT_THROW(file.commit(), Error);
+    EXPECT_THROW(file.finish(), Error);
+    EXPECT_THROW(file.commit(), Error) << "a second try must not publish a part";
   }
   {
     // So little that it waits in the stream's buffer until the end.

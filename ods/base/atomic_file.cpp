@@ -84,6 +84,8 @@ void AtomicFile::finish() {
   const int close_error = errno;
   stream_ = nullptr;
   if (written && closed) return;
+  std::remove(temporary_.c_str());
+  temporary_.clear();  // so that no later commit() can publish a part
   const int code = written ? close_error : flush_error;
   throw cannot_write(path_, code == 0 ? "the disk is full or was lost" : std::strerror(code));
 }

@@ -228,6 +228,38 @@ static std::string png_xmp_chunk(const FileHeader& header) {
   return properties.empty() ? std::string() : xmp_chunk(gpano_packet(properties));
 }
 
+// Where encoders write. It never reports a failure, because libjpeg would end the process; the stream remembers it for
+// AtomicFile::finish(). On the way it slips a chunk in behind a PNG's header.
+class Sink final : public OIIO::Filesystem::IOProxy {
+ public:
+  Sink(std::FILE* stream, std::string chunk) : IOProxy("", Write), stream_(stream), chunk_(std::move(chunk)) {}
+  const char* proxytype() const override { return "ods"; }
+  void close() override {}
+  bool seek(int64_t offset) override {
+    m_pos = offset;
+    fseeko(stream_, offset, SEEK_SET);
+    return true;
+  }
+  size_t write(const void* bytes, size_t size) override {
+    const char* begin = static_cast<const char*>(bytes);
+    const size_t position = static_cast<size_t>(m_pos);
+    size_t head = 0;
+    if (!chunk_.empty() && position + size >= kPngAfterHeader) {
+      head = kPngAfterHeader - position;
+      std::fwrite(begin, 1, head, stream_);
+      std::fwrite(chunk_.data(), 1, chunk_.size(), stream_);
+      chunk_.clear();
+    }
+    std::fwrite(begin + head, 1, size - head, stream_);
+    m_pos += static_cast<int64_t>(size);
+    return size;
+  }
+
+ private:
+  std::FILE* stream_;
+  std::string chunk_;
+};
+
 // Rows go out in bands: enough for OpenEXR to compress on all cores, few enough that no second picture is in memory.
 static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, const RowSource& rows) {
   const int kBand = 64;
@@ -251,25 +283,15 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(plugin);
   if (!output) throw failed(fmt::format("OpenImageIO here has no {} writer", plugin));
 
-  const std::string chunk = header.format == FileFormat::kPng ? png_xmp_chunk(header) : std::string();
-  OIIO::Filesystem::IOFile stream(file.stream(), OIIO::Filesystem::IOProxy::Write);
-  OIIO::Filesystem::IOVecOutput memory;
-  // libtiff goes back and reads what it wrote, which OpenImageIO's stream does not let it do.
-  if (header.format != FileFormat::kTiff) {
-    output->set_ioproxy(chunk.empty() ? static_cast<OIIO::Filesystem::IOProxy*>(&stream) : &memory);
-  }
+  Sink sink(file.stream(), header.format == FileFormat::kPng ? png_xmp_chunk(header) : std::string());
+  // libtiff goes back and reads what it wrote, which OpenImageIO does not hand through.
+  if (header.format != FileFormat::kTiff) output->set_ioproxy(&sink);
   const bool written = output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows);
   const bool closed = output->close();
   // A full disk says so itself; what the format's library made of it is of no help.
   if (!written || !closed) {
     file.finish();
     throw failed(output->geterror());
-  }
-  if (!chunk.empty()) {
-    const auto& bytes = memory.buffer();
-    std::fwrite(bytes.data(), 1, kPngAfterHeader, file.stream());
-    std::fwrite(chunk.data(), 1, chunk.size(), file.stream());
-    std::fwrite(bytes.data() + kPngAfterHeader, 1, bytes.size() - kPngAfterHeader, file.stream());
   }
 }
 

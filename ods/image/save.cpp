@@ -79,7 +79,9 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig& rig, La
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   }
   if (eyes.size() == 1) {
-    text("textureformat", "LatLong Environment");  // makes OpenImageIO write envmap
+    // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
+    text("textureformat", "LatLong Environment");
+    attributes.push_back({"openexr:levelmode", 0});
     if (eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
   }
   text("ods:version", ODS_VERSION);
@@ -128,11 +130,12 @@ struct Layer {
   const Image EyeImage::*image;
   std::string_view name;
   std::string_view channels;
+  bool wide;  // always 32 bits
 };
-static const Layer kLayers[] = {{&EyeImage::radiance, "", "RGB"},
-                                {&EyeImage::depth, "", "Z"},
-                                {&EyeImage::normal, "N", "XYZ"},
-                                {&EyeImage::albedo, "albedo", "RGB"}};
+static const Layer kLayers[] = {{&EyeImage::radiance, "", "RGB", false},
+                                {&EyeImage::depth, "", "Z", true},
+                                {&EyeImage::normal, "N", "XYZ", false},
+                                {&EyeImage::albedo, "albedo", "RGB", false}};
 
 static std::string channel_name(const Layer& layer, char channel, std::string_view view, bool default_view) {
   std::string name;
@@ -144,7 +147,7 @@ static std::string channel_name(const Layer& layer, char channel, std::string_vi
 static void add_exr_channels(std::vector<Channel>& channels, bool half, std::string_view view, bool default_view) {
   for (const Layer& layer : kLayers) {
     for (char channel : layer.channels) {
-      const Sample sample = half && channel != 'Z' ? Sample::kHalf : Sample::kFloat;
+      const Sample sample = half && !layer.wide ? Sample::kHalf : Sample::kFloat;
       channels.push_back({channel_name(layer, channel, view, default_view), sample});
     }
   }
@@ -158,8 +161,7 @@ static float finite(float value, float lowest, float highest) {
 static void fill_exr_row(const EyeImage& eye, int y, bool half, float* out, size_t stride) {
   for (const Layer& layer : kLayers) {
     const Image& image = eye.*layer.image;
-    const bool wide = !half || &image == &eye.depth;
-    const float limit = wide ? std::numeric_limits<float>::max() : 65504.0f;
+    const float limit = half && !layer.wide ? 65504.0f : std::numeric_limits<float>::max();
     const float* in = image.at(0, y);
     for (int x = 0; x < image.width; x++) {
       for (int c = 0; c < image.channels; c++)
