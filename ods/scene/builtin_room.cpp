@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // "room": a living room at dusk. Warm lamps, a fire, cool light from the window; the viewer stands in the middle.
+#include <cmath>
+
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builder.h"
 #include "ods/scene/builtin_makers.h"
@@ -227,7 +229,7 @@ static vec3 dusk(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z), height = d.y;
   const float ridge = 0.045f + 0.05f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 5u) +
                       0.02f * noise(vec2(azimuth * 11.0f + 64.0f, 0.5f), 128, 6u);
-  const float facing = smoothstep(-0.1f, 0.4f, -d.z);
+  const float facing = smoothstep(0.0f, 0.35f, -d.z);
   if (height < ridge) {
     const vec2 street = floor(vec2(azimuth, height) * 163.0f);
     const bool lit = hash01(static_cast<int>(street.x), static_cast<int>(street.y), 8u) > 0.982f &&

@@ -55,7 +55,7 @@ void add_lantern(Scene& scene, const Finishes& f, const glm::mat4& place, float 
   add(scene, make_tube({{0.0f, 0.0f, 0.0f}, {0.0f, -drop + radius, 0.0f}}, 0.004f, 10), f.iron, place);
   add(scene, make_cylinder(0.05f, 0.03f, 32), f.iron, place * placed(vec3(0.0f, -0.015f, 0.0f)));
   const glm::mat4 middle = place * placed(vec3(0.0f, -drop, 0.0f));
-  add(scene, make_sphere(radius, 16), f.shade, middle);
+  add(scene, make_sphere(radius, 16), f.lantern, middle);
   Shape hoops;
   for (int i = -3; i <= 3; i++) {
     const float phi = 0.42f * float(i);
@@ -275,7 +275,7 @@ static void add_wine_glass(Scene& scene, const Finishes& f, const glm::mat4& pla
 
 void add_wine_and_fruit(Scene& scene, const Finishes& f, const glm::mat4& place) {
   Material red = glass(1.34f);
-  red.attenuation_color = vec3(0.35f, 0.012f, 0.02f);
+  red.attenuation_color = vec3(0.70f, 0.09f, 0.11f);
   red.attenuation_distance = 0.02f;
   const int wine = add_material(scene, red);
   add_wine_glass(scene, f, place * placed(vec3(0.34f, 0.0f, 0.10f)), wine);

@@ -38,7 +38,10 @@ Finishes add_finishes(Scene& scene) {
   f.leaf = plain(vec3(0.09f, 0.27f, 0.07f), 0.4f);
   f.soil = plain(vec3(0.04f, 0.025f, 0.018f), 1.0f);
   f.stem = plain(vec3(0.14f, 0.16f, 0.05f), 0.6f);
-  f.shade = add_material(scene, glow(vec3(13.0f, 9.6f, 5.8f)));
+  Material light = glow(vec3(14.0f, 11.2f, 7.6f));
+  f.shade = add_material(scene, light);
+  light.double_sided = 0;
+  f.lantern = add_material(scene, light);
   f.books = add_book_meshes(scene, f.pages);
   return f;
 }

@@ -22,7 +22,7 @@ struct Finishes {
   int sofa, leather, linen, mustard, terracotta, cream, sage;
   int brass, iron, ceramic, dark_ceramic, glass;
   int pages, leaf, soil, stem;
-  int shade;
+  int shade, lantern;  // glow: on both sides of an open shade, on the outside of a closed one
   BookMeshes books;
 };
 
