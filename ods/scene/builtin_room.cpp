@@ -187,6 +187,7 @@ static void add_seating(Scene& scene, const Finishes& f) {
   add_wine_and_fruit(scene, f, coffee * placed(vec3(0.0f, 0.4003f, 0.0f)));
   add_armchair(scene, f, f.leather, f.linen, placed(vec3(2.05f, 0.0f, -1.45f), 58.0f));
   add_floor_lamp(scene, f, placed(vec3(-1.5f, 0.0f, -2.5f)));
+  add_lantern(scene, f, placed(vec3(0.0f, kCeiling, -1.45f)), 0.5f, 0.2f);
   const glm::mat4 side = placed(vec3(1.46f, 0.0f, -2.5f));
   add_side_table(scene, f, side);
   add_table_lamp(scene, f, side * placed(vec3(0.0f, 0.55f, 0.0f)));

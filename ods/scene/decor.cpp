@@ -56,7 +56,7 @@ void add_lantern(Scene& scene, const Finishes& f, const glm::mat4& place, float 
   add(scene, make_cylinder(0.05f, 0.03f, 32), f.iron, place * placed(vec3(0.0f, -0.015f, 0.0f)));
   const glm::mat4 middle = place * placed(vec3(0.0f, -drop, 0.0f));
   // A hoop on every ring hides that the paper is made of few triangles.
-  const int rings = 7;
+  const int rings = 6;
   std::vector<vec2> paper;
   Shape hoops;
   for (int i = 0; i <= rings; i++) {
@@ -67,7 +67,7 @@ void add_lantern(Scene& scene, const Finishes& f, const glm::mat4& place, float 
       append(hoops, transformed(make_torus(paper.back().x, 0.003f, 48, 6), placed(vec3(0.0f, paper.back().y, 0.0f))));
     }
   }
-  add(scene, make_lathe(paper, 24), f.lantern, middle);
+  add(scene, make_lathe(paper, 20), f.lantern, middle);
   add(scene, hoops, f.linen, middle);
 }
 
