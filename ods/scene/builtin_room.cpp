@@ -121,7 +121,7 @@ static void add_fire(Scene& scene, const glm::mat4& place) {
                           {{-0.2f, 0.17f, -0.26f}, {0.22f, 0.19f, -0.10f}}};
   for (const auto& log : logs) add(scene, make_tube({log[0], log[1]}, 0.05f, 14), bark, place);
   add(scene, make_disc(0.2f, 8), ember, place * placed(vec3(0.0f, 0.055f, -0.18f), 0.0f, vec3(1.4f, 1.0f, 0.5f)));
-  const Shape tongue = make_lathe({{0.0f, 0.0f}, {0.55f, 0.12f}, {0.5f, 0.3f}, {0.22f, 0.68f}, {0.0f, 1.0f}}, 6);
+  const Shape tongue = make_lathe({{0.0f, 0.0f}, {0.55f, 0.12f}, {0.5f, 0.3f}, {0.22f, 0.68f}, {0.0f, 1.0f}}, 5);
   const vec4 tongues[] = {{-0.15f, 0.14f, -0.19f, 0.20f}, {0.0f, 0.16f, -0.2f, 0.30f}, {0.12f, 0.14f, -0.17f, 0.22f}};
   for (const vec4& t : tongues)
     add(scene, tongue, flame, place * placed(vec3(t), 40.0f * t.w, vec3(0.3f * t.w, t.w, 0.3f * t.w)));
@@ -168,7 +168,7 @@ static void add_door(Scene& scene, const Finishes& f) {
     append(leaf, bar({0.3f, 0.86f, 0.03f}, {side, 1.5f, 0.026f}, 0.014f));
     append(leaf, bar({0.3f, 0.74f, 0.03f}, {side, 0.55f, 0.026f}, 0.014f));
   }
-  add(scene, leaf, f.oak, place);
+  add(scene, leaf, add_material(scene, paint(vec3(0.07f, 0.13f, 0.12f), 0.35f)), place);
   Shape casing = bar({1.09f, 0.1f, 0.07f}, {0.0f, 2.13f, 0.01f}, 0.01f);
   for (const float side : {-0.48f, 0.48f}) append(casing, bar({0.09f, 2.12f, 0.06f}, {side, 1.06f, 0.01f}, 0.01f));
   add(scene, casing, f.white_paint, place);
@@ -244,8 +244,8 @@ static void add_pictures(Scene& scene, const Finishes& f) {
 // a renderer that samples the sky looks through the window.
 static vec3 dusk(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z), height = d.y;
-  const float ridge = 0.045f + 0.05f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 5u) +
-                      0.02f * noise(vec2(azimuth * 11.0f + 64.0f, 0.5f), 128, 6u);
+  const float ridge = 0.01f + 0.13f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 5u) +
+                      0.035f * noise(vec2(azimuth * 11.0f + 64.0f, 0.5f), 128, 6u);
   const float facing = smoothstep(0.0f, 0.35f, -d.z);
   if (height < ridge) {
     const vec2 street = floor(vec2(azimuth, height) * 163.0f);
