@@ -4,6 +4,8 @@
 // "axis": what is where. Every label reads correctly only if the picture is neither mirrored nor turned.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builder.h"
 #include "ods/scene/builtin_makers.h"
@@ -97,22 +99,25 @@ static void add_distances(Scene& scene) {
   }
 }
 
-// +X red, +Y green, +Z blue; the ends with a cone are the positive ones.
+// +X red, +Y green, +Z blue, the positive half of each with an arrow head. The floor's middle stays free for the pole.
 static void add_axes(Scene& scene) {
   const vec3 colors[] = {{0.8f, 0.02f, 0.02f}, {0.02f, 0.6f, 0.04f}, {0.02f, 0.06f, 0.85f}};
   const glm::mat4 turns[] = {turned(vec3(0, 0, 1), -90.0f), glm::mat4(1.0f), turned(vec3(1, 0, 0), 90.0f)};
   const char* names[] = {"+X", "+Y", "+Z"};
-  const vec3 ends[] = {{2.9f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.2f}, {0.0f, 0.0f, 2.9f}};
+  const vec3 foot(0.0f, 0.03f, 0.0f), post(0.0f, 0.0f, -3.1f);
   for (int axis = 0; axis < 3; axis++) {
     const int material = add_material(scene, paint(colors[axis], 0.4f));
     const bool upwards = axis == 1;
-    const float from = upwards ? 0.0f : -3.0f, to = upwards ? 1.0f : 2.6f;
-    const glm::mat4 base = placed(upwards ? vec3(0.0f, 0.02f, -2.2f) : vec3(0.0f, 0.03f, 0.0f)) * turns[axis];
-    add(scene, make_cylinder(0.025f, to - from, 24), material, base * placed(vec3(0.0f, 0.5f * (from + to), 0.0f)));
-    add(scene, make_cone(0.07f, 0.2f, 32), material, base * placed(vec3(0.0f, to, 0.0f)));
-    const vec3 end = ends[axis] + vec3(0.0f, upwards ? 1.4f : 0.25f, 0.0f);
-    const float azimuth = glm::degrees(std::atan2(end.x, -end.z));
-    add_label(scene, names[axis], 0.24f, material, placed(end, azimuth));
+    const glm::mat4 base = placed(upwards ? post : foot) * turns[axis];
+    const auto rod = [&](float from, float to) {
+      add(scene, make_cylinder(0.025f, to - from, 24), material, base * placed(vec3(0.0f, 0.5f * (from + to), 0.0f)));
+    };
+    const float end = upwards ? 1.0f : 3.0f;
+    rod(upwards ? 0.0f : 1.3f, end);
+    if (!upwards) rod(-3.0f, -1.3f);
+    add(scene, make_cone(0.07f, 0.2f, 32), material, base * placed(vec3(0.0f, end, 0.0f)));
+    const vec3 tip = vec3(base * vec4(0.0f, end, 0.0f, 1.0f)) + vec3(0.0f, upwards ? 0.36f : 0.25f, 0.0f);
+    add_label(scene, names[axis], 0.24f, material, placed(tip, glm::degrees(std::atan2(tip.x, -tip.z))));
   }
 }
 

@@ -116,18 +116,18 @@ Scene make_fractal() {
   Scene scene;
   const int stone = add_texture(scene, 512, 512, [](vec2 p) {
     const vec2 t = abs(fract(p * 4.0f) - 0.5f);
-    return max(t.x, t.y) > 0.485f ? vec3(0.05f) : 0.35f * marble(p);
+    return max(t.x, t.y) > 0.485f ? vec3(0.05f) : 0.5f * marble(p);
   });
   add(scene, make_floor(80.0f, 80.0f), add_material(scene, textured(paint(vec3(0.9f), 0.18f), stone, vec2(4.0f))));
   add_flakes(scene);
   add_sponges(scene);
   scene.environment = make_environment(512, [](vec3 d) {
     const float height = clamp(d.y, 0.0f, 1.0f);
-    const vec3 sky = mix(vec3(0.85f, 0.55f, 0.38f), vec3(0.05f, 0.10f, 0.28f), pow(height, 0.5f));
+    const vec3 sky = mix(vec3(1.25f, 0.82f, 0.58f), vec3(0.10f, 0.20f, 0.50f), pow(height, 0.5f));
     const float sun = max(dot(d, normalize(vec3(0.6f, 0.5f, -0.62f))), 0.0f);
     return sky + vec3(3.2f, 2.4f, 1.6f) * pow(sun, 60.0f) + vec3(0.5f, 0.3f, 0.15f) * pow(sun, 6.0f);
   });
-  scene.lights = {make_sun(44.0f, 30.0f, vec3(1.8f, 1.45f, 1.1f))};
+  scene.lights = {make_sun(44.0f, 30.0f, vec3(2.4f, 1.95f, 1.5f))};
   scene.view_points = {{"middle", vec3(0.0f, 1.6f, 0.0f)}};
   return scene;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // "room": a living room at dusk. Warm lamps, a fire, cool light from the window; the viewer stands in the middle.
+#include <cmath>
+
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builder.h"
 #include "ods/scene/builtin_makers.h"
@@ -49,7 +51,7 @@ static glm::mat4 on_right_wall(float z, float y) {
 }
 
 static void add_shell(Scene& scene, const Finishes& f) {
-  const int planks = add_texture(scene, 1024, 1024, wood_planks);
+  const int planks = add_texture(scene, 768, 768, wood_planks);
   const int rough = add_texture(scene, 512, 512, plaster);
   const int wall = add_material(scene, textured(paint(vec3(0.62f, 0.63f, 0.54f), 0.9f), rough, vec2(2.0f)));
   const int ceiling = add_material(scene, textured(paint(vec3(0.88f, 0.85f, 0.79f), 0.95f), rough, vec2(2.0f)));
@@ -119,7 +121,7 @@ static void add_fire(Scene& scene, const glm::mat4& place) {
                           {{-0.2f, 0.17f, -0.26f}, {0.22f, 0.19f, -0.10f}}};
   for (const auto& log : logs) add(scene, make_tube({log[0], log[1]}, 0.05f, 14), bark, place);
   add(scene, make_disc(0.2f, 8), ember, place * placed(vec3(0.0f, 0.055f, -0.18f), 0.0f, vec3(1.4f, 1.0f, 0.5f)));
-  const Shape tongue = make_lathe({{0.0f, 0.0f}, {0.55f, 0.12f}, {0.5f, 0.3f}, {0.22f, 0.68f}, {0.0f, 1.0f}}, 6);
+  const Shape tongue = make_lathe({{0.0f, 0.0f}, {0.55f, 0.12f}, {0.5f, 0.3f}, {0.22f, 0.68f}, {0.0f, 1.0f}}, 5);
   const vec4 tongues[] = {{-0.15f, 0.14f, -0.19f, 0.20f}, {0.0f, 0.16f, -0.2f, 0.30f}, {0.12f, 0.14f, -0.17f, 0.22f}};
   for (const vec4& t : tongues)
     add(scene, tongue, flame, place * placed(vec3(t), 40.0f * t.w, vec3(0.3f * t.w, t.w, 0.3f * t.w)));
@@ -158,17 +160,18 @@ static void add_fireplace(Scene& scene, const Finishes& f) {
 
 static void add_door(Scene& scene, const Finishes& f) {
   const glm::mat4 place = on_back_wall(0.3f, 0.0f);
-  Shape leaf = transformed(make_rounded_box(vec3(0.86f, 2.06f, 0.04f), 0.004f, 1), placed(vec3(0.0f, 1.035f, 0.005f)));
-  for (const vec4& panel : {vec4(-0.2f, 1.5f, 0.3f, 0.86f), vec4(0.2f, 1.5f, 0.3f, 0.86f),
-                            vec4(-0.2f, 0.55f, 0.3f, 0.74f), vec4(0.2f, 0.55f, 0.3f, 0.74f)}) {
-    append(leaf, transformed(make_rounded_box(vec3(panel.z, panel.w, 0.02f), 0.009f, 2),
-                             placed(vec3(panel.x, panel.y, 0.026f))));
+  const auto bar = [](vec3 size, vec3 at, float radius) {
+    return transformed(make_rounded_box(size, radius, 2), placed(at));
+  };
+  Shape leaf = bar({0.86f, 2.06f, 0.04f}, {0.0f, 1.035f, 0.005f}, 0.004f);
+  for (const float side : {-0.2f, 0.2f}) {
+    append(leaf, bar({0.3f, 0.86f, 0.03f}, {side, 1.5f, 0.026f}, 0.014f));
+    append(leaf, bar({0.3f, 0.74f, 0.03f}, {side, 0.55f, 0.026f}, 0.014f));
   }
-  for (const float side : {-1.0f, 1.0f})
-    append(leaf, transformed(make_rounded_box(vec3(0.09f, 2.12f, 0.06f), 0.01f, 2),
-                             placed(vec3(side * 0.48f, 1.06f, 0.01f))));
-  append(leaf, transformed(make_rounded_box(vec3(1.09f, 0.1f, 0.07f), 0.01f, 2), placed(vec3(0.0f, 2.13f, 0.01f))));
-  add(scene, leaf, f.white_paint, place);
+  add(scene, leaf, add_material(scene, paint(vec3(0.07f, 0.13f, 0.12f), 0.35f)), place);
+  Shape casing = bar({1.09f, 0.1f, 0.07f}, {0.0f, 2.13f, 0.01f}, 0.01f);
+  for (const float side : {-0.48f, 0.48f}) append(casing, bar({0.09f, 2.12f, 0.06f}, {side, 1.06f, 0.01f}, 0.01f));
+  add(scene, casing, f.white_paint, place);
   add(scene, make_sphere(0.03f, 32), f.brass, place * placed(vec3(0.36f, 1.0f, 0.085f)));
   add(scene, make_cylinder(0.012f, 0.07f, 20), f.brass,
       place * placed(vec3(0.36f, 1.0f, 0.05f)) * turned(vec3(1, 0, 0), 90.0f));
@@ -182,8 +185,9 @@ static void add_seating(Scene& scene, const Finishes& f) {
   const glm::mat4 coffee = placed(vec3(0.0f, 0.014f, -1.2f));
   add_coffee_table(scene, f, coffee);
   add_wine_and_fruit(scene, f, coffee * placed(vec3(0.0f, 0.4003f, 0.0f)));
-  add_armchair(scene, f, placed(vec3(2.05f, 0.0f, -1.45f), 58.0f));
+  add_armchair(scene, f, f.leather, f.linen, placed(vec3(2.05f, 0.0f, -1.45f), 58.0f));
   add_floor_lamp(scene, f, placed(vec3(-1.5f, 0.0f, -2.5f)));
+  add_lantern(scene, f, placed(vec3(0.0f, kCeiling, -1.45f)), 0.5f, 0.2f);
   const glm::mat4 side = placed(vec3(1.46f, 0.0f, -2.5f));
   add_side_table(scene, f, side);
   add_table_lamp(scene, f, side * placed(vec3(0.0f, 0.55f, 0.0f)));
@@ -195,7 +199,10 @@ static void add_library_and_dining(Scene& scene, const Finishes& f) {
   for (int i = 0; i < 3; i++)
     add_bookcase(scene, f, on_left_wall(-1.4f + 0.96f * float(i), 0.0f) * placed(vec3(0.0f, 0.0f, 0.17f)),
                  uint(i) + 1u);
-  add_armchair(scene, f, placed(vec3(-2.25f, 0.0f, 1.35f), -125.0f));
+  add_plant(scene, f, placed(vec3(-3.0f, 2.24f, -1.4f)), 0.3f, 18, 11u);
+  add_vase(scene, f.ceramic, placed(vec3(-3.0f, 2.24f, -0.35f)), 0.24f, 1);
+  add_vase(scene, f.terracotta, placed(vec3(-3.0f, 2.24f, 0.5f)), 0.2f, 2);
+  add_armchair(scene, f, f.sage, f.terracotta, placed(vec3(-2.25f, 0.0f, 1.35f), -125.0f));
   add_floor_lamp(scene, f, placed(vec3(-2.75f, 0.0f, 2.0f)));
   const glm::mat4 table = placed(vec3(1.95f, 0.0f, 1.65f));
   add_dining_table(scene, f, table);
@@ -214,20 +221,32 @@ static void add_library_and_dining(Scene& scene, const Finishes& f) {
 }
 
 static void add_pictures(Scene& scene, const Finishes& f) {
-  add_picture(scene, on_back_wall(-1.35f, 1.62f) * placed(vec3(0.0f, 0.0f, 0.012f)), {1.1f, 0.8f}, 0, f.brass);
-  add_picture(scene, on_back_wall(2.1f, 1.6f) * placed(vec3(0.0f, 0.0f, 0.012f)), {0.62f, 0.8f}, 3, f.black_wood);
-  add_picture(scene, on_back_wall(1.3f, 1.6f) * placed(vec3(0.0f, 0.0f, 0.012f)), {0.62f, 0.8f}, 1, f.black_wood);
-  add_picture(scene, on_left_wall(1.75f, 1.65f) * placed(vec3(0.0f, 0.0f, 0.012f)), {0.95f, 0.7f}, 2, f.oak);
-  add_picture(scene, on_right_wall(2.0f, 1.6f) * placed(vec3(0.0f, 0.0f, 0.012f)), {0.7f, 0.9f}, 1, f.oak);
+  struct Hung {
+    glm::mat4 wall;
+    vec2 size;
+    int painting, frame;
+  };
+  const Hung pictures[] = {
+      {on_back_wall(-1.35f, 1.62f), {1.1f, 0.8f}, 0, f.brass},
+      {on_back_wall(2.1f, 1.6f), {0.62f, 0.8f}, 4, f.black_wood},
+      {on_back_wall(1.3f, 1.6f), {0.62f, 0.8f}, 1, f.black_wood},
+      {on_left_wall(1.75f, 1.65f), {0.95f, 0.7f}, 2, f.oak},
+      {on_right_wall(2.0f, 1.6f), {0.7f, 0.9f}, 3, f.oak},
+      {on_right_wall(-1.75f, 1.6f), {0.9f, 0.68f}, 2, f.brass},
+      {on_front_wall(-2.55f, 1.75f), {0.55f, 0.72f}, 3, f.walnut},
+      {on_front_wall(2.55f, 1.7f), {0.55f, 0.72f}, 1, f.walnut},
+  };
+  const glm::mat4 off_the_wall = placed(vec3(0.0f, 0.0f, 0.012f));
+  for (const Hung& p : pictures) add_picture(scene, p.wall * off_the_wall, p.size, p.painting, p.frame);
 }
 
 // The last light behind hills, a town's lamps below them, stars above. Only what the window can show is bright, so that
 // a renderer that samples the sky looks through the window.
 static vec3 dusk(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z), height = d.y;
-  const float ridge = 0.045f + 0.05f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 5u) +
-                      0.02f * noise(vec2(azimuth * 11.0f + 64.0f, 0.5f), 128, 6u);
-  const float facing = smoothstep(-0.1f, 0.4f, -d.z);
+  const float ridge = 0.01f + 0.13f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 5u) +
+                      0.035f * noise(vec2(azimuth * 11.0f + 64.0f, 0.5f), 128, 6u);
+  const float facing = smoothstep(0.0f, 0.35f, -d.z);
   if (height < ridge) {
     const vec2 street = floor(vec2(azimuth, height) * 163.0f);
     const bool lit = hash01(static_cast<int>(street.x), static_cast<int>(street.y), 8u) > 0.982f &&

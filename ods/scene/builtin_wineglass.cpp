@@ -4,6 +4,8 @@
 // "wineglass": glass, wine and water on a laid table. Liquids reach a little into the wall of their glass: where media
 // overlap the one with the highest index of refraction counts, so the boundary is the glass' own and no film of air is
 // left.
+#include <cmath>
+
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builder.h"
 #include "ods/scene/builtin_makers.h"
@@ -106,7 +108,7 @@ static Liquids add_liquids(Scene& scene) {
   };
   Liquids all;
   all.glass = add_material(scene, glass(1.5f));
-  all.red = liquid(1.34f, vec3(0.40f, 0.012f, 0.025f), 0.02f);
+  all.red = liquid(1.34f, vec3(0.70f, 0.09f, 0.11f), 0.02f);
   all.white = liquid(1.34f, vec3(0.93f, 0.80f, 0.34f), 0.04f);
   all.water = liquid(1.333f, vec3(0.90f, 0.97f, 0.98f), 0.5f);
   return all;
@@ -115,16 +117,16 @@ static Liquids add_liquids(Scene& scene) {
 static void add_glasses(Scene& scene) {
   const Liquids liquids = add_liquids(scene);
   const auto stand = [&](const Vessel& vessel, int filling, float level, vec2 place, int segments) {
-    const glm::mat4 at = placed(vec3(place.x, kTable + 0.0002f, place.y));
+    const glm::mat4 at = placed(vec3(place.x, kTable + 0.0005f, place.y));
     add(scene, vessel_shape(vessel, segments), liquids.glass, at);
     if (filling >= 0) add(scene, filling_shape(vessel, level, segments), filling, at);
   };
-  stand(wine_vessel(), liquids.red, 0.152f, {0.02f, -0.78f}, 128);
-  stand(wine_vessel(), liquids.white, 0.148f, {0.30f, -1.02f}, 96);
-  stand(wine_vessel(), -1, 0.0f, {-0.36f, -1.12f}, 96);
-  stand(water_vessel(), liquids.water, 0.075f, {0.20f, -0.72f}, 96);
-  stand(water_vessel(), liquids.water, 0.06f, {-0.52f, -0.86f}, 96);
-  stand(carafe_vessel(), liquids.red, 0.15f, {-0.20f, -0.98f}, 128);
+  stand(wine_vessel(), liquids.red, 0.152f, {0.03f, -0.66f}, 128);
+  stand(wine_vessel(), liquids.white, 0.148f, {0.25f, -0.86f}, 96);
+  stand(wine_vessel(), -1, 0.0f, {-0.30f, -1.02f}, 96);
+  stand(water_vessel(), liquids.water, 0.075f, {0.17f, -0.64f}, 96);
+  stand(water_vessel(), liquids.water, 0.06f, {-0.42f, -0.80f}, 96);
+  stand(carafe_vessel(), liquids.red, 0.15f, {-0.13f, -0.82f}, 128);
 }
 
 static void add_plates(Scene& scene) {
@@ -147,7 +149,7 @@ static void add_plates(Scene& scene) {
   const Shape handle = make_rounded_box(vec3(0.014f, 0.004f, 0.11f), 0.0019f, 2);
   const Shape blade = make_rounded_box(vec3(0.018f, 0.002f, 0.10f), 0.0009f, 1);
   for (const float side : {-1.0f, 1.0f}) {
-    const vec3 at(side * 0.33f - 0.02f, kTable + 0.0005f, -0.66f);
+    const vec3 at(side * 0.40f - 0.02f, kTable + 0.0005f, -0.66f);
     add(scene, plate, china, placed(at));
     add(scene, make_torus(0.118f, 0.0012f, 96, 8), band, placed(at + vec3(0.0f, 0.0168f, 0.0f)));
     add(scene, make_cushion(vec3(0.12f, 0.03f, 0.12f), 16), linen,
@@ -171,7 +173,7 @@ static void add_fruit(Scene& scene) {
                                                  {0.0f, 0.012f}},
                                                 6),
                                  96);
-  const vec3 at(0.12f, kTable, -1.30f);
+  const vec3 at(0.10f, kTable, -1.12f);
   add(scene, shape, bowl, placed(at));
   const Shape fruit = make_lathe(smooth_profile({{0.0f, -0.030f},
                                                  {0.012f, -0.034f},
@@ -200,19 +202,18 @@ static void add_fruit(Scene& scene) {
   }
 }
 
-static void add_surroundings(Scene& scene) {
+static void add_table(Scene& scene) {
   const int grain = add_texture(scene, 1024, 512, wood_grain);
-  const int planks = add_texture(scene, 1024, 1024, wood_planks);
-  const int stone = add_texture(scene, 512, 512, marble);
-  const int table = add_material(scene, textured(paint(vec3(0.36f, 0.16f, 0.065f), 0.22f), grain, vec2(1.6f, 0.8f)));
-  add(scene, make_floor(16.0f, 16.0f), add_material(scene, textured(paint(vec3(0.8f), 0.3f), planks, vec2(1.2f))));
-  add(scene, make_rounded_box(vec3(2.2f, 0.045f, 1.1f), 0.012f, 3), table,
-      placed(vec3(0.0f, kTable - 0.0225f, -1.05f)));
-  for (const vec2 leg : {vec2(-0.95f, -0.62f), vec2(0.95f, -0.62f), vec2(-0.95f, -1.48f), vec2(0.95f, -1.48f)}) {
-    add(scene, make_cylinder(0.035f, 0.70f, 32), table, placed(vec3(leg.x, 0.35f, leg.y)));
+  const int wood = add_material(scene, textured(paint(vec3(0.44f, 0.21f, 0.09f), 0.22f), grain, vec2(1.6f, 0.8f)));
+  add(scene, make_rounded_box(vec3(2.2f, 0.045f, 1.15f), 0.012f, 3), wood,
+      placed(vec3(0.0f, kTable - 0.0225f, -1.06f)));
+  for (const vec2 leg : {vec2(-0.95f, -0.62f), vec2(0.95f, -0.62f), vec2(-0.95f, -1.50f), vec2(0.95f, -1.50f)}) {
+    add(scene, make_cylinder(0.035f, 0.70f, 32), wood, placed(vec3(leg.x, 0.35f, leg.y)));
   }
-  // Columns with glass on them, so that there is depth to see on every side.
-  const int column = add_material(scene, textured(paint(vec3(1.0f), 0.15f), stone, vec2(1.0f)));
+}
+
+// Glass on columns, so that there is something to see on every side.
+static void add_columns(Scene& scene, int stone) {
   const int clear = add_material(scene, glass(1.5f));
   Material tinted = glass(1.5f);
   tinted.attenuation_color = vec3(0.25f, 0.65f, 0.85f);
@@ -227,52 +228,87 @@ static void add_surroundings(Scene& scene) {
                                   {0.21f, 0.98f},
                                   {0.0f, 0.98f}},
                                  64);
+  const Shape ornaments[] = {
+      transformed(make_sphere(0.18f, 96), placed(vec3(0.0f, 0.1801f, 0.0f))),
+      transformed(make_torus(0.15f, 0.05f, 96, 32), placed(vec3(0.0f, 0.2001f, 0.0f)) * turned(vec3(1, 0, 0), 90.0f)),
+      transformed(vessel_shape(carafe_vessel(), 96), placed(vec3(0.0f, 0.0005f, 0.0f), 0.0f, vec3(1.5f))),
+  };
   for (int i = 0; i < 6; i++) {
-    const float azimuth = glm::radians(55.0f + 50.0f * float(i)), distance = i % 2 == 0 ? 2.3f : 3.2f;
-    const vec3 foot(distance * sin(azimuth), 0.0f, -distance * cos(azimuth));
-    add(scene, shaft, column, placed(foot));
-    const Shape ornament = i % 3 == 0   ? transformed(make_sphere(0.16f, 96), placed(vec3(0.0f, 0.161f, 0.0f)))
-                           : i % 3 == 1 ? transformed(make_torus(0.13f, 0.045f, 96, 32),
-                                                      placed(vec3(0.0f, 0.176f, 0.0f)) * turned(vec3(1, 0, 0), 90.0f))
-                                        : vessel_shape(carafe_vessel(), 96);
-    add(scene, ornament, i % 2 == 0 ? clear : blue, placed(foot + vec3(0.0f, 0.98f, 0.0f), glm::degrees(azimuth)));
+    const float azimuth = 55.0f + 50.0f * float(i), distance = i % 2 == 0 ? 1.9f : 2.6f;
+    const glm::mat4 foot = placed(vec3(0.0f), azimuth) * placed(vec3(0.0f, 0.0f, -distance));
+    add(scene, shaft, stone, foot);
+    add(scene, ornaments[i % 3], i % 2 == 0 ? clear : blue, foot * placed(vec3(0.0f, 0.98f, 0.0f)));
   }
 }
 
-// A photographer's studio: dim walls and bright rectangular softboxes.
-static vec3 studio(vec3 d) {
-  struct Softbox {
-    vec3 towards;
-    vec2 half_size;  // tangents of the half angles
-    vec3 radiance;
+// Marble tiles inside a round balustrade.
+static void add_terrace(Scene& scene) {
+  const int veins = add_texture(scene, 512, 512, marble);
+  const int tiles = add_texture(scene, 1024, 1024, [](vec2 p) {
+    const vec2 cell = floor(p * 4.0f), t = abs(fract(p * 4.0f) - 0.5f);
+    if (max(t.x, t.y) > 0.49f) return vec3(0.12f, 0.11f, 0.10f);
+    const bool dark = (static_cast<int>(cell.x) + static_cast<int>(cell.y)) % 2 == 0;
+    return (dark ? vec3(0.42f, 0.33f, 0.27f) : vec3(0.86f, 0.82f, 0.76f)) * marble(fract(p + 0.37f * cell));
+  });
+  const int stone = add_material(scene, textured(paint(vec3(0.92f, 0.86f, 0.78f), 0.35f), veins, vec2(1.0f)));
+  const int floor = add_material(scene, textured(paint(vec3(1.0f), 0.3f), tiles, vec2(2.4f)));
+  add(scene, make_disc(4.6f, 96), floor);
+  add_columns(scene, stone);
+  const float ring = 4.2f;
+  const Shape baluster = make_lathe(smooth_profile({{0.0f, 0.1f},
+                                                    {0.07f, 0.1f},
+                                                    {0.07f, 0.14f},
+                                                    {0.04f, 0.18f},
+                                                    {0.075f, 0.32f},
+                                                    {0.06f, 0.42f},
+                                                    {0.03f, 0.58f},
+                                                    {0.035f, 0.68f},
+                                                    {0.065f, 0.72f},
+                                                    {0.065f, 0.76f},
+                                                    {0.0f, 0.76f}},
+                                                   4),
+                                    24);
+  const int mesh = add_mesh(scene, baluster.vertices, baluster.triangles, stone);
+  for (int i = 0; i < 96; i++)
+    add_instance(scene, mesh, placed(vec3(0.0f), 3.75f * float(i)) * placed(vec3(0.0f, 0.0f, -ring)));
+  const auto band = [&](float low, float high, float half) {
+    add(scene,
+        make_lathe(
+            {{ring - half, low}, {ring + half, low}, {ring + half, high}, {ring - half, high}, {ring - half, low}}, 96),
+        stone);
   };
-  static const Softbox boxes[] = {
-      {{-0.85f, 0.55f, -0.45f}, {0.32f, 0.55f}, {9.0f, 8.4f, 7.6f}},
-      {{0.90f, 0.45f, -0.55f}, {0.16f, 0.60f}, {6.0f, 6.3f, 7.0f}},
-      {{0.15f, 0.95f, 0.35f}, {0.50f, 0.30f}, {5.0f, 4.8f, 4.5f}},
-      {{0.5f, 0.35f, 1.0f}, {0.35f, 0.45f}, {3.5f, 3.2f, 2.8f}},
-  };
-  const vec3 wall(0.30f, 0.27f, 0.26f), ceiling(0.20f, 0.22f, 0.27f), floor(0.12f, 0.10f, 0.09f);
-  vec3 radiance =
-      d.y < 0.0f ? mix(wall, floor, smoothstep(0.0f, 0.3f, -d.y)) : mix(wall, ceiling, smoothstep(0.0f, 0.7f, d.y));
-  for (const Softbox& box : boxes) {
-    const vec3 out = normalize(box.towards), right = normalize(cross(vec3(0, 1, 0), out)), up = cross(out, right);
-    const float depth = dot(d, out);
-    if (depth <= 0.0f) continue;
-    const vec2 at = abs(vec2(dot(d, right), dot(d, up)) / depth) - box.half_size;
-    radiance = mix(box.radiance, radiance, smoothstep(-0.03f, 0.01f, max(at.x, at.y)));
+  band(0.0f, 0.1f, 0.14f);
+  band(0.75f, 0.84f, 0.12f);
+}
+
+// A low, hazy sun over hills: its wide glow draws bright edges on glass and is still easy to sample.
+static vec3 late_afternoon(vec3 d) {
+  const float azimuth = std::atan2(d.x, -d.z);
+  const vec3 sun = normalize(vec3(-0.72f, 0.42f, -0.62f));
+  const float towards = max(dot(d, sun), 0.0f);
+  const float ridge = 0.03f + 0.07f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 3u) +
+                      0.015f * noise(vec2(azimuth * 14.0f + 64.0f, 0.5f), 128, 4u);
+  if (d.y < ridge) {
+    const vec3 meadow = mix(vec3(0.22f, 0.26f, 0.10f), vec3(0.30f, 0.34f, 0.38f), smoothstep(-0.12f, ridge, d.y));
+    return meadow * (0.9f + 0.2f * fractal_noise(vec2(azimuth * 20.0f + 64.0f, d.y * 60.0f + 64.0f), 256, 4, 5u));
   }
-  return radiance;
+  vec3 sky = mix(vec3(1.05f, 0.86f, 0.66f), vec3(0.22f, 0.40f, 0.78f), pow(smoothstep(0.0f, 0.9f, d.y), 0.6f));
+  const vec2 flat = vec2(d.x, d.z) / (d.y + 0.12f);
+  const float cloud = smoothstep(0.5f, 0.78f, fractal_noise(flat * vec2(1.6f, 1.1f) + 64.0f, 128, 5, 6u));
+  sky = mix(sky, vec3(1.25f, 1.12f, 0.98f), 0.8f * cloud * smoothstep(0.02f, 0.2f, d.y));
+  return sky + vec3(1.1f, 0.62f, 0.25f) * pow(towards, 10.0f) +
+         vec3(9.0f, 7.4f, 5.2f) * smoothstep(0.972f, 0.982f, towards);
 }
 
 Scene make_wineglass() {
   Scene scene;
-  add_surroundings(scene);
+  add_terrace(scene);
+  add_table(scene);
   add_plates(scene);
   add_fruit(scene);
   add_glasses(scene);
-  scene.environment = make_environment(512, studio);
-  scene.view_points = {{"seated", vec3(0.0f, 1.12f, -0.12f)}};
+  scene.environment = make_environment(1024, late_afternoon);
+  scene.view_points = {{"seated", vec3(0.0f, 1.05f, -0.04f)}};
   return scene;
 }
 

@@ -11,9 +11,9 @@ namespace ods {
 // A cone of fabric, open above and below, that glows on both sides.
 static void add_shade(Scene& scene, const Finishes& f, const glm::mat4& place, float low, float high, float height) {
   const float h = 0.5f * height;
-  add(scene, make_lathe({{low, -h}, {high, h}}, 28), f.shade, place);
-  Shape rims = transformed(make_torus(low, 0.004f, 56, 8), placed(vec3(0.0f, -h, 0.0f)));
-  append(rims, transformed(make_torus(high, 0.004f, 56, 8), placed(vec3(0.0f, h, 0.0f))));
+  add(scene, make_lathe({{low, -h}, {high, h}}, 24), f.shade, place);
+  Shape rims = transformed(make_torus(low, 0.004f, 48, 8), placed(vec3(0.0f, -h, 0.0f)));
+  append(rims, transformed(make_torus(high, 0.004f, 48, 8), placed(vec3(0.0f, h, 0.0f))));
   for (int i = 0; i < 3; i++) {
     const float angle = 2.0f * kPi * float(i) / 3.0f;
     append(rims, make_tube({{0.0f, h - 0.02f, 0.0f}, {high * sin(angle), h, high * cos(angle)}}, 0.002f, 6));
@@ -55,13 +55,19 @@ void add_lantern(Scene& scene, const Finishes& f, const glm::mat4& place, float 
   add(scene, make_tube({{0.0f, 0.0f, 0.0f}, {0.0f, -drop + radius, 0.0f}}, 0.004f, 10), f.iron, place);
   add(scene, make_cylinder(0.05f, 0.03f, 32), f.iron, place * placed(vec3(0.0f, -0.015f, 0.0f)));
   const glm::mat4 middle = place * placed(vec3(0.0f, -drop, 0.0f));
-  add(scene, make_sphere(radius, 16), f.shade, middle);
+  // A hoop on every ring hides that the paper is made of few triangles.
+  const int rings = 6;
+  std::vector<vec2> paper;
   Shape hoops;
-  for (int i = -3; i <= 3; i++) {
-    const float phi = 0.42f * float(i);
-    append(hoops,
-           transformed(make_torus(radius * cos(phi), 0.003f, 48, 6), placed(vec3(0.0f, radius * sin(phi), 0.0f))));
+  for (int i = 0; i <= rings; i++) {
+    const float phi = kPi * (float(i) / float(rings) - 0.5f);
+    const bool pole = i == 0 || i == rings;
+    paper.push_back(radius * vec2(pole ? 0.0f : cos(phi), sin(phi)));
+    if (!pole) {
+      append(hoops, transformed(make_torus(paper.back().x, 0.003f, 48, 6), placed(vec3(0.0f, paper.back().y, 0.0f))));
+    }
   }
+  add(scene, make_lathe(paper, 20), f.lantern, middle);
   add(scene, hoops, f.linen, middle);
 }
 
@@ -275,7 +281,7 @@ static void add_wine_glass(Scene& scene, const Finishes& f, const glm::mat4& pla
 
 void add_wine_and_fruit(Scene& scene, const Finishes& f, const glm::mat4& place) {
   Material red = glass(1.34f);
-  red.attenuation_color = vec3(0.35f, 0.012f, 0.02f);
+  red.attenuation_color = vec3(0.70f, 0.09f, 0.11f);
   red.attenuation_distance = 0.02f;
   const int wine = add_material(scene, red);
   add_wine_glass(scene, f, place * placed(vec3(0.34f, 0.0f, 0.10f)), wine);

@@ -38,7 +38,10 @@ Finishes add_finishes(Scene& scene) {
   f.leaf = plain(vec3(0.09f, 0.27f, 0.07f), 0.4f);
   f.soil = plain(vec3(0.04f, 0.025f, 0.018f), 1.0f);
   f.stem = plain(vec3(0.14f, 0.16f, 0.05f), 0.6f);
-  f.shade = add_material(scene, glow(vec3(13.0f, 9.6f, 5.8f)));
+  Material light = glow(vec3(14.5f, 12.0f, 8.8f));
+  f.shade = add_material(scene, light);
+  light.double_sided = 0;
+  f.lantern = add_material(scene, light);
   f.books = add_book_meshes(scene, f.pages);
   return f;
 }
@@ -99,10 +102,10 @@ void add_sofa(Scene& scene, const Finishes& f, const glm::mat4& place) {
   add(scene, blanket, f.cream, place * placed(vec3(-1.015f, 0.0f, 0.12f)));
 }
 
-void add_armchair(Scene& scene, const Finishes& f, const glm::mat4& place) {
-  add_upholstery(scene, f.leather, place, vec3(0.88f, 0.88f, 0.86f), 1);
+void add_armchair(Scene& scene, const Finishes& f, int cover, int cushion, const glm::mat4& place) {
+  add_upholstery(scene, cover, place, vec3(0.88f, 0.88f, 0.86f), 1);
   add_legs(scene, f.black_wood, place, vec2(0.36f, 0.34f), 0.15f, 0.022f);
-  add(scene, make_cushion(vec3(0.4f, 0.15f, 0.4f), 20), f.linen,
+  add(scene, make_cushion(vec3(0.4f, 0.15f, 0.4f), 20), cushion,
       place * placed(vec3(0.03f, 0.62f, 0.02f)) * turned(vec3(1, 0, 0), 64.0f));
 }
 
@@ -121,7 +124,7 @@ void add_side_table(Scene& scene, const Finishes& f, const glm::mat4& place) {
                                 {0.21f, 0.55f},
                                 {0.0f, 0.55f}},
                                64);
-  add(scene, top, f.walnut, place);
+  add(scene, mapped_from_above(top), f.walnut, place);
   const Shape foot = make_lathe(smooth_profile({{0.0f, 0.0f},
                                                 {0.15f, 0.0f},
                                                 {0.152f, 0.012f},
@@ -144,7 +147,7 @@ void add_dining_table(Scene& scene, const Finishes& f, const glm::mat4& place) {
                                 {0.535f, 0.74f},
                                 {0.0f, 0.74f}},
                                96);
-  add(scene, top, f.oak, place);
+  add(scene, mapped_from_above(top), f.oak, place);
   const Shape foot = make_lathe(smooth_profile({{0.0f, 0.0f},
                                                 {0.30f, 0.0f},
                                                 {0.305f, 0.02f},

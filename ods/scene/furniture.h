@@ -22,14 +22,14 @@ struct Finishes {
   int sofa, leather, linen, mustard, terracotta, cream, sage;
   int brass, iron, ceramic, dark_ceramic, glass;
   int pages, leaf, soil, stem;
-  int shade;
+  int shade, lantern;  // glow: on both sides of an open shade, on the outside of a closed one
   BookMeshes books;
 };
 
 Finishes add_finishes(Scene& scene);
 
-void add_sofa(Scene& scene, const Finishes& finishes, const glm::mat4& place);                 // 2.2 x 0.95, 0.8 high
-void add_armchair(Scene& scene, const Finishes& finishes, const glm::mat4& place);             // 0.85 x 0.85, 0.9 high
+void add_sofa(Scene& scene, const Finishes& finishes, const glm::mat4& place);  // 2.2 x 0.95, 0.8 high
+void add_armchair(Scene& scene, const Finishes& finishes, int cover, int cushion, const glm::mat4& place);  // 0.9 high
 void add_coffee_table(Scene& scene, const Finishes& finishes, const glm::mat4& place);         // 1.2 x 0.6, 0.4 high
 void add_side_table(Scene& scene, const Finishes& finishes, const glm::mat4& place);           // 0.45 round, 0.55 high
 void add_dining_table(Scene& scene, const Finishes& finishes, const glm::mat4& place);         // 1.1 round, 0.74 high

@@ -57,7 +57,7 @@ vec3 wood_planks(vec2 p) {
   const uint board = static_cast<uint>(row) * 2u + (along < 0.5f ? 0u : 1u);
   const float tone = hash01(static_cast<int>(board), 1, 12u);
   const float g = grain(vec2(p.x, inside_board.y * 0.5f), 40u + board);
-  vec3 color = mix(vec3(0.52f, 0.29f, 0.13f), vec3(0.33f, 0.16f, 0.065f), 0.75f * g);
+  vec3 color = mix(vec3(0.60f, 0.39f, 0.21f), vec3(0.40f, 0.225f, 0.105f), 0.75f * g);
   color *= mix(0.72f, 1.15f, tone);
   const float to_side = min(inside_board.y, 1.0f - inside_board.y) / rows;
   const float to_end = min(min(along, 1.0f - along), abs(along - 0.5f));
@@ -193,6 +193,24 @@ static vec3 painted_field(vec2 p) {
   return color;
 }
 
+// Dark leaves on either side of a stalk.
+static vec3 painted_leaves(vec2 p) {
+  vec3 color = mix(vec3(0.74f, 0.69f, 0.56f), vec3(0.62f, 0.55f, 0.42f), fractal_noise(p * 4.0f, 4, 4, 87u));
+  const auto stalk_x = [](float y) { return 0.5f + 0.05f * sin(3.0f * y); };
+  color = mix(color, vec3(0.10f, 0.15f, 0.06f), inside(max(abs(p.x - stalk_x(p.y)) - 0.006f, 0.1f - p.y), 0.003f));
+  for (int i = 0; i < 11; i++) {
+    const float y = 0.14f + 0.072f * static_cast<float>(i), size = 0.12f + 0.022f * static_cast<float>(i);
+    const float side = i % 2 == 0 ? 1.0f : -1.0f;
+    const vec2 from = p - vec2(stalk_x(y), y), along(side * 0.82f, -0.57f);
+    const float t = dot(from, along) / size, across = abs(from.x * along.y - from.y * along.x) / size;
+    const float half_width = 0.24f * sin(kPi * clamp(t, 0.0f, 1.0f));
+    const vec3 green = mix(vec3(0.03f, 0.12f, 0.07f), vec3(0.16f, 0.24f, 0.08f), hash01(i, 0, 88u));
+    color = mix(color, across < 0.012f ? green * 1.8f : green,
+                inside(across - half_width, 0.02f) * (t > 0.0f && t < 1.0f ? 1.0f : 0.0f));
+  }
+  return color;
+}
+
 vec3 painting(vec2 p, int number) {
   const float canvas = 0.92f + 0.16f * noise(p * 160.0f, 256, 86u);
   switch (number) {
@@ -202,6 +220,8 @@ vec3 painting(vec2 p, int number) {
       return canvas * painted_shapes(p);
     case 2:
       return canvas * painted_sea(p);
+    case 3:
+      return canvas * painted_leaves(p);
     default:
       return canvas * painted_field(p);
   }

@@ -27,6 +27,6 @@ vec3 rug(vec2 p);                   // one whole rug with border and medallion
 vec3 painting(vec2 p, int number);  // one of kPaintings pictures
 vec3 book_spine(vec2 p);            // gold bands and a title on white: multiply by a colour
 
-const int kPaintings = 4;
+const int kPaintings = 5;
 
 }  // namespace ods

@@ -55,6 +55,11 @@ Shape inside_out(Shape shape) {
   return shape;
 }
 
+Shape mapped_from_above(Shape shape) {
+  for (Vertex& v : shape.vertices) v.uv0 = vec2(v.position.x, v.position.z);
+  return shape;
+}
+
 Shape make_quad(vec3 corner, vec3 right, vec3 up) {
   Shape shape;
   const vec3 normal = normalize(cross(right, up));

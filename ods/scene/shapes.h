@@ -29,6 +29,9 @@ Shape transformed(Shape shape, const glm::mat4& matrix);
 // The same surface seen from its other side.
 Shape inside_out(Shape shape);
 
+// The same shape with the texture laid on from above: u along x, v along z.
+Shape mapped_from_above(Shape shape);
+
 // A rectangle: corner, then its edges to the right and upwards, which need not be orthogonal.
 Shape make_quad(vec3 corner, vec3 right, vec3 up);
 
