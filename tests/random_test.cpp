@@ -78,33 +78,24 @@ TEST(RandomPair, DimensionsOfOnePixelAreUncorrelated) {
   }
 }
 
+// A share u of the filter lies left of the offset that u gives: exactly for the box, within a thousandth
+// for Blackman-Harris.
 TEST(PixelFilter, HasItsShape) {
   FilterSampler filter;
   filter.tables = kernel_tables().data();
   const double pi = std::acos(-1.0);
-  // Blackman-Harris over 3 pixels; its integral is 3 * 0.35875.
-  const auto window = [&](double x) {
+  const auto share_left = [&](double x) {
     const double t = 2.0 * pi * x / 3.0;
-    return (0.35875 + 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) + 0.01168 * std::cos(3.0 * t)) /
-           (3.0 * 0.35875);
+    return 0.5 + x / 3.0 +
+           (0.48829 * std::sin(t) + 0.14128 * std::sin(2.0 * t) / 2.0 + 0.01168 * std::sin(3.0 * t) / 3.0) /
+               (2.0 * pi * 0.35875);
   };
-  const auto box = [](double x) { return std::abs(x) < 0.5 ? 1.0 : 0.0; };
-  const int n = 1 << 20, bins = 60;
-  for (int shape : {kFilterBlackmanHarris, kFilterBox}) {
-    Dice dice(6);
-    std::vector<double> counts(bins), expected(bins);
-    for (int i = 0; i < n; i++) {
-      const float x = filter.filter_offset(shape, dice.next());
-      ASSERT_LE(std::abs(x), 1.5f);
-      counts[static_cast<size_t>(std::min(static_cast<int>((x + 1.5f) / 3.0f * bins), bins - 1))]++;
-    }
-    for (int i = 0; i < bins; i++) {
-      for (int k = 0; k < 100; k++) {
-        const double x = 3.0 * ((i + (k + 0.5) / 100.0) / bins) - 1.5;
-        expected[static_cast<size_t>(i)] += n * 3.0 / bins / 100.0 * (shape == kFilterBox ? box(x) : window(x));
-      }
-    }
-    EXPECT_GT(chi_square_p(counts, expected), significance(2)) << shape;
+  for (int i = 0; i <= 100000; i++) {
+    const float u = static_cast<float>(i) / 100000.0f;
+    const float x = filter.filter_offset(kFilterBlackmanHarris, u);
+    ASSERT_LE(std::abs(x), 1.5f);
+    ASSERT_NEAR(share_left(double{x}), double{u}, 1e-3) << u;
+    ASSERT_EQ(filter.filter_offset(kFilterBox, u), u - 0.5f);
   }
   EXPECT_EQ(filter.filtered_position(kFilterBox, 3, 1, 8, 4, vec2(0.5f)), vec2(3.5f / 8.0f, 1.5f / 4.0f));
 }
@@ -128,7 +119,7 @@ TEST(AliasTable, GivesEveryEntryItsShare) {
     for (size_t i = 0; i < share.size(); i++) {
       EXPECT_NEAR(share[i], weights[i] / total, 1e-7) << n;
       EXPECT_NEAR(static_cast<double>(table.probability[i]), weights[i] / total, 1e-7);
-      if (weights[i] == 0.0) EXPECT_EQ(share[i], 0.0) << n;
+      EXPECT_TRUE(weights[i] > 0.0 || share[i] == 0.0) << n;
     }
   }
   const AliasTable dark = make_alias_table({0.0, 0.0});
@@ -150,14 +141,15 @@ struct SphereCells {
     return static_cast<size_t>(row * columns + std::min(static_cast<int>(turn * columns), columns - 1));
   }
 
-  // The integral of a density over each cell by midpoints.
+  // The integral of a density over each cell, by a jittered grid: densities jump where microfacets turn away.
   std::vector<double> integrate(int steps, const std::function<double(vec3)>& density) const {
     const double pi = std::acos(-1.0), row_angle = pi / rows / steps, column_angle = 2.0 * pi / columns / steps;
     std::vector<double> integral(static_cast<size_t>(rows * columns));
+    Dice dice(11);
     for (int row = 0; row < rows * steps; row++) {
-      const double theta = (row + 0.5) * row_angle;
       for (int column = 0; column < columns * steps; column++) {
-        const double phi = (column + 0.5) * column_angle - pi;
+        const double theta = (row + double{dice.next()}) * row_angle;
+        const double phi = (column + double{dice.next()}) * column_angle - pi;
         const vec3 w(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
         integral[static_cast<size_t>(row / steps * columns + column / steps)] +=
             density(w) * std::sin(theta) * row_angle * column_angle;
@@ -226,7 +218,7 @@ TEST(Density, EveryLobe) {
                         {"glass from inside", 0, 1, true, 1 / 1.5f}, {"glass to water", 0, 1, true, 1.33f / 1.5f},
                         {"everything", 0.3f, 0.5f, true, 1.5f}};
   for (const Lobe& lobe : lobes) {
-    for (float roughness : {0.35f, 0.6f, 1.0f}) {
+    for (float roughness : {0.5f, 0.75f, 1.0f}) {
       for (float angle : {5.0f, 50.0f, 80.0f}) {
         Surface surface = plain_surface(roughness);
         surface.metallic = lobe.metallic;
@@ -234,7 +226,7 @@ TEST(Density, EveryLobe) {
         surface.volume = lobe.volume;
         const Bsdf bsdf = kernel.make_bsdf(surface, -viewer(angle), lobe.eta);
         const double p = density_p(
-            12, [&](vec3 w) { return double{kernel.bsdf_value(bsdf, w).density}; },
+            24, [&](vec3 w) { return double{kernel.bsdf_value(bsdf, w).density}; },
             [&](Dice& dice) {
               const float pick = dice.next();
               const BsdfSample found = kernel.sample_bsdf(bsdf, pick, dice.pair());
