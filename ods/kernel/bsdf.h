@@ -84,11 +84,15 @@ struct BsdfEvaluator : SurfaceReader {
 
   // Albedo of the rough glass lobe, what is reflected and what goes through together.
   inline float glass_albedo(float eta, float roughness, float cosine) {
-    // Both axes of the table are stretched so that eta = 1, where nothing happens, lies on its edge.
-    float reflectance = abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f;
+    // The axes are stretched towards eta = 1, where nothing happens, and so that total reflection starts in mid-table.
+    float reflectance = sqrt(abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f);
+    float place = sqrt(cosine);
+    float critical = sqrt(max(1.0f - eta * eta, 0.0f));
+    if (eta < 1.0f && cosine < critical) place = 0.5f * sqrt(cosine / critical);
+    if (eta < 1.0f && cosine >= critical) place = 0.5f + 0.5f * sqrt((cosine - critical) / (1.0f - critical));
     float e = clamp(reflectance, 0.0f, 1.0f) * float(kGlassSize - 1);
     float r = clamp(roughness, 0.0f, 1.0f) * float(kGlassSize - 1);
-    float c = clamp(cosine, 0.0f, 1.0f) * float(kGlassSize - 1);
+    float c = clamp(place, 0.0f, 1.0f) * float(kGlassSize - 1);
     int e0 = min(int(e), kGlassSize - 2);
     int r0 = min(int(r), kGlassSize - 2);
     int c0 = min(int(c), kGlassSize - 2);
