@@ -137,7 +137,7 @@ struct BsdfEvaluator : SurfaceReader {
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
     float f0 = root * root;
-  float f90 = clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 has no gloss at grazing angles either (Lagarde 2014)
+    float f90 = clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 has no gloss at grazing angles either (Lagarde 2014)
 
     vec2 albedo = vec2(1.0f, 0.0f);
     float s = schlick(bsdf.wo.z);

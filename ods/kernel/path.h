@@ -3,15 +3,17 @@
 //
 // One step of a path. The device owns the loop:
 //
-//   PathState state = start_path(...);
-//   while (state.alive) {
-//     state = shade(state, closest_hit(state.ray), settings);
-//     if (state.shadow_pending && !occluded(state.shadow_ray, state.shadow_length)) state = add_shadow_light(state);
+//   start_path(...);
+//   while (path.alive) {
+//     shade(closest_hit(path.ray), settings);
+//     if (path.shadow_pending && !occluded(path.shadow_ray, path.shadow_length)) add_shadow_light();
 //   }
 //
 // shade() traces nothing: it consumes a hit, adds light, and leaves the next ray, and a shadow ray with the light that
-// it would bring. A path gathers light in two ways, a ray towards a picked light and the scattered ray that happens to
-// meet one, weighted by the power heuristic (Veach 1997).
+// it would bring. The state is `path`: a member of PathTracer in C++, a global of the invocation in a shader. (Passed
+// and returned by value, as a first version did, its copies cost a third of the time on the CPU.) A path gathers light
+// in two ways, a ray towards a picked light and the scattered ray that happens to meet one, weighted by the power
+// heuristic (Veach 1997).
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/medium.h"
@@ -66,36 +68,32 @@ const uint kPairsPerBounce = 4u;
 struct PathTracer : MediumReader {
 #endif
 
-  inline PathState start_path(Ray ray, uint seed, uint index) {
-    PathState state;
-    state.ray = ray;
-    state.throughput = vec3(1.0f);
-    state.radiance = vec3(0.0f);
-    state.alive = true;
-    state.bounce = 0;
-    state.passed = 0;
-    state.density = 0.0f;
-    state.travelled = 0.0f;
-    state.media = no_media();
-    state.seed = seed;
-    state.index = index;
-    state.shadow_ray = ray;
-    state.shadow_length = 0.0f;
-    state.shadow_light = vec3(0.0f);
-    state.shadow_pending = false;
-    state.depth = -1.0f;
-    state.normal = vec3(0.0f);
-    state.albedo = vec3(0.0f);
-    return state;
+  PathState path;
+
+  inline void start_path(Ray ray, uint seed, uint index) {
+    path.ray = ray;
+    path.throughput = vec3(1.0f);
+    path.radiance = vec3(0.0f);
+    path.alive = true;
+    path.bounce = 0;
+    path.passed = 0;
+    path.density = 0.0f;
+    path.travelled = 0.0f;
+    path.media = no_media();
+    path.seed = seed;
+    path.index = index;
+    path.shadow_pending = false;
+    path.depth = -1.0f;
+    path.normal = vec3(0.0f);
+    path.albedo = vec3(0.0f);
   }
 
-  inline PathState add_shadow_light(PathState state) {
-    state.radiance += state.shadow_light;
-    return state;
+  inline void add_shadow_light() {
+    path.radiance += path.shadow_light;
   }
 
-  inline vec2 path_random(PathState state, uint pair) {
-    return random_pair(state.seed, state.index, pair + uint(state.bounce) * kPairsPerBounce);
+  inline vec2 path_random(uint pair) {
+    return random_pair(path.seed, path.index, pair + uint(path.bounce) * kPairsPerBounce);
   }
 
   // Lottery number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
@@ -103,8 +101,9 @@ struct PathTracer : MediumReader {
     return unit_float(hash_pair(ray_key, hash_pair(uint(hit.instance), uint(hit.triangle))));
   }
 
-  inline uint ray_key(PathState state, uint kind) {
-    return hash_pair(hash_pair(state.seed, state.index), uint(state.bounce) * 2u + kind);
+  // Numbers the path's next ray (shadow: its shadow ray) for alpha_draw().
+  inline uint path_ray_key(bool shadow) {
+    return hash_pair(hash_pair(path.seed, path.index), uint(path.bounce) * 2u + (shadow ? 1u : 0u));
   }
 
   // Weight of light that was found with density a and could have been found with density b too.
@@ -114,136 +113,129 @@ struct PathTracer : MediumReader {
   }
 
   // Weight of light that the path's own ray has met, which light sampling finds with light_density.
-  inline float scattered_weight(PathState state, PathSettings settings, float light_density) {
-    if (state.density <= 0.0f || light_density <= 0.0f) return 1.0f;
+  inline float scattered_weight(PathSettings settings, float light_density) {
+    if (path.density <= 0.0f || light_density <= 0.0f) return 1.0f;
     if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
     if (settings.light_sampling == kLightSamplingLightsOnly) return 0.0f;
-    return power_heuristic(state.density, light_density);
+    return power_heuristic(path.density, light_density);
   }
 
-  inline PathState end_path(PathState state) {
-    state.alive = false;
-    return state;
-  }
-
-  inline PathState meet_environment(PathState state, PathSettings settings) {
-    float weight = scattered_weight(state, settings, environment_density(state.ray.direction));
-    state.radiance += state.throughput * environment_radiance(state.ray.direction) * weight;
-    return end_path(state);
+  inline void meet_environment(PathSettings settings) {
+    float weight = scattered_weight(settings, environment_density(path.ray.direction));
+    path.radiance += path.throughput * environment_radiance(path.ray.direction) * weight;
+    path.alive = false;
   }
 
   // Goes on straight through a surface that does not count.
-  inline PathState pass_through(PathState state, Surface surface, float t) {
-    state.ray.origin = offset_point(surface.position, -surface.geometric);
-    state.travelled += t;
-    state.passed += 1;
-    if (state.passed > kMaxPassed) return end_path(state);
-    return state;
+  inline void pass_through(Surface surface, float t) {
+    path.ray.origin = offset_point(surface.position, -surface.geometric);
+    path.travelled += t;
+    path.passed += 1;
+    if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // Leaves a shadow ray towards a picked light in the state.
-  inline PathState aim_at_light(PathState state, PathSettings settings, Surface surface, Bsdf bsdf, int medium,
-                                int beyond) {
-    vec2 pick = path_random(state, kLightPair);
-    LightSample light = sample_light(surface.position, pick, path_random(state, kLightPointPair));
-    if (!light.valid) return state;
+  // Leaves a shadow ray towards a picked light.
+  inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
+    if (scene_light_count() == 0) return;
+    LightSample light = sample_light(surface.position, path_random(kLightPair), path_random(kLightPointPair));
+    if (!light.valid) return;
     BsdfValue scattered = bsdf_value(bsdf, light.direction);
     bool through = dot(light.direction, surface.geometric) < 0.0f;
     float weight = light.density > 0.0f ? 1.0f / light.density : 1.0f;
     if (light.density > 0.0f && settings.light_sampling == kLightSamplingBoth) {
       weight = weight * power_heuristic(light.density, scattered.density);
     }
-    int crossed = through ? beyond : medium;
-    vec3 arriving = light.radiance * medium_transmittance(crossed, light.distance) * weight;
-    state.shadow_light = state.throughput * scattered.value * arriving;
-    if (!(max(state.shadow_light.x, max(state.shadow_light.y, state.shadow_light.z)) > 0.0f)) return state;
-    state.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
-    state.shadow_ray.direction = light.direction;
-    state.shadow_length = light.distance * 0.9999f;
-    state.shadow_pending = true;
-    return state;
+    vec3 arriving = light.radiance * medium_transmittance(through ? beyond : medium, light.distance) * weight;
+    path.shadow_light = path.throughput * scattered.value * arriving;
+    if (!(max(path.shadow_light.x, max(path.shadow_light.y, path.shadow_light.z)) > 0.0f)) return;
+    path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
+    path.shadow_ray.direction = light.direction;
+    path.shadow_length = light.distance * 0.9999f;
+    path.shadow_pending = true;
   }
 
   // Ends dim paths at random and makes the others brighter by as much: no bias. Source: Arvo and Kirk, 1990.
-  inline PathState play_roulette(PathState state, float draw) {
-    float chance = max(state.throughput.x, max(state.throughput.y, state.throughput.z));
-    if (chance >= 1.0f) return state;
-    if (!(draw < chance)) return end_path(state);
-    state.throughput = state.throughput * (1.0f / chance);
-    return state;
+  inline void play_roulette(float draw) {
+    float chance = max(path.throughput.x, max(path.throughput.y, path.throughput.z));
+    if (chance >= 1.0f) return;
+    path.alive = draw < chance;
+    if (path.alive) path.throughput = path.throughput * (1.0f / chance);
   }
 
-  inline PathState scatter(PathState state, Surface surface, Bsdf bsdf, Media beyond) {
-    vec2 pick = path_random(state, kScatterPair);
-    BsdfSample found = sample_bsdf(bsdf, pick.x, path_random(state, kDirectionPair));
-    state.throughput = state.throughput * found.weight;
-    state.ray.origin = offset_point(surface.position, found.through ? -surface.geometric : surface.geometric);
-    state.ray.direction = found.direction;
-    state.density = found.density;
-    state.travelled = 0.0f;
-    state.passed = 0;
-    if (found.through && surface.volume) state.media = beyond;
-    state.bounce += 1;
-    return play_roulette(state, pick.y);
+  inline void scatter(Surface surface, Bsdf bsdf, Media beyond) {
+    vec2 pick = path_random(kScatterPair);
+    BsdfSample found = sample_bsdf(bsdf, pick.x, path_random(kDirectionPair));
+    path.throughput = path.throughput * found.weight;
+    path.ray.origin = offset_point(surface.position, found.through ? -surface.geometric : surface.geometric);
+    path.ray.direction = found.direction;
+    path.density = found.density;
+    path.travelled = 0.0f;
+    path.passed = 0;
+    if (found.through && surface.volume) path.media = beyond;
+    path.bounce += 1;
+    play_roulette(pick.y);
   }
 
-  inline PathState note_first_hit(PathState state, Surface surface, float t) {
-    state.depth = state.travelled + t;
-    state.normal = surface.normal;
-    state.albedo = surface.base_color;
-    return state;
+  inline void note_first_hit(Surface surface, float t) {
+    path.depth = path.travelled + t;
+    path.normal = surface.normal;
+    path.albedo = surface.base_color;
   }
 
-  inline PathState shade(PathState state, Hit hit, PathSettings settings) {
-    state.shadow_pending = false;
-    int medium = current_medium(state.media);
+  inline void shade(Hit hit, PathSettings settings) {
+    path.shadow_pending = false;
+    int medium = current_medium(path.media);
     if (hit.t < 0.0f) {
-      state.throughput = state.throughput * medium_transmittance(medium, 1e30f);
-      return meet_environment(state, settings);
+      path.throughput = path.throughput * medium_transmittance(medium, 1e30f);
+      meet_environment(settings);
+      return;
     }
     int material_index = scene_mesh(scene_instance(hit.instance).mesh).material;
-    Material material = scene_material(material_index);
-    Surface surface = surface_at(hit, state.ray.direction);
+    Surface surface = surface_at(hit, path.ray.direction);
 
     // glTF culls the backs of single-sided surfaces: the camera looks through them, light does not.
     bool volume = surface.volume;
-    bool culled = state.bounce == 0 && !surface.front && material.double_sided == 0 && !volume;
-    if (culled) return pass_through(state, surface, hit.t);
+    if (path.bounce == 0 && !surface.front && scene_material(material_index).double_sided == 0 && !volume) {
+      pass_through(surface, hit.t);
+      return;
+    }
 
-    Media beyond_media = state.media;
+    Media beyond_media = path.media;
     if (volume) {
       // A ray that meets the inside of a volume it never entered started in there.
-      if (!surface.front && !inside_medium(state.media, material_index)) {
-        state.media = enter_medium(state.media, material_index);
-        medium = current_medium(state.media);
+      if (!surface.front && !inside_medium(path.media, material_index)) {
+        path.media = enter_medium(path.media, material_index);
+        medium = current_medium(path.media);
       }
-      beyond_media =
-          surface.front ? enter_medium(state.media, material_index) : leave_medium(state.media, material_index);
+      if (surface.front) beyond_media = enter_medium(path.media, material_index);
+      if (!surface.front) beyond_media = leave_medium(path.media, material_index);
     }
     int beyond = current_medium(beyond_media);
-    state.throughput = state.throughput * medium_transmittance(medium, hit.t);
+    path.throughput = path.throughput * medium_transmittance(medium, hit.t);
     if (volume && beyond == medium) {
-      state.media = beyond_media;
-      return pass_through(state, surface, hit.t);
+      path.media = beyond_media;
+      pass_through(surface, hit.t);
+      return;
     }
 
-    if (state.bounce == 0) state = note_first_hit(state, surface, hit.t);
-    if (material.unlit == 1) {
-      state.radiance += state.throughput * surface.base_color;
-      return end_path(state);
+    if (path.bounce == 0) note_first_hit(surface, hit.t);
+    if (scene_material(material_index).unlit == 1) {
+      path.radiance += path.throughput * surface.base_color;
+      path.alive = false;
+      return;
     }
     if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
-      float distance = state.travelled + hit.t;
-      float weight = scattered_weight(state, settings, triangle_density(hit, state.ray.direction, distance));
-      state.radiance += state.throughput * surface.emission * weight;
+      float distance = path.travelled + hit.t;
+      float weight = scattered_weight(settings, triangle_density(hit, path.ray.direction, distance));
+      path.radiance += path.throughput * surface.emission * weight;
     }
-    if (state.bounce == settings.bounces) return end_path(state);
-
-    Bsdf bsdf = make_bsdf(surface, state.ray.direction, volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior);
-    if (settings.light_sampling != kLightSamplingBsdfOnly) {
-      state = aim_at_light(state, settings, surface, bsdf, medium, beyond);
+    if (path.bounce == settings.bounces) {
+      path.alive = false;
+      return;
     }
-    return scatter(state, surface, bsdf, beyond_media);
+    Bsdf bsdf = make_bsdf(surface, path.ray.direction, volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior);
+    if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, medium, beyond);
+    scatter(surface, bsdf, beyond_media);
   }
 
 #ifdef __cplusplus
