@@ -133,6 +133,8 @@ struct BsdfEvaluator : SurfaceReader {
 
     float metal = clamp(surface.metallic, 0.0f, 1.0f);
     float clear = (1.0f - metal) * clamp(surface.transmission, 0.0f, 1.0f);
+    // Between equal indices nothing bends, however rough: one direction again.
+    if (clear > 0.0f && !bsdf.thin && abs(eta - 1.0f) < 1e-3f) bsdf.alpha = 0.0f;
     float opaque = 1.0f - metal - clear;
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
@@ -262,7 +264,7 @@ struct BsdfEvaluator : SurfaceReader {
       vec3 tint = result.through ? bsdf.glass : vec3(1.0f);
       result.weight = tint * (bsdf.glass_gain / bsdf.p_glass);
     } else {
-      result.weight = gloss_fresnel(bsdf, bsdf.wo.z) * (1.0f / bsdf.p_gloss);
+      result.weight = gloss_fresnel(bsdf, bsdf.wo.z) * (1.0f / max(bsdf.p_gloss, 1e-20f));  // black: 0
     }
     if (wi.z == 0.0f || result.through != (dot(result.direction, bsdf.geometric) < 0.0f)) result.weight = vec3(0.0f);
     return result;

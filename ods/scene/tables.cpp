@@ -62,7 +62,7 @@ static void fill_ggx(float* table) {
     const float roughness = static_cast<float>(cell / kGgxSize) / static_cast<float>(kGgxSize - 1);
     const float alpha = max(roughness * roughness, 1e-4f);
     const vec3 wo = viewer_at(static_cast<float>(cell % kGgxSize) / static_cast<float>(kGgxSize - 1));
-    const vec2 albedo = mean_over_normals(256, [&](vec2 u) {
+    const vec2 albedo = mean_over_normals(610, [&](vec2 u) {
       const vec3 h = ggx_sample_visible(wo, alpha, u);
       const vec3 wi = h * (2.0f * dot(wo, h)) - wo;
       if (wi.z <= 0.0f) return vec2(0.0f);
