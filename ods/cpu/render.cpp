@@ -107,20 +107,6 @@ void render_tile(Job job, int tile, EyeImage& image) {
   }
 }
 
-std::vector<int> eyes_of(Eyes eyes) {
-  switch (eyes) {
-    case Eyes::kBothEyes:
-      return {kLeft, kRight};
-    case Eyes::kLeftEye:
-      return {kLeft};
-    case Eyes::kRightEye:
-      return {kRight};
-    case Eyes::kMonoEye:
-      return {kMono};
-  }
-  return {};
-}
-
 PathTracer make_tracer(const Scene& scene, const LightTable& lights) {
   PathTracer tracer;
   tracer.vertices = scene.vertices.data();

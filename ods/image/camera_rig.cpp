@@ -7,6 +7,21 @@
 
 namespace ods {
 
+static constexpr std::string_view kMergeNames[] = {"none", "linear", "cosine", "smoothstep"};
+static_assert(kMergeNone == 0 && kMergeLinear == 1 && kMergeCosine == 2 && kMergeSmoothstep == 3);
+
+std::string_view merge_name(int mode) {
+  assert(mode >= kMergeNone && mode <= kMergeSmoothstep);
+  return kMergeNames[mode];
+}
+
+std::optional<int> merge_of(std::string_view name) {
+  for (int mode = kMergeNone; mode <= kMergeSmoothstep; mode++) {
+    if (merge_name(mode) == name) return mode;
+  }
+  return std::nullopt;
+}
+
 static PoleMerge make_merge(const PoleMergeSetting& setting) {
   assert(setting.mode == kMergeNone || (setting.start < setting.end && setting.exponent > 0.0f));
   PoleMerge merge;

@@ -6,6 +6,9 @@
 // World: right-handed, +Y up; with yaw = pitch = roll = 0 the middle of the picture looks along -Z and +X is to the
 // right (glTF's own camera). Angles are applied as roll, then pitch, then yaw.
 #pragma once
+#include <optional>
+#include <string_view>
+
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -18,6 +21,10 @@ struct PoleMergeSetting {
   float end = 90.0f;
   float exponent = 1.0f;  // the curve raised to this power, > 0
 };
+
+// kMergeNone .. <-> none, linear, cosine, smoothstep.
+std::string_view merge_name(int mode);
+std::optional<int> merge_of(std::string_view name);
 
 struct CameraRig {
   vec3 position{0.0f, 0.0f, 0.0f};

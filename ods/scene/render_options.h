@@ -4,12 +4,20 @@
 // How a scene is rendered, on any device.
 #pragma once
 #include <cstdint>
+#include <string_view>
+#include <vector>
 
 namespace ods {
 
 enum class Eyes { kBothEyes, kLeftEye, kRightEye, kMonoEye };
 
+inline constexpr Eyes kAllEyes[] = {Eyes::kBothEyes, Eyes::kLeftEye, Eyes::kRightEye, Eyes::kMonoEye};
+std::string_view eyes_name(Eyes eyes);  // both, left, right, mono
+std::vector<int> eyes_of(Eyes eyes);    // as EyeImage has them: kLeft, kRight, kMono
+
 enum class PixelFilter { kBlackmanHarris, kBox };
+inline constexpr PixelFilter kPixelFilters[] = {PixelFilter::kBlackmanHarris, PixelFilter::kBox};
+std::string_view pixel_filter_name(PixelFilter filter);  // blackman-harris, box
 
 // Which of the two ways to find light is used; both is right, one alone is for proving that they agree.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/camera_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/console.h"
+#include "ods/base/suggest.h"
+
+using ods::CameraRig, ods::PoleMergeSetting, ods::Scene, ods::vec3, ods::ViewPoint;
+
+namespace {
+
+// MODE[,START[,END[,EXPONENT]]]
+PoleMergeSetting parse_merge(const std::string& name, const std::string& word) {
+  PoleMergeSetting merge;
+  size_t comma = std::min(word.find(','), word.size());
+  auto mode = ods::merge_of(word.substr(0, comma));
+  std::vector<float> numbers;
+  if (comma < word.size()) numbers = parse_numbers(word.substr(comma + 1));
+  if (numbers.size() > 0) merge.start = numbers[0];
+  if (numbers.size() > 1) merge.end = numbers[1];
+  if (numbers.size() > 2) merge.exponent = numbers[2];
+  bool legal = mode && numbers.size() <= 3 && numbers.empty() == (comma == word.size()) && merge.start >= 0.0f &&
+               merge.start < merge.end && merge.end <= 90.0f && merge.exponent > 0.0f && merge.exponent <= 100.0f;
+  if (!legal) {
+    throw UsageError(
+        fmt::format("{} is none, linear, cosine or smoothstep, then ,START,END in degrees (0 <= START < "
+                    "END <= 90) and ,EXP (above 0, at most 100), not '{}'",
+                    name, word));
+  }
+  merge.mode = *mode;
+  return merge;
+}
+
+vec3 parse_position(const std::string& word) {
+  std::vector<float> numbers = parse_numbers(word);
+  bool legal = numbers.size() == 3;
+  for (float number : numbers) legal = legal && std::abs(number) <= 1e6f;
+  if (!legal) throw UsageError("--position is X,Y,Z in metres, each within 1e6, not '" + word + "'");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ViewPoint& view : scene.view_points) {
+    if (view.name == name) return view;
+    names.push_back(view.name);
+  }
+  if (names.empty()) throw UsageError("--camera: the scene has no camera; use --position X,Y,Z");
+  throw UsageError(fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name,
+                               ods::did_you_mean(name, names)));
+}
+
+// Where to stand when nobody says.
+ViewPoint default_view(const Scene& scene) {
+  const float kEyeHeight = 1.6f;
+  const float kElbowRoom = 1.0f;
+  auto [low, high] = ods::scene_bounds(scene);
+  vec3 middle = 0.5f * (low + high);
+  auto inside = [&, low = low, high = high](vec3 p) {
+    return p.x - kElbowRoom > low.x && p.x + kElbowRoom < high.x && p.z - kElbowRoom > low.z &&
+           p.z + kElbowRoom < high.z && p.y > low.y && p.y < high.y;
+  };
+  ViewPoint view;
+  view.position = {0.0f, kEyeHeight, 0.0f};
+  view.name = "eye height above the origin";
+  if (inside(view.position)) return view;
+  view.position = {middle.x, low.y + kEyeHeight, middle.z};
+  view.name = "eye height in the middle of the scene";
+  if (inside(view.position)) return view;
+  float size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  view.position = {middle.x, middle.y, high.z + size};
+  view.name = "before the scene";
+  return view;
+}
+
+}  // namespace
+
+void add_place_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  options.text("--camera", "NAME", camera.view_point,
+               "a camera of the file (ods info lists them); its first by default");
+  options.custom(
+      "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_position(word); },
+      "metres, +Y up; eyes stand left and right of it");
+}
+
+void add_camera_options(Options& options, CameraOptions& camera) {
+  CameraRig& rig = camera.rig;
+  add_place_options(options, camera);
+  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right; at 0 the middle looks along -Z");
+  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; tilts the horizon");
+  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; tilts the horizon");
+  options.number("--ipd", rig.ipd, 0.0f, 1e4f, "distance between the eyes, metres");
+  auto set_both = [&](const std::string& word) { rig.top = rig.bottom = parse_merge("--merge", word); };
+  auto set_top = [&](const std::string& word) { rig.top = parse_merge("--merge-top", word); };
+  auto set_bottom = [&](const std::string& word) { rig.bottom = parse_merge("--merge-bottom", word); };
+  const char* merge_unit = "MODE[,START[,END[,EXP]]]";
+  options.custom(
+      "--merge", merge_unit, "none,60,90,1", set_both,
+      "bring the eyes together towards the poles: none, linear, cosine or smoothstep; from START to END degrees "
+      "of elevation; the curve raised to the power EXP");
+  options.custom("--merge-top", merge_unit, "", set_top, "above only");
+  options.custom("--merge-bottom", merge_unit, "", set_bottom, "below only");
+}
+
+CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
+  ViewPoint view = !camera.view_point.empty()   ? find_view_point(scene, camera.view_point)
+                   : !scene.view_points.empty() ? scene.view_points.front()
+                                                : default_view(scene);
+  bool from_file = !scene.view_points.empty();
+  std::string from = from_file ? "the scene's camera '" + view.name + "'" : view.name;
+  if (camera.position) from = "--position";
+  CameraRig rig = camera.rig;
+  rig.position = camera.position.value_or(view.position);
+  rig.yaw = camera.yaw.value_or(view.yaw);
+  rig.pitch = camera.pitch.value_or(0.0f);
+  rig.roll = camera.roll.value_or(0.0f);
+  note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", rig.position.x, rig.position.y, rig.position.z,
+                   rig.yaw, from));
+  if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {
+    note(fmt::format("kept level; --pitch {:.4g} --roll {:.4g} tilts it as in the file", view.pitch, view.roll));
+  }
+  return rig;
+}

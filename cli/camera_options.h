@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options that place the camera. Shared by the commands that have one.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "cli/options.h"
+#include "ods/image/camera_rig.h"
+#include "ods/scene/scene.h"
+
+struct CameraOptions {
+  ods::CameraRig rig;  // what holds for every scene: the distance between the eyes, the pole merges
+  std::string view_point;
+  std::optional<ods::vec3> position;
+  std::optional<float> yaw;
+  std::optional<float> pitch;
+  std::optional<float> roll;
+};
+
+// --camera and --position alone, and all of them.
+void add_place_options(Options& options, CameraOptions& camera);
+void add_camera_options(Options& options, CameraOptions& camera);
+
+// The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or
+// above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.
+// Pitch and roll of a view point are left out: in a headset the horizon must be level. Throws UsageError.
+ods::CameraRig place_camera(const CameraOptions& camera, const ods::Scene& scene);

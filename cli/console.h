@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command says to people: on stderr, one line each. stdout is for results only.
+#pragma once
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+// The command line makes no sense. what() is one line.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Console {
+  bool quiet = false;     // says nothing but errors
+  bool no_color = false;  // NO_COLOR, TERM=dumb and a stderr that is no terminal do the same
+};
+
+extern Console console;
+
+// stderr is a terminal that can move its cursor.
+bool stderr_is_terminal();
+
+// "ods: text", unless quiet.
+void note(const std::string& text);
+
+// Runs a command's body. What it throws becomes one line on stderr and an exit code (cli/exit_code.h).
+int run_command(const std::function<void()>& body);

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command: a table. Each command is one file beside this one.
+//
+// The commands live in a shared object that is opened when one is run: the image library beneath them takes a quarter
+// of a second to load (hundreds of libraries on Debian), and help should not wait for that.
+#include <dlfcn.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "cli/exit_code.h"
+#include "ods/base/suggest.h"
+
+namespace {
+
+struct Command {
+  const char* name;
+  const char* summary;
+  const char* function;  // int function(int argc, char** argv), argv[0] being the command's name
+};
+
+constexpr Command kCommands[] = {
+    {"render", "make a stereo 360 picture of a scene", "ods_render"},
+    {"info", "tell what is in a scene", "ods_info"},
+    {"scenes", "list the built-in scenes", "ods_scenes"},
+};
+
+void print_help(std::FILE* out) {
+  std::fputs(
+      "ods renders omni-directional stereo (stereo 360 degree) pictures of glTF scenes.\n\n"
+      "Examples:\n"
+      "  ods render scene.glb -o picture.png        left eye on top, ready for a headset\n"
+      "  ods render room -o room.png                a built-in scene\n"
+      "  ods info scene.glb                         what is in it\n\n"
+      "Commands:\n",
+      out);
+  for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
+  std::fputs(
+      "\nods COMMAND --help explains a command, ods --version lists the versions of ods and its libraries.\n"
+      "Exit codes: 0 done, 1 render error, 2 usage, 3 input, 4 output, 130 interrupted.\n",
+      out);
+}
+
+int run(const char* function, int argc, char** argv) {
+  void* commands = dlopen("ods_commands.so", RTLD_NOW | RTLD_LOCAL);  // found beside ods, or where install put it
+  void* symbol = commands ? dlsym(commands, function) : nullptr;
+  if (!symbol) {
+    std::fprintf(stderr, "ods: error: the commands cannot be loaded: %s\n", dlerror());
+    return kExitRenderError;
+  }
+  return reinterpret_cast<int (*)(int, char**)>(symbol)(argc, argv);
+}
+
+int unknown_command(const char* name) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.push_back(command.name);
+  std::fprintf(stderr, "ods: error: there is no command '%s'%s (ods --help lists them)\n", name,
+               ods::did_you_mean(name, names).c_str());
+  return kExitUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    print_help(stderr);
+    return kExitUsage;
+  }
+  const char* name = argv[1];
+  if (std::strcmp(name, "--help") == 0 || std::strcmp(name, "-h") == 0 || std::strcmp(name, "help") == 0) {
+    print_help(stdout);
+    return kExitOk;
+  }
+  if (std::strcmp(name, "--version") == 0) {
+    std::puts("ods " ODS_VERSION "\n" ODS_LIBRARIES);
+    return kExitOk;
+  }
+  for (const Command& command : kCommands) {
+    if (std::strcmp(name, command.name) == 0) return run(command.function, argc - 1, argv + 1);
+  }
+  return unknown_command(name);
+}

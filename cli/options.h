@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of one command: names bound to variables, whose values are the defaults that help prints. Hides CLI11.
+// A value that is out of range, not a number or not in a list becomes a UsageError of one line.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+class Options {
+ public:
+  // examples: lines that help prints first.
+  Options(const std::string& command, const std::string& summary, const std::string& examples);
+  ~Options();
+
+  // Options added from here on stand under this heading in help.
+  void group(const std::string& heading) { help_ += "\n" + heading + ":\n"; }
+
+  void argument(const std::string& name, std::string& value, const std::string& text);
+  void flag(const std::string& name, bool& value, const std::string& text);
+  void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
+  void number(const std::string& name, int& value, int low, int high, const std::string& text);
+  void number(const std::string& name, float& value, float low, float high, const std::string& text);
+  void number(const std::string& name, std::optional<float>& value, float low, float high, const std::string& text);
+  void number(const std::string& name, uint32_t& value, const std::string& text);
+
+  // One of a closed set, by its name.
+  template <class T, size_t kCount>
+  void choice(const std::string& name, T& value, const T (&all)[kCount], std::string_view (*name_of)(T),
+              const std::string& text) {
+    std::vector<std::string> names;
+    for (T member : all) names.emplace_back(name_of(member));
+    choice(
+        name, names, std::string(name_of(value)), [&value, &all](size_t i) { value = all[i]; }, text);
+  }
+
+  // Whatever set makes of the word; it throws UsageError.
+  void custom(const std::string& name, const std::string& unit, const std::string& fallback,
+              const std::function<void(const std::string&)>& set, const std::string& text);
+
+  bool given(const std::string& name) const;
+
+  // False when help was asked for: it has been printed. Throws UsageError.
+  bool parse(int argc, char** argv);
+
+ private:
+  void choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
+              const std::function<void(size_t)>& set, const std::string& text);
+  void explain(const std::string& name, const std::string& unit, const std::string& text);
+  std::string describe_extras() const;
+
+  std::unique_ptr<CLI::App> app_;
+  std::string help_;
+};
+
+// "1.5" or "1,0.5,2": numbers between commas, NaN and infinity among them; empty when it is anything else.
+std::vector<float> parse_numbers(const std::string& text);

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How far a long job is, for people, logs and render farms.
+#pragma once
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+enum class ProgressMode {
+  kAuto,      // the bar on a terminal, plain lines elsewhere
+  kBar,       // one line that redraws itself
+  kPlain,     // a line for every tenth, at most one a second
+  kJson,      // {"progress":0.42,"seconds":10.5,"seconds_left":14.5} for every hundredth
+  kNone,      //
+  kDeadline,  // "Progress: 42%"           AWS Thinkbox Deadline
+  kOpenJd,    // "openjd_progress: 42"     Open Job Description
+  kTractor,   // "ALF_PROGRESS 42%"        Pixar Tractor
+};
+
+inline constexpr ProgressMode kProgressModes[] = {ProgressMode::kAuto,   ProgressMode::kBar,    ProgressMode::kPlain,
+                                                  ProgressMode::kJson,   ProgressMode::kNone,   ProgressMode::kDeadline,
+                                                  ProgressMode::kOpenJd, ProgressMode::kTractor};
+std::string_view progress_mode_name(ProgressMode mode);
+
+// A farm reads stdout; everything else is for stderr.
+bool progress_is_for_farm(ProgressMode mode);
+
+// "45 s", "3:07 min", "1:02:03 h".
+std::string duration_text(double seconds);
+
+// Writes one job's progress; kAuto is the caller's to resolve.
+class ProgressLines {
+ public:
+  ProgressLines(ProgressMode mode, std::ostream& out) : mode_(mode), out_(out) {}
+  ~ProgressLines() { clear(); }
+  ProgressLines(const ProgressLines&) = delete;
+  ProgressLines& operator=(const ProgressLines&) = delete;
+
+  // The share done, 0..1, after so many seconds.
+  void report(double done, double seconds);
+
+  // Tells the farm why the job failed, where there is a way to.
+  void fail(const std::string& why);
+
+  // Takes the bar off the screen.
+  void clear();
+
+ private:
+  void draw_bar(double done, double seconds);
+
+  ProgressMode mode_;
+  std::ostream& out_;
+  int last_step_ = -1;
+  double last_drawn_ = 0.0;  // seconds
+  bool drawn_ = false;       // the bar is on the screen
+};

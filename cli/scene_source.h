@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options that say which scene, and in what light. Shared by the commands that read one.
+#pragma once
+#include <string>
+
+#include "cli/options.h"
+#include "ods/scene/scene.h"
+
+struct SceneSource {
+  std::string name;  // a file, or a built-in scene
+  int scene = -1;    // which of the file's scenes; -1: the one it opens with
+  std::string environment;
+};
+
+void add_scene_argument(Options& options, SceneSource& source);
+void add_light_options(Options& options, SceneSource& source);
+
+// Reads the scene and notes what of it is not rendered.
+ods::Scene open_scene(const SceneSource& source);
+
+// Puts the environment asked for around the scene. A scene without lamps gets a white sky, and a note.
+void add_environment(ods::Scene& scene, const SceneSource& source);

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods scenes: the built-in scenes, one line each.
+#include <cstdio>
+
+#include "cli/console.h"
+#include "cli/options.h"
+#include "ods/scene/builtin.h"
+
+extern "C" int ods_scenes(int argc, char** argv) {
+  return run_command([=] {
+    Options options("scenes", "Lists the scenes that can stand where a file would.", "  ods render room -o room.png");
+    if (!options.parse(argc, argv)) return;
+    for (const ods::BuiltinScene& scene : ods::builtin_scenes()) std::printf("%-12s %s\n", scene.name, scene.summary);
+  });
+}

@@ -1,0 +1,15 @@
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# What the library stands on. Read by the build, and by find_package(ods) where it is installed.
+find_package(embree 4 QUIET CONFIG)
+if(NOT embree_FOUND)
+  find_package(embree 3.13 REQUIRED CONFIG)
+endif()
+find_package(TBB REQUIRED CONFIG)
+# OpenImageIO's own CMake file asks for packages of its tools (OpenCV, Python) on Debian 12; pkg-config's does not.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
+find_package(glm REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(TinyGLTF REQUIRED CONFIG)

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders the built-in room through the library: room PICTURE [WIDTH [SAMPLES]]
+#include <cstdio>
+#include <cstdlib>
+
+#include "ods/base/error.h"
+#include "ods/cpu/render.h"
+#include "ods/image/save.h"
+#include "ods/scene/load.h"
+
+int main(int argc, char** argv) try {
+  const ods::Scene scene = ods::load_scene("room");  // or a .glb file
+
+  ods::CameraRig rig;
+  rig.position = scene.view_points.front().position;
+  rig.yaw = scene.view_points.front().yaw;
+
+  ods::RenderOptions options;
+  options.width = argc > 2 ? std::atoi(argv[2]) : 1024;
+  options.samples = argc > 3 ? std::atoi(argv[3]) : 16;
+
+  const ods::Picture picture = ods::render_cpu(scene, rig, options);
+  ods::save_picture(picture, rig, {}, argc > 1 ? argv[1] : "room.png");
+} catch (const ods::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+"""Writes small glTF files that between them use every feature of the reader: make_seeds.py FOLDER"""
+import base64, json, os, struct, sys, zlib
+
+
+def png():
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + bytes([255, 128, 0, 255] * 2) for _ in range(2))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 6, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def glb(document, binary):
+    document["buffers"] = [{"byteLength": len(binary)}]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    binary += b"\0" * (-len(binary) % 4)
+    size = 28 + len(text) + len(binary)
+    return (struct.pack("<4sII", b"glTF", 2, size) + struct.pack("<I4s", len(text), b"JSON") + text
+            + struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+def quad(indices=True, normals=True, mode=4):
+    positions = struct.pack("<12f", 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
+    parts = [positions, struct.pack("<12f", *([0, 0, 1] * 4)), struct.pack("<8f", 0, 1, 1, 1, 1, 0, 0, 0),
+             struct.pack("<16B", *([255, 128, 0, 255] * 4)), struct.pack("<6H", 0, 1, 2, 0, 2, 3), png()]
+    views, offset = [], 0
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
+        offset += len(part)
+    accessors = [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                 {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+                 {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+                 {"bufferView": 3, "componentType": 5121, "normalized": True, "count": 4, "type": "VEC4"},
+                 {"bufferView": 4, "componentType": 5123, "count": 6, "type": "SCALAR"}]
+    primitive = {"attributes": {"POSITION": 0, "TEXCOORD_0": 2, "COLOR_0": 3}, "mode": mode}
+    if indices:
+        primitive["indices"] = 4
+    if normals:
+        primitive["attributes"]["NORMAL"] = 1
+    return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [primitive]}], "accessors": accessors, "bufferViews": views}, b"".join(parts)
+
+
+def seeds():
+    yield "triangles", quad()
+    yield "flat", quad(normals=False)
+    yield "strip", quad(indices=False, mode=5)
+    yield "fan", quad(indices=False, mode=6)
+    document, binary = quad()
+    document["accessors"][0]["sparse"] = {"count": 1, "indices": {"bufferView": 4, "componentType": 5123},
+                                          "values": {"bufferView": 1}}
+    yield "sparse", (document, binary)
+    document, binary = quad()
+    slot = {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1, "scale": [2, 2]}}}
+    document["images"] = [{"bufferView": 5, "mimeType": "image/png"},
+                          {"uri": "data:image/png;base64," + base64.b64encode(png()).decode()}]
+    document["samplers"] = [{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}]
+    document["textures"] = [{"source": 0, "sampler": 0}, {"source": 1, "extensions": {"EXT_texture_webp": {"source": 0}}}]
+    document["materials"] = [{
+        "pbrMetallicRoughness": {"baseColorTexture": slot, "metallicRoughnessTexture": {"index": 1}, "roughnessFactor": 0.3},
+        "normalTexture": {"index": 1, "scale": 0.5}, "emissiveTexture": slot, "emissiveFactor": [1, 1, 1],
+        "alphaMode": "MASK", "alphaCutoff": 0.4, "doubleSided": True,
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 5}, "KHR_materials_ior": {"ior": 1.4},
+                       "KHR_materials_unlit": {},
+                       "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 0}},
+                       "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2,
+                                                "attenuationColor": [1, 0.5, 0.5]}}}]
+    document["meshes"][0]["primitives"][0]["material"] = 0
+    yield "material", (document, binary)
+    document, binary = quad()
+    spot = {"type": "spot", "intensity": 10, "color": [1, 1, 0.5], "range": 9,
+            "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}}
+    document["extensions"] = {"KHR_lights_punctual": {"lights": [spot, {"type": "point"}, {"type": "directional"}]}}
+    document["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]
+    instancing = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0, "SCALE": 0, "ROTATION": 3}}}
+    document["nodes"] = [{"children": [1, 2], "matrix": [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]},
+                         {"mesh": 0, "extensions": instancing},
+                         {"camera": 0, "rotation": [0, 0.7, 0, 0.7], "scale": [1, 1, 2], "translation": [1, 0, 0],
+                          "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+    yield "nodes", (document, binary)
+
+
+os.makedirs(sys.argv[1], exist_ok=True)
+for name, (document, binary) in seeds():
+    with open(os.path.join(sys.argv[1], name + ".glb"), "wb") as file:
+        file.write(glb(document, binary))
+    data = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
+    document["buffers"] = [{"byteLength": len(binary), "uri": data}]
+    with open(os.path.join(sys.argv[1], name + ".gltf"), "w") as file:
+        json.dump(document, file)

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/atomic_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "ods/base/error.h"
+
+namespace ods {
+
+namespace fs = std::filesystem;
+
+static Error cannot_write(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
+}
+
+static fs::path folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+void check_writable(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status) || fs::path(path).filename().empty()) {
+    throw cannot_write(path, "it is a folder; add a file name");
+  }
+  // Renaming over a device or a pipe would replace it.
+  if (fs::exists(status) && !fs::is_regular_file(status)) throw cannot_write(path, "it is not an ordinary file");
+
+  fs::path folder = folder_of(path);
+  while (!fs::exists(folder, ignored) && folder.has_relative_path()) {
+    folder = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  }
+  if (!fs::is_directory(folder, ignored))
+    throw cannot_write(path, fmt::format("'{}' is not a folder", folder.native()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw cannot_write(path, fmt::format("folder '{}': {}", folder.native(), std::strerror(errno)));
+  }
+}
+
+// Unique on this host and process; cut short because a name has at most 255 bytes.
+static fs::path temporary_name(const std::string& path) {
+  static std::atomic<unsigned> counter{0};
+  char host[64] = "";
+  gethostname(host, sizeof(host) - 1);
+  const std::string name = fs::path(path).filename().native().substr(0, 120);
+  return folder_of(path) / fmt::format(".{}.tmp.{}.{}.{}", name, host, getpid(), counter++);
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+  check_writable(path);
+  std::error_code error;
+  fs::create_directories(folder_of(path), error);
+  if (error) throw cannot_write(path, fmt::format("folder cannot be made: {}", error.message()));
+  // A name already taken is what a killed process with our number left, or another machine's of our name.
+  const int kTries = 100;
+  for (int i = 0; i < kTries && stream_ == nullptr; i++) {
+    temporary_ = temporary_name(path).native();
+    stream_ = std::fopen(temporary_.c_str(), "wbx");
+    if (stream_ == nullptr && errno != EEXIST) break;
+  }
+  if (stream_ == nullptr) throw cannot_write(path, std::strerror(errno));
+}
+
+AtomicFile::~AtomicFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void AtomicFile::finish() {
+  if (stream_ == nullptr) return;
+  errno = 0;
+  const bool written = std::fflush(stream_) == 0 && std::ferror(stream_) == 0 && fsync(fileno(stream_)) == 0;
+  const int flush_error = errno;
+  const bool closed = std::fclose(stream_) == 0;
+  const int close_error = errno;
+  stream_ = nullptr;
+  if (written && closed) return;
+  std::remove(temporary_.c_str());
+  temporary_.clear();  // so that no later commit() can publish a part
+  const int code = written ? close_error : flush_error;
+  throw cannot_write(path_, code == 0 ? "the disk is full or was lost" : std::strerror(code));
+}
+
+void AtomicFile::commit() {
+  finish();
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw cannot_write(path_, std::strerror(errno));
+  temporary_.clear();
+}
+
+void commit_all(std::list<AtomicFile>& files) {
+  for (AtomicFile& file : files) file.finish();
+  for (AtomicFile& file : files) file.commit();
+}
+
+}  // namespace ods

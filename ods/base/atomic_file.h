@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A file that exists is complete: it is written beside its final name, flushed to the disk, then renamed.
+#pragma once
+#include <cstdio>
+#include <list>
+#include <string>
+
+namespace ods {
+
+// Throws Error(kOutput) when a file could not be written there, and changes nothing on the disk: the name is a folder
+// or a device, the folder (or the nearest one that exists above it) is not writable.
+void check_writable(const std::string& path);
+
+// Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and whatever stood under the final name is untouched;
+// destruction without commit() removes it. Paths are bytes.
+class AtomicFile {
+ public:
+  // Creates the folders above the file and the file under its temporary name. Throws as check_writable().
+  explicit AtomicFile(const std::string& path);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  // Where to write. A failed write need not be noticed by who made it: finish() does.
+  std::FILE* stream() const { return stream_; }
+  const std::string& path() const { return path_; }  // the final name
+  // The same file for libraries that insist on opening it themselves.
+  const std::string& temporary() const { return temporary_; }
+
+  // Everything is on the disk, or Error(kOutput) (full disk, quota, lost share). Closes the stream.
+  void finish();
+  // finish(), then the final name. Throws Error(kOutput).
+  void commit();
+
+ private:
+  std::string path_;
+  std::string temporary_;
+  std::FILE* stream_ = nullptr;
+};
+
+// Files that belong together: none gets its final name before the last one is on the disk.
+void commit_all(std::list<AtomicFile>& files);
+
+}  // namespace ods

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/suggest.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ods {
+
+// The number of letters to insert, delete or replace (Levenshtein).
+static size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); i++) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); j++) {
+      const size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string did_you_mean(const std::string& typed, const std::vector<std::string>& words) {
+  size_t nearest = words.size(), distance = 0;
+  for (size_t i = 0; i < words.size(); i++) {
+    const size_t d = edit_distance(typed, words[i]);
+    if (d > 1 + words[i].size() / 4 || (nearest != words.size() && d >= distance)) continue;
+    nearest = i;
+    distance = d;
+  }
+  return nearest == words.size() ? "" : "; did you mean '" + words[nearest] + "'?";
+}
+
+}  // namespace ods

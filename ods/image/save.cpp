@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/save.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "ods/base/atomic_file.h"
+#include "ods/base/error.h"
+#include "ods/image/image_file.h"
+
+namespace ods {
+
+using EyeList = std::vector<const EyeImage*>;
+
+// --- what will be written ------------------------------------------------------------------------------------------
+
+static Layout layout_for(const std::string& path, const SaveOptions& options) {
+  return names_eye(path) ? Layout::kSeparate : options.layout;
+}
+
+static Error unfit(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
+}
+
+static void check_layout(const std::string& path, FileFormat format, const SaveOptions& options,
+                         const std::vector<int>& eyes, int width) {
+  const Layout layout = layout_for(path, options);
+  const bool stereo = eyes.size() == 2;
+  if (layout == Layout::kMultiview && format != FileFormat::kExr) throw unfit(path, "only .exr holds multi-view");
+  if (layout == Layout::kMultiview && !stereo) throw unfit(path, "multi-view needs both eyes");
+  if (layout == Layout::kSeparate && stereo && !names_eye(path)) {
+    throw unfit(path, "separate eyes need %V (left, right) or %v (l, r) in the file name");
+  }
+  if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v name an eye, and a mono picture has none");
+
+  const Extent size = packed_size(layout, {width, width / 2}, static_cast<int>(eyes.size()));
+  if (std::max(size.width, size.height) > longest_side(format)) {
+    throw unfit(path, fmt::format("{}x{} pixels are too many for this format; use .exr, .tif or .png", size.width,
+                                  size.height));
+  }
+}
+
+static FileFormat format_for(const std::string& path) {
+  const std::optional<FileFormat> format = format_of_path(path);
+  if (!format) throw unfit(path, fmt::format("unknown extension; known are {}", known_extensions()));
+  return *format;
+}
+
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width) {
+  assert(eyes.size() == 1 || eyes.size() == 2);
+  check_layout(path, format_for(path), options, eyes, width);
+  for (int eye : eyes) check_writable(names_eye(path) ? path_for_eye(path, eye) : path);
+}
+
+// --- what stands in the header -------------------------------------------------------------------------------------
+
+static void add_merge(std::vector<Attribute>& attributes, const std::string& name, const PoleMergeSetting& merge) {
+  attributes.push_back({name, std::string(merge_name(merge.mode))});
+  if (merge.mode == kMergeNone) return;
+  attributes.push_back({name + "Start", merge.start});
+  attributes.push_back({name + "End", merge.end});
+  attributes.push_back({name + "Exponent", merge.exponent});
+}
+
+static void add_exr(std::vector<Attribute>& attributes, const CameraRig& rig, Layout layout, const EyeList& eyes) {
+  const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
+  text("compression", "zip");
+  // OpenImageIO would write the time of day, and the same picture would not be the same bytes.
+  text("DateTime", "");
+  // Rec. 709 primaries and D65: red, green, blue, white.
+  attributes.push_back({"chromaticities", std::vector<float>{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f}});
+  text("colorInteropID", "lin_rec709_scene");
+  if (layout == Layout::kMultiview) {
+    attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
+  }
+  if (eyes.size() == 1) {
+    // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
+    text("textureformat", "LatLong Environment");
+    attributes.push_back({"openexr:levelmode", 0});
+    if (eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
+  }
+  text("ods:version", ODS_VERSION);
+  text("ods:projection", "lat-long");
+  text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]->eye));
+  text("ods:depthType", "ray");
+  attributes.push_back({"ods:ipd", rig.ipd});
+  attributes.push_back({"ods:position", std::vector<float>{rig.position.x, rig.position.y, rig.position.z}});
+  attributes.push_back({"ods:yaw", rig.yaw});
+  attributes.push_back({"ods:pitch", rig.pitch});
+  attributes.push_back({"ods:roll", rig.roll});
+  add_merge(attributes, "ods:poleMergeTop", rig.top);
+  add_merge(attributes, "ods:poleMergeBottom", rig.bottom);
+}
+
+// Google, "Photo Sphere XMP Metadata". Heading 0..360, pitch -90..90, roll -180..180; our -Z is its north.
+static void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent size) {
+  float yaw = rig.yaw, pitch = std::remainder(rig.pitch, 360.0f), roll = rig.roll;
+  if (std::abs(pitch) > 90.0f) {  // looking over the pole: the same pose from the other side
+    pitch = std::copysign(180.0f, pitch) - pitch;
+    yaw += 180.0f;
+    roll += 180.0f;
+  }
+  const float heading = std::remainder(yaw, 360.0f);
+  attributes.push_back({"GPano:ProjectionType", std::string("equirectangular")});
+  attributes.push_back({"GPano:UsePanoramaViewer", std::string("True")});
+  attributes.push_back({"GPano:CroppedAreaImageWidthPixels", size.width});
+  attributes.push_back({"GPano:CroppedAreaImageHeightPixels", size.height});
+  attributes.push_back({"GPano:FullPanoWidthPixels", size.width});
+  attributes.push_back({"GPano:FullPanoHeightPixels", size.height});
+  attributes.push_back({"GPano:CroppedAreaLeftPixels", 0});
+  attributes.push_back({"GPano:CroppedAreaTopPixels", 0});
+  attributes.push_back({"GPano:PoseHeadingDegrees", heading < 0.0f ? heading + 360.0f : heading});
+  attributes.push_back({"GPano:PosePitchDegrees", pitch});
+  attributes.push_back({"GPano:PoseRollDegrees", std::remainder(roll, 360.0f)});
+  attributes.push_back({"GPano:StitchingSoftware", std::string("Omnistereo " ODS_VERSION)});
+}
+
+static bool carries_gpano(FileFormat format) {
+  return format == FileFormat::kPng || format == FileFormat::kJpeg || format == FileFormat::kTiff;
+}
+
+// --- the pixels ----------------------------------------------------------------------------------------------------
+
+struct Layer {
+  const Image EyeImage::*image;
+  std::string_view name;
+  std::string_view channels;
+  bool wide;  // always 32 bits
+};
+static const Layer kLayers[] = {{&EyeImage::radiance, "", "RGB", false},
+                                {&EyeImage::depth, "", "Z", true},
+                                {&EyeImage::normal, "N", "XYZ", false},
+                                {&EyeImage::albedo, "albedo", "RGB", false}};
+
+static std::string channel_name(const Layer& layer, char channel, std::string_view view, bool default_view) {
+  std::string name;
+  if (!layer.name.empty()) name += fmt::format("{}.", layer.name);
+  if (!view.empty() && !(default_view && layer.name.empty())) name += fmt::format("{}.", view);
+  return name + channel;
+}
+
+static void add_exr_channels(std::vector<Channel>& channels, bool half, std::string_view view, bool default_view) {
+  for (const Layer& layer : kLayers) {
+    for (char channel : layer.channels) {
+      const Sample sample = half && !layer.wide ? Sample::kHalf : Sample::kFloat;
+      channels.push_back({channel_name(layer, channel, view, default_view), sample});
+    }
+  }
+}
+
+static float finite(float value, float lowest, float highest) {
+  return std::isnan(value) ? 0.0f : std::clamp(value, lowest, highest);
+}
+
+// One row of one eye, all its layers; `stride` floats from pixel to pixel.
+static void fill_exr_row(const EyeImage& eye, int y, bool half, float* out, size_t stride) {
+  for (const Layer& layer : kLayers) {
+    const Image& image = eye.*layer.image;
+    const float limit = half && !layer.wide ? 65504.0f : std::numeric_limits<float>::max();
+    const float* in = image.at(0, y);
+    for (int x = 0; x < image.width; x++) {
+      for (int c = 0; c < image.channels; c++)
+        out[static_cast<size_t>(x) * stride + static_cast<size_t>(c)] = finite(*in++, -limit, limit);
+    }
+    out += image.channels;
+  }
+}
+
+static void fill_hdr_row(const EyeImage& eye, int y, float* out) {
+  const float kLimit = 1e38f;  // the shared exponent of RGBE ends before that of a float
+  const float* in = eye.radiance.at(0, y);
+  for (int i = 0; i < 3 * eye.radiance.width; i++) out[i] = finite(in[i], 0.0f, kLimit);
+}
+
+static void fill_display_row(const EyeImage& eye, int y, const SaveOptions& options, float* out) {
+  for (int x = 0; x < eye.radiance.width; x++) {
+    const float* in = eye.radiance.at(x, y);
+    const vec3 shown = tone_map(vec3(in[0], in[1], in[2]), options.exposure, options.tone);
+    for (int c = 0; c < 3; c++) *out++ = srgb_encode(shown[c]);
+  }
+}
+
+// --- one file ------------------------------------------------------------------------------------------------------
+
+static FileHeader make_header(FileFormat format, Layout layout, const EyeList& eyes, const CameraRig& rig,
+                              const SaveOptions& options) {
+  const Extent eye_size{eyes[0]->radiance.width, eyes[0]->radiance.height};
+  const Extent size = packed_size(layout, eye_size, static_cast<int>(eyes.size()));
+  FileHeader header;
+  header.format = format;
+  header.width = size.width;
+  header.height = size.height;
+  header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
+  header.attributes.push_back({"oiio:ColorSpace", std::string(is_scene_referred(format) ? "Linear" : "sRGB")});
+  if (carries_gpano(format) && eyes.size() == 1) add_gpano(header.attributes, rig, size);
+
+  Sample sample = Sample::kUint8;
+  switch (format) {
+    case FileFormat::kExr:
+      add_exr(header.attributes, rig, layout, eyes);
+      if (layout != Layout::kMultiview) add_exr_channels(header.channels, options.half, "", true);
+      if (layout == Layout::kMultiview) {
+        for (const EyeImage* eye : eyes) {
+          add_exr_channels(header.channels, options.half, eye_name(eye->eye), eye == eyes[0]);
+        }
+      }
+      return header;
+    case FileFormat::kHdr:
+      sample = Sample::kFloat;
+      break;
+    case FileFormat::kJpeg:
+      header.attributes.push_back({"jpeg:subsampling", std::string("4:4:4")});
+      [[fallthrough]];
+    case FileFormat::kWebp:
+      header.attributes.push_back({"CompressionQuality", options.quality});
+      break;
+    case FileFormat::kTiff:
+      header.attributes.push_back({"compression", std::string("zip")});
+      [[fallthrough]];
+    case FileFormat::kPng:
+      sample = options.sixteen_bits ? Sample::kUint16 : Sample::kUint8;
+      break;
+  }
+  header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
+  return header;
+}
+
+static void write_file(AtomicFile& file, FileFormat format, Layout layout, const EyeList& eyes, const CameraRig& rig,
+                       const SaveOptions& options) {
+  const FileHeader header = make_header(format, layout, eyes, rig, options);
+  const Extent eye_size{eyes[0]->radiance.width, eyes[0]->radiance.height};
+  const int count = static_cast<int>(eyes.size());
+  const size_t stride = header.channels.size();
+  write_image(file, header, [&](int y, std::span<float> row) {
+    float* out = row.data();
+    if (layout == Layout::kMultiview) {
+      for (const EyeImage* eye : eyes) {
+        fill_exr_row(*eye, y, options.half, out, stride);
+        out += stride / eyes.size();
+      }
+      return;
+    }
+    for (const EyeRow& part : packed_row(layout, eye_size, count, y)) {
+      const EyeImage& eye = *eyes[static_cast<size_t>(part.eye)];
+      if (format == FileFormat::kExr) {
+        fill_exr_row(eye, part.y, options.half, out, stride);
+      } else if (format == FileFormat::kHdr) {
+        fill_hdr_row(eye, part.y, out);
+      } else {
+        fill_display_row(eye, part.y, options, out);
+      }
+      out += static_cast<size_t>(eye_size.width) * stride;
+    }
+  });
+}
+
+std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
+                                      const std::string& path) {
+  assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
+  const FileFormat format = format_for(path);
+  EyeList eyes;
+  std::vector<int> which;
+  for (const EyeImage& eye : picture.eyes) {
+    eyes.push_back(&eye);
+    which.push_back(eye.eye);
+  }
+  check_layout(path, format, options, which, picture.eyes[0].radiance.width);
+
+  const Layout layout = layout_for(path, options);
+  std::list<AtomicFile> files;
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const EyeList& some) {
+    write_file(files.emplace_back(name), format, layout, some, rig, options);
+    names.push_back(name);
+  };
+  if (names_eye(path)) {
+    for (const EyeImage* eye : eyes) write(path_for_eye(path, eye->eye), {eye});
+  } else {
+    write(path, eyes);
+  }
+  commit_all(files);
+  return names;
+}
+
+}  // namespace ods

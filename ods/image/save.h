@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A rendered picture into files. The extension decides the format.
+//
+// png, jpg, jpeg, tif, tiff, webp hold what a display shows: exposure, tone curve, sRGB, 8 bits (png and tif: 16 on
+// demand). hdr and exr hold the light of the scene as it was rendered: linear, Rec. 709, neither exposed nor toned.
+// No file holds NaN (it becomes 0) or infinity (it becomes the largest number of the format).
+//
+// exr adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and albedo.R G B, and says
+// how it was taken: chromaticities, ods:version, ods:projection, ods:layout, ods:ipd, ods:position, ods:yaw, ods:pitch,
+// ods:roll, ods:poleMergeTop and -Bottom (with Start, End, Exponent), ods:depthType; a file of one eye also envmap and
+// view. Multi-view follows "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with
+// R G B Z bare, and the view stands before the last word elsewhere: right.R, N.left.X, albedo.right.G.
+//
+// A file of one eye that can carry GPano (png, jpg, tif) does; a stereo one does not, because GPano knows no stereo and
+// viewers would wrap both eyes around one sphere.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ods/image/camera_rig.h"
+#include "ods/image/layout.h"
+#include "ods/image/picture.h"
+#include "ods/image/tone.h"
+
+namespace ods {
+
+struct SaveOptions {
+  Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name means kSeparate, whatever stands here
+  float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
+  ToneCurve tone = ToneCurve::kNeutral;
+  int quality = 95;           // jpg and webp, 1..100
+  bool sixteen_bits = false;  // png and tif
+  bool half = true;           // exr: 16-bit floats for everything but Z; false: 32-bit
+};
+
+// Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a
+// folder that is missing its write permission, a name that is a folder, a layout that does not fit, a size too large
+// for the format. `eyes` as in EyeImage, `width` of one eye. Writes nothing.
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width);
+
+// Writes one file, or one per eye; all of them complete, or none. Creates missing folders. Returns the names written.
+// Throws Error(kOutput). Precondition: one eye or two, every image of them present and of one size.
+std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
+                                      const std::string& path);
+
+}  // namespace ods

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Light from a picture of the whole sky.
+#pragma once
+#include <string>
+
+#include "ods/scene/scene.h"
+
+namespace ods {
+
+// A lat-long picture in any format of ods/image/file_format.h: .hdr and .exr hold radiance, the others are decoded from
+// sRGB. It covers the sphere whatever its shape; one that is not twice as wide as high looks stretched (compare width
+// and height of what is returned). Negative texels and those that are not numbers become 0, infinite ones 65504, the
+// largest number of a half float. Throws Error(kInput).
+Environment load_environment(const std::string& path);
+
+}  // namespace ods

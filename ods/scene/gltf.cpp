@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/gltf.h"
+
+#include <fmt/core.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "ods/base/error.h"
+#include "ods/scene/gltf_parts.h"
+
+namespace ods {
+
+void fail(const GltfFile& file, const std::string& what) {
+  throw Error(ErrorKind::kInput, fmt::format("{}: {}", file.path, what));
+}
+
+std::string printable(const std::string& text) {
+  constexpr size_t kLongest = 80;
+  std::string line = text.substr(0, kLongest);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text.size() > kLongest ? line + "..." : line;
+}
+
+void warn(Scene& scene, const std::string& what) {
+  if (std::find(scene.warnings.begin(), scene.warnings.end(), what) == scene.warnings.end()) {
+    scene.warnings.push_back(what);
+  }
+}
+
+void spend(GltfFile& file, size_t count) {
+  if (count > file.budget) fail(file, "asks for far more geometry than a file of its size can hold; it looks damaged");
+  file.budget -= count;
+}
+
+// Rendered, or understood enough to take the plain form that stands beside it.
+static constexpr std::array kRendered = {
+    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_lights_punctual",
+    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength",
+    "KHR_materials_volume",    "KHR_mesh_quantization", "KHR_materials_transmission",
+    "KHR_texture_transform",
+};
+
+static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                            "KHR_meshopt_compression"};
+
+static bool contains(std::span<const char* const> names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+static void check_extensions(const GltfFile& file, Scene& scene) {
+  for (const std::string& name : file.model->extensionsRequired) {
+    if (contains(kRendered, name)) continue;
+    if (contains(kCompression, name)) {
+      fail(file, fmt::format("its geometry is compressed with {}, which ods does not read; export it again without "
+                             "compression",
+                             name));
+    }
+    fail(file,
+         fmt::format("needs the extension {}, which ods does not support; export it again without", printable(name)));
+  }
+  const std::set<std::string> used(file.model->extensionsUsed.begin(), file.model->extensionsUsed.end());
+  constexpr size_t kMost = 50;
+  for (const std::string& name : used) {
+    if (contains(kRendered, name)) continue;
+    if (scene.warnings.size() == kMost) break;
+    warn(scene, fmt::format("extension {} is ignored", printable(name)));
+  }
+  if (!file.model->animations.empty()) warn(scene, "animations are ignored: the scene stands as it is at rest");
+  if (!file.model->skins.empty()) warn(scene, "skins are ignored: the meshes stand as they are stored");
+}
+
+static Scene read_scene(GltfFile& file, const SceneOptions& options) {
+  Scene scene;
+  scene.name = std::filesystem::path(file.path).stem().string();
+  check_extensions(file, scene);
+  read_materials(file, scene);
+  read_nodes(file, scene, options.scene);
+  return scene;
+}
+
+Scene load_gltf(const std::string& path, const SceneOptions& options) {
+  GltfFile file = open_gltf(path);
+  return read_scene(file, options);
+}
+
+Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options) {
+  GltfFile file = open_gltf_bytes(bytes, path);
+  return read_scene(file, options);
+}
+
+}  // namespace ods

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// glTF 2.0 files (.glb and .gltf) -> Scene.
+//
+// Read: hierarchies (matrix or TRS), shared meshes as instances, EXT_mesh_gpu_instancing, triangles, strips and fans,
+// every component type, sparse accessors, KHR_mesh_quantization, two sets of texture coordinates, vertex colours,
+// metallic-roughness with KHR_materials_unlit, _emissive_strength, _ior, _transmission and _volume,
+// KHR_texture_transform, EXT_texture_webp, KHR_lights_punctual, cameras (as view points). Buffers and pictures may lie
+// in the file, in data URIs, or in files beside it.
+//
+// What else the file has is named in Scene::warnings, once each. An extension that the file requires and that is not in
+// the list above is an Error.
+//
+// Whatever the file says, the Scene returned holds these:
+//   - every number is finite; positions, in the mesh and in the world, lie within 1e9 m of the origin;
+//   - normals are unit vectors, tangents too or zero; every triangle has an area and three corners in its mesh;
+//   - every index (material, texture, mesh) exists, every texture has texels, no instance is flattened to a plane.
+// To get there triangles without an area or with a corner that is not finite are left out, normals of no length are
+// replaced by those of the faces around them, a primitive without normals gets flat ones, one without the tangents its
+// normal map needs gets them from its texture coordinates, factors are clamped to their legal range, instances whose
+// matrix has no inverse are left out. Everything else that is wrong is an Error.
+#pragma once
+#include <span>
+#include <string>
+
+#include "ods/scene/scene.h"
+
+namespace ods {
+
+struct SceneOptions {
+  int scene = -1;  // which of the file's scenes; -1: its default, or the first
+};
+
+// Throws Error(kInput) naming the file: absent, damaged, or not supported.
+Scene load_gltf(const std::string& path, const SceneOptions& options = {});
+
+// The same from memory; path stands in messages, and the files that the scene names are looked for beside it.
+Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options = {});
+
+}  // namespace ods

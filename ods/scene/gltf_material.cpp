@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+
+#include "ods/image/image_file.h"
+#include "ods/scene/gltf_parts.h"
+
+namespace ods {
+
+using tinygltf::Value;
+
+const Value& object(const Value& parent, const char* key) {
+  static const Value kEmpty{Value::Object()};
+  if (!parent.Has(key)) return kEmpty;
+  const Value& value = parent.Get(key);
+  return value.IsObject() ? value : kEmpty;
+}
+
+double number(const Value& parent, const char* key, double fallback) {
+  if (!parent.Has(key)) return fallback;
+  const Value& value = parent.Get(key);
+  return value.IsNumber() && std::isfinite(value.GetNumberAsDouble()) ? value.GetNumberAsDouble() : fallback;
+}
+
+int integer(const Value& parent, const char* key, int fallback) {
+  const double value = number(parent, key, fallback);
+  return value >= -1.0 && value <= 2147483647.0 ? static_cast<int>(value) : fallback;
+}
+
+static const Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {
+  const auto found = extensions.find(name);
+  return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
+}
+
+static float clamped(double value, double low, double high, double fallback) {
+  return static_cast<float>(std::isfinite(value) ? std::clamp(value, low, high) : fallback);
+}
+
+static vec3 colour(const std::vector<double>& values, double high) {
+  vec3 result(0.0f);
+  for (size_t i = 0; i < 3 && i < values.size(); i++) result[static_cast<int>(i)] = clamped(values[i], 0.0, high, 0.0);
+  return result;
+}
+
+static std::vector<double> numbers(const Value& parent, const char* key, const std::vector<double>& fallback) {
+  if (!parent.Has(key) || parent.Get(key).ArrayLen() != fallback.size()) return fallback;
+  std::vector<double> values = fallback;
+  for (size_t i = 0; i < values.size(); i++) {
+    const Value& value = parent.Get(key).Get(static_cast<int>(i));
+    if (value.IsNumber() && std::isfinite(value.GetNumberAsDouble())) values[i] = value.GetNumberAsDouble();
+  }
+  return values;
+}
+
+// Far beyond any use, and small enough that texel coordinates still fit an integer.
+static constexpr double kLargestUv = 1e4;
+
+// Textures are made where a material first asks for one: the use decides about the sRGB curve.
+class TextureTable {
+ public:
+  TextureTable(const GltfFile& file, Scene& scene) : file_(file), model_(*file.model), scene_(scene) {}
+
+  TextureSlot slot(int index, int uv_set, const Value* transform, bool srgb) {
+    TextureSlot slot = no_texture();
+    if (index == -1) return slot;
+    slot.texture = texture(index, srgb);
+    slot.uv_set = uv_set;
+    if (transform != nullptr) apply(*transform, slot);
+    if (slot.uv_set < 0 || slot.uv_set > 1) {
+      warn(scene_, "a material uses a third set of texture coordinates; the first is taken");
+      slot.uv_set = 0;
+    }
+    return slot;
+  }
+
+  template <class Info>
+  TextureSlot slot(const Info& info, bool srgb) {
+    return slot(info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"), srgb);
+  }
+
+  // A texture named inside an extension.
+  TextureSlot slot(const Value& parent, const char* key) {
+    const Value& info = object(parent, key);
+    const Value& extensions = object(info, "extensions");
+    const Value* transform =
+        extensions.Has("KHR_texture_transform") ? &object(extensions, "KHR_texture_transform") : nullptr;
+    return slot(integer(info, "index", -1), integer(info, "texCoord", 0), transform, false);
+  }
+
+  void decode_images();
+
+ private:
+  // The matrices in the text of KHR_texture_transform and its first example disagree about the sense of rotation; the
+  // example, the conformance model TextureTransformTest and the viewers agree on this one.
+  static void apply(const Value& transform, TextureSlot& slot) {
+    const std::vector<double> offset = numbers(transform, "offset", {0.0, 0.0});
+    const std::vector<double> scale = numbers(transform, "scale", {1.0, 1.0});
+    const double rotation = number(transform, "rotation", 0.0);
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    auto legal = [](double value) { return clamped(value, -kLargestUv, kLargestUv, 0.0); };
+    slot.offset = vec2(legal(offset[0]), legal(offset[1]));
+    slot.axis_u = vec2(legal(c * scale[0]), legal(-s * scale[0]));
+    slot.axis_v = vec2(legal(s * scale[1]), legal(c * scale[1]));
+    slot.uv_set = integer(transform, "texCoord", slot.uv_set);
+  }
+
+  static int wrap(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return kWrapClamp;
+    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? kWrapMirror : kWrapRepeat;
+  }
+
+  // Which image a texture shows, -1: none that can be read.
+  int image_of(const tinygltf::Texture& texture) const {
+    const Value* webp = extension(texture.extensions, "EXT_texture_webp");
+    return webp != nullptr ? integer(*webp, "source", texture.source) : texture.source;
+  }
+
+  int texture(int index, bool srgb);
+
+  const GltfFile& file_;
+  const tinygltf::Model& model_;
+  Scene& scene_;
+  std::map<std::pair<int, bool>, int> made_;  // (the file's texture, sRGB) -> the Scene's
+  std::vector<size_t> images_;                // of each of the Scene's textures
+};
+
+int TextureTable::texture(int index, bool srgb) {
+  const auto found = made_.find({index, srgb});
+  if (found != made_.end()) return found->second;
+  if (index < 0 || static_cast<size_t>(index) >= model_.textures.size()) {
+    fail(file_, fmt::format("texture {} does not exist; the file is damaged", index));
+  }
+  const tinygltf::Texture& source = model_.textures[static_cast<size_t>(index)];
+  const int image = image_of(source);
+  if (image == -1) {
+    warn(scene_, fmt::format("texture {} has no picture that ods can read; it is left white", index));
+    return made_[{index, srgb}] = -1;
+  }
+  if (image < 0 || static_cast<size_t>(image) >= file_.images.size()) {
+    fail(file_, fmt::format("image {} does not exist; the file is damaged", image));
+  }
+  Texture texture{};
+  texture.srgb = srgb;
+  if (source.sampler != -1) {
+    if (source.sampler < 0 || static_cast<size_t>(source.sampler) >= model_.samplers.size()) {
+      fail(file_, fmt::format("sampler {} does not exist; the file is damaged", source.sampler));
+    }
+    const tinygltf::Sampler& sampler = model_.samplers[static_cast<size_t>(source.sampler)];
+    texture.wrap_u = wrap(sampler.wrapS);
+    texture.wrap_v = wrap(sampler.wrapT);
+    texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+  }
+  scene_.textures.push_back(texture);
+  images_.push_back(file_.images[static_cast<size_t>(image)].first);
+  return made_[{index, srgb}] = static_cast<int>(images_.size()) - 1;
+}
+
+void TextureTable::decode_images() {
+  std::vector<size_t> used = images_;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<CodeImage> decoded(used.size());
+  // One small picture may be much; a hundred names for it would be a hundred times that.
+  constexpr size_t kSmallTexels = size_t(1) << 26, kTexelsPerByte = 1024;
+  std::atomic<size_t> allowed = kSmallTexels + kTexelsPerByte * file_.size, taken = 0;
+  tbb::parallel_for(size_t(0), used.size(), [&](size_t i) {
+    const std::vector<unsigned char> bytes = image_bytes(file_, file_.images[used[i]]);
+    const std::string name = fmt::format("{}: image {}", file_.path, used[i]);
+    if (bytes.empty()) fail(file_, fmt::format("image {} is empty", used[i]));
+    const std::string& uri = file_.images[used[i]].uri;
+    if (!uri.empty() && !uri.starts_with("data:")) allowed += kTexelsPerByte * bytes.size();  // beyond file_.size
+    if (taken > allowed) fail(file_, "holds far more texels than a file of its size can; it looks damaged");
+    decoded[i] = decode_image(std::as_bytes(Bytes(bytes)), name);
+    taken += decoded[i].pixels.size();
+  });
+  size_t total = 0;
+  for (const CodeImage& image : decoded) total += image.pixels.size();
+  if (total > std::numeric_limits<uint>::max())
+    fail(file_, "has more than four billion texels; make its images smaller");
+  scene_.texels.reserve(total);
+  std::vector<uint> first_texels;
+  for (CodeImage& image : decoded) {
+    first_texels.push_back(static_cast<uint>(scene_.texels.size()));
+    scene_.texels.insert(scene_.texels.end(), image.pixels.begin(), image.pixels.end());
+    image.pixels = {};
+  }
+  for (size_t i = 0; i < images_.size(); i++) {
+    const auto k = static_cast<size_t>(std::lower_bound(used.begin(), used.end(), images_[i]) - used.begin());
+    scene_.textures[i].first_texel = first_texels[k];
+    scene_.textures[i].width = decoded[k].width;
+    scene_.textures[i].height = decoded[k].height;
+  }
+}
+
+static void read_extensions(const tinygltf::Material& source, Scene& scene, TextureTable& textures,
+                            Material& material) {
+  if (const Value* strength = extension(source.extensions, "KHR_materials_emissive_strength")) {
+    material.emission *= clamped(number(*strength, "emissiveStrength", 1.0), 0.0, 1e9, 1.0);
+  }
+  if (const Value* ior = extension(source.extensions, "KHR_materials_ior")) {
+    const double value = number(*ior, "ior", 1.5);
+    if (value < 1.0) warn(scene, "a material has an index of refraction below 1; 1.5 is taken");
+    material.ior = value < 1.0 ? 1.5f : clamped(value, 1.0, 100.0, 1.5);
+  }
+  if (const Value* transmission = extension(source.extensions, "KHR_materials_transmission")) {
+    material.transmission = clamped(number(*transmission, "transmissionFactor", 0.0), 0.0, 1.0, 0.0);
+    material.transmission_slot = textures.slot(*transmission, "transmissionTexture");
+  }
+  if (const Value* volume = extension(source.extensions, "KHR_materials_volume")) {
+    material.thickness = clamped(number(*volume, "thicknessFactor", 0.0), 0.0, kFarthest, 0.0);
+    material.attenuation_distance = clamped(number(*volume, "attenuationDistance", 0.0), 0.0, kFarthest, 0.0);
+    material.attenuation_color = colour(numbers(*volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
+  }
+  material.unlit = source.extensions.count("KHR_materials_unlit") != 0;
+}
+
+static Material read_material(const tinygltf::Material& source, Scene& scene, TextureTable& textures) {
+  const auto& pbr = source.pbrMetallicRoughness;
+  Material material = default_material();
+  const std::vector<double>& base = pbr.baseColorFactor;
+  material.base_color = vec4(colour(base, 1.0), base.size() > 3 ? clamped(base[3], 0.0, 1.0, 1.0) : 1.0f);
+  material.base_color_slot = textures.slot(pbr.baseColorTexture, true);
+  material.metallic = clamped(pbr.metallicFactor, 0.0, 1.0, 1.0);
+  material.roughness = clamped(pbr.roughnessFactor, 0.0, 1.0, 1.0);
+  material.metallic_roughness_slot = textures.slot(pbr.metallicRoughnessTexture, false);
+  material.normal_scale = clamped(source.normalTexture.scale, -1e3, 1e3, 1.0);
+  material.normal_slot = textures.slot(source.normalTexture, false);
+  material.emission = colour(source.emissiveFactor, 1e9);
+  material.emission_slot = textures.slot(source.emissiveTexture, true);
+  material.alpha_mode = source.alphaMode == "MASK"    ? kAlphaMask
+                        : source.alphaMode == "BLEND" ? kAlphaBlend
+                                                      : kAlphaOpaque;
+  material.alpha_cutoff = clamped(source.alphaCutoff, 0.0, 2.0, 0.5);
+  material.double_sided = source.doubleSided;
+  read_extensions(source, scene, textures, material);
+  return material;
+}
+
+void read_materials(const GltfFile& file, Scene& scene) {
+  TextureTable textures(file, scene);
+  for (const tinygltf::Material& material : file.model->materials) {
+    scene.materials.push_back(read_material(material, scene, textures));
+  }
+  scene.materials.push_back(read_material(tinygltf::Material(), scene, textures));
+  textures.decode_images();
+}
+
+}  // namespace ods

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ods/scene/gltf_parts.h"
+
+namespace ods {
+
+static bool within(vec3 p, float limit) {  // false for NaN
+  return std::abs(p.x) <= limit && std::abs(p.y) <= limit && std::abs(p.z) <= limit;
+}
+
+// Unit length, or zero where there is no direction. In double: the square of a small float may be none.
+static vec3 direction(vec3 v) {
+  const glm::dvec3 d(v);
+  const double size = glm::length(d);
+  return std::isfinite(size) && size > 1e-30 ? vec3(d / size) : vec3(0.0f);
+}
+
+// --- triangles
+
+// Corners of triangles as indices of the file's vertices.
+static std::vector<uvec3> make_triangles(const std::vector<uint>& corners, int mode) {
+  std::vector<uvec3> triangles;
+  const size_t count = corners.size();
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    for (size_t i = 0; i + 2 < count; i += 3) triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+    for (size_t i = 0; i + 2 < count; i++) {
+      triangles.emplace_back(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
+    }
+  } else {
+    for (size_t i = 0; i + 2 < count; i++) triangles.emplace_back(corners[i + 1], corners[i + 2], corners[0]);
+  }
+  return triangles;
+}
+
+static std::vector<uint> read_corners(GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count) {
+  const AccessorView indices = open_accessor(file, primitive.indices);
+  const size_t count = primitive.indices == -1 ? vertex_count : indices.count;
+  const int type = indices.component_type;
+  const bool integers = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                        type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  if (primitive.indices != -1 && (!integers || indices.components != 1)) {
+    fail(file, fmt::format("accessor {} holds indices, but not unsigned integers", primitive.indices));
+  }
+  spend(file, count);
+  std::vector<uint> corners(count);
+  for (size_t i = 0; i < count; i++) {
+    corners[i] = primitive.indices == -1 ? static_cast<uint>(i) : indices.index_at(i);
+    if (corners[i] >= vertex_count) {
+      fail(file, fmt::format("accessor {} has the index {}, but there are {} vertices; the file is damaged",
+                             primitive.indices, corners[i], vertex_count));
+    }
+  }
+  return corners;
+}
+
+// Leaves out triangles that no ray can meet. Returns how many had a corner that is nowhere.
+static size_t drop_bad_triangles(const AccessorView& positions, std::vector<uvec3>& triangles) {
+  constexpr float kSmallest = 1e-18f;  // m2; below, squared areas are no longer floats
+  size_t broken = 0;
+  std::erase_if(triangles, [&](const uvec3& t) {
+    const vec3 a(positions.at(t.x)), b(positions.at(t.y)), c(positions.at(t.z));
+    if (!within(a, kFarthest) || !within(b, kFarthest) || !within(c, kFarthest)) {
+      broken++;
+      return true;
+    }
+    return !(glm::length(cross(b - a, c - a)) > kSmallest);
+  });
+  return broken;
+}
+
+// --- vertices
+
+struct Attributes {
+  AccessorView position, normal, tangent, uv0, uv1, color;
+};
+
+static AccessorView read_attribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name,
+                                   int components, size_t count) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return {};
+  const AccessorView attribute = open_accessor(file, found->second);
+  if (attribute.components < components || attribute.components > 4) {
+    fail(file, fmt::format("accessor {} has {} components, {} needs {}", found->second, attribute.components, name,
+                           components));
+  }
+  if (count != 0 && attribute.count != count) {
+    fail(file, fmt::format("a primitive has {} positions, but {} values of {}", count, attribute.count, name));
+  }
+  return attribute;
+}
+
+static vec2 read_uv(const AccessorView& attribute, size_t i) {
+  constexpr float kLargest = 1e4f;
+  if (attribute.count == 0) return vec2(0.0f);
+  const vec4 uv = attribute.at(i);
+  auto legal = [](float x) { return std::abs(x) <= kLargest ? x : 0.0f; };
+  return vec2(legal(uv.x), legal(uv.y));
+}
+
+static Vertex read_vertex(const Attributes& attributes, size_t i) {
+  Vertex vertex;
+  vertex.position = vec3(attributes.position.at(i));
+  vertex.normal = attributes.normal.count == 0 ? vec3(0.0f) : direction(vec3(attributes.normal.at(i)));
+  vertex.tangent = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  if (attributes.tangent.count != 0) {
+    const vec4 tangent = attributes.tangent.at(i);
+    vertex.tangent = vec4(direction(vec3(tangent)), tangent.w < 0.0f ? -1.0f : 1.0f);
+  }
+  vertex.uv0 = read_uv(attributes.uv0, i);
+  vertex.uv1 = read_uv(attributes.uv1, i);
+  vertex.color = vec4(1.0f);
+  if (attributes.color.count != 0) {
+    const vec4 color = attributes.color.at(i);
+    for (int c = 0; c < 4; c++) vertex.color[c] = std::isfinite(color[c]) ? clamp(color[c], 0.0f, 1.0f) : 1.0f;
+  }
+  return vertex;
+}
+
+struct Geometry {
+  std::vector<Vertex> vertices;
+  std::vector<uvec3> triangles;
+};
+
+// Only the vertices that triangles use: files share one long list among many primitives.
+static Geometry gather(const Attributes& attributes, const std::vector<uvec3>& triangles) {
+  std::vector<uint> used;
+  used.reserve(triangles.size() * 3);
+  for (const uvec3& t : triangles) used.insert(used.end(), {t.x, t.y, t.z});
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  Geometry geometry;
+  geometry.vertices.reserve(used.size());
+  for (const uint i : used) geometry.vertices.push_back(read_vertex(attributes, i));
+  auto place = [&](uint i) { return static_cast<uint>(std::lower_bound(used.begin(), used.end(), i) - used.begin()); };
+  geometry.triangles.reserve(triangles.size());
+  for (const uvec3& t : triangles) geometry.triangles.emplace_back(place(t.x), place(t.y), place(t.z));
+  return geometry;
+}
+
+// --- repairs
+
+// Twice the area, along the side that the corners go round counter-clockwise.
+static vec3 area_vector(const Geometry& geometry, const uvec3& t) {
+  const vec3 a = geometry.vertices[t.x].position;
+  return cross(geometry.vertices[t.y].position - a, geometry.vertices[t.z].position - a);
+}
+
+static void make_flat(Geometry& geometry) {
+  Geometry flat;
+  for (const uvec3& t : geometry.triangles) {
+    const uint first = static_cast<uint>(flat.vertices.size());
+    const vec3 normal = direction(area_vector(geometry, t));
+    for (int c = 0; c < 3; c++) {
+      flat.vertices.push_back(geometry.vertices[t[c]]);
+      flat.vertices.back().normal = normal;
+      flat.vertices.back().tangent = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    }
+    flat.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  geometry = std::move(flat);
+}
+
+// A vertex whose normal has no length gets the mean of the faces around it.
+static void repair_normals(Geometry& geometry) {
+  std::vector<Vertex>& vertices = geometry.vertices;
+  if (std::none_of(vertices.begin(), vertices.end(), [](const Vertex& v) { return v.normal == vec3(0.0f); })) return;
+  std::vector<vec3> means(vertices.size(), vec3(0.0f));
+  for (const uvec3& t : geometry.triangles) {
+    for (int c = 0; c < 3; c++) means[t[c]] += direction(area_vector(geometry, t));
+  }
+  for (size_t i = 0; i < vertices.size(); i++) {
+    if (vertices[i].normal != vec3(0.0f)) continue;
+    const vec3 mean = direction(means[i]);
+    vertices[i].normal = mean == vec3(0.0f) ? vec3(0.0f, 1.0f, 0.0f) : mean;
+  }
+}
+
+// --- meshes
+
+// Appends the Scene mesh of one primitive and returns it, or -1 when nothing of it can be seen.
+static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitive& primitive) {
+  const int mode = primitive.mode == -1 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+  if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
+    fail(file, fmt::format("primitive mode {} does not exist", mode));
+  if (!primitive.targets.empty()) warn(scene, "morph targets are ignored: the meshes stand as they are stored");
+  if (mode < TINYGLTF_MODE_TRIANGLES) {
+    warn(scene, "points and lines are ignored");
+    return -1;
+  }
+  if (primitive.attributes.count("POSITION") == 0) {
+    warn(scene, "a primitive without positions is ignored");
+    return -1;
+  }
+  const int none = static_cast<int>(file.model->materials.size());
+  const int material = primitive.material == -1 ? none : primitive.material;
+  if (material < 0 || material > none)
+    fail(file, fmt::format("material {} does not exist; the file is damaged", material));
+
+  Attributes attributes;
+  attributes.position = read_attribute(file, primitive, "POSITION", 3, 0);
+  const size_t count = attributes.position.count;
+  attributes.normal = read_attribute(file, primitive, "NORMAL", 3, count);
+  attributes.tangent = read_attribute(file, primitive, "TANGENT", 4, count);
+  attributes.uv0 = read_attribute(file, primitive, "TEXCOORD_0", 2, count);
+  attributes.uv1 = read_attribute(file, primitive, "TEXCOORD_1", 2, count);
+  attributes.color = read_attribute(file, primitive, "COLOR_0", 3, count);
+
+  std::vector<uvec3> triangles = make_triangles(read_corners(file, primitive, count), mode);
+  if (drop_bad_triangles(attributes.position, triangles) > 0) {
+    warn(scene, "triangles with a corner that is not finite, or too far away, are left out");
+  }
+  if (triangles.empty()) return -1;
+  Geometry geometry = gather(attributes, triangles);
+  if (attributes.normal.count == 0) make_flat(geometry);
+  repair_normals(geometry);
+  const TextureSlot& normal_slot = scene.materials[static_cast<size_t>(material)].normal_slot;
+  if (normal_slot.texture != -1) make_tangents(geometry.vertices, geometry.triangles, normal_slot);
+  return add_mesh(scene, geometry.vertices, geometry.triangles, material);
+}
+
+std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh) {
+  if (mesh < 0 || static_cast<size_t>(mesh) >= file.model->meshes.size()) {
+    fail(file, fmt::format("mesh {} does not exist; the file is damaged", mesh));
+  }
+  std::vector<int> meshes;
+  for (const tinygltf::Primitive& primitive : file.model->meshes[static_cast<size_t>(mesh)].primitives) {
+    const int index = read_primitive(file, scene, primitive);
+    if (index != -1) meshes.push_back(index);
+  }
+  return meshes;
+}
+
+}  // namespace ods

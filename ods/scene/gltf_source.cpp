@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <tiny_gltf.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "ods/base/error.h"
+#include "ods/scene/gltf_parts.h"
+
+namespace ods {
+
+using Json = nlohmann::json;
+using Storage = std::shared_ptr<const std::vector<unsigned char>>;
+
+static Storage read_file(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw Error(ErrorKind::kInput, fmt::format("{}: no such file", path));
+  if (!std::filesystem::is_regular_file(status)) throw Error(ErrorKind::kInput, fmt::format("{} is not a file", path));
+  std::ifstream stream(path, std::ios::binary);
+  const uintmax_t size = std::filesystem::file_size(path, error);
+  if (!stream || error) throw Error(ErrorKind::kInput, fmt::format("{}: cannot be opened for reading", path));
+  std::vector<unsigned char> bytes(size);
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (static_cast<uintmax_t>(stream.gcount()) != size) {
+    throw Error(ErrorKind::kInput, fmt::format("{}: cannot be read to its end", path));
+  }
+  return std::make_shared<const std::vector<unsigned char>>(std::move(bytes));
+}
+
+// --- the container: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#glb-file-format-specification
+
+struct Chunks {
+  Bytes json;
+  Bytes binary;
+};
+
+static uint32_t read_uint32(Bytes bytes, size_t offset) {
+  return static_cast<uint32_t>(bytes[offset]) | static_cast<uint32_t>(bytes[offset + 1]) << 8 |
+         static_cast<uint32_t>(bytes[offset + 2]) << 16 | static_cast<uint32_t>(bytes[offset + 3]) << 24;
+}
+
+static Chunks split_container(const GltfFile& file, Bytes bytes) {
+  if (bytes.empty()) fail(file, "is empty");
+  if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {bytes, {}};
+  if (bytes.size() < 20) fail(file, "ends inside its header; the file is damaged");
+  if (read_uint32(bytes, 4) != 2) fail(file, "is not glTF version 2; convert it to glTF 2.0");
+  const size_t length = read_uint32(bytes, 8);
+  if (length > bytes.size()) {
+    fail(file, fmt::format("has {} bytes, but its header says {}; it was not written or copied to its end",
+                           bytes.size(), length));
+  }
+  constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+  Chunks chunks;
+  size_t at = 12;
+  while (at < length && length - at >= 8) {
+    const size_t size = read_uint32(bytes, at);
+    const uint32_t type = read_uint32(bytes, at + 4);
+    at += 8;
+    if (size > length - at) fail(file, "has a chunk that runs past its end; the file is damaged");
+    if (type == kJson && chunks.json.empty()) chunks.json = bytes.subspan(at, size);
+    if (type == kBinary && chunks.binary.empty()) chunks.binary = bytes.subspan(at, size);
+    at += size;
+  }
+  if (chunks.json.empty()) fail(file, "has no JSON chunk; the file is damaged");
+  return chunks;
+}
+
+// Readers of JSON recurse where it nests; glTF needs ten levels, extras a few more.
+static void check_depth(const GltfFile& file, Bytes text) {
+  constexpr int kDeepest = 100;
+  int depth = 0;
+  bool in_string = false;
+  for (size_t i = 0; i < text.size(); i++) {
+    const unsigned char c = text[i];
+    if (in_string) {
+      if (c == '\\') i++;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest) fail(file, "nests its JSON too deeply; it is not a glTF file");
+    } else if (c == ']' || c == '}') {
+      depth--;
+    }
+  }
+}
+
+static Json parse_json(const GltfFile& file, Bytes text) {
+  check_depth(file, text);
+  try {
+    Json json = Json::parse(text.begin(), text.end());
+    if (!json.is_object()) fail(file, "is not a glTF file");
+    return json;
+  } catch (const Json::parse_error& error) {
+    fail(file, fmt::format("is not a glTF file, or a damaged one: its JSON is broken at byte {}", error.byte));
+  } catch (const Json::exception&) {
+    fail(file, "is not a glTF file, or a damaged one: its JSON holds a number that is too large");
+  }
+}
+
+// --- URIs
+
+// RFC 4648; what is not of the alphabet ends the text.
+static std::vector<unsigned char> decode_base64(std::string_view text) {
+  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned char> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const size_t value = kAlphabet.find(c);
+    if (value == std::string_view::npos) break;
+    bits = bits << 6 | static_cast<uint32_t>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes.push_back(static_cast<unsigned char>(bits >> count));
+    }
+  }
+  return bytes;
+}
+
+// RFC 3986: %20 is a space.
+static std::string decode_percent(const std::string& uri) {
+  std::string text;
+  for (size_t i = 0; i < uri.size(); i++) {
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
+    text += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
+    if (escaped) i += 2;
+  }
+  return text;
+}
+
+// The same for every way to write the same file, so that nothing is read twice.
+static std::string uri_key(const std::string& uri) {
+  return uri.starts_with("data:") ? uri : std::filesystem::path(decode_percent(uri)).lexically_normal().string();
+}
+
+static Storage read_uri(const GltfFile& file, const std::string& uri) {
+  if (uri.starts_with("data:")) {
+    const size_t comma = uri.find(";base64,");
+    if (comma == std::string::npos) fail(file, "has a data URI that is not in base64");
+    return std::make_shared<const std::vector<unsigned char>>(decode_base64(std::string_view(uri).substr(comma + 8)));
+  }
+  if (uri.find("://") != std::string::npos) {
+    fail(file,
+         fmt::format("refers to {}; ods does not fetch from the network, put the file beside it", printable(uri)));
+  }
+  const std::string name = decode_percent(uri);
+  if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
+  try {
+    return read_file((std::filesystem::path(file.path).parent_path() / name).string());
+  } catch (const Error&) {
+    fail(file, fmt::format("refers to {}, which is not there or cannot be read", printable(uri)));
+  }
+}
+
+// --- buffers and pictures
+
+static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
+  std::map<std::string, Storage> loaded;
+  for (const Json& buffer : json) {
+    const size_t index = file.buffers.size();
+    const bool sound = buffer.is_object() && buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned();
+    if (!sound) fail(file, fmt::format("buffer {} has no length", index));
+    Bytes bytes = binary;
+    if (buffer.contains("uri") && buffer["uri"].is_string()) {
+      const std::string uri = buffer["uri"].get<std::string>();
+      Storage& storage = loaded[uri_key(uri)];
+      if (!storage) {
+        storage = read_uri(file, uri);
+        file.storage.push_back(storage);
+        file.size += storage->size();
+      }
+      bytes = *storage;
+    } else if (index > 0) {
+      fail(file, fmt::format("buffer {} has no data", index));
+    }
+    const size_t length = buffer["byteLength"].get<size_t>();
+    if (length > bytes.size()) {
+      fail(file,
+           fmt::format("buffer {} has {} bytes, but should have {}; the file is damaged", index, bytes.size(), length));
+    }
+    file.buffers.push_back(bytes.first(length));
+  }
+}
+
+static void take_images(GltfFile& file, const Json& json) {
+  std::map<std::pair<std::string, int>, size_t> first;
+  for (const Json& image : json) {
+    const size_t index = file.images.size();
+    if (!image.is_object()) fail(file, fmt::format("image {} is not an object", index));
+    ImageSource source;
+    if (image.contains("uri") && image["uri"].is_string()) source.uri = image["uri"].get<std::string>();
+    if (image.contains("bufferView") && image["bufferView"].is_number_integer())
+      source.view = image["bufferView"].get<int>();
+    source.first = first.emplace(std::pair(uri_key(source.uri), source.view), index).first->second;
+    file.images.push_back(source);
+  }
+}
+
+// Takes a member out of the document.
+static Json take(const GltfFile& file, Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end()) return Json::array();
+  Json value = std::move(*found);
+  json.erase(found);
+  if (!value.is_array()) fail(file, fmt::format("{} is not a list", key));
+  return value;
+}
+
+Bytes buffer_view_bytes(const GltfFile& file, int index) {
+  if (index < 0 || static_cast<size_t>(index) >= file.model->bufferViews.size()) {
+    fail(file, fmt::format("buffer view {} does not exist; the file is damaged", index));
+  }
+  const tinygltf::BufferView& view = file.model->bufferViews[static_cast<size_t>(index)];
+  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= file.buffers.size()) {
+    fail(file, fmt::format("buffer {} does not exist; the file is damaged", view.buffer));
+  }
+  const Bytes buffer = file.buffers[static_cast<size_t>(view.buffer)];
+  if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
+    fail(file, fmt::format("buffer view {} runs past the end of its buffer; the file is damaged", index));
+  }
+  return buffer.subspan(view.byteOffset, view.byteLength);
+}
+
+std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image) {
+  if (!image.uri.empty()) return *read_uri(file, image.uri);
+  const Bytes bytes = buffer_view_bytes(file, image.view);
+  return {bytes.begin(), bytes.end()};
+}
+
+// --- the file
+
+static std::shared_ptr<const tinygltf::Model> parse_model(const GltfFile& file, const Json& json) {
+  const std::string text = json.dump();
+  if (text.size() > std::numeric_limits<unsigned int>::max()) fail(file, "has more than 4 GB of JSON");
+  auto model = std::make_shared<tinygltf::Model>();
+  tinygltf::TinyGLTF reader;
+  std::string errors, warnings;
+  bool sound = false;
+  try {
+    sound = reader.LoadASCIIFromString(model.get(), &errors, &warnings, text.c_str(),
+                                       static_cast<unsigned int>(text.size()), "");
+  } catch (const std::exception& error) {
+    errors = error.what();
+  }
+  if (!sound) fail(file, fmt::format("is not a valid glTF file: {}", printable(errors.substr(0, errors.find('\n')))));
+  if (!model->asset.version.starts_with("2.")) {
+    fail(file, fmt::format("is glTF version {}, ods reads 2.0", printable(model->asset.version)));
+  }
+  return model;
+}
+
+static void parse(GltfFile& file, Bytes bytes) {
+  file.size = bytes.size();
+  const Chunks chunks = split_container(file, bytes);
+  Json json = parse_json(file, chunks.json);
+  const Json buffers = take(file, json, "buffers");
+  const Json images = take(file, json, "images");
+  file.model = parse_model(file, json);
+  take_buffers(file, buffers, chunks.binary);
+  take_images(file, images);
+  file.budget = (size_t(1) << 20) + 16 * file.size;
+}
+
+GltfFile open_gltf(const std::string& path) {
+  GltfFile file;
+  file.path = path;
+  file.storage.push_back(read_file(path));
+  parse(file, *file.storage.front());
+  return file;
+}
+
+GltfFile open_gltf_bytes(Bytes bytes, const std::string& path) {
+  GltfFile file;
+  file.path = path;
+  parse(file, bytes);
+  return file;
+}
+
+}  // namespace ods

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/load.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/base/suggest.h"
+#include "ods/scene/builtin.h"
+
+namespace ods {
+
+Scene load_scene(const std::string& name, const SceneOptions& options) {
+  if (is_builtin(name)) return make_builtin(name);
+  std::error_code error;
+  if (!std::filesystem::exists(name, error)) {
+    std::vector<std::string> names;
+    for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+    throw Error(ErrorKind::kInput,
+                fmt::format("{}: no such file, and no built-in scene{}", name, did_you_mean(name, names)));
+  }
+  return load_gltf(name, options);
+}
+
+}  // namespace ods

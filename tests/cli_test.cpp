@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command as its user meets it: what it writes, where, and how it ends.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/temporary_folder.h"
+
+namespace {
+
+// A running ods, its stdout and stderr in pipes.
+class Ods {
+ public:
+  explicit Ods(std::vector<std::string> arguments, rlim_t largest_file = RLIM_INFINITY) {
+    arguments.insert(arguments.begin(), ODS_COMMAND);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    EXPECT_EQ(pipe2(out_.data(), O_CLOEXEC), 0);
+    EXPECT_EQ(pipe2(err_.data(), O_CLOEXEC), 0);
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(out_[1], STDOUT_FILENO);
+      dup2(err_[1], STDERR_FILENO);
+      const rlimit limit{largest_file, largest_file};
+      setrlimit(RLIMIT_FSIZE, &limit);
+      signal(SIGXFSZ, SIG_IGN);  // the write fails, as on a full disk
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+    close(out_[1]);
+    close(err_[1]);
+  }
+  Ods(const Ods&) = delete;
+  Ods& operator=(const Ods&) = delete;
+
+  // Reads until stderr says it or ends.
+  void wait_for(const std::string& text) {
+    while (err.find(text) == std::string::npos && read_some()) {
+    }
+  }
+
+  void kill(int number) { ::kill(pid_, number); }
+
+  // The exit code; 1000 + the signal that ended it.
+  int finish() {
+    while (read_some()) {
+    }
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+
+  std::string out;
+  std::string err;
+
+ private:
+  bool read_some() {
+    std::array<pollfd, 2> ends = {pollfd{out_[0], POLLIN, 0}, pollfd{err_[0], POLLIN, 0}};
+    poll(ends.data(), ends.size(), -1);
+    return read_end(ends[0], out_[0], out) | read_end(ends[1], err_[0], err);
+  }
+
+  static bool read_end(const pollfd& polled, int& end, std::string& text) {
+    if (end < 0) return false;
+    if (polled.revents == 0) return true;
+    std::array<char, 4096> bytes{};
+    const ssize_t size = read(end, bytes.data(), bytes.size());
+    if (size > 0) {
+      text.append(bytes.data(), static_cast<size_t>(size));
+      return true;
+    }
+    close(end);
+    end = -1;
+    return false;
+  }
+
+  pid_t pid_ = -1;
+  std::array<int, 2> out_{-1, -1};
+  std::array<int, 2> err_{-1, -1};
+};
+
+class Cli : public ::testing::Test {
+ protected:
+  // ods with these words, to its end.
+  int run(const std::string& words, rlim_t largest_file = RLIM_INFINITY) {
+    std::istringstream stream(words);
+    std::vector<std::string> arguments;
+    for (std::string word; stream >> word;) arguments.push_back(word);
+    Ods command(arguments, largest_file);
+    const int code = command.finish();
+    out = command.out;
+    err = command.err;
+    return code;
+  }
+
+  // A command that renders a picture of next to nothing into the folder.
+  std::string render(const std::string& words = "") const {
+    return "render furnace --width 16 --samples 1 -o " + folder.path("picture.png") + " " + words;
+  }
+
+  size_t files() const { return folder.names().size(); }
+
+  // Nothing but one line, which starts as every error does.
+  void expect_one_error() const {
+    EXPECT_EQ(out, "");
+    EXPECT_TRUE(err.starts_with("ods: error: ")) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_EQ(err.find_first_of("\r\x1b"), std::string::npos) << "colours and cursors are for terminals";
+    EXPECT_EQ(files(), 0u);
+  }
+
+  ods::TemporaryFolder folder;
+  std::string out;
+  std::string err;
+};
+
+TEST_F(Cli, HelpStartsWithExamples) {
+  for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "scenes --help"}) {
+    EXPECT_EQ(run(words), 0) << words;
+    EXPECT_EQ(err, "") << words;
+    EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
+    EXPECT_LT(out.find("Examples:"), std::min(out.find("Usage:"), out.find("Commands:"))) << words;
+  }
+}
+
+TEST_F(Cli, HelpPrintsDefaults) {
+  run("render --help");
+  for (const char* part : {"--width N", "[2048]", "[0.065]", "[blackman-harris]", "[top-bottom]", "draft"}) {
+    EXPECT_NE(out.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(Cli, NothingToDoIsExplained) {
+  EXPECT_EQ(run(""), 2);
+  EXPECT_EQ(out, "");
+  EXPECT_NE(err.find("Commands:\n  render"), std::string::npos);
+}
+
+TEST_F(Cli, VersionNamesTheLibraries) {
+  EXPECT_EQ(run("--version"), 0);
+  for (const char* part : {"ods 0", "Embree 3", "OpenImageIO 2", "oneTBB 202", "tinygltf 2", "fmt ", "CLI11 2"}) {
+    if (std::string_view(part) == "Embree 3" && out.find("Embree 4") != std::string::npos) continue;
+    EXPECT_NE(out.find(part), std::string::npos) << part << " in " << out;
+  }
+}
+
+TEST_F(Cli, ScenesAreListed) {
+  EXPECT_EQ(run("scenes"), 0);
+  EXPECT_NE(out.find("room "), std::string::npos);
+  EXPECT_EQ(err, "");
+}
+
+TEST_F(Cli, InfoIsForPeopleAndForPrograms) {
+  EXPECT_EQ(run("info furnace"), 0) << err;
+  EXPECT_NE(out.find("triangles "), std::string::npos) << out;
+  EXPECT_EQ(err, "");
+  EXPECT_EQ(run("info furnace --json --position 0,0,0.25"), 0) << err;
+  EXPECT_TRUE(out.starts_with("{\n") && out.ends_with("}\n")) << out;
+  EXPECT_NE(out.find("\"nearest_surface\": "), std::string::npos) << out;
+  EXPECT_EQ(err, "");
+}
+
+TEST_F(Cli, SlipsGetASuggestion) {
+  EXPECT_EQ(run("rendr"), 2);
+  expect_one_error();
+  EXPECT_NE(err.find("did you mean 'render'?"), std::string::npos) << err;
+  EXPECT_EQ(run(render("--sampels 2")), 2);
+  expect_one_error();
+  EXPECT_NE(err.find("did you mean '--samples'?"), std::string::npos) << err;
+  EXPECT_EQ(run("zzzzzzzz"), 2);
+  EXPECT_EQ(err.find("did you mean"), std::string::npos) << err;
+}
+
+TEST_F(Cli, BadOptionsAreUsageErrors) {
+  for (const char* words : {"--width 0",
+                            "--width 17",
+                            "--width -2",
+                            "--width 1e9",
+                            "--width 99999999999999999999",
+                            "--width x",
+                            "--width 8.5",
+                            "--samples 0",
+                            "--samples -5",
+                            "--bounces -1",
+                            "--seed -1",
+                            "--threads -1",
+                            "--ipd nan",
+                            "--ipd -0.1",
+                            "--ipd inf",
+                            "--env nan",
+                            "--env 1,2",
+                            "--env -1",
+                            "--env 1,1,1,1",
+                            "--position 1,2",
+                            "--position a,b,c",
+                            "--position nan,0,0",
+                            "--yaw nan",
+                            "--yaw ninety",
+                            "--eyes three",
+                            "--layout diagonal",
+                            "--tone loud",
+                            "--filter tent",
+                            "--quality best",
+                            "--exposure inf",
+                            "--merge cubic",
+                            "--merge cosine,80,60",
+                            "--merge cosine,10,95",
+                            "--merge cosine,",
+                            "--merge ,",
+                            "--merge cosine,60,90,0",
+                            "--merge cosine,60,90,1,1",
+                            "--merge-top nan",
+                            "--progress loudly",
+                            "--camera nowhere",
+                            "--scene -1",
+                            "--scene 0.5",
+                            "--unknown",
+                            "surplus",
+                            "--width"}) {
+    EXPECT_EQ(run(render(words)), 2) << words;
+    expect_one_error();
+  }
+  EXPECT_EQ(run("render"), 2);
+  EXPECT_EQ(run("render furnace"), 2);
+  expect_one_error();
+}
+
+TEST_F(Cli, AbsentAndBrokenInputsAreInputErrors) {
+  for (const char* name : {"absent.glb", "absent.gltf", "absent"}) {
+    EXPECT_EQ(run("render " + folder.path(name) + " -o " + folder.path("picture.png")), 3) << name;
+    expect_one_error();
+    EXPECT_EQ(run("info " + folder.path(name)), 3) << name;
+    expect_one_error();
+  }
+  EXPECT_EQ(run(render("--env " + folder.path("absent.hdr"))), 3);
+  expect_one_error();
+  EXPECT_EQ(run("render " + folder.path("") + " -o " + folder.path("picture.png")), 3);
+  expect_one_error();
+}
+
+TEST_F(Cli, OutputThatCannotBeIsFoundBeforeRendering) {
+  // Would take hours if it were rendered first.
+  const std::string hours = "render furnace --width 8192 --samples 100000 -o ";
+  for (const std::string& output : {std::string("/proc/picture.png"), folder.path("picture.unknown"),
+                                    folder.path("picture"), folder.path(""), std::string("/dev/full/picture.png")}) {
+    EXPECT_EQ(run(hours + output), 4) << output;
+    expect_one_error();
+  }
+}
+
+TEST_F(Cli, AFullDiskLeavesNoFile) {
+  for (const char* name : {"picture.png", "picture.exr", "picture.jpg", "picture.tif", "picture.hdr", "picture.webp"}) {
+    EXPECT_EQ(run("render furnace -q --width 64 --samples 1 -o " + folder.path(name), 64), 4) << name;
+    expect_one_error();
+  }
+}
+
+TEST_F(Cli, StdoutHoldsTheFileAndNothingElse) {
+  EXPECT_EQ(run(render("--progress plain")), 0) << err;
+  EXPECT_EQ(out, folder.path("picture.png") + "\n");
+  EXPECT_NE(err.find("ods: camera at "), std::string::npos) << err;
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Cli, QuietIsQuiet) {
+  EXPECT_EQ(run(render("-q")), 0);
+  EXPECT_EQ(err, "");
+}
+
+TEST_F(Cli, EveryEyeItsFile) {
+  EXPECT_EQ(run("render furnace -q --width 16 --samples 1 -o " + folder.path("eye_%V.png")), 0) << err;
+  EXPECT_EQ(out, folder.path("eye_left.png") + "\n" + folder.path("eye_right.png") + "\n");
+  EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(Cli, TheSameSeedGivesTheSameFile) {
+  auto picture = [&](const std::string& words) {
+    EXPECT_EQ(run(render("-q " + words)), 0) << err;
+    return folder.read("picture.png");
+  };
+  const std::string one = picture("--samples 3 --threads 1 --env 1 --seed 7");
+  EXPECT_EQ(one, picture("--samples 3 --threads 2 --env 1 --seed 7"));
+}
+
+TEST_F(Cli, OptionsAreFreeInTheirOrderAndTheLastWins) {
+  EXPECT_EQ(run("render --width 64 -q -o " + folder.path("picture.png") + " --samples 1 furnace --width 16"), 0) << err;
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Cli, FarmsReadTheirLinesOnStdout) {
+  const std::vector<std::pair<std::string, std::string>> modes = {
+      {"deadline", "Progress: 100%\n"}, {"openjd", "openjd_progress: 100\n"}, {"tractor", "ALF_PROGRESS 100%\n"}};
+  for (const auto& [mode, line] : modes) {
+    EXPECT_EQ(run(render("--progress " + mode)), 0);
+    EXPECT_NE(out.find(line), std::string::npos) << out;
+    EXPECT_EQ(err.find(line), std::string::npos) << err;
+  }
+  EXPECT_EQ(run("render absent.glb --progress openjd -o " + folder.path("a.png")), 3);
+  EXPECT_TRUE(out.starts_with("openjd_fail: ")) << out;
+}
+
+TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "--progress", "json", "-o",
+                 folder.path("a.png")});
+    command.wait_for("camera at");
+    command.kill(number);
+    EXPECT_EQ(command.finish(), 128 + number) << command.err;
+    EXPECT_EQ(command.out, "");
+    EXPECT_NE(command.err.find("ods: interrupted"), std::string::npos) << command.err;
+    EXPECT_EQ(files(), 0u);
+  }
+}
+
+TEST_F(Cli, AFullStdoutIsAnOutputError) {
+  const std::string command = std::string(ODS_COMMAND) + " scenes >/dev/full 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+}
+
+}  // namespace
