@@ -299,7 +299,7 @@ TEST(Density, Lights) {
   };
   const auto triangles = [&](vec3 w) {
     const Hit hit = meet_lamp(kernel, w);
-    return hit.t < 0.0f ? 0.0 : double{kernel.triangle_density(hit, w, hit.t)};
+    return hit.t < 0.0f ? 0.0 : double{kernel.hit_light_density(hit, w, hit.t)};
   };
   const auto environment = [&](vec3 w) { return double{kernel.environment_density(w)}; };
   EXPECT_GT(density_p(32, triangles, [&](Dice& dice) { return draw(dice, false); }), significance(2));
@@ -325,7 +325,7 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
       lamps++;
       EXPECT_NEAR(light.distance, hit.t, 1e-5f);
       EXPECT_EQ(light.radiance, vec3(2.0f, 3.0f, 1.0f));
-      EXPECT_NEAR(kernel.triangle_density(hit, light.direction, hit.t) / light.density, 1.0f, 1e-4f);
+      EXPECT_NEAR(kernel.hit_light_density(hit, light.direction, hit.t) / light.density, 1.0f, 1e-4f);
     }
   }
   EXPECT_GT(lamps, 1000);

@@ -77,46 +77,44 @@ struct LightSampler : BsdfEvaluator {
     return pick / environment_texel_angle(info, y);
   }
 
-  // The same for the triangle of a hit, seen from a point at distance along direction.
-  inline float triangle_density(Hit hit, vec3 direction, float distance) {
-    Instance instance = scene_instance(hit.instance);
-    if (instance.first_light < 0) return 0.0f;
-    Corners k = corners_of(hit);
-    vec3 a = to_world(instance, k.a.position);
-    vec3 area = cross(to_world(instance, k.b.position) - a, to_world(instance, k.c.position) - a) * 0.5f;
+  // Density per solid angle of the points of a triangle light, seen from a distance along a direction.
+  // area: normal of the triangle, as long as its area.
+  inline float triangle_density(float pick, vec3 area, vec3 direction, float distance) {
     float projected = abs(dot(area, direction));
-    float pick = scene_light(instance.first_light + hit.triangle).probability;
     return projected > 0.0f ? pick * distance * distance / projected : 0.0f;
   }
 
+  // Density with which sample_light finds the triangle that a ray has hit at a distance.
+  inline float hit_light_density(Hit hit, vec3 direction, float distance) {
+    Instance instance = scene_instance(hit.instance);
+    if (instance.first_light < 0) return 0.0f;
+    Triangle triangle = triangle_of(instance, corners_of(hit));
+    float pick = scene_light(instance.first_light + hit.triangle).probability;
+    return triangle_density(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
+  }
+
   inline LightSample sample_triangle(Light light, vec3 from, vec2 uv) {
+    float root = sqrt(uv.x);
     Hit hit;
     hit.t = 0.0f;
-    float root = sqrt(uv.x);
     hit.u = root * (1.0f - uv.y);
     hit.v = root * uv.y;
     hit.instance = light.instance;
     hit.triangle = light.triangle;
     Instance instance = scene_instance(hit.instance);
     Corners k = corners_of(hit);
-    vec3 a = to_world(instance, k.a.position);
-    vec3 ab = to_world(instance, k.b.position) - a;
-    vec3 ac = to_world(instance, k.c.position) - a;
-    vec3 to_light = a + ab * hit.u + ac * hit.v - from;
+    Triangle triangle = triangle_of(instance, k);
+    vec3 area = cross(triangle.ab, triangle.ac) * 0.5f;
+    vec3 to_light = triangle.a + triangle.ab * hit.u + triangle.ac * hit.v - from;
     LightSample result;
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
-    result.density = triangle_density(hit, result.direction, result.distance);
-    result.valid = result.density > 0.0f && result.distance > 0.0f;
-    result.radiance = vec3(0.0f);
-    if (result.valid) {
-      int material = scene_mesh(instance.mesh).material;
-      result.radiance = surface_at(hit, result.direction).emission;
-      // A ray would pass through the rest.
-      if (scene_material(material).alpha_mode != kAlphaOpaque) {
-        result.radiance = result.radiance * alpha_of(scene_material(material), k);
-      }
-    }
+    result.density = triangle_density(light.probability, area, result.direction, result.distance);
+    result.valid = result.density > 0.0f;
+    Material material = scene_material(scene_mesh(instance.mesh).material);
+    result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
+    // A ray would pass through the rest.
+    if (material.alpha_mode != kAlphaOpaque) result.radiance = result.radiance * alpha_of(material, k);
     return result;
   }
 

@@ -237,7 +237,7 @@ struct PathTracer : MediumReader {
     }
     if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
       float distance = path.travelled + hit.t;
-      float weight = scattered_weight(settings, triangle_density(hit, path.ray.direction, distance));
+      float weight = scattered_weight(settings, hit_light_density(hit, path.ray.direction, distance));
       path.radiance += path.throughput * surface.emission * weight;
     }
     if (path.bounce == settings.bounces) {

@@ -43,14 +43,22 @@ inline vec3 to_world(Instance instance, vec3 p) {
   return vec3(dot(instance.row0, p1), dot(instance.row1, p1), dot(instance.row2, p1));
 }
 
+// -1 where an instance is mirrored, else 1.
+inline float handedness_of(Instance instance) {
+  vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
+  vec3 row1 = vec3(instance.row1.x, instance.row1.y, instance.row1.z);
+  vec3 row2 = vec3(instance.row2.x, instance.row2.y, instance.row2.z);
+  return dot(row0, cross(row1, row2)) < 0.0f ? -1.0f : 1.0f;
+}
+
 #ifdef __cplusplus
 struct SurfaceReader : TextureReader {
 #endif
 
   struct Corners {
-    Vertex a;
-    Vertex b;
-    Vertex c;
+    uint a;  // vertices
+    uint b;
+    uint c;
     float wa;  // weights of the hit point
     float wb;
     float wc;
@@ -60,9 +68,9 @@ struct SurfaceReader : TextureReader {
     Mesh mesh = scene_mesh(scene_instance(hit.instance).mesh);
     uvec3 triangle = scene_triangle(mesh.first_triangle + uint(hit.triangle));
     Corners corners;
-    corners.a = scene_vertex(mesh.first_vertex + triangle.x);
-    corners.b = scene_vertex(mesh.first_vertex + triangle.y);
-    corners.c = scene_vertex(mesh.first_vertex + triangle.z);
+    corners.a = mesh.first_vertex + triangle.x;
+    corners.b = mesh.first_vertex + triangle.y;
+    corners.c = mesh.first_vertex + triangle.z;
     corners.wa = 1.0f - hit.u - hit.v;
     corners.wb = hit.u;
     corners.wc = hit.v;
@@ -70,17 +78,18 @@ struct SurfaceReader : TextureReader {
   }
 
   inline vec2 uv0_of(Corners k) {
-    return k.a.uv0 * k.wa + k.b.uv0 * k.wb + k.c.uv0 * k.wc;
+    return scene_vertex(k.a).uv0 * k.wa + scene_vertex(k.b).uv0 * k.wb + scene_vertex(k.c).uv0 * k.wc;
   }
   inline vec2 uv1_of(Corners k) {
-    return k.a.uv1 * k.wa + k.b.uv1 * k.wb + k.c.uv1 * k.wc;
+    return scene_vertex(k.a).uv1 * k.wa + scene_vertex(k.b).uv1 * k.wb + scene_vertex(k.c).uv1 * k.wc;
   }
 
   // The share of a ray that a surface stops, 0..1.
   inline float alpha_of(Material material, Corners k) {
     // In this form equal corners give exactly their value, which may be the cutoff.
-    float a = k.a.color.w;
-    float alpha = material.base_color.w * (a + (k.b.color.w - a) * k.wb + (k.c.color.w - a) * k.wc);
+    float a = scene_vertex(k.a).color.w;
+    float alpha =
+        material.base_color.w * (a + (scene_vertex(k.b).color.w - a) * k.wb + (scene_vertex(k.c).color.w - a) * k.wc);
     alpha = alpha * slot_at(material.base_color_slot, uv0_of(k), uv1_of(k)).w;
     if (material.alpha_mode == kAlphaMask) return alpha < material.alpha_cutoff ? 0.0f : 1.0f;
     return alpha;
@@ -96,7 +105,8 @@ struct SurfaceReader : TextureReader {
 
   // Normal of the normal map, on the front side. The frame follows the vertices' tangents as glTF defines it.
   inline vec3 mapped_normal(Material material, Instance instance, Corners k, vec3 normal, float handedness) {
-    vec4 tangent = k.a.tangent * k.wa + k.b.tangent * k.wb + k.c.tangent * k.wc;
+    vec4 tangent =
+        scene_vertex(k.a).tangent * k.wa + scene_vertex(k.b).tangent * k.wb + scene_vertex(k.c).tangent * k.wc;
     vec3 local = vec3(tangent.x, tangent.y, tangent.z);
     vec3 t = vec3(dot(vec3(instance.row0.x, instance.row0.y, instance.row0.z), local),
                   dot(vec3(instance.row1.x, instance.row1.y, instance.row1.z), local),
@@ -115,24 +125,44 @@ struct SurfaceReader : TextureReader {
     return n_size > 1e-6f ? n * (1.0f / n_size) : normal;
   }
 
+  // A hit's triangle in the world: one corner and the two edges from it.
+  struct Triangle {
+    vec3 a;
+    vec3 ab;
+    vec3 ac;
+  };
+
+  inline Triangle triangle_of(Instance instance, Corners k) {
+    Triangle triangle;
+    triangle.a = to_world(instance, scene_vertex(k.a).position);
+    triangle.ab = to_world(instance, scene_vertex(k.b).position) - triangle.a;
+    triangle.ac = to_world(instance, scene_vertex(k.c).position) - triangle.a;
+    return triangle;
+  }
+
+  // Radiance that the surface itself sends out on its front or back.
+  inline vec3 emission_at(Material material, Corners k, bool front) {
+    if (!front && material.double_sided == 0) return vec3(0.0f);
+    if (material.emission_slot.texture < 0) return material.emission;
+    vec4 glow = slot_at(material.emission_slot, uv0_of(k), uv1_of(k));
+    return material.emission * vec3(glow.x, glow.y, glow.z);
+  }
+
   inline Surface surface_at(Hit hit, vec3 direction) {
     Instance instance = scene_instance(hit.instance);
     Material material = scene_material(scene_mesh(instance.mesh).material);
     Corners k = corners_of(hit);
-    vec3 a = to_world(instance, k.a.position);
-    vec3 ab = to_world(instance, k.b.position) - a;
-    vec3 ac = to_world(instance, k.c.position) - a;
+    Triangle triangle = triangle_of(instance, k);
     vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
     vec3 row1 = vec3(instance.row1.x, instance.row1.y, instance.row1.z);
     vec3 row2 = vec3(instance.row2.x, instance.row2.y, instance.row2.z);
-    vec3 cofactor0 = cross(row1, row2);
-    float handedness = dot(row0, cofactor0) < 0.0f ? -1.0f : 1.0f;  // -1: the instance is mirrored
+    float handedness = handedness_of(instance);
 
     Surface surface;
-    surface.position = a + ab * k.wb + ac * k.wc;
-    vec3 geometric = normalize(cross(ab, ac)) * handedness;
-    vec3 n = k.a.normal * k.wa + k.b.normal * k.wb + k.c.normal * k.wc;
-    vec3 normal = vec3(dot(cofactor0, n), dot(cross(row2, row0), n), dot(cross(row0, row1), n)) * handedness;
+    surface.position = triangle.a + triangle.ab * k.wb + triangle.ac * k.wc;
+    vec3 geometric = normalize(cross(triangle.ab, triangle.ac)) * handedness;
+    vec3 n = scene_vertex(k.a).normal * k.wa + scene_vertex(k.b).normal * k.wb + scene_vertex(k.c).normal * k.wc;
+    vec3 normal = vec3(dot(cross(row1, row2), n), dot(cross(row2, row0), n), dot(cross(row0, row1), n)) * handedness;
     float size = length(normal);
     normal = size > 1e-30f ? normal * (1.0f / size) : geometric;
     if (material.normal_slot.texture >= 0) normal = mapped_normal(material, instance, k, normal, handedness);
@@ -145,14 +175,11 @@ struct SurfaceReader : TextureReader {
 
     vec2 uv0 = uv0_of(k);
     vec2 uv1 = uv1_of(k);
-    vec4 color = k.a.color * k.wa + k.b.color * k.wb + k.c.color * k.wc;
+    vec4 color = scene_vertex(k.a).color * k.wa + scene_vertex(k.b).color * k.wb + scene_vertex(k.c).color * k.wc;
     vec4 base = material.base_color * color * slot_at(material.base_color_slot, uv0, uv1);
     vec4 mr = slot_at(material.metallic_roughness_slot, uv0, uv1);
-    vec4 glow = slot_at(material.emission_slot, uv0, uv1);
     surface.base_color = vec3(base.x, base.y, base.z);
-    surface.emission = vec3(0.0f);
-    if (surface.front || material.double_sided == 1)
-      surface.emission = material.emission * vec3(glow.x, glow.y, glow.z);
+    surface.emission = emission_at(material, k, surface.front);
     surface.metallic = material.metallic * mr.z;
     surface.roughness = material.roughness * mr.y;
     surface.transmission = material.transmission * slot_at(material.transmission_slot, uv0, uv1).x;

@@ -118,10 +118,8 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
   const Instance& instance = scene.instances[static_cast<size_t>(instance_index)];
   const Material& material =
       scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
-  const auto corners = reader.corners_of(hit);
-  const vec3 a = to_world(instance, corners.a.position);
-  const vec3 area =
-      0.5f * cross(to_world(instance, corners.b.position) - a, to_world(instance, corners.c.position) - a);
+  const auto place = reader.triangle_of(instance, reader.corners_of(hit));
+  const vec3 area = 0.5f * cross(place.ab, place.ac);
   const float size = length(area);
   if (!(size > 0.0f) || !std::isfinite(size)) return 0.0;
   double brightness = 0.0;
@@ -130,9 +128,7 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
     const float across = (static_cast<float>(i % 4) + 0.5f) / 4.0f;
     hit.u = root * (1.0f - across);
     hit.v = root * across;
-    const auto k = reader.corners_of(hit);
-    const vec4 glow = reader.slot_at(material.emission_slot, reader.uv0_of(k), reader.uv1_of(k));
-    brightness += luminance(material.emission * vec3(glow)) / 16.0;
+    brightness += luminance(reader.emission_at(material, reader.corners_of(hit), true)) / 16.0;
   }
   return brightness * static_cast<double>(size) * std::acos(-1.0) * (material.double_sided == 1 ? 2.0 : 1.0);
 }
