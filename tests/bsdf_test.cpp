@@ -76,7 +76,7 @@ TEST(WhiteFurnace, Reflection) {
 
 // From inside, the table is coarse for very rough glass where total reflection starts.
 TEST(WhiteFurnace, Glass) {
-  for (float eta : {1.05f, 1.1f, 1.33f, 1.5f, 1.8f, 2.4f}) {
+  for (float eta : {1.05f, 1.33f, 1.5f, 2.4f}) {
     EXPECT_LT(worst_loss(0, 1, true, eta), 8e-3) << eta;
     EXPECT_LT(worst_loss(0, 1, true, 1.0f / eta), 3.5e-2) << eta;
   }

@@ -3,6 +3,7 @@
 //
 // Judging random numbers in tests. Seeds are fixed, so a test that passes once passes always.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -79,12 +80,7 @@ struct Mean {
   int count = 0;
   void add(double x) { sum += x, squares += x * x, count++; }
   double value() const { return sum / count; }
-  double variance() const { return (squares / count - value() * value()) / (count - 1); }
+  double variance() const { return std::max(squares / count - value() * value(), 0.0) / (count - 1); }
 };
-
-// How many standard deviations two independent means lie apart.
-inline double z_score(const Mean& a, const Mean& b) {
-  return std::abs(a.value() - b.value()) / std::sqrt(a.variance() + b.variance() + 1e-300);
-}
 
 }  // namespace ods
