@@ -108,22 +108,23 @@ TEST(AliasTable, GivesEveryEntryItsShare) {
     double total = 0.0;
     for (double& w : weights) total += w = dice.next() < 0.3f ? 0.0 : std::exp(static_cast<double>(dice.next()) * 20.0);
     if (total == 0.0) weights[0] = total = 1.0;
-    const AliasTable table = make_alias_table(weights);
+    const std::vector<AliasEntry> table = make_alias_table(weights);
     std::vector<double> share(weights.size());
     for (size_t i = 0; i < share.size(); i++) {
-      const double kept = static_cast<double>(table.threshold[i]);
+      const double kept = static_cast<double>(table[i].threshold);
       ASSERT_TRUE(kept >= 0.0 && kept <= 1.0);
       share[i] += kept / n;
-      share[static_cast<size_t>(table.alias[i])] += (1.0 - kept) / n;
+      share[static_cast<size_t>(table[i].alias)] += (1.0 - kept) / n;
     }
     for (size_t i = 0; i < share.size(); i++) {
       EXPECT_NEAR(share[i], weights[i] / total, 1e-7) << n;
-      EXPECT_NEAR(static_cast<double>(table.probability[i]), weights[i] / total, 1e-7);
+      EXPECT_NEAR(static_cast<double>(table[i].probability), weights[i] / total, 1e-7);
       EXPECT_TRUE(weights[i] > 0.0 || share[i] == 0.0) << n;
     }
   }
-  const AliasTable dark = make_alias_table({0.0, 0.0});
-  EXPECT_EQ(dark.probability, std::vector<float>({0.5f, 0.5f}));
+  const std::vector<AliasEntry> dark = make_alias_table({0.0, 0.0});
+  EXPECT_EQ(dark[0].probability, 0.5f);
+  EXPECT_EQ(dark[1].probability, 0.5f);
 }
 
 // --- directions ----------------------------------------------------------------------------------------------------
@@ -268,6 +269,7 @@ LightSampler reader_of(const Scene& scene, const LightTable& table) {
   kernel.light_count = static_cast<int>(table.lights.size());
   kernel.environment = table.environment;
   kernel.environment_texels = table.environment_texels.data();
+  kernel.environment_rows = table.environment_rows.data();
   kernel.tables = kernel_tables().data();
   return kernel;
 }
@@ -294,7 +296,7 @@ TEST(Density, Lights) {
   LightSampler kernel = reader_of(scene, table);
   const auto draw = [&](Dice& dice, bool environment) {
     const vec2 pick = dice.pair();
-    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair());
+    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair(), dice.pair());
     return light.valid && (light.distance > 1e29f) == environment ? light.direction : vec3(0.0f);
   };
   const auto triangles = [&](vec3 w) {
@@ -315,7 +317,7 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
   int lamps = 0;
   for (int i = 0; i < 10000; i++) {
     const vec2 pick = dice.pair();
-    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair());
+    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair(), dice.pair());
     ASSERT_TRUE(light.valid);
     ASSERT_NEAR(length(light.direction), 1.0f, 1e-6f);
     if (light.distance > 1e29f) {

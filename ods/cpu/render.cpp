@@ -120,6 +120,7 @@ PathTracer make_tracer(const Scene& scene, const LightTable& lights) {
   tracer.light_count = static_cast<int>(lights.lights.size());
   tracer.environment = lights.environment;
   tracer.environment_texels = lights.environment_texels.data();
+  tracer.environment_rows = lights.environment_rows.data();
   tracer.tables = kernel_tables().data();
   return tracer;
 }

@@ -73,7 +73,8 @@ struct LightSampler : BsdfEvaluator {
     vec2 uv = direction_to_lat_long(direction);
     int x = clamp(int(uv.x * float(info.width)), 0, info.width - 1);
     int y = clamp(int(uv.y * float(info.height)), 0, info.height - 1);
-    float pick = scene_light(info.light).probability * scene_environment_texel(y * info.width + x).probability;
+    float pick = scene_light(info.light).entry.probability * scene_environment_row(y).probability *
+                 scene_environment_texel(y * info.width + x).entry.probability;
     return pick / environment_texel_angle(info, y);
   }
 
@@ -89,7 +90,7 @@ struct LightSampler : BsdfEvaluator {
     Instance instance = scene_instance(hit.instance);
     if (instance.first_light < 0) return 0.0f;
     Triangle triangle = triangle_of(instance, corners_of(hit));
-    float pick = scene_light(instance.first_light + hit.triangle).probability;
+    float pick = scene_light(instance.first_light + hit.triangle).entry.probability;
     return triangle_density(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
   }
 
@@ -109,7 +110,7 @@ struct LightSampler : BsdfEvaluator {
     LightSample result;
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
-    result.density = triangle_density(light.probability, area, result.direction, result.distance);
+    result.density = triangle_density(light.entry.probability, area, result.direction, result.distance);
     result.valid = result.density > 0.0f;
     Material material = scene_material(scene_mesh(instance.mesh).material);
     result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
@@ -135,18 +136,21 @@ struct LightSampler : BsdfEvaluator {
         result.radiance = result.radiance * (cone * cone);
       }
     }
-    result.radiance = result.radiance * (1.0f / light.probability);
+    result.radiance = result.radiance * (1.0f / light.entry.probability);
     return result;
   }
 
-  inline LightSample sample_environment(vec2 pick, vec2 uv) {
+  // cell chooses row and column, uv the point in the texel.
+  inline LightSample sample_environment(vec2 cell, vec2 uv) {
     EnvironmentInfo info = scene_environment();
-    int count = info.width * info.height;
-    int index = alias_slot(pick.x, count);
-    EnvironmentTexel texel = scene_environment_texel(index);
-    if (pick.y >= texel.alias_threshold) index = texel.alias;
-    int row = index / info.width;
-    int column = index - row * info.width;
+    float place = cell.x * float(info.height);
+    int row = min(int(place), info.height - 1);
+    AliasEntry row_entry = scene_environment_row(row);
+    if (place - float(row) >= row_entry.threshold) row = row_entry.alias;
+    place = cell.y * float(info.width);
+    int column = min(int(place), info.width - 1);
+    AliasEntry entry = scene_environment_texel(row * info.width + column).entry;
+    if (place - float(column) >= entry.threshold) column = entry.alias;
     float theta = ((float(column) + uv.x) / float(info.width) - 0.5f) * (2.0f * kPi);
     float top = cos(kPi * float(row) / float(info.height));
     float bottom = cos(kPi * float(row + 1) / float(info.height));
@@ -161,25 +165,16 @@ struct LightSampler : BsdfEvaluator {
     return result;
   }
 
-  // pick chooses the light (and the texel of an environment), uv the point on it; all uniform in [0, 1).
-  inline LightSample sample_light(vec3 from, vec2 pick, vec2 uv) {
-    LightSample nothing;
-    nothing.valid = false;
-    nothing.direction = vec3(0.0f);
-    nothing.radiance = vec3(0.0f);
-    nothing.distance = 0.0f;
-    nothing.density = 0.0f;
+  // pick chooses the light, cell a texel of an environment, uv the point on the light; all uniform in [0, 1).
+  // Precondition: there is a light.
+  inline LightSample sample_light(vec3 from, vec2 pick, vec2 cell, vec2 uv) {
     int count = scene_light_count();
-    if (count == 0) return nothing;
-    int index = alias_slot(pick.x, count);
-    float left_over = clamp(pick.x * float(count) - float(index), 0.0f, 0.9999999f);
-    float threshold = scene_light(index).alias_threshold;
-    bool keep = left_over < threshold;
-    left_over = keep ? left_over / threshold : (left_over - threshold) / (1.0f - threshold);
-    if (!keep) index = scene_light(index).alias;
+    int index = min(int(pick.x * float(count)), count - 1);
+    AliasEntry entry = scene_light(index).entry;
+    if (pick.y >= entry.threshold) index = entry.alias;
     Light light = scene_light(index);
     if (light.kind == kLightTriangle) return sample_triangle(light, from, uv);
-    if (light.kind == kLightEnvironment) return sample_environment(vec2(pick.y, left_over), uv);
+    if (light.kind == kLightEnvironment) return sample_environment(cell, uv);
     return sample_punctual(light, from);
   }
 

@@ -94,7 +94,14 @@ const int kLightSpot = 2;
 const int kLightDirectional = 3;
 const int kLightEnvironment = 4;
 
-// One entry of the table that lights are picked from, with Walker's alias beside it.
+// One entry of Walker's alias table: a slot is picked evenly, then kept with the chance threshold, else alias is taken.
+struct AliasEntry {
+  float probability;  // of being taken in the end
+  float threshold;
+  int alias;
+};
+
+// One entry of the table that lights are picked from.
 struct Light {
   int kind;
   int instance;       // triangle: which instance,
@@ -105,17 +112,13 @@ struct Light {
   float range;        // point, spot: metres; <= 0: unlimited
   float cone_scale;   // spot: clamp(cos * scale + offset, 0, 1) squared fades from inner to outer cone
   float cone_offset;  //
-  float probability;  // of being picked
-  float alias_threshold;
-  int alias;
+  AliasEntry entry;
 };
 
 // One texel of a lat-long environment (rows from the top, centre of the picture along -Z of the world).
 struct EnvironmentTexel {
   vec3 radiance;
-  float probability;  // of being picked
-  float alias_threshold;
-  int alias;
+  AliasEntry entry;  // within its row; rows have a table of their own
 };
 
 // What the kernel needs to know of the environment beside its texels.

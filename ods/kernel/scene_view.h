@@ -33,6 +33,7 @@ struct SceneView {
   int light_count = 0;
   EnvironmentInfo environment = {};
   const EnvironmentTexel* environment_texels = nullptr;
+  const AliasEntry* environment_rows = nullptr;
   const float* tables = nullptr;
 
   const Vertex& scene_vertex(uint i) const { return vertices[i]; }
@@ -46,6 +47,7 @@ struct SceneView {
   int scene_light_count() const { return light_count; }
   const EnvironmentInfo& scene_environment() const { return environment; }
   const EnvironmentTexel& scene_environment_texel(int i) const { return environment_texels[i]; }
+  const AliasEntry& scene_environment_row(int i) const { return environment_rows[i]; }
   float scene_table(int i) const { return tables[i]; }
 };
 }  // namespace ods

@@ -13,24 +13,23 @@
 namespace ods {
 
 // Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991.
-AliasTable make_alias_table(const std::vector<double>& weights) {
+std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights) {
   const size_t n = weights.size();
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  AliasTable table{std::vector<float>(n), std::vector<float>(n, 1.0f), std::vector<int>(n)};
+  std::vector<AliasEntry> table(n);
   std::vector<double> share(n);
   std::vector<size_t> poor, rich;
   for (size_t i = 0; i < n; i++) {
     const double probability = total > 0.0 ? weights[i] / total : 1.0 / static_cast<double>(n);
-    table.probability[i] = static_cast<float>(probability);
-    table.alias[i] = static_cast<int>(i);
+    table[i] = {static_cast<float>(probability), 1.0f, static_cast<int>(i)};
     share[i] = probability * static_cast<double>(n);
     (share[i] < 1.0 ? poor : rich).push_back(i);
   }
   while (!poor.empty() && !rich.empty()) {
     const size_t low = poor.back(), high = rich.back();
     poor.pop_back();
-    table.threshold[low] = static_cast<float>(share[low]);
-    table.alias[low] = static_cast<int>(high);
+    table[low].threshold = static_cast<float>(share[low]);
+    table[low].alias = static_cast<int>(high);
     share[high] -= 1.0 - share[low];
     if (share[high] < 1.0) {
       rich.pop_back();
@@ -38,11 +37,6 @@ AliasTable make_alias_table(const std::vector<double>& weights) {
     }
   }
   return table;
-}
-
-static double environment_mean(const std::vector<double>& texel_weights) {
-  // The weights are radiance times solid angle.
-  return std::accumulate(texel_weights.begin(), texel_weights.end(), 0.0) / (4.0 * std::acos(-1.0));
 }
 
 // Brightness of each texel times its solid angle. A texel's neighbours count, because interpolation spreads them.
@@ -161,14 +155,17 @@ static void add_environment_light(const Scene& scene, double scene_radius, Light
   table.environment.light = -1;
   if (source.width == 0) return;
   const std::vector<double> weights = environment_weights(source);
-  const AliasTable alias = make_alias_table(weights);
-  table.environment_texels.reserve(source.texels.size());
-  for (size_t i = 0; i < source.texels.size(); i++) {
-    table.environment_texels.push_back(
-        {source.texels[i] * source.radiance, alias.probability[i], alias.threshold[i], alias.alias[i]});
+  std::vector<double> row_weights;
+  for (auto row = weights.begin(); row != weights.end(); row += source.width) {
+    row_weights.push_back(std::accumulate(row, row + source.width, 0.0));
+    for (const AliasEntry& entry : make_alias_table({row, row + source.width})) {
+      table.environment_texels.push_back({source.texels[table.environment_texels.size()] * source.radiance, entry});
+    }
   }
+  table.environment_rows = make_alias_table(row_weights);
+  // The weights are radiance times solid angle; the scene offers its cross-section to all of it.
   const double pi = std::acos(-1.0);
-  double power = environment_mean(weights) * 4.0 * pi * pi * scene_radius * scene_radius;
+  double power = std::accumulate(row_weights.begin(), row_weights.end(), 0.0) * pi * scene_radius * scene_radius;
   if (!(power > 0.0)) return;
   const double others = std::accumulate(powers.begin(), powers.end(), 0.0);
   if (others > 0.0) power = std::min(power, others);
@@ -191,12 +188,8 @@ LightTable make_lights(const Scene& scene) {
     powers.push_back(power);
   }
   add_environment_light(scene, radius, table, powers);
-  const AliasTable alias = make_alias_table(powers);
-  for (size_t i = 0; i < table.lights.size(); i++) {
-    table.lights[i].probability = alias.probability[i];
-    table.lights[i].alias_threshold = alias.threshold[i];
-    table.lights[i].alias = alias.alias[i];
-  }
+  const std::vector<AliasEntry> entries = make_alias_table(powers);
+  for (size_t i = 0; i < table.lights.size(); i++) table.lights[i].entry = entries[i];
   return table;
 }
 

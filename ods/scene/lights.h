@@ -12,6 +12,7 @@ namespace ods {
 struct LightTable {
   std::vector<Light> lights;  // each glowing triangle, each punctual light, and the environment last
   std::vector<EnvironmentTexel> environment_texels;
+  std::vector<AliasEntry> environment_rows;
   EnvironmentInfo environment;
   std::vector<Instance> instances;  // the scene's, with first_light filled in
 };
@@ -21,13 +22,7 @@ struct LightTable {
 // the scattered rays, which find it as well as any other way could.
 LightTable make_lights(const Scene& scene);
 
-// Walker's alias table: entry i is kept when the left-over of the pick is below threshold[i], else alias[i] is taken.
-// Weights are finite, not negative; all zero counts as all equal.
-struct AliasTable {
-  std::vector<float> probability;
-  std::vector<float> threshold;
-  std::vector<int> alias;
-};
-AliasTable make_alias_table(const std::vector<double>& weights);
+// Walker's alias table of weights: finite, not negative; all zero counts as all equal.
+std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights);
 
 }  // namespace ods

@@ -11,6 +11,7 @@ layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
 layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
 layout(buffer_reference, scalar) readonly buffer Lights { Light at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
+layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
 layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
 
 struct View {
@@ -27,6 +28,7 @@ struct View {
   Texels texels;
   Lights lights;
   EnvironmentTexels environment_texels;
+  EnvironmentRows environment_rows;
   Tables tables;
 };
 layout(binding = 2, scalar) uniform ViewBuffer { View view; };
@@ -42,4 +44,5 @@ Light scene_light(int i) { return view.lights.at[i]; }
 int scene_light_count() { return view.light_count; }
 EnvironmentInfo scene_environment() { return view.environment; }
 EnvironmentTexel scene_environment_texel(int i) { return view.environment_texels.at[i]; }
+AliasEntry scene_environment_row(int i) { return view.environment_rows.at[i]; }
 float scene_table(int i) { return view.tables.at[i]; }
