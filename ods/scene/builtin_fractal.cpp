@@ -56,7 +56,7 @@ static void add_flakes(Scene& scene) {
   for (int p = 0; p < 3; p++) {
     for (int level = 0; level <= kLevels; level++) {
       const vec3 color = kPalettes[p].colors[level];
-      const int material = add_material(scene, kPalettes[p].metallic[level] ? metal(color, 0.12f) : paint(color, 0.3f));
+      const int material = add_material(scene, kPalettes[p].metallic[level] ? metal(color, 0.3f) : paint(color, 0.3f));
       const Shape& ball = level < 2 ? fine : coarse;
       meshes[p][level] = add_mesh(scene, ball.vertices, ball.triangles, material);
     }

@@ -31,11 +31,12 @@ struct Ball {
   vec3 color;
   float roughness;
 };
+// Mirrors are perfect or clearly rough: what lies between throws the sun about as single bright pixels.
 static const Ball kBalls[] = {
-    {-14.0f, 2.4f, 0.75f, kSilver, 0.0f},  {19.0f, 1.6f, 0.32f, kGold, 0.08f},   {8.0f, 4.6f, 1.2f, kCopper, 0.18f},
+    {-14.0f, 2.4f, 0.75f, kSilver, 0.0f},  {19.0f, 1.6f, 0.32f, kGold, 0.0f},    {8.0f, 4.6f, 1.2f, kCopper, 0.3f},
     {-52.0f, 3.6f, 0.9f, kGold, 0.0f},     {75.0f, 3.2f, 0.7f, kSilver, 0.0f},   {118.0f, 1.9f, 0.45f, kCopper, 0.0f},
-    {152.0f, 3.0f, 0.85f, kSilver, 0.03f}, {-128.0f, 2.2f, 0.5f, kSilver, 0.0f}, {-160.0f, 4.5f, 1.3f, kGold, 0.25f},
-    {-88.0f, 1.7f, 0.28f, kCopper, 0.1f},  {45.0f, 7.0f, 1.6f, kSilver, 0.0f},   {-32.0f, 8.0f, 1.8f, kSilver, 0.05f},
+    {152.0f, 3.0f, 0.85f, kSilver, 0.0f},  {-128.0f, 2.2f, 0.5f, kSilver, 0.0f}, {-160.0f, 4.5f, 1.3f, kGold, 0.3f},
+    {-88.0f, 1.7f, 0.28f, kCopper, 0.25f}, {45.0f, 7.0f, 1.6f, kSilver, 0.0f},   {-32.0f, 8.0f, 1.8f, kSilver, 0.0f},
 };
 
 static void add_balls(Scene& scene) {
