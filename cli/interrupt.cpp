@@ -19,7 +19,8 @@ void on_signal(int number) {
 }  // namespace
 
 void catch_interrupts() {
-  for (int number : {SIGINT, SIGTERM}) {
+  const int kNumbers[] = {SIGINT, SIGTERM};
+  for (int number : kNumbers) {
     struct sigaction before = {};
     sigaction(number, nullptr, &before);
     if (before.sa_handler == SIG_IGN) continue;  // started by nohup or as a shell's background job

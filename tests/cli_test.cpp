@@ -254,8 +254,8 @@ TEST_F(Cli, AbsentAndBrokenInputsAreInputErrors) {
 TEST_F(Cli, OutputThatCannotBeIsFoundBeforeRendering) {
   // Would take hours if it were rendered first.
   const std::string hours = "render furnace --width 8192 --samples 100000 -o ";
-  for (const std::string& output : {std::string("/proc/picture.png"), folder.path("picture.unknown"),
-                                    folder.path("picture"), folder.path(""), std::string("/dev/full/picture.png")}) {
+  for (const std::string& output : {folder.path("picture.unknown"), folder.path("picture"), folder.path(""),
+                                    std::string("/dev/full/picture.png"), std::string("/dev/full")}) {
     EXPECT_EQ(run(hours + output), 4) << output;
     expect_one_error();
   }

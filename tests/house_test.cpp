@@ -125,7 +125,7 @@ TEST(House, FilesAreSmall) {
 }
 
 TEST(House, FunctionsAreSmall) {
-  const std::regex no_function("^(namespace|struct|class|enum|union|extern|#|\\}|//| ).*");
+  const std::regex no_function("^(namespace|struct|class|enum|union|extern|#|\\}|//| ).*|.*= \\{+");
   for (const Source& source : all_sources()) {
     size_t start = 0;  // the line number of the function that is open, from 1
     for (size_t i = 0; i < source.lines.size(); ++i) {

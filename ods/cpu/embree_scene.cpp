@@ -14,10 +14,6 @@
 
 namespace ods {
 
-// Meshes that stand in the scene more than once become Embree instances only where copies would be many: a tree over
-// plain triangles is traced up to twice as fast, and a million of them cost about 150 MB.
-constexpr size_t kMaxCopiedTriangles = 1500000;
-
 #if RTC_VERSION_MAJOR >= 4
 struct RayContext {
   RTCRayQueryContext embree;
@@ -113,22 +109,22 @@ static RTCGeometry make_instance(RTCDevice device, RTCScene mesh, const Instance
 }
 
 // Which meshes are worth instancing.
-static std::vector<bool> choose_shared(const Scene& scene) {
+static std::vector<bool> choose_shared(const Scene& scene, size_t max_copied_triangles) {
   std::vector<size_t> uses(scene.meshes.size());
   for (const Instance& instance : scene.instances) uses[static_cast<size_t>(instance.mesh)]++;
   size_t copies = 0;
   for (size_t i = 0; i < uses.size(); i++) copies += uses[i] * scene.meshes[i].triangle_count;
   std::vector<bool> shared(scene.meshes.size());
-  for (size_t i = 0; i < uses.size(); i++) shared[i] = uses[i] > 1 && copies > kMaxCopiedTriangles;
+  for (size_t i = 0; i < uses.size(); i++) shared[i] = uses[i] > 1 && copies > max_copied_triangles;
   return shared;
 }
 
-EmbreeScene::EmbreeScene(const Scene& scene) : handles_(std::make_unique<Handles>()) {
+EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : handles_(std::make_unique<Handles>()) {
   handles_->device = rtcNewDevice(nullptr);
   RTCDevice device = handles_->device;
   handles_->top = new_scene(device);
   handles_->shared.resize(scene.meshes.size());
-  const std::vector<bool> shared = choose_shared(scene);
+  const std::vector<bool> shared = choose_shared(scene, max_copied_triangles);
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Instance& instance = scene.instances[i];
     const size_t mesh = static_cast<size_t>(instance.mesh);

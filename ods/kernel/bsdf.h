@@ -84,11 +84,15 @@ struct BsdfEvaluator : SurfaceReader {
 
   // Albedo of the rough glass lobe, what is reflected and what goes through together.
   inline float glass_albedo(float eta, float roughness, float cosine) {
-    // Both axes of the table are stretched so that eta = 1, where nothing happens, lies on its edge.
-    float reflectance = abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f;
+    // The axes are stretched towards eta = 1, where nothing happens, and so that total reflection starts in mid-table.
+    float reflectance = sqrt(abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f);
+    float place = sqrt(cosine);
+    float critical = sqrt(max(1.0f - eta * eta, 0.0f));
+    if (eta < 1.0f && cosine < critical) place = 0.5f * sqrt(cosine / critical);
+    if (eta < 1.0f && cosine >= critical) place = 0.5f + 0.5f * sqrt((cosine - critical) / (1.0f - critical));
     float e = clamp(reflectance, 0.0f, 1.0f) * float(kGlassSize - 1);
     float r = clamp(roughness, 0.0f, 1.0f) * float(kGlassSize - 1);
-    float c = clamp(cosine, 0.0f, 1.0f) * float(kGlassSize - 1);
+    float c = clamp(place, 0.0f, 1.0f) * float(kGlassSize - 1);
     int e0 = min(int(e), kGlassSize - 2);
     int r0 = min(int(r), kGlassSize - 2);
     int c0 = min(int(c), kGlassSize - 2);
@@ -129,6 +133,8 @@ struct BsdfEvaluator : SurfaceReader {
 
     float metal = clamp(surface.metallic, 0.0f, 1.0f);
     float clear = (1.0f - metal) * clamp(surface.transmission, 0.0f, 1.0f);
+    // Between equal indices nothing bends, however rough: one direction again.
+    if (clear > 0.0f && !bsdf.thin && abs(eta - 1.0f) < 1e-3f) bsdf.alpha = 0.0f;
     float opaque = 1.0f - metal - clear;
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
@@ -258,7 +264,7 @@ struct BsdfEvaluator : SurfaceReader {
       vec3 tint = result.through ? bsdf.glass : vec3(1.0f);
       result.weight = tint * (bsdf.glass_gain / bsdf.p_glass);
     } else {
-      result.weight = gloss_fresnel(bsdf, bsdf.wo.z) * (1.0f / bsdf.p_gloss);
+      result.weight = gloss_fresnel(bsdf, bsdf.wo.z) * (1.0f / max(bsdf.p_gloss, 1e-20f));  // black: 0
     }
     if (wi.z == 0.0f || result.through != (dot(result.direction, bsdf.geometric) < 0.0f)) result.weight = vec3(0.0f);
     return result;

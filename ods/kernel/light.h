@@ -109,7 +109,14 @@ struct LightSampler : BsdfEvaluator {
     result.density = triangle_density(hit, result.direction, result.distance);
     result.valid = result.density > 0.0f && result.distance > 0.0f;
     result.radiance = vec3(0.0f);
-    if (result.valid) result.radiance = surface_at(hit, result.direction).emission;
+    if (result.valid) {
+      int material = scene_mesh(instance.mesh).material;
+      result.radiance = surface_at(hit, result.direction).emission;
+      // A ray would pass through the rest.
+      if (scene_material(material).alpha_mode != kAlphaOpaque) {
+        result.radiance = result.radiance * alpha_of(scene_material(material), k);
+      }
+    }
     return result;
   }
 

@@ -130,9 +130,10 @@ struct PathTracer : MediumReader {
     path.alive = false;
   }
 
-  // Goes on straight through a surface that does not count.
+  // Goes on straight through a surface that does not count. Shadow rays stop there: only this ray finds what is behind.
   inline void pass_through(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
+    path.density = 0.0f;
     path.travelled += t;
     path.passed += 1;
     if (path.passed > kMaxPassed) path.alive = false;
@@ -154,8 +155,14 @@ struct PathTracer : MediumReader {
     if (!(max(path.shadow_light.x, max(path.shadow_light.y, path.shadow_light.z)) > 0.0f)) return;
     path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
     path.shadow_ray.direction = light.direction;
-    path.shadow_length = light.distance * 0.9999f;
-    path.shadow_pending = true;
+    path.shadow_length = light.distance;
+    if (light.distance < 1e29f) {
+      // From the moved origin a near lamp is nearer; a ray as long as before would end behind it.
+      vec3 to_light = surface.position + light.direction * light.distance - path.shadow_ray.origin;
+      path.shadow_length = length(to_light) * 0.9999f;
+      path.shadow_ray.direction = to_light * (0.9999f / max(path.shadow_length, 1e-20f));
+    }
+    path.shadow_pending = path.shadow_length > 0.0f;
   }
 
   // Ends dim paths at random and makes the others brighter by as much: no bias. Source: Arvo and Kirk, 1990.

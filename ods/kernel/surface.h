@@ -78,7 +78,9 @@ struct SurfaceReader : TextureReader {
 
   // The share of a ray that a surface stops, 0..1.
   inline float alpha_of(Material material, Corners k) {
-    float alpha = material.base_color.w * (k.a.color.w * k.wa + k.b.color.w * k.wb + k.c.color.w * k.wc);
+    // In this form equal corners give exactly their value, which may be the cutoff.
+    float a = k.a.color.w;
+    float alpha = material.base_color.w * (a + (k.b.color.w - a) * k.wb + (k.c.color.w - a) * k.wc);
     alpha = alpha * slot_at(material.base_color_slot, uv0_of(k), uv1_of(k)).w;
     if (material.alpha_mode == kAlphaMask) return alpha < material.alpha_cutoff ? 0.0f : 1.0f;
     return alpha;

@@ -39,13 +39,17 @@ static void fill_filter(float* table) {
   }
 }
 
-// Midpoints of an n x n grid stand in for random numbers: the integrands are smooth.
+// The mean of function(u) over the unit square by a lattice of n points. Light is lost where u.y is close to 1, so
+// there the points are denser; u.x and 1 - u.x are mirror images.
 template <typename Function>
-static void for_grid(int n, Function function) {
-  for (int i = 0; i < n * n; i++) {
-    function(vec2((static_cast<float>(i % n) + 0.5f) / static_cast<float>(n),
-                  (static_cast<float>(i / n) + 0.5f) / static_cast<float>(n)));
+static vec2 mean_over_normals(int n, Function function) {
+  glm::dvec2 sum(0.0);
+  for (int i = 0; i < n; i++) {
+    const float across = 0.5f * fract(0.618034f * (static_cast<float>(i) + 0.5f));
+    const float rest = 1.0f - (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
+    sum += glm::dvec2(function(vec2(across, 1.0f - rest * rest)) * (2.0f * rest));
   }
+  return vec2(sum / static_cast<double>(n));
 }
 
 static vec3 viewer_at(float cosine) {
@@ -58,44 +62,51 @@ static void fill_ggx(float* table) {
     const float roughness = static_cast<float>(cell / kGgxSize) / static_cast<float>(kGgxSize - 1);
     const float alpha = max(roughness * roughness, 1e-4f);
     const vec3 wo = viewer_at(static_cast<float>(cell % kGgxSize) / static_cast<float>(kGgxSize - 1));
-    double head_on = 0.0, grazing = 0.0;
-    constexpr int kGrid = 32;
-    for_grid(kGrid, [&](vec2 u) {
+    const vec2 albedo = mean_over_normals(610, [&](vec2 u) {
       const vec3 h = ggx_sample_visible(wo, alpha, u);
       const vec3 wi = h * (2.0f * dot(wo, h)) - wo;
-      if (wi.z <= 0.0f) return;
+      if (wi.z <= 0.0f) return vec2(0.0f);
       const float lambda = ggx_lambda(wo, alpha);
-      const float kept = (1.0f + lambda) / (1.0f + lambda + ggx_lambda(wi, alpha));
       const float s = schlick(dot(wo, h));
-      head_on += kept * (1.0f - s);
-      grazing += kept * s;
+      return vec2(1.0f - s, s) * ((1.0f + lambda) / (1.0f + lambda + ggx_lambda(wi, alpha)));
     });
-    table[2 * cell] = static_cast<float>(head_on / (kGrid * kGrid));
-    table[2 * cell + 1] = static_cast<float>(grazing / (kGrid * kGrid));
+    table[2 * cell] = albedo.x;
+    table[2 * cell + 1] = albedo.y;
   });
+}
+
+// The inverse of glass_albedo()'s stretched cosine axis.
+static float glass_cosine(float eta, float place) {
+  if (eta >= 1.0f) return place * place;
+  const float critical = sqrt(1.0f - eta * eta);
+  if (place < 0.5f) return 4.0f * place * place * critical;
+  return critical + (1.0f - critical) * (2.0f * place - 1.0f) * (2.0f * place - 1.0f);
 }
 
 static void fill_glass(float* table) {
   constexpr int kRow = kGlassSize * kGlassSize;
   tbb::parallel_for(0, 2 * kGlassSize * kRow, [&](int cell) {
-    const float reflectance = 0.5f * static_cast<float>(cell / kRow % kGlassSize) / static_cast<float>(kGlassSize - 1);
+    const float row = static_cast<float>(cell / kRow % kGlassSize) / static_cast<float>(kGlassSize - 1);
+    const float reflectance = 0.5f * row * row;
     const float ratio = (1.0f + reflectance) / (1.0f - reflectance);
     const float eta = cell < kGlassSize * kRow ? ratio : 1.0f / ratio;
     const float roughness = static_cast<float>(cell / kGlassSize % kGlassSize) / static_cast<float>(kGlassSize - 1);
     const float alpha = max(roughness * roughness, 1e-4f);
-    const vec3 wo = viewer_at(static_cast<float>(cell % kGlassSize) / static_cast<float>(kGlassSize - 1));
-    double sum = 0.0;
-    constexpr int kGrid = 16;
-    for_grid(kGrid, [&](vec2 u) {
-      const vec3 h = ggx_sample_visible(wo, alpha, u);
-      const float fresnel = fresnel_dielectric(dot(wo, h), eta);
-      const float lambda = ggx_lambda(wo, alpha);
-      const vec3 mirrored = h * (2.0f * dot(wo, h)) - wo;
-      const vec3 through = refract_through(wo, h, eta);
-      if (mirrored.z > 0.0f) sum += fresnel * (1.0f + lambda) / (1.0f + lambda + ggx_lambda(mirrored, alpha));
-      if (through.z < 0.0f) sum += (1.0f - fresnel) * (1.0f + lambda) / (1.0f + lambda + ggx_lambda(through, alpha));
-    });
-    table[cell] = static_cast<float>(sum / (kGrid * kGrid));
+    const vec3 wo =
+        viewer_at(glass_cosine(eta, static_cast<float>(cell % kGlassSize) / static_cast<float>(kGlassSize - 1)));
+    table[cell] = mean_over_normals(256, [&](vec2 u) {
+                    const vec3 h = ggx_sample_visible(wo, alpha, u);
+                    const float fresnel = fresnel_dielectric(dot(wo, h), eta);
+                    const float lambda = ggx_lambda(wo, alpha);
+                    const vec3 mirrored = h * (2.0f * dot(wo, h)) - wo;
+                    const vec3 through = refract_through(wo, h, eta);
+                    float kept = 0.0f;
+                    if (mirrored.z > 0.0f)
+                      kept += fresnel * (1.0f + lambda) / (1.0f + lambda + ggx_lambda(mirrored, alpha));
+                    if (through.z < 0.0f)
+                      kept += (1.0f - fresnel) * (1.0f + lambda) / (1.0f + lambda + ggx_lambda(through, alpha));
+                    return vec2(kept, 0.0f);
+                  }).x;
   });
 }
 
