@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "ods/scene/stroke_font.h"
 #include "shape_checks.h"
 
 namespace ods {
@@ -84,6 +86,16 @@ TEST(Shapes, SmoothProfilePassesThroughItsPoints) {
   const std::vector<vec2> curve = smooth_profile(points, 5);
   ASSERT_EQ(curve.size(), 16u);
   for (size_t i = 0; i < points.size(); i++) EXPECT_EQ(curve[5 * i], points[i]);
+}
+
+TEST(Shapes, EveryLetterHasStrokesInsideItsBox) {
+  for (const char letter : std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.")) {
+    SCOPED_TRACE(letter);
+    const Shape shape = make_text(std::string(1, letter), 1.0f, 0.1f);
+    expect_sound(shape.vertices, shape.triangles);
+    for (const Vertex& v : shape.vertices) EXPECT_LT(max(abs(v.position.x), abs(v.position.y)), 0.56f);
+  }
+  EXPECT_TRUE(make_text(" ?", 1.0f, 0.1f).triangles.empty());
 }
 
 }  // namespace

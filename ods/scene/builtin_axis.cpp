@@ -104,7 +104,7 @@ static void add_axes(Scene& scene) {
   const vec3 colors[] = {{0.8f, 0.02f, 0.02f}, {0.02f, 0.6f, 0.04f}, {0.02f, 0.06f, 0.85f}};
   const glm::mat4 turns[] = {turned(vec3(0, 0, 1), -90.0f), glm::mat4(1.0f), turned(vec3(1, 0, 0), 90.0f)};
   const char* names[] = {"+X", "+Y", "+Z"};
-  const vec3 foot(0.0f, 0.03f, 0.0f), post(0.0f, 0.0f, -3.1f);
+  const vec3 foot(0.0f, 0.03f, 0.0f), post(0.75f, 0.0f, -3.1f);
   for (int axis = 0; axis < 3; axis++) {
     const int material = add_material(scene, paint(colors[axis], 0.4f));
     const bool upwards = axis == 1;

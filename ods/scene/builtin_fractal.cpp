@@ -56,7 +56,7 @@ static void add_flakes(Scene& scene) {
   for (int p = 0; p < 3; p++) {
     for (int level = 0; level <= kLevels; level++) {
       const vec3 color = kPalettes[p].colors[level];
-      const int material = add_material(scene, kPalettes[p].metallic[level] ? metal(color, 0.12f) : paint(color, 0.3f));
+      const int material = add_material(scene, kPalettes[p].metallic[level] ? metal(color, 0.3f) : paint(color, 0.3f));
       const Shape& ball = level < 2 ? fine : coarse;
       meshes[p][level] = add_mesh(scene, ball.vertices, ball.triangles, material);
     }
@@ -67,13 +67,14 @@ static void add_flakes(Scene& scene) {
     int palette;
   };
   const Place places[] = {
-      {{0.0f, 1.5f, -3.6f}, 0.75f, 0}, {{3.4f, 1.1f, -1.6f}, 0.5f, 1}, {{-3.0f, 1.6f, -1.3f}, 0.55f, 2},
+      {{0.0f, 1.6f, -2.9f}, 0.75f, 0}, {{3.4f, 1.1f, -1.6f}, 0.5f, 1}, {{-3.0f, 1.6f, -1.3f}, 0.55f, 2},
       {{2.0f, 1.7f, 3.4f}, 0.7f, 2},   {{-2.4f, 1.0f, 3.0f}, 0.5f, 0}, {{0.3f, 5.6f, 0.4f}, 0.9f, 1},
       {{9.0f, 3.0f, 4.0f}, 1.6f, 0},   {{-9.5f, 3.4f, 3.0f}, 1.7f, 1}, {{6.5f, 4.5f, -11.0f}, 2.2f, 2},
       {{-7.5f, 4.0f, -9.0f}, 1.9f, 0},
   };
   for (const Place& place : places) {
-    add_flake(scene, meshes[place.palette], frame_on(place.position, vec3(0, 1, 0)), place.radius, 0);
+    const vec3 up(0.0f, place.position.y > 5.0f ? -1.0f : 1.0f, 0.0f);  // the one overhead shows its crown too
+    add_flake(scene, meshes[place.palette], frame_on(place.position, up), place.radius, 0);
   }
 }
 
@@ -116,9 +117,10 @@ Scene make_fractal() {
   Scene scene;
   const int stone = add_texture(scene, 512, 512, [](vec2 p) {
     const vec2 t = abs(fract(p * 4.0f) - 0.5f);
-    return max(t.x, t.y) > 0.485f ? vec3(0.05f) : 0.5f * marble(p);
+    return max(t.x, t.y) > 0.492f ? vec3(0.05f) : 0.5f * marble(p);
   });
-  add(scene, make_floor(80.0f, 80.0f), add_material(scene, textured(paint(vec3(0.9f), 0.18f), stone, vec2(4.0f))));
+  add(scene, make_floor(80.0f, 80.0f), add_material(scene, textured(paint(vec3(0.9f), 0.18f), stone, vec2(4.0f))),
+      placed(vec3(0.5f, 0.0f, 0.5f)));
   add_flakes(scene);
   add_sponges(scene);
   scene.environment = make_environment(512, [](vec3 d) {

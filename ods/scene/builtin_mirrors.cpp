@@ -3,6 +3,9 @@
 //
 // "mirrors": what stereo makes of reflections: behind flat glass things lie as far away as they are, in round mirrors
 // they shrink and come near, in hollow ones they hang in the air.
+#include <algorithm>
+#include <iterator>
+
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builder.h"
 #include "ods/scene/builtin_makers.h"
@@ -23,20 +26,22 @@ static void add_floor(Scene& scene) {
   add(scene, make_floor(60.0f, 60.0f), add_material(scene, textured(paint(vec3(1.0f), 0.25f), tiles, vec2(1.6f))));
 }
 
+struct Ball {
+  float azimuth, distance, radius;
+  vec3 color;
+  float roughness;
+};
+// Mirrors are perfect or clearly rough: what lies between throws the sun about as single bright pixels.
+static const Ball kBalls[] = {
+    {-14.0f, 2.4f, 0.75f, kSilver, 0.0f},  {19.0f, 1.6f, 0.32f, kGold, 0.0f},    {8.0f, 4.6f, 1.2f, kCopper, 0.3f},
+    {-52.0f, 3.6f, 0.9f, kGold, 0.0f},     {75.0f, 3.2f, 0.7f, kSilver, 0.0f},   {118.0f, 1.9f, 0.45f, kCopper, 0.0f},
+    {152.0f, 3.0f, 0.85f, kSilver, 0.0f},  {-128.0f, 2.2f, 0.5f, kSilver, 0.0f}, {-160.0f, 4.5f, 1.3f, kGold, 0.3f},
+    {-88.0f, 1.7f, 0.28f, kCopper, 0.25f}, {45.0f, 7.0f, 1.6f, kSilver, 0.0f},   {-32.0f, 8.0f, 1.8f, kSilver, 0.0f},
+};
+
 static void add_balls(Scene& scene) {
-  struct Ball {
-    float azimuth, distance, radius;
-    vec3 color;
-    float roughness;
-  };
-  const Ball balls[] = {
-      {-14.0f, 2.4f, 0.75f, kSilver, 0.0f},  {19.0f, 1.6f, 0.32f, kGold, 0.08f},   {8.0f, 4.6f, 1.2f, kCopper, 0.18f},
-      {-52.0f, 3.6f, 0.9f, kGold, 0.0f},     {75.0f, 3.2f, 0.7f, kSilver, 0.0f},   {118.0f, 1.9f, 0.45f, kCopper, 0.0f},
-      {152.0f, 3.0f, 0.85f, kSilver, 0.03f}, {-128.0f, 2.2f, 0.5f, kSilver, 0.0f}, {-160.0f, 4.5f, 1.3f, kGold, 0.25f},
-      {-88.0f, 1.7f, 0.28f, kCopper, 0.1f},  {45.0f, 7.0f, 1.6f, kSilver, 0.0f},   {-32.0f, 8.0f, 1.8f, kSilver, 0.05f},
-  };
   const Shape ball = make_sphere(1.0f, 96);
-  for (const Ball& b : balls) {
+  for (const Ball& b : kBalls) {
     add(scene, ball, add_material(scene, metal(b.color, b.roughness)),
         placed(around(b.azimuth, b.distance, b.radius), 0.0f, vec3(b.radius)));
   }
@@ -96,10 +101,15 @@ static void add_colored_things(Scene& scene) {
   };
   const vec3 colors[] = {{0.70f, 0.05f, 0.04f}, {0.04f, 0.22f, 0.62f}, {0.80f, 0.42f, 0.02f}, {0.04f, 0.42f, 0.16f},
                          {0.45f, 0.06f, 0.42f}, {0.02f, 0.42f, 0.45f}, {0.75f, 0.72f, 0.66f}};
-  for (int i = 0; i < 26; i++) {
+  for (int i = 0; i < 34; i++) {
     const float azimuth = float(i) * 137.5f, distance = 1.35f + 0.23f * float(i);
+    const vec3 place = around(azimuth, distance, 0.25f);
+    const bool hits_ball = std::any_of(std::begin(kBalls), std::end(kBalls), [&](const Ball& b) {
+      return glm::distance(place, around(b.azimuth, b.distance, 0.25f)) < b.radius + 0.42f;
+    });
+    if (hits_ball) continue;
     const int material = add_material(scene, paint(colors[i % 7], i % 3 == 0 ? 0.15f : 0.5f));
-    add(scene, things[i % 4], material, placed(around(azimuth, distance, 0.25f), 31.0f * float(i)));
+    add(scene, things[i % 4], material, placed(place, 31.0f * float(i)));
   }
 }
 

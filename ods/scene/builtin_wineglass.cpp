@@ -252,7 +252,7 @@ static void add_terrace(Scene& scene) {
   });
   const int stone = add_material(scene, textured(paint(vec3(0.92f, 0.86f, 0.78f), 0.35f), veins, vec2(1.0f)));
   const int floor = add_material(scene, textured(paint(vec3(1.0f), 0.3f), tiles, vec2(2.4f)));
-  add(scene, make_disc(4.6f, 96), floor);
+  add(scene, mapped_from_above(make_disc(4.6f, 96)), floor, placed(vec3(0.0f), 45.0f));
   add_columns(scene, stone);
   const float ring = 4.2f;
   const Shape baluster = make_lathe(smooth_profile({{0.0f, 0.1f},

@@ -51,8 +51,7 @@ static float grain(vec2 p, uint seed) {
 vec3 wood_planks(vec2 p) {
   const int rows = 8;
   const int row = static_cast<int>(floor(p.y * rows));
-  const float shifted = fract(p.x + hash01(row, 0, 11u));
-  const float along = fract(shifted * 1.0f);
+  const float along = fract(p.x + hash01(row, 0, 11u));
   const vec2 inside_board(along, fract(p.y * rows));
   const uint board = static_cast<uint>(row) * 2u + (along < 0.5f ? 0u : 1u);
   const float tone = hash01(static_cast<int>(board), 1, 12u);

@@ -24,9 +24,7 @@ vec3 brick(vec2 p);                 // 4 x 12 bricks
 vec3 marble(vec2 p);                // white with grey veins
 vec3 checker(vec2 p);               // 2 x 2, light and dark
 vec3 rug(vec2 p);                   // one whole rug with border and medallion
-vec3 painting(vec2 p, int number);  // one of kPaintings pictures
+vec3 painting(vec2 p, int number);  // a picture, number 0 to 4
 vec3 book_spine(vec2 p);            // gold bands and a title on white: multiply by a colour
-
-const int kPaintings = 5;
 
 }  // namespace ods

@@ -10,20 +10,19 @@ namespace ods {
 // Polylines of points (x 0..4, y 0..6), two digits a point, polylines parted by spaces.
 struct Glyph {
   char letter;
-  const char* lines;
+  const char* strokes;
 };
-
-static constexpr Glyph kGlyphs[] = {
+static const Glyph kGlyphs[] = {
     {'A', "002640 1232"},
-    {'B', "0006364534330333424130 00003041423303"},
+    {'B', "00063645443303 3342413000"},
     {'C', "4536160501103041"},
-    {'D', "000626454126 0020414526"},
+    {'D', "00062645412000"},
     {'E', "40000646 0333"},
     {'F', "000646 0333"},
     {'G', "45361605011030414323"},
     {'H', "0006 4046 0343"},
     {'I', "1030 2026 1636"},
-    {'J', "01103041461646"},
+    {'J', "0110304146 2646"},
     {'K', "0006 0246 1340"},
     {'L', "060040"},
     {'M', "0006234640"},
@@ -42,13 +41,13 @@ static constexpr Glyph kGlyphs[] = {
     {'Z', "06460040"},
     {'0', "103041453616050110 1135"},
     {'1', "152620 1030"},
-    {'2', "051636454400 0040"},
-    {'3', "05163645443313 33424130100101"},
-    {'4', "3036024242"},
-    {'5', "46060333424130100101"},
-    {'6', "453616050110304142330303"},
+    {'2', "05163645440040"},
+    {'3', "05163645443313 334241301001"},
+    {'4', "30360242"},
+    {'5', "460603334241301001"},
+    {'6', "4536160501103041423303"},
     {'7', "064610"},
-    {'8', "133344453616050413020110304142 3342"},
+    {'8', "13334445361605041302011030414233"},
     {'9', "43130405163645413010"},
     {'+', "0343 2125"},
     {'-', "0343"},
@@ -56,8 +55,8 @@ static constexpr Glyph kGlyphs[] = {
 };
 
 static const char* glyph(char letter) {
-  for (const Glyph& candidate : kGlyphs) {
-    if (candidate.letter == letter) return candidate.lines;
+  for (const Glyph& g : kGlyphs) {
+    if (g.letter == letter) return g.strokes;
   }
   return "";
 }
@@ -76,7 +75,6 @@ Shape make_text(const std::string& text, float height, float stroke) {
     while (lines >> line) {
       for (size_t i = 0; i + 3 < line.size(); i += 2) {
         const vec2 from = unit * point(line, i), to = unit * point(line, i + 2);
-        if (from == to) continue;
         const vec2 along = normalize(to - from), middle = 0.5f * (from + to);
         const vec2 at = middle + vec2(left + advance * float(c), -3.0f * unit);
         glm::mat4 turn(1.0f);
