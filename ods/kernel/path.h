@@ -60,8 +60,8 @@ const int kMaxPassed = 64;
 // reaches a given noise soonest on interiors (./run bench, equal noise).
 const float kRouletteThreshold = 0.25f;
 
-// How many lights are looked at for each shadow ray, of which one is chosen by what it would bring. At 4 a room with
-// several lamps takes half the time to equal noise as at 1.
+// How many lights the first surface looks at for its shadow ray, to choose one by what it would bring. A room with
+// several lamps reaches equal noise in four fifths of the time that one takes; deeper surfaces gain nothing by it.
 const int kLightCandidates = 4;
 
 // Number pairs of a path: 0 places the sample in its pixel, then these for each bounce.
@@ -171,7 +171,7 @@ struct PathTracer : MediumReader {
   // Leaves a shadow ray towards a light: of several picked by power, one by what it would bring here.
   // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
   inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
-    int candidates = min(scene_light_count(), kLightCandidates);
+    int candidates = min(scene_light_count(), path.bounce == 0 ? kLightCandidates : 1);
     float draw = path_random(kCandidatePair).x;
     float total = 0.0f;
     LightSample chosen;
