@@ -260,17 +260,7 @@ Scene lit_scene() {
 
 LightSampler reader_of(const Scene& scene, const LightTable& table) {
   LightSampler kernel;
-  kernel.vertices = scene.vertices.data();
-  kernel.triangles = scene.triangles.data();
-  kernel.meshes = scene.meshes.data();
-  kernel.instances = table.instances.data();
-  kernel.materials = scene.materials.data();
-  kernel.lights = table.lights.data();
-  kernel.light_count = static_cast<int>(table.lights.size());
-  kernel.environment = table.environment;
-  kernel.environment_texels = table.environment_texels.data();
-  kernel.environment_rows = table.environment_rows.data();
-  kernel.tables = kernel_tables().data();
+  static_cast<SceneView&>(kernel) = view_scene(scene, table);
   return kernel;
 }
 

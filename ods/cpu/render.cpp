@@ -14,7 +14,6 @@
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/path.h"
 #include "ods/scene/lights.h"
-#include "ods/scene/tables.h"
 
 namespace ods {
 namespace {
@@ -107,24 +106,6 @@ void render_tile(Job job, int tile, EyeImage& image) {
   }
 }
 
-PathTracer make_tracer(const Scene& scene, const LightTable& lights) {
-  PathTracer tracer;
-  tracer.vertices = scene.vertices.data();
-  tracer.triangles = scene.triangles.data();
-  tracer.meshes = scene.meshes.data();
-  tracer.instances = lights.instances.data();
-  tracer.materials = scene.materials.data();
-  tracer.textures = scene.textures.data();
-  tracer.texels = scene.texels.data();
-  tracer.lights = lights.lights.data();
-  tracer.light_count = static_cast<int>(lights.lights.size());
-  tracer.environment = lights.environment;
-  tracer.environment_texels = lights.environment_texels.data();
-  tracer.environment_rows = lights.environment_rows.data();
-  tracer.tables = kernel_tables().data();
-  return tracer;
-}
-
 // Both eyes' tiles in one pool of work; progress is told by whoever finishes a tile.
 void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   const Image& first = picture.eyes.front().radiance;
@@ -162,8 +143,10 @@ Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions
   arena.execute([&] {
     const LightTable lights = make_lights(scene);
     const EmbreeScene embree(scene);
+    PathTracer tracer;
+    static_cast<SceneView&>(tracer) = view_scene(scene, lights);
     const Job job{embree,
-                  make_tracer(scene, lights),
+                  tracer,
                   make_camera(rig),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},

@@ -62,7 +62,7 @@ const float kRouletteThreshold = 0.25f;
 
 // How many lights the first surface looks at for its shadow ray, to choose one by what it would bring. A room with
 // several lamps reaches equal noise in four fifths of the time that one takes; deeper surfaces gain nothing by it.
-const int kLightCandidates = 4;
+const int kLightCandidates = 3;
 
 // Number pairs of a path: 0 places the sample in its pixel, then these for each bounce.
 const uint kPixelPair = 0u;

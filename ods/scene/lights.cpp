@@ -93,20 +93,6 @@ static double punctual_power(const PunctualLight& source, double scene_radius) {
   return strength * 4.0 * pi;
 }
 
-// Reads scene data through the kernel, so that textures mean the same here and there.
-static LightSampler scene_reader(const Scene& scene) {
-  LightSampler reader;
-  reader.vertices = scene.vertices.data();
-  reader.triangles = scene.triangles.data();
-  reader.meshes = scene.meshes.data();
-  reader.instances = scene.instances.data();
-  reader.materials = scene.materials.data();
-  reader.textures = scene.textures.data();
-  reader.texels = scene.texels.data();
-  reader.tables = kernel_tables().data();
-  return reader;
-}
-
 static double triangle_power(LightSampler& reader, const Scene& scene, int instance_index, int triangle) {
   Hit hit{0.0f, 0.0f, 0.0f, instance_index, triangle};
   const Instance& instance = scene.instances[static_cast<size_t>(instance_index)];
@@ -128,7 +114,9 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
 }
 
 static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<double>& powers) {
-  LightSampler reader = scene_reader(scene);
+  // Textures are read through the kernel, so that they mean the same here and there.
+  LightSampler reader;
+  static_cast<SceneView&>(reader) = view_scene(scene, table);
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -172,6 +160,24 @@ static void add_environment_light(const Scene& scene, double scene_radius, Light
   table.environment.light = static_cast<int>(table.lights.size());
   table.lights.push_back(blank_light(kLightEnvironment));
   powers.push_back(power);
+}
+
+SceneView view_scene(const Scene& scene, const LightTable& lights) {
+  SceneView view;
+  view.vertices = scene.vertices.data();
+  view.triangles = scene.triangles.data();
+  view.meshes = scene.meshes.data();
+  view.instances = lights.instances.data();
+  view.materials = scene.materials.data();
+  view.textures = scene.textures.data();
+  view.texels = scene.texels.data();
+  view.lights = lights.lights.data();
+  view.light_count = static_cast<int>(lights.lights.size());
+  view.environment = lights.environment;
+  view.environment_texels = lights.environment_texels.data();
+  view.environment_rows = lights.environment_rows.data();
+  view.tables = kernel_tables().data();
+  return view;
 }
 
 LightTable make_lights(const Scene& scene) {

@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "ods/kernel/scene_view.h"
 #include "ods/scene/scene.h"
 
 namespace ods {
@@ -21,6 +22,9 @@ struct LightTable {
 // gets at most half of the picks where other lights exist, since walls may hide it. A uniform environment is left to
 // the scattered rays, which find it as well as any other way could.
 LightTable make_lights(const Scene& scene);
+
+// The kernel's view of a scene and its lights, both of which must outlive it.
+SceneView view_scene(const Scene& scene, const LightTable& lights);
 
 // Walker's alias table of weights: finite, not negative; all zero counts as all equal.
 std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights);

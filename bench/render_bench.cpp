@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How fast the path tracer is, in the measures of its peers: samples per CPU second, the share of the time that is
+// Embree's, CPU seconds to a given noise, loading, threads. Seconds are CPU seconds of the whole process.
+//
+// The scenes are the shared atrium and helmet, under a white sky of 1, box filter, 8 bounces; without them the built-in
+// fractal stands in.
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "ods/cpu/embree_scene.h"
+#include "ods/cpu/render.h"
+#include "ods/scene/lights.h"
+#include "ods/scene/load.h"
+
+namespace {
+
+using namespace ods;
+
+struct Subject {
+  const char* name;
+  const char* file;  // below SHARED_SCENES
+  vec3 position;
+  double noise;  // RMSE that the equal-noise figure aims at
+};
+
+constexpr Subject kSubjects[] = {{"atrium", "atrium.glb", {0.0f, 1.6f, 0.0f}, 0.005},
+                                 {"helmet", "DamagedHelmet.glb", {0.0f, 0.0f, 1.5f}, 0.002}};
+
+double cpu_seconds() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double peak_megabytes() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+Scene load(const Subject& subject) {
+  const std::string path = std::string(SHARED_SCENES "/") + subject.file;
+  Scene scene = load_scene(std::filesystem::exists(path) ? path : "fractal", {});
+  scene.environment = Environment();
+  scene.environment.radiance = vec3(1.0f);
+  return scene;
+}
+
+CameraRig rig_of(const Subject& subject) {
+  CameraRig rig;
+  rig.position = subject.position;
+  return rig;
+}
+
+RenderOptions options_of(int width, int samples) {
+  RenderOptions options;
+  options.width = width;
+  options.samples = samples;
+  options.filter = PixelFilter::kBox;
+  return options;
+}
+
+double million_samples(const RenderOptions& options) {
+  return 1e-6 * options.width * options.width * options.samples;  // two eyes of half the height
+}
+
+// Cycles 5.2 reaches 0.37 and 2.4, OSPRay 0.3 and 9.5 (2 cores of an EPYC).
+void samples_per_second(benchmark::State& state, const Subject& subject) {
+  const Scene scene = load(subject);
+  const RenderOptions options = options_of(1024, 16);
+  for (auto _ : state) {
+    const double start = cpu_seconds();
+    benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options));
+    state.counters["Msamples_per_cpu_s"] = million_samples(options) / (cpu_seconds() - start);
+  }
+}
+
+struct TracedRay {
+  Ray ray;
+  float length;
+  bool shadow;
+};
+
+// The rays of a render of both eyes, one sample for each pixel, in its order.
+std::vector<TracedRay> record_rays(const EmbreeScene& embree, PathTracer tracer, const Camera& camera, int width) {
+  std::vector<TracedRay> rays;
+  const PathSettings settings{8, kLightSamplingBoth};
+  for (int i = 0; i < width * width; i++) {
+    const int x = i % width, y = i / width % (width / 2), eye = i / (width * width / 2);
+    const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                  (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2));
+    tracer.start_path(camera_ray(camera, eye, uv), hash(static_cast<uint>(i)), 0u);
+    while (tracer.path.alive) {
+      rays.push_back({tracer.path.ray, 0.0f, false});
+      tracer.shade(embree.closest_hit(tracer, tracer.path.ray, tracer.path_ray_key(false)), settings);
+      if (!tracer.path.shadow_pending) continue;
+      rays.push_back({tracer.path.shadow_ray, tracer.path.shadow_length, true});
+      if (!embree.occluded(tracer, tracer.path.shadow_ray, tracer.path.shadow_length, tracer.path_ray_key(true))) {
+        tracer.add_shadow_light();
+      }
+    }
+  }
+  return rays;
+}
+
+// The yardstick: the same rays traced bare, over tracing and shading them.
+void share_of_embree(benchmark::State& state, const Subject& subject) {
+  const Scene scene = load(subject);
+  const LightTable lights = make_lights(scene);
+  const EmbreeScene embree(scene);
+  PathTracer tracer;
+  static_cast<SceneView&>(tracer) = view_scene(scene, lights);
+  const Camera camera = make_camera(rig_of(subject));
+  const std::vector<TracedRay> rays = record_rays(embree, tracer, camera, 512);
+  for (auto _ : state) {
+    const double start = cpu_seconds();
+    for (const TracedRay& traced : rays) {
+      if (traced.shadow) {
+        benchmark::DoNotOptimize(embree.occluded(tracer, traced.ray, traced.length, 0u));
+      } else {
+        benchmark::DoNotOptimize(embree.closest_hit(tracer, traced.ray, 0u));
+      }
+    }
+    const double bare = cpu_seconds() - start;
+    RenderOptions options = options_of(512, 4);
+    options.threads = 1;
+    const double before = cpu_seconds();
+    double first_tile = 0.0;
+    Progress progress;
+    progress.report = [&](double) {
+      if (first_tile == 0.0) first_tile = cpu_seconds();
+    };
+    benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options, progress));
+    const double whole = (cpu_seconds() - std::max(before, first_tile)) / 4.0;
+    state.counters["share_percent"] = 100.0 * bare / whole;
+    state.counters["Mrays_per_s"] = 1e-6 * static_cast<double>(rays.size()) / bare;
+    state.counters["rays_per_sample"] = static_cast<double>(rays.size()) / (512.0 * 512.0);
+  }
+}
+
+double difference(const Picture& a, const Picture& b) {
+  double sum = 0.0;
+  size_t count = 0;
+  for (size_t eye = 0; eye < a.eyes.size(); eye++) {
+    const std::vector<float>&p = a.eyes[eye].radiance.pixels, &q = b.eyes[eye].radiance.pixels;
+    for (size_t i = 0; i < p.size(); i++) sum += (p[i] - q[i]) * (p[i] - q[i]);
+    count += p.size();
+  }
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+// 256x128 for each eye, RMSE against 1024 samples of our own; Cycles 5.2 takes 17 and 1.5 seconds.
+void seconds_to_equal_noise(benchmark::State& state, const Subject& subject) {
+  const Scene scene = load(subject);
+  RenderOptions reference = options_of(256, 1024);
+  reference.seed = 1;
+  const Picture truth = render_cpu(scene, rig_of(subject), reference);
+  for (auto _ : state) {
+    double error = 0.0, seconds = 0.0;
+    int samples = 8;
+    do {
+      samples *= 2;
+      const double start = cpu_seconds();
+      error = difference(render_cpu(scene, rig_of(subject), options_of(256, samples)), truth);
+      seconds = cpu_seconds() - start;
+      if (samples == 16) state.counters["rmse_at_16"] = error;
+    } while (error > subject.noise && samples < 1024);
+    state.counters["rmse"] = error;
+    state.counters["samples"] = samples;
+    state.counters["cpu_s"] = seconds;
+    // Variance falls as one over the samples: what the target itself would have taken.
+    state.counters["cpu_s_to_target"] = seconds * std::pow(error / subject.noise, 2.0);
+  }
+}
+
+void load_to_first_ray(benchmark::State& state, const Subject& subject) {
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    const Scene scene = load(subject);
+    const LightTable lights = make_lights(scene);
+    const EmbreeScene embree(scene);
+    PathTracer tracer;
+    static_cast<SceneView&>(tracer) = view_scene(scene, lights);
+    const Ray ray = camera_ray(make_camera(rig_of(subject)), kLeft, vec2(0.5f));
+    benchmark::DoNotOptimize(embree.closest_hit(tracer, ray, 0u));
+    state.counters["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    state.counters["peak_MB"] = peak_megabytes();
+  }
+}
+
+void two_threads_against_one(benchmark::State& state, const Subject& subject) {
+  const Scene scene = load(subject);
+  for (auto _ : state) {
+    double wall[2];
+    for (int threads = 1; threads <= 2; threads++) {
+      RenderOptions options = options_of(512, 16);
+      options.threads = threads;
+      std::chrono::steady_clock::time_point start;
+      bool started = false;
+      Progress progress;
+      progress.report = [&](double) {
+        if (!started) start = std::chrono::steady_clock::now();
+        started = true;
+      };
+      benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options, progress));
+      wall[threads - 1] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    state.counters["speedup"] = wall[0] / wall[1];
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using Figure = void (*)(benchmark::State&, const Subject&);
+  const std::pair<const char*, Figure> figures[] = {{"load_to_first_ray", load_to_first_ray},
+                                                    {"samples_per_second", samples_per_second},
+                                                    {"share_of_embree", share_of_embree},
+                                                    {"two_threads_against_one", two_threads_against_one},
+                                                    {"seconds_to_equal_noise", seconds_to_equal_noise}};
+  for (const auto& [name, figure] : figures) {
+    for (const Subject& subject : kSubjects) {
+      const auto run = [figure = figure, &subject](benchmark::State& state) { figure(state, subject); };
+      benchmark::RegisterBenchmark((std::string(name) + "/" + subject.name).c_str(), run)
+          ->Iterations(1)
+          ->Unit(benchmark::kSecond);
+    }
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
