@@ -96,7 +96,7 @@ std::vector<TracedRay> record_rays(const EmbreeScene& embree, PathTracer tracer,
     const int x = i % width, y = i / width % (width / 2), eye = i / (width * width / 2);
     const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
                   (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2));
-    tracer.start_path(camera_ray(camera, eye, uv), hash(static_cast<uint>(i)), 0u);
+    tracer.start_path(camera_ray(camera, eye, uv), no_media(), hash(static_cast<uint>(i)), 0u);
     while (tracer.path.alive) {
       rays.push_back({tracer.path.ray, 0.0f, false});
       tracer.shade(embree.closest_hit(tracer, tracer.path.ray, tracer.path_ray_key(false)), settings);
@@ -129,7 +129,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
       }
     }
     const double bare = cpu_seconds() - start;
-    RenderOptions options = options_of(512, 4);
+    RenderOptions options = options_of(512, 16);
     options.threads = 1;
     const double before = cpu_seconds();
     double first_tile = 0.0;
@@ -138,7 +138,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
       if (first_tile == 0.0) first_tile = cpu_seconds();
     };
     benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options, progress));
-    const double whole = (cpu_seconds() - std::max(before, first_tile)) / 4.0;
+    const double whole = (cpu_seconds() - std::max(before, first_tile)) / options.samples;
     state.counters["share_percent"] = 100.0 * bare / whole;
     state.counters["Mrays_per_s"] = 1e-6 * static_cast<double>(rays.size()) / bare;
     state.counters["rays_per_sample"] = static_cast<double>(rays.size()) / (512.0 * 512.0);

@@ -121,6 +121,7 @@ static std::vector<bool> choose_shared(const Scene& scene, size_t max_copied_tri
 
 EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : handles_(std::make_unique<Handles>()) {
   handles_->device = rtcNewDevice(nullptr);
+  if (!handles_->device) throw std::bad_alloc();
   RTCDevice device = handles_->device;
   handles_->top = new_scene(device);
   handles_->shared.resize(scene.meshes.size());

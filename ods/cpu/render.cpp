@@ -25,6 +25,7 @@ struct Job {
   const EmbreeScene& embree;
   PathTracer tracer;
   Camera camera;
+  Media media;  // that the camera stands in
   RenderOptions options;
   PathSettings settings;
   int filter;
@@ -57,9 +58,12 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
                 (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
   PathSettings first_hit_only = job.settings;
   first_hit_only.bounces = 0;
-  job.tracer.start_path(camera_ray(job.camera, eye, uv), seed, 0u);
-  trace_path(job, first_hit_only);
-  const float depth = job.tracer.path.depth;
+  PathTracer& tracer = job.tracer;
+  tracer.start_path(camera_ray(job.camera, eye, uv), job.media, seed, 0u);
+  while (tracer.path.alive) {
+    tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaKey), first_hit_only);
+  }
+  const float depth = tracer.path.depth;
   return depth < 0.0f ? kFarDepth : depth;
 }
 
@@ -72,7 +76,7 @@ Pixel render_pixel(Job& job, int eye, int x, int y) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
     const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
-    job.tracer.start_path(camera_ray(job.camera, eye, uv), seed, index);
+    job.tracer.start_path(camera_ray(job.camera, eye, uv), job.media, seed, index);
     trace_path(job, job.settings);
     pixel.radiance += path.radiance;
     pixel.normal += path.normal;
@@ -105,6 +109,25 @@ void render_tile(Job job, int tile, EyeImage& image) {
       *image.depth.at(x, y) = pixel.depth;
     }
   }
+}
+
+// The volumes that a point is inside of: those which a ray from there leaves more often than it enters.
+Media media_at(const EmbreeScene& embree, PathTracer& tracer, vec3 point) {
+  Media inside = no_media(), entered = no_media();
+  Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};
+  for (int i = 0; i < kMaxPassed; i++) {
+    const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaKey);
+    if (hit.t < 0.0f) break;
+    const auto surface = tracer.surface_at(hit, ray.direction);
+    const int material = tracer.scene_mesh(tracer.scene_instance(hit.instance).mesh).material;
+    if (surface.volume && surface.front) entered = enter_medium(entered, material);
+    if (surface.volume && !surface.front) {
+      if (!inside_medium(entered, material)) inside = enter_medium(inside, material);
+      entered = leave_medium(entered, material);
+    }
+    ray.origin = offset_point(surface.position, -surface.geometric);
+  }
+  return inside;
 }
 
 // Both eyes' tiles in one pool of work; progress is told by whoever finishes a tile.
@@ -149,6 +172,7 @@ Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions
     const Job job{embree,
                   tracer,
                   make_camera(rig),
+                  media_at(embree, tracer, rig.position),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},
                   options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris};

@@ -15,6 +15,7 @@ const float kFarAway = 1e30f;  // distance of the environment and of directional
 struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
+  vec3 end;       // where a shadow ray ends, just before the light; unused at kFarAway
   vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the chance of picking them
   float pdf;      // per solid angle, the chance of picking the light included
   bool valid;
@@ -36,7 +37,7 @@ inline float punctual_falloff(float distance, float range) {
 
 // Position of a direction in a lat-long picture, both coordinates 0..1.
 inline vec2 direction_to_lat_long(vec3 d) {
-  return vec2(0.5f + atan(d.x, -d.z) * (0.5f / kPi), 0.5f - asin(clamp(d.y, -1.0f, 1.0f)) * (1.0f / kPi));
+  return vec2(0.5f + atan(d.x, -d.z) * (0.5f / kPi), 0.5f - atan(d.y, sqrt(d.x * d.x + d.z * d.z)) * (1.0f / kPi));
 }
 
 #ifdef __cplusplus
@@ -55,18 +56,19 @@ struct LightSampler : BsdfEvaluator {
     vec2 uv = direction_to_lat_long(direction);
     float x = uv.x * float(info.width) - 0.5f;
     float y = uv.y * float(info.height) - 0.5f;
-    int x0 = int(floor(x));
-    int y0 = int(floor(y));
-    vec3 top = mix(environment_texel(info, x0, y0), environment_texel(info, x0 + 1, y0), x - floor(x));
-    vec3 bottom = mix(environment_texel(info, x0, y0 + 1), environment_texel(info, x0 + 1, y0 + 1), x - floor(x));
-    return mix(top, bottom, y - floor(y));
+    int x0 = floor_int(x);
+    int y0 = floor_int(y);
+    float fx = x - float(x0);
+    vec3 top = mix(environment_texel(info, x0, y0), environment_texel(info, x0 + 1, y0), fx);
+    vec3 bottom = mix(environment_texel(info, x0, y0 + 1), environment_texel(info, x0 + 1, y0 + 1), fx);
+    return mix(top, bottom, y - float(y0));
   }
 
   // Solid angle of a texel of row y: all texels of a row share it.
   inline float environment_texel_angle(EnvironmentInfo info, int y) {
-    float top = cos(kPi * float(y) / float(info.height));
-    float bottom = cos(kPi * float(y + 1) / float(info.height));
-    return 2.0f * kPi / float(info.width) * (top - bottom);
+    // cos a - cos b in the form that keeps its digits at the poles.
+    float step = 0.5f * kPi / float(info.height);
+    return 4.0f * kPi / float(info.width) * sin(float(2 * y + 1) * step) * sin(step);
   }
 
   // Pdf per solid angle with which sample_light finds the environment in a direction.
@@ -109,8 +111,10 @@ struct LightSampler : BsdfEvaluator {
     Corners k = corners_of(hit);
     Triangle triangle = triangle_of(instance, k);
     vec3 area = cross(triangle.ab, triangle.ac) * 0.5f;
-    vec3 to_light = triangle.a + triangle.ab * hit.u + triangle.ac * hit.v - from;
+    vec3 point = triangle.a + triangle.ab * hit.u + triangle.ac * hit.v;
+    vec3 to_light = point - from;
     LightSample result;
+    result.end = offset_point(point, normalize(dot(area, to_light) > 0.0f ? -area : area));
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
     result.pdf = triangle_pdf(light.entry.probability, area, result.direction, result.distance);
@@ -128,6 +132,7 @@ struct LightSampler : BsdfEvaluator {
     result.valid = true;
     result.distance = kFarAway;
     result.direction = -light.direction;
+    result.end = light.position;
     result.radiance = light.intensity;
     if (light.kind != kLightDirectional) {
       vec3 to_light = light.position - from;
@@ -160,6 +165,7 @@ struct LightSampler : BsdfEvaluator {
     LightSample result;
     result.direction = vec3(r * sin(theta), height, -r * cos(theta));
     result.distance = kFarAway;
+    result.end = result.direction;
     result.radiance = environment_radiance(result.direction);
     result.pdf = environment_pdf(result.direction);
     result.valid = result.pdf > 0.0f;

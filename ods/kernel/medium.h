@@ -22,7 +22,10 @@ struct Media {
 
 inline Media no_media() {
   Media media;
-  for (int i = 0; i < kMaxMedia; i++) media.material[i] = -1;
+  media.material[0] = -1;
+  media.material[1] = -1;
+  media.material[2] = -1;
+  media.material[3] = -1;
   media.count = 0;
   return media;
 }

@@ -54,7 +54,7 @@ struct PathState {
   vec3 albedo;
 };
 
-const int kMaxPassed = 64;
+const int kMaxPassed = 1024;
 
 // Paths with less than this left may end at random. Lower costs time, higher noise: of 1, 1/2, 1/4 and none, a quarter
 // reaches a given noise soonest on interiors (./run bench, equal noise).
@@ -72,13 +72,17 @@ const uint kCandidatePair = 3u;  // which candidate, free
 const uint kLightPair = 4u;      // from here on, three for each candidate: light, cell of an environment, point
 const uint kPairsPerBounce = 3u + 3u * uint(kLightCandidates);
 
+// The ray that asks alpha_draw() with this key sees all that is at least half opaque, and nothing else.
+const uint kHalfAlphaKey = 0u;
+
 #ifdef __cplusplus
 struct PathTracer : MediumReader {
 #endif
 
   PathState path;
 
-  inline void start_path(Ray ray, uint seed, uint index) {
+  // media: what the camera stands in, no_media() in air.
+  inline void start_path(Ray ray, Media media, uint seed, uint index) {
     path.ray = ray;
     path.throughput = vec3(1.0f);
     path.radiance = vec3(0.0f);
@@ -87,7 +91,7 @@ struct PathTracer : MediumReader {
     path.passed = 0;
     path.pdf = 0.0f;
     path.travelled = 0.0f;
-    path.media = no_media();
+    path.media = media;
     path.seed = seed;
     path.index = index;
     path.shadow_pending = false;
@@ -106,6 +110,7 @@ struct PathTracer : MediumReader {
 
   // Lottery number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
   inline float alpha_draw(uint ray_key, Hit hit) {
+    if (ray_key == kHalfAlphaKey) return 0.5f;
     return unit_float(hash_pair(ray_key, hash_pair(uint(hit.instance), uint(hit.triangle))));
   }
 
@@ -154,16 +159,16 @@ struct PathTracer : MediumReader {
     return light.radiance * scattered.value * medium_transmittance(medium, light.distance) * weight;
   }
 
-  inline void shadow_towards(Surface surface, vec3 direction, float distance) {
+  // Both ends of the ray stand off their surfaces: nothing between them is missed, and neither stops it.
+  inline void shadow_towards(Surface surface, vec3 direction, float distance, vec3 end) {
     bool through = dot(direction, surface.geometric) < 0.0f;
     path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
     path.shadow_ray.direction = direction;
     path.shadow_length = distance;
     if (distance < kFarAway) {
-      // From the moved origin a near lamp is nearer; a ray as long as before would end behind it.
-      vec3 to_light = surface.position + direction * distance - path.shadow_ray.origin;
-      path.shadow_length = length(to_light) * 0.9999f;
-      path.shadow_ray.direction = to_light * (0.9999f / max(path.shadow_length, 1e-20f));
+      vec3 to_light = end - path.shadow_ray.origin;
+      path.shadow_length = length(to_light);
+      path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
     }
     path.shadow_pending = path.shadow_length > 0.0f;
   }
@@ -172,10 +177,12 @@ struct PathTracer : MediumReader {
   // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
   inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
     int candidates = min(scene_light_count(), path.bounce == 0 ? kLightCandidates : 1);
+    if (candidates == 0) return;
     float draw = path_random(kCandidatePair).x;
     float total = 0.0f;
     vec3 direction = vec3(0.0f);
     float distance = 0.0f;
+    vec3 end = vec3(0.0f);
     vec3 chosen_light = vec3(0.0f);
     for (int i = 0; i < candidates; i++) {
       uint pair = kLightPair + 3u * uint(i);
@@ -185,12 +192,13 @@ struct PathTracer : MediumReader {
       bool through = dot(light.direction, surface.geometric) < 0.0f;
       vec3 arriving = unshadowed_light(settings, bsdf, light, through ? beyond : medium);
       float brightness = luminance(arriving);
-      if (!(brightness > 0.0f)) continue;
+      if (!(brightness > 0.0f && brightness < kFarAway)) continue;
       total += brightness;
       float share = brightness / total;
       if (draw < share) {
         direction = light.direction;
         distance = light.distance;
+        end = light.end;
         chosen_light = arriving * (1.0f / brightness);
         draw = draw / share;
       } else {
@@ -199,7 +207,7 @@ struct PathTracer : MediumReader {
     }
     if (!(total > 0.0f)) return;
     path.shadow_light = path.throughput * chosen_light * (total / float(candidates));
-    shadow_towards(surface, direction, distance);
+    shadow_towards(surface, direction, distance, end);
   }
 
   // Ends dim paths at random and makes the others brighter by as much: no bias. Source: Arvo and Kirk, 1990.

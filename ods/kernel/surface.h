@@ -43,6 +43,12 @@ inline vec3 to_world(Instance instance, vec3 p) {
   return vec3(dot(instance.row0, p1), dot(instance.row1, p1), dot(instance.row2, p1));
 }
 
+// The same for a direction or an edge.
+inline vec3 turn_to_world(Instance instance, vec3 v) {
+  vec4 v0 = vec4(v, 0.0f);
+  return vec3(dot(instance.row0, v0), dot(instance.row1, v0), dot(instance.row2, v0));
+}
+
 // -1 where an instance is mirrored, else 1.
 inline float handedness_of(Instance instance) {
   vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
@@ -108,9 +114,7 @@ struct SurfaceReader : TextureReader {
     vec4 tangent =
         scene_vertex(k.a).tangent * k.wa + scene_vertex(k.b).tangent * k.wb + scene_vertex(k.c).tangent * k.wc;
     vec3 local = vec3(tangent.x, tangent.y, tangent.z);
-    vec3 t = vec3(dot(vec3(instance.row0.x, instance.row0.y, instance.row0.z), local),
-                  dot(vec3(instance.row1.x, instance.row1.y, instance.row1.z), local),
-                  dot(vec3(instance.row2.x, instance.row2.y, instance.row2.z), local));
+    vec3 t = turn_to_world(instance, local);
     t = t - normal * dot(normal, t);
     float size = length(t);
     if (!(size > 1e-12f)) return normal;
@@ -134,9 +138,11 @@ struct SurfaceReader : TextureReader {
 
   inline Triangle triangle_of(Instance instance, Corners k) {
     Triangle triangle;
-    triangle.a = to_world(instance, scene_vertex(k.a).position);
-    triangle.ab = to_world(instance, scene_vertex(k.b).position) - triangle.a;
-    triangle.ac = to_world(instance, scene_vertex(k.c).position) - triangle.a;
+    // Edges before the move: far from the origin, corners rounded in the world would lose small triangles.
+    vec3 a = scene_vertex(k.a).position;
+    triangle.a = to_world(instance, a);
+    triangle.ab = turn_to_world(instance, scene_vertex(k.b).position - a);
+    triangle.ac = turn_to_world(instance, scene_vertex(k.c).position - a);
     return triangle;
   }
 

@@ -6,26 +6,35 @@
 #pragma once
 #include "ods/kernel/filter.h"
 namespace ods {
+#endif
+
+// floor() to a whole number, without the call it is on older processors. |x| < 2^31.
+inline int floor_int(float x) {
+  int i = int(x);
+  return x < float(i) ? i - 1 : i;
+}
+
+// A texture coordinate moved to 0..1.
+inline float wrap_coordinate(float x, int wrap) {
+  x = clamp(x, -1e6f, 1e6f);
+  if (wrap == kWrapRepeat) return x - float(floor_int(x));
+  if (wrap == kWrapMirror) return abs(x - 2.0f * float(floor_int(0.5f * x + 0.5f)));
+  return clamp(x, 0.0f, 1.0f);
+}
+
+// The neighbour of an edge texel: -1 <= i <= size. A mirrored picture's neighbour is the edge texel itself.
+inline int wrap_texel(int i, int size, int wrap) {
+  if (wrap == kWrapRepeat) return i < 0 ? size - 1 : (i >= size ? 0 : i);
+  return clamp(i, 0, size - 1);
+}
+
+#ifdef __cplusplus
 struct TextureReader : FilterSampler {
 #endif
 
-  inline int wrap_texel(int i, int size, int wrap) {
-    if (wrap == kWrapClamp) return clamp(i, 0, size - 1);
-    if (wrap == kWrapRepeat) {
-      int m = i % size;
-      return m < 0 ? m + size : m;
-    }
-    int period = 2 * size;
-    int m = i % period;
-    if (m < 0) m += period;
-    return m < size ? m : period - 1 - m;
-  }
-
-  // One texel, linear. Coordinates outside the picture wrap.
+  // One texel, linear.
   inline vec4 texel_at(Texture texture, int x, int y) {
-    uint column = uint(wrap_texel(x, texture.width, texture.wrap_u));
-    uint row = uint(wrap_texel(y, texture.height, texture.wrap_v));
-    uint bits = scene_texel(texture.first_texel + row * uint(texture.width) + column);
+    uint bits = scene_texel(texture.first_texel + uint(y) * uint(texture.width) + uint(x));
     int r = int(bits & 255u);
     int g = int((bits >> 8u) & 255u);
     int b = int((bits >> 16u) & 255u);
@@ -39,21 +48,21 @@ struct TextureReader : FilterSampler {
   // uv as in glTF: (0, 0) is the top left corner of the picture. Beyond a million turns the place within a texel is
   // lost to rounding; what is read stays inside the texture.
   inline vec4 texture_at(Texture texture, vec2 uv) {
-    float x = clamp(uv.x, -1e6f, 1e6f);
-    float y = clamp(uv.y, -1e6f, 1e6f);
-    if (texture.wrap_u == kWrapRepeat) x = x - floor(x);
-    if (texture.wrap_v == kWrapRepeat) y = y - floor(y);
-    x = clamp(x * float(texture.width), -1e9f, 1e9f);
-    y = clamp(y * float(texture.height), -1e9f, 1e9f);
-    if (texture.nearest == 1) return texel_at(texture, int(floor(x)), int(floor(y)));
-    x -= 0.5f;
-    y -= 0.5f;
-    int x0 = int(floor(x));
-    int y0 = int(floor(y));
-    float fx = x - floor(x);
-    float fy = y - floor(y);
-    vec4 top = mix(texel_at(texture, x0, y0), texel_at(texture, x0 + 1, y0), fx);
-    vec4 bottom = mix(texel_at(texture, x0, y0 + 1), texel_at(texture, x0 + 1, y0 + 1), fx);
+    float x = wrap_coordinate(uv.x, texture.wrap_u) * float(texture.width);
+    float y = wrap_coordinate(uv.y, texture.wrap_v) * float(texture.height);
+    if (texture.nearest == 1) {
+      return texel_at(texture, min(int(x), texture.width - 1), min(int(y), texture.height - 1));
+    }
+    int x0 = floor_int(x - 0.5f);
+    int y0 = floor_int(y - 0.5f);
+    float fx = x - 0.5f - float(x0);
+    float fy = y - 0.5f - float(y0);
+    int x1 = wrap_texel(x0 + 1, texture.width, texture.wrap_u);
+    int y1 = wrap_texel(y0 + 1, texture.height, texture.wrap_v);
+    x0 = wrap_texel(x0, texture.width, texture.wrap_u);
+    y0 = wrap_texel(y0, texture.height, texture.wrap_v);
+    vec4 top = mix(texel_at(texture, x0, y0), texel_at(texture, x1, y0), fx);
+    vec4 bottom = mix(texel_at(texture, x0, y1), texel_at(texture, x1, y1), fx);
     return mix(top, bottom, fy);
   }
 

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The path step where precision or bookkeeping could fail it: covers close to lamps, small triangles far away, cameras
+// inside a medium, depths of surfaces that are half there.
+#include "ods/kernel/path.h"
+
+#include <gtest/gtest.h>
+
+#include "ods/cpu/render.h"
+#include "ods/scene/lights.h"
+#include "tests/scenes.h"
+
+namespace ods {
+namespace {
+
+RenderOptions small_mono() {
+  RenderOptions options;
+  options.width = 32;
+  options.samples = 16;
+  options.eyes = Eyes::kMonoEye;
+  return options;
+}
+
+// A panel 6 m below the ceiling glows upwards; a black sheet lies half a millimetre above it.
+TEST(Path, CoverCloseToALampHidesIt) {
+  Scene scene;
+  Material white = default_material(), black = white, lamp = white;
+  black.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  black.ior = 1.0f;
+  lamp.base_color = black.base_color;
+  lamp.ior = 1.0f;
+  lamp.emission = vec3(10.0f);
+  scene.materials = {white, black, lamp};
+  const vec3 x(2.0f, 0.0f, 0.0f), z(0.0f, 0.0f, 2.0f);
+  add_rectangle(scene, vec3(-1.0f, -3.0f, -1.0f), z, x, 2);
+  add_rectangle(scene, vec3(-1.1f, -2.9995f, -1.1f), 1.1f * z, 1.1f * x, 1);
+  add_rectangle(scene, vec3(-10.0f, 3.0f, -10.0f), 10.0f * x, 10.0f * z, 0);
+  for (LightSampling way : {LightSampling::kBoth, LightSampling::kLightsOnly, LightSampling::kBsdfOnly}) {
+    RenderOptions options = small_mono();
+    options.light_sampling = way;
+    const Picture picture = render_cpu(scene, {}, options);
+    for (int y = 0; y < 3; y++) {
+      for (int i = 0; i < 32; i++) EXPECT_EQ(*picture.eyes[0].radiance.at(i, y), 0.0f) << static_cast<int>(way);
+    }
+  }
+}
+
+TEST(Path, SmallTriangleFarAwayKeepsItsShape) {
+  Scene scene;
+  scene.materials = {default_material()};
+  const int mesh = add_mesh(scene,
+                            {corner(vec3(0.0f), vec3(0, 0, 1)), corner(vec3(2e-3f, 0, 0), vec3(0, 0, 1)),
+                             corner(vec3(0, 2e-3f, 0), vec3(0, 0, 1))},
+                            {uvec3(0, 1, 2)}, 0);
+  glm::mat4 far_away(1.0f);
+  far_away[3] = vec4(1e5f, 0.0f, -7.0f, 1.0f);
+  add_instance(scene, mesh, far_away);
+  const LightTable lights = make_lights(scene);
+  PathTracer tracer;
+  set_scene(tracer, scene, lights);
+  const Hit hit{7.0f, 0.3f, 0.3f, 0, 0};
+  const auto surface = tracer.surface_at(hit, vec3(0.0f, 0.0f, -1.0f));
+  EXPECT_NEAR(surface.geometric.z, 1.0f, 1e-6f);
+  const auto triangle = tracer.triangle_of(scene.instances[0], tracer.corners_of(hit));
+  EXPECT_NEAR(length(cross(triangle.ab, triangle.ac)), 4e-6f, 1e-11f);
+}
+
+// A panel that shines by itself, 2 m away through water that leaves a tenth of the light after each metre.
+TEST(Path, CameraInsideAMediumSeesThroughIt) {
+  Scene scene;
+  Material water = default_material();
+  water.transmission = 1.0f;
+  water.thickness = 1.0f;
+  water.ior = 1.33f;
+  water.attenuation_color = vec3(0.1f);
+  water.attenuation_distance = 1.0f;
+  Material panel = default_material();
+  panel.unlit = 1;
+  scene.materials = {water, panel};
+  add_box(scene, vec3(-10.0f), vec3(10.0f), 0);
+  add_rectangle(scene, vec3(-5.0f, -5.0f, -2.0f), vec3(10, 0, 0), vec3(0, 10, 0), 1);
+  RenderOptions options = small_mono();
+  options.width = 256;
+  options.filter = PixelFilter::kBox;
+  const Picture picture = render_cpu(scene, {}, options);
+  EXPECT_NEAR(*picture.eyes[0].radiance.at(128, 64), 0.01f, 1e-4f);
+}
+
+TEST(Path, DepthOfAVeilIsNotALottery) {
+  for (float alpha : {0.4f, 0.6f}) {
+    Scene scene;
+    Material veil = default_material();
+    veil.alpha_mode = kAlphaBlend;
+    veil.base_color.w = alpha;
+    scene.materials = {veil, default_material()};
+    add_box(scene, vec3(-1.0f), vec3(1.0f), 0);
+    add_box(scene, vec3(-5.0f), vec3(5.0f), 1);
+    const Picture picture = render_cpu(scene, {}, small_mono());
+    const auto& depths = picture.eyes[0].depth.pixels;
+    for (float depth : depths) EXPECT_EQ(depth<1.8f, alpha> 0.5f) << depth;
+  }
+}
+
+}  // namespace
+}  // namespace ods
