@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_source.h"
 
-#include <algorithm>
-
 #include "cli/console.h"
 #include "ods/scene/environment.h"
 #include "ods/scene/load.h"
@@ -35,23 +33,9 @@ Scene open_scene(const SceneSource& source) {
   return scene;
 }
 
-namespace {
-
-// Glowing textures do not count: most are the little lamps of a gadget, which leave its picture black.
-bool has_light(const Scene& scene) {
-  if (!scene.lights.empty() || scene.environment.radiance != vec3(0.0f)) return true;
-  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const ods::Instance& instance) {
-    const ods::Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    const ods::Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    return material.unlit != 0 || (material.emission != vec3(0.0f) && material.emission_slot.texture < 0);
-  });
-}
-
-}  // namespace
-
 void add_environment(Scene& scene, const SceneSource& source) {
   if (source.environment.empty()) {
-    if (has_light(scene)) return;
+    if (ods::has_light(scene)) return;
     note("the scene has no lamps; a white sky lights it (--env sets another, --env 0 none)");
     scene.environment.radiance = vec3(1.0f);
     return;
