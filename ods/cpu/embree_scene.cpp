@@ -25,15 +25,10 @@ struct RayContext {
   uint key;
 };
 
-struct GeometryInfo {
-  int instance;  // -1: the instance above tells
-};
-
 struct EmbreeScene::Handles {
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   std::vector<RTCScene> shared;  // by mesh, null where the mesh is copied
-  std::vector<int> copied;       // geometry of the top scene -> instance of ours
 
   Handles() = default;
   Handles(const Handles&) = delete;

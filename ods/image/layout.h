@@ -3,7 +3,6 @@
 //
 // How two eyes share a file. This is the only place that knows; until here every eye is an image of its own.
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +19,6 @@ enum class Layout {
 // `top-bottom`, `side-by-side`, `separate`, `multiview`: the words of the command line.
 inline constexpr Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kSeparate, Layout::kMultiview};
 std::string_view layout_name(Layout layout);
-std::optional<Layout> layout_of(std::string_view name);
 
 struct Extent {
   int width;
