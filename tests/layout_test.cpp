@@ -24,7 +24,7 @@ std::string rows(Layout layout, int eye_count) {
   std::string text;
   for (int y = 0; y < packed_size(layout, eye, eye_count).height; y++) {
     for (const EyeRow& part : packed_row(layout, eye, eye_count, y)) {
-      text += std::to_string(part.eye) + ":" + std::to_string(part.y) + " ";
+      text += std::to_string(part.index) + ":" + std::to_string(part.y) + " ";
     }
     text += "/ ";
   }

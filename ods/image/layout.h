@@ -30,7 +30,7 @@ Extent packed_size(Layout layout, Extent eye, int eye_count);
 
 // What row y of that image is, from left to right: the row of one eye, or of one after the other.
 struct EyeRow {
-  int eye;  // 0 is the first: left, or the only one
+  int index;  // of the eye in the picture: 0 is the left, or the only one
   int y;
 };
 std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
