@@ -11,13 +11,8 @@ using ods::Scene, ods::vec3;
 void add_scene_argument(Options& options, SceneSource& source) {
   options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.group("Scene");
-  auto set = [&source](const std::string& word) {
-    std::vector<float> numbers = parse_numbers(word);
-    bool whole = numbers.size() == 1 && numbers[0] >= 0.0f && numbers[0] <= 1e6f;
-    if (whole) source.scene = static_cast<int>(numbers[0]);
-    if (!whole || static_cast<float>(source.scene) != numbers[0]) throw UsageError("--scene is a whole number from 0");
-  };
-  options.custom("--scene", "N", "the file's own", set, "which of several scenes in the file, from 0");
+  options.number("--scene", source.scene, 0, 1000000,
+                 "which of several scenes in the file, from 0; its own choice by default");
 }
 
 void add_light_options(Options& options, SceneSource& source) {
@@ -28,7 +23,7 @@ void add_light_options(Options& options, SceneSource& source) {
 }
 
 Scene open_scene(const SceneSource& source) {
-  Scene scene = ods::load_scene(source.name, {.scene = source.scene});
+  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1)});
   for (const std::string& warning : scene.warnings) note("warning: " + warning);
   return scene;
 }
