@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <numbers>
 
 #include "ods/image/picture.h"
 #include "ods/scene/render_options.h"
@@ -37,7 +38,7 @@ inline Mean mean_of(const Image& image) {
 // The mean of a function of the direction over a pixel of the unturned mono camera.
 inline double pixel_mean(int width, int x, int y, const std::function<double(glm::dvec3)>& value) {
   const int n = 16;
-  const double pi = std::acos(-1.0);
+  const double pi = std::numbers::pi;
   double sum = 0.0;
   for (int i = 0; i < n * n; i++) {
     const double theta = 2.0 * pi * ((x + (i % n + 0.5) / n) / width - 0.5);

@@ -40,7 +40,7 @@ TEST(Tone, NeutralIsTheSpecification) {
   }
 }
 
-TEST(Tone, NeutralGivesABaseColourBack) {
+TEST(Tone, NeutralGivesABaseColorBack) {
   // Light from a white surround on a rough dielectric: its base colour and 4 % on top.
   const vec3 shown = tone_map(vec3(0.2f, 0.5f, 0.7f) + 0.04f, 0.0f, ToneCurve::kNeutral);
   EXPECT_NEAR(shown.x, 0.2f, 1e-6f);
