@@ -49,6 +49,15 @@ struct GltfFile {
 
 [[noreturn]] void fail(const GltfFile& file, const std::string& what);
 
+// Element `index` of a list of the file; `what` is its name in the message when there is none.
+template <class List>
+auto& element(const GltfFile& file, List& list, int index, const char* what) {
+  if (index < 0 || static_cast<size_t>(index) >= list.size()) {
+    fail(file, std::string(what) + " " + std::to_string(index) + " does not exist; the file is damaged");
+  }
+  return list[static_cast<size_t>(index)];
+}
+
 // Text of the file as it may stand in a message: one line, not endless.
 std::string printable(const std::string& text);
 
