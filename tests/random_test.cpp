@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <numbers>
 
 #include "ods/kernel/filter.h"
 #include "ods/kernel/light.h"
@@ -84,7 +83,7 @@ TEST(RandomPair, DimensionsOfOnePixelAreUncorrelated) {
 TEST(PixelFilter, HasItsShape) {
   FilterSampler filter;
   filter.tables = kernel_tables().data();
-  const double pi = std::numbers::pi;
+  const double pi = std::acos(-1.0);
   const auto share_left = [&](double x) {
     const double t = 2.0 * pi * x / 3.0;
     return 0.5 + x / 3.0 +
@@ -136,7 +135,7 @@ struct SphereCells {
   int columns = 24;
 
   size_t find(vec3 w) const {
-    const double pi = std::numbers::pi;
+    const double pi = std::acos(-1.0);
     const double turn = std::atan2(double{w.y}, double{w.x}) / (2.0 * pi) + 0.5;
     const double fall = std::acos(std::clamp(double{w.z}, -1.0, 1.0)) / pi;
     const int row = std::min(static_cast<int>(fall * rows), rows - 1);
@@ -145,7 +144,7 @@ struct SphereCells {
 
   // The integral of a density over each cell, by a jittered grid: densities jump where microfacets turn away.
   std::vector<double> integrate(int steps, const std::function<double(vec3)>& density) const {
-    const double pi = std::numbers::pi, row_angle = pi / rows / steps, column_angle = 2.0 * pi / columns / steps;
+    const double pi = std::acos(-1.0), row_angle = pi / rows / steps, column_angle = 2.0 * pi / columns / steps;
     std::vector<double> integral(static_cast<size_t>(rows * columns));
     Dice dice(11);
     for (int row = 0; row < rows * steps; row++) {
