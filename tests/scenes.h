@@ -3,7 +3,7 @@
 //
 // Small scenes with known answers, for tests.
 #pragma once
-#include "ods/scene/builder.h"
+#include "ods/scene/builtin/builder.h"
 
 namespace ods {
 

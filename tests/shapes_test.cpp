@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/shapes.h"
+#include "ods/scene/builtin/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "ods/scene/stroke_font.h"
+#include "ods/scene/builtin/stroke_font.h"
 #include "shape_checks.h"
 
 namespace ods {

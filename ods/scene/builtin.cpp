@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/builtin.h"
 
-#include "ods/scene/builtin_makers.h"
+#include "ods/scene/builtin/makers.h"
 
 namespace ods {
 

@@ -10,7 +10,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

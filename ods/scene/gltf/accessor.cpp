@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

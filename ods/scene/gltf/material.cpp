@@ -10,7 +10,7 @@
 #include <map>
 
 #include "ods/image/image_file.h"
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

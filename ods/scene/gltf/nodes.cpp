@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

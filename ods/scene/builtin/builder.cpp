@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/builder.h"
+#include "ods/scene/builtin/builder.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
