@@ -12,9 +12,15 @@ inline int add_rectangle(Scene& scene, vec3 origin, vec3 a, vec3 b, int material
   return add(scene, make_quad(origin, a, b), material);
 }
 
-// A closed box between two corners with its faces' fronts outside.
-inline int add_box(Scene& scene, vec3 low, vec3 high, int material) {
-  return add(scene, make_box(high - low), material, placed(0.5f * (low + high)));
+// A closed box between two corners with its faces' fronts outside; six meshes, so that each face can be told apart.
+inline void add_box(Scene& scene, vec3 low, vec3 high, int material) {
+  const vec3 x(high.x - low.x, 0, 0), y(0, high.y - low.y, 0), z(0, 0, high.z - low.z);
+  add_rectangle(scene, low, y, x, material);
+  add_rectangle(scene, low + z, x, y, material);
+  add_rectangle(scene, low, z, y, material);
+  add_rectangle(scene, low + x, y, z, material);
+  add_rectangle(scene, low, x, z, material);
+  add_rectangle(scene, low + y, z, x, material);
 }
 
 // A sphere of triangles, `rings` from pole to pole, with exact normals.
