@@ -54,29 +54,6 @@ const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
                                ods::did_you_mean(name, names)));
 }
 
-// Where to stand when nobody says.
-ViewPoint default_view(const Scene& scene) {
-  const float kEyeHeight = 1.6f;
-  const float kElbowRoom = 1.0f;
-  auto [low, high] = ods::scene_bounds(scene);
-  vec3 middle = 0.5f * (low + high);
-  auto inside = [&, low = low, high = high](vec3 p) {
-    return p.x - kElbowRoom > low.x && p.x + kElbowRoom < high.x && p.z - kElbowRoom > low.z &&
-           p.z + kElbowRoom < high.z && p.y > low.y && p.y < high.y;
-  };
-  ViewPoint view;
-  view.position = {0.0f, kEyeHeight, 0.0f};
-  view.name = "eye height above the origin";
-  if (inside(view.position)) return view;
-  view.position = {middle.x, low.y + kEyeHeight, middle.z};
-  view.name = "eye height in the middle of the scene";
-  if (inside(view.position)) return view;
-  float size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  view.position = {middle.x, middle.y, high.z + size};
-  view.name = "before the scene";
-  return view;
-}
-
 }  // namespace
 
 void add_place_options(Options& options, CameraOptions& camera) {
@@ -108,9 +85,7 @@ void add_camera_options(Options& options, CameraOptions& camera) {
 }
 
 CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
-  ViewPoint view = !camera.view_point.empty()   ? find_view_point(scene, camera.view_point)
-                   : !scene.view_points.empty() ? scene.view_points.front()
-                                                : default_view(scene);
+  ViewPoint view = camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
   bool from_file = !scene.view_points.empty();
   std::string from = from_file ? "the scene's camera '" + view.name + "'" : view.name;
   if (camera.position) from = "--position";

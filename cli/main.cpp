@@ -4,7 +4,8 @@
 // The command: a table. Each command is one file beside this one.
 //
 // The commands live in a shared object that is opened when one is run: the image library beneath them takes a quarter
-// of a second to load (hundreds of libraries on Debian), and help should not wait for that.
+// of a second to load (hundreds of libraries on Debian). The list of commands, --version and a misspelt command do not
+// wait for that; `ods COMMAND --help` does.
 #include <dlfcn.h>
 
 #include <cstdio>

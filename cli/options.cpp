@@ -103,6 +103,11 @@ void Options::number(const std::string& name, int& value, int low, int high, con
   custom(name, "N", fmt::format("{}", value), set, text);
 }
 
+void Options::number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text) {
+  auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
+  custom(name, "N", "", set, text);
+}
+
 void Options::number(const std::string& name, uint32_t& value, const std::string& text) {
   auto set = [=, &value](const std::string& word) { value = number_between(name, word, 0u, UINT32_MAX); };
   custom(name, "N", fmt::format("{}", value), set, text);

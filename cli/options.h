@@ -30,6 +30,7 @@ class Options {
   void flag(const std::string& name, bool& value, const std::string& text);
   void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
   void number(const std::string& name, int& value, int low, int high, const std::string& text);
+  void number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text);
   void number(const std::string& name, float& value, float low, float high, const std::string& text);
   void number(const std::string& name, std::optional<float>& value, float low, float high, const std::string& text);
   void number(const std::string& name, uint32_t& value, const std::string& text);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_source.h"
 
-#include <algorithm>
-
 #include "cli/console.h"
 #include "ods/scene/environment.h"
 #include "ods/scene/load.h"
@@ -13,13 +11,8 @@ using ods::Scene, ods::vec3;
 void add_scene_argument(Options& options, SceneSource& source) {
   options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.group("Scene");
-  auto set = [&source](const std::string& word) {
-    std::vector<float> numbers = parse_numbers(word);
-    bool whole = numbers.size() == 1 && numbers[0] >= 0.0f && numbers[0] <= 1e6f;
-    if (whole) source.scene = static_cast<int>(numbers[0]);
-    if (!whole || static_cast<float>(source.scene) != numbers[0]) throw UsageError("--scene is a whole number from 0");
-  };
-  options.custom("--scene", "N", "the file's own", set, "which of several scenes in the file, from 0");
+  options.number("--scene", source.scene, 0, 1000000,
+                 "which of several scenes in the file, from 0; its own choice by default");
 }
 
 void add_light_options(Options& options, SceneSource& source) {
@@ -30,28 +23,14 @@ void add_light_options(Options& options, SceneSource& source) {
 }
 
 Scene open_scene(const SceneSource& source) {
-  Scene scene = ods::load_scene(source.name, {.scene = source.scene});
+  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1)});
   for (const std::string& warning : scene.warnings) note("warning: " + warning);
   return scene;
 }
 
-namespace {
-
-// Glowing textures do not count: most are the little lamps of a gadget, which leave its picture black.
-bool has_light(const Scene& scene) {
-  if (!scene.lights.empty() || scene.environment.radiance != vec3(0.0f)) return true;
-  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const ods::Instance& instance) {
-    const ods::Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    const ods::Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    return material.unlit != 0 || (material.emission != vec3(0.0f) && material.emission_slot.texture < 0);
-  });
-}
-
-}  // namespace
-
 void add_environment(Scene& scene, const SceneSource& source) {
   if (source.environment.empty()) {
-    if (has_light(scene)) return;
+    if (ods::has_light(scene)) return;
     note("the scene has no lamps; a white sky lights it (--env sets another, --env 0 none)");
     scene.environment.radiance = vec3(1.0f);
     return;

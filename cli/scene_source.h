@@ -3,14 +3,15 @@
 //
 // The options that say which scene, and in what light. Shared by the commands that read one.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "cli/options.h"
 #include "ods/scene/scene.h"
 
 struct SceneSource {
-  std::string name;  // a file, or a built-in scene
-  int scene = -1;    // which of the file's scenes; -1: the one it opens with
+  std::string name;          // a file, or a built-in scene
+  std::optional<int> scene;  // which of the file's scenes, when not the one it opens with
   std::string environment;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders the built-in room through the library: room PICTURE [WIDTH [SAMPLES]]
+// Renders a scene through the library: room [PICTURE [WIDTH [SAMPLES]]]
 #include <cstdio>
 #include <cstdlib>
 
@@ -11,11 +11,13 @@
 #include "ods/scene/load.h"
 
 int main(int argc, char** argv) try {
-  const ods::Scene scene = ods::load_scene("room");  // or a .glb file
+  ods::Scene scene = ods::load_scene("room");  // or a .glb file
+  if (!ods::has_light(scene)) scene.environment.radiance = ods::vec3(1.0f);
 
+  const ods::ViewPoint view = ods::default_view(scene);
   ods::CameraRig rig;
-  rig.position = scene.view_points.front().position;
-  rig.yaw = scene.view_points.front().yaw;
+  rig.position = view.position;
+  rig.yaw = view.yaw;
 
   ods::RenderOptions options;
   options.width = argc > 2 ? std::atoi(argv[2]) : 1024;

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "ods/scene/load.h"
 #include "shape_checks.h"
 
 namespace ods {
@@ -53,7 +54,7 @@ float distance_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
 const Scene& scene_named(const std::string& name) {
   static std::map<std::string, Scene> made;
   const auto found = made.find(name);
-  return found != made.end() ? found->second : made.emplace(name, make_builtin(name)).first->second;
+  return found != made.end() ? found->second : made.emplace(name, load_scene(name)).first->second;
 }
 
 class EveryBuiltin : public testing::TestWithParam<std::string> {
@@ -119,7 +120,7 @@ TEST_P(EveryBuiltin, NothingIsCloserThanHalfAMetre) {
 }
 
 TEST_P(EveryBuiltin, IsTheSameEveryTime) {
-  const Scene again = make_builtin(GetParam());
+  const Scene again = load_scene(GetParam());
   const auto same = [](const auto& a, const auto& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
   };
@@ -142,9 +143,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryBuiltin, testing::ValuesIn(names()), [](co
 TEST(Builtin, NamesAreUniqueAndKnown) {
   const std::vector<std::string> all = names();
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
-  for (const std::string& name : all) EXPECT_TRUE(is_builtin(name));
-  EXPECT_FALSE(is_builtin(""));
-  EXPECT_FALSE(is_builtin("scene.glb"));
+  for (const std::string& name : all) EXPECT_EQ(find_builtin(name)->name, name);
+  EXPECT_EQ(find_builtin(""), nullptr);
+  EXPECT_EQ(find_builtin("scene.glb"), nullptr);
 }
 
 TEST(Builtin, FractalHasMillionsOfInstancedTriangles) {

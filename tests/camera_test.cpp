@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "ods/image/camera_rig.h"
 #include "ods/kernel/camera/project.h"
@@ -12,7 +13,7 @@ namespace ods {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-const double kExactPi = std::acos(-1.0);
+const double kExactPi = std::numbers::pi;
 const int kModes[] = {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep};
 const int kEyes[] = {kLeft, kRight, kMono};
 
@@ -253,6 +254,31 @@ TEST(Projection, DisparityIsTheClosedForm) {
   EXPECT_NEAR(project_point(camera, kRight, point).uv.x, 0.5 - turn, 1e-7);
   EXPECT_NEAR(project_point(camera, kMono, point).uv.x, 0.5, 1e-7);
   EXPECT_NEAR(project_point(camera, kLeft, point).depth, std::sqrt(0.65 * 0.65 - 0.0325 * 0.0325), 1e-7);
+}
+
+TEST(CameraRig, AnglesComeBack) {
+  for (float yaw : {-170.0f, -90.0f, 0.0f, 33.0f, 179.0f}) {
+    for (float pitch : {-89.0f, -20.0f, 0.0f, 45.0f}) {
+      for (float roll : {-120.0f, 0.0f, 75.0f}) {
+        CameraRig rig;
+        rig.yaw = yaw, rig.pitch = pitch, rig.roll = roll;
+        const Camera camera = make_camera(rig);
+        const ViewAngles angles = view_angles(-dvec3(camera.back), dvec3(camera.up));
+        EXPECT_NEAR(angles.yaw, yaw, 1e-3f);
+        EXPECT_NEAR(angles.pitch, pitch, 1e-3f);
+        EXPECT_NEAR(angles.roll, roll, 1e-3f);
+      }
+    }
+  }
+  for (float pitch : {-90.0f, 90.0f}) {
+    CameraRig rig;
+    rig.yaw = 40.0f, rig.pitch = pitch;
+    const Camera camera = make_camera(rig);
+    const ViewAngles angles = view_angles(-dvec3(camera.back), dvec3(camera.up));
+    EXPECT_NEAR(angles.yaw, 40.0f, 1e-3f);
+    EXPECT_NEAR(angles.pitch, pitch, 0.03f);
+    EXPECT_EQ(angles.roll, 0.0f);
+  }
 }
 
 }  // namespace

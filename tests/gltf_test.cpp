@@ -90,7 +90,7 @@ float loaded_color(T value, int type) {
   return file.load().vertices.at(0).color.x;
 }
 
-TEST(Gltf, EveryTypeOfColour) {
+TEST(Gltf, EveryTypeOfColor) {
   EXPECT_FLOAT_EQ(loaded_color<float>(0.25f, kFloat), 0.25f);
   EXPECT_FLOAT_EQ(loaded_color<uint8_t>(51, kUbyte), 0.2f);
   EXPECT_FLOAT_EQ(loaded_color<uint16_t>(13107, kUshort), 0.2f);
@@ -98,7 +98,7 @@ TEST(Gltf, EveryTypeOfColour) {
   EXPECT_FLOAT_EQ(loaded_color<int16_t>(-32768, kShort), 0.0f);
 }
 
-TEST(Gltf, ColourOfThreeComponentsIsOpaque) {
+TEST(Gltf, ColorOfThreeComponentsIsOpaque) {
   GltfBuilder file = make_triangle();
   file.primitive()["attributes"]["COLOR_0"] = file.add<float>({.1f, .2f, .3f, 1, 1, 1, 1, 1, 1}, kFloat, "VEC3");
   EXPECT_EQ(file.load().vertices[0].color, vec4(.1f, .2f, .3f, 1.0f));

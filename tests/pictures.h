@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <numbers>
 
 #include "ods/image/picture.h"
 #include "ods/scene/render_options.h"
@@ -25,14 +26,6 @@ inline RenderOptions small_render(int width, int samples) {
   return options;
 }
 
-// Lambert's surface: at the index of air nothing is reflected above it.
-inline Material matte(vec3 albedo) {
-  Material material = default_material();
-  material.base_color = vec4(albedo, 1.0f);
-  material.ior = 1.0f;
-  return material;
-}
-
 // Every pixel's first channel; pixels are independent of each other.
 inline Mean mean_of(const Image& image) {
   Mean mean;
@@ -45,7 +38,7 @@ inline Mean mean_of(const Image& image) {
 // The mean of a function of the direction over a pixel of the unturned mono camera.
 inline double pixel_mean(int width, int x, int y, const std::function<double(glm::dvec3)>& value) {
   const int n = 16;
-  const double pi = std::acos(-1.0);
+  const double pi = std::numbers::pi;
   double sum = 0.0;
   for (int i = 0; i < n * n; i++) {
     const double theta = 2.0 * pi * ((x + (i % n + 0.5) / n) / width - 0.5);
@@ -99,7 +92,6 @@ inline Scene feature_scene() {
   Material lamp = default_material();
   lamp.emission = vec3(5.0f, 4.0f, 3.0f);
   add_rectangle(scene, vec3(-4, -1, 4), vec3(8, 0, 0), vec3(0, 0, -8), floor);
-  for (uint i = 0; i < 4; i++) scene.vertices[i].uv0 = vec2(i == 1 || i == 2 ? 3.0f : 0.0f, i > 1 ? 3.0f : 0.0f);
   add_sphere(scene, vec3(-1, -0.4f, -2), 0.5f, add_material(scene, glass), 12);
   add_sphere(scene, vec3(0.2f, -0.4f, -2), 0.5f, add_material(scene, frosted), 12);
   const int ball = add_sphere(scene, vec3(1.4f, -0.4f, -2), 0.5f, add_material(scene, gold), 12);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/camera/project.h"
@@ -95,7 +96,7 @@ TEST(Stereo, SpheresAppearWhereTheFormulaSays) {
         }
       }
       ASSERT_GT(length(sum), 1.0);
-      const double pixels = length(normalize(sum) - glm::dvec3(towards)) * width / (2.0 * std::acos(-1.0));
+      const double pixels = length(normalize(sum) - glm::dvec3(towards)) * width / (2.0 * std::numbers::pi);
       EXPECT_LT(pixels, 0.05) << image.eye << ' ' << place.uv.x << ' ' << place.uv.y << ' ' << place.depth;
     }
   }
@@ -123,7 +124,7 @@ void expect_floor(const Scene& scene, int samples, double tolerance,
   for (int y = 9; y < 16; y++) {
     for (int x = 0; x < 32; x++) {
       const double expected = pixel_mean(
-          32, x, y, [&](glm::dvec3 d) { return irradiance(d * (-1.0 / d.y)) * double{kAlbedo} / std::acos(-1.0); });
+          32, x, y, [&](glm::dvec3 d) { return irradiance(d * (-1.0 / d.y)) * double{kAlbedo} / std::numbers::pi; });
       ASSERT_NEAR(double{*picture.eyes[0].radiance.at(x, y)}, expected, tolerance * expected + 1e-4) << x << ' ' << y;
     }
   }
@@ -238,7 +239,7 @@ Scene wall_scene(const Material& material, float side = 1.0f) {
   return scene;
 }
 
-TEST(Render, UnlitIsItsColour) {
+TEST(Render, UnlitIsItsColor) {
   Material material = default_material();
   material.base_color = vec4(0.25f, 0.5f, 0.75f, 1.0f);
   material.unlit = 1;

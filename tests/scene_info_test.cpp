@@ -80,6 +80,37 @@ TEST(SceneInfo, PointTriangleDistanceAgainstSearch) {
   }
 }
 
+TEST(SceneInfo, DefaultViewStandsInTheSceneOrBeforeIt) {
+  Scene scene = make_square();
+  add_instance(scene, 0, moved(vec3(0, 0, 0)));
+  EXPECT_EQ(default_view(scene).position, vec3(0.5f, 0.5f, 1.0f));  // flat: one size before it
+  add_instance(scene, 0, moved(vec3(20, 9, 20)));
+  EXPECT_EQ(default_view(scene).position, vec3(10.5f, 1.6f, 10.0f));  // the origin is a corner of it
+  add_instance(scene, 0, moved(vec3(-20, 9, -20)));
+  EXPECT_EQ(default_view(scene).position, vec3(0.0f, 1.6f, 0.0f));
+  scene.view_points.push_back({"own", vec3(7.0f), 30.0f, 0.0f, 0.0f});
+  EXPECT_EQ(default_view(scene).name, "own");
+}
+
+TEST(SceneInfo, WhatIsLight) {
+  Scene scene = make_square();
+  Material& material = scene.materials[0];
+  material.emission = vec3(1.0f);
+  EXPECT_TRUE(glows(material));
+  EXPECT_FALSE(has_light(scene));  // nothing that glows stands in it
+  add_instance(scene, 0, moved(vec3(0)));
+  EXPECT_TRUE(has_light(scene));
+  material.emission_slot.texture = 0;
+  EXPECT_FALSE(has_light(scene));
+  material.unlit = 1;
+  EXPECT_FALSE(glows(material));
+  EXPECT_TRUE(has_light(scene));
+  EXPECT_EQ(describe(scene, vec3(0.0f)).emissive_triangles, 0u);
+  material.unlit = 0;
+  scene.environment.radiance = vec3(0.1f);
+  EXPECT_TRUE(has_light(scene));
+}
+
 TEST(Suggest, OnlyNearWords) {
   EXPECT_EQ(did_you_mean("rom", {"axis", "room"}), "; did you mean 'room'?");
   EXPECT_EQ(did_you_mean("kitchen.glb", {"axis", "room"}), "");

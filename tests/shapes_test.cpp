@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/shapes.h"
+#include "ods/scene/builtin/shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
-#include "ods/scene/stroke_font.h"
+#include "ods/scene/builtin/stroke_font.h"
 #include "shape_checks.h"
 
 namespace ods {
@@ -21,7 +22,7 @@ struct NamedShape {
 };
 
 std::vector<NamedShape> all_shapes() {
-  const double pi = std::acos(-1.0);
+  const double pi = std::numbers::pi;
   const double r = 0.2, a = 1 - 2 * r, b = 2 - 2 * r, c = 3 - 2 * r;
   const double rounded =
       a * b * c + 2 * r * (a * b + b * c + c * a) + pi * r * r * (a + b + c) + 4 * pi * r * r * r / 3;

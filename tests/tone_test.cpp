@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 namespace ods {
 namespace {
@@ -39,7 +40,7 @@ TEST(Tone, NeutralIsTheSpecification) {
   }
 }
 
-TEST(Tone, NeutralGivesABaseColourBack) {
+TEST(Tone, NeutralGivesABaseColorBack) {
   // Light from a white surround on a rough dielectric: its base colour and 4 % on top.
   const vec3 shown = tone_map(vec3(0.2f, 0.5f, 0.7f) + 0.04f, 0.0f, ToneCurve::kNeutral);
   EXPECT_NEAR(shown.x, 0.2f, 1e-6f);
@@ -83,9 +84,11 @@ TEST(Tone, EveryNumberIsShown) {
   }
 }
 
-TEST(Tone, NamesGoBothWays) {
-  for (ToneCurve curve : kToneCurves) EXPECT_EQ(tone_curve_of(tone_curve_name(curve)), curve);
-  EXPECT_EQ(tone_curve_of("aces"), std::nullopt);
+TEST(Tone, EveryCurveHasItsOwnName) {
+  std::set<std::string_view> names;
+  for (ToneCurve curve : kToneCurves) names.insert(tone_curve_name(curve));
+  EXPECT_EQ(names.size(), std::size(kToneCurves));
+  EXPECT_FALSE(names.contains(""));
 }
 
 TEST(Srgb, IsTheStandardAndItsInverse) {

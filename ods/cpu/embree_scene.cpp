@@ -12,28 +12,55 @@
 #include <new>
 #include <vector>
 
+// All that differs between Embree 3 and 4.
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+
+static void init_context(EmbreeContext& context) {
+  rtcInitRayQueryContext(&context);
+}
+
+static void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
+
+static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+using EmbreeContext = RTCIntersectContext;
+
+static void init_context(EmbreeContext& context) {
+  rtcInitIntersectContext(&context);
+}
+
+static void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
+  rtcIntersect1(scene, &context, &ray);
+}
+
+static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  rtcOccluded1(scene, &context, &ray);
+}
+#endif
+
 namespace ods {
 
-#if RTC_VERSION_MAJOR >= 4
 struct RayContext {
-  RTCRayQueryContext embree;
-#else
-struct RayContext {
-  RTCIntersectContext embree;
-#endif
+  EmbreeContext embree;
   PathTracer* tracer;
   uint key;
-};
-
-struct GeometryInfo {
-  int instance;  // -1: the instance above tells
 };
 
 struct EmbreeScene::Handles {
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   std::vector<RTCScene> shared;  // by mesh, null where the mesh is copied
-  std::vector<int> copied;       // geometry of the top scene -> instance of ours
 
   Handles() = default;
   Handles(const Handles&) = delete;
@@ -161,11 +188,7 @@ static void set_ray(RTCRay& out, const Ray& ray, float length) {
 
 static RayContext make_context(PathTracer& tracer, uint key) {
   RayContext context;
-#if RTC_VERSION_MAJOR >= 4
-  rtcInitRayQueryContext(&context.embree);
-#else
-  rtcInitIntersectContext(&context.embree);
-#endif
+  init_context(context.embree);
   context.tracer = &tracer;
   context.key = key;
   return context;
@@ -177,14 +200,7 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, uint key) const
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RayContext context = make_context(tracer, key);
-#if RTC_VERSION_MAJOR >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.context = &context.embree;
-  rtcIntersect1(handles_->top, &found, &arguments);
-#else
-  rtcIntersect1(handles_->top, &context.embree, &found);
-#endif
+  intersect(handles_->top, context.embree, found);
   Hit hit;
   const bool missed = found.hit.geomID == RTC_INVALID_GEOMETRY_ID;
   hit.t = missed ? -1.0f : found.ray.tfar;
@@ -200,14 +216,7 @@ bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, uin
   RTCRay shadow;
   set_ray(shadow, ray, length);
   RayContext context = make_context(tracer, key);
-#if RTC_VERSION_MAJOR >= 4
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.context = &context.embree;
-  rtcOccluded1(handles_->top, &shadow, &arguments);
-#else
-  rtcOccluded1(handles_->top, &context.embree, &shadow);
-#endif
+  occlude(handles_->top, context.embree, shadow);
   return shadow.tfar < 0.0f;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/image/camera_rig.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -52,6 +53,20 @@ Camera make_camera(const CameraRig& rig) {
   camera.top = make_merge(rig.top);
   camera.bottom = make_merge(rig.bottom);
   return camera;
+}
+
+ViewAngles view_angles(glm::dvec3 forward, glm::dvec3 up) {
+  const double pitch = std::asin(std::clamp(forward.y, -1.0, 1.0));
+  const glm::dvec3 right = glm::cross(forward, up);
+  double yaw = std::atan2(forward.x, -forward.z), roll = 0.0;
+  if (std::hypot(forward.x, forward.z) < 1e-6) {
+    yaw = std::atan2(right.z, right.x);
+  } else {
+    const glm::dvec3 level_right(std::cos(yaw), 0.0, std::sin(yaw));
+    roll = std::atan2(glm::dot(up, level_right), glm::dot(right, level_right));
+  }
+  return {static_cast<float>(glm::degrees(yaw)), static_cast<float>(glm::degrees(pitch)),
+          static_cast<float>(glm::degrees(roll))};
 }
 
 }  // namespace ods

@@ -39,4 +39,15 @@ struct CameraRig {
 // Precondition: every field finite, ipd >= 0.
 Camera make_camera(const CameraRig& rig);
 
+// Degrees, as in CameraRig.
+struct ViewAngles {
+  float yaw;
+  float pitch;
+  float roll;
+};
+
+// The way back from make_camera(): the angles of a camera that looks along forward. Looking straight up or down, yaw
+// and roll turn about the same axis, and roll is 0. Precondition: unit vectors at right angles.
+ViewAngles view_angles(glm::dvec3 forward, glm::dvec3 up);
+
 }  // namespace ods

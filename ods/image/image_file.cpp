@@ -8,12 +8,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 
 #include "ods/base/error.h"
+#include "ods/base/read_file.h"
 #include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
 
@@ -53,20 +51,6 @@ static std::string one_line(std::string text) {
 
 static Error cannot_read(const std::string& name, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", name, why));
-}
-
-static std::vector<std::byte> read_bytes(const std::string& path) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  // A folder opens, and claims to be endless.
-  if (size < 0 || size == std::numeric_limits<std::streamoff>::max()) {
-    throw cannot_read(path, errno != 0 ? std::strerror(errno) : "it is not a file");
-  }
-  std::vector<std::byte> bytes(static_cast<size_t>(size));
-  stream.seekg(0);
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), size)) throw cannot_read(path, "reading stopped halfway");
-  return bytes;
 }
 
 static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std::string& name) {
@@ -129,8 +113,8 @@ static std::vector<T> read_channels(Reader& reader, int count, const std::string
 }
 
 Image read_image(const std::string& path) {
-  const std::vector<std::byte> file = read_bytes(path);
-  Reader reader = open_reader(file, path);
+  const std::vector<unsigned char> file = read_file(path);
+  Reader reader = open_reader(std::as_bytes(std::span(file)), path);
   const int count = reader.spec.nchannels < 3 ? 1 : 3;
   Image image(reader.spec.width, reader.spec.height, 3);
   std::vector<float> values = read_channels<float>(reader, count, path);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Image files of every format of file_format.h, through OpenImageIO (this is the one file that knows it).
+// Image files of every format of file_format.h, through OpenImageIO (image_file.cpp alone knows it).
 #pragma once
 #include <cstddef>
 #include <cstdint>

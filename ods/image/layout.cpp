@@ -22,13 +22,6 @@ std::string_view layout_name(Layout layout) {
   return {};
 }
 
-std::optional<Layout> layout_of(std::string_view name) {
-  for (Layout layout : kLayouts) {
-    if (layout_name(layout) == name) return layout;
-  }
-  return std::nullopt;
-}
-
 Extent packed_size(Layout layout, Extent eye, int eye_count) {
   if (layout == Layout::kTopBottom) return {eye.width, eye.height * eye_count};
   if (layout == Layout::kSideBySide) return {eye.width * eye_count, eye.height};

@@ -3,7 +3,6 @@
 //
 // How two eyes share a file. This is the only place that knows; until here every eye is an image of its own.
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +19,6 @@ enum class Layout {
 // `top-bottom`, `side-by-side`, `separate`, `multiview`: the words of the command line.
 inline constexpr Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kSeparate, Layout::kMultiview};
 std::string_view layout_name(Layout layout);
-std::optional<Layout> layout_of(std::string_view name);
 
 struct Extent {
   int width;
@@ -32,7 +30,7 @@ Extent packed_size(Layout layout, Extent eye, int eye_count);
 
 // What row y of that image is, from left to right: the row of one eye, or of one after the other.
 struct EyeRow {
-  int eye;  // 0 is the first: left, or the only one
+  int index;  // of the eye in the picture: 0 is the left, or the only one
   int y;
 };
 std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);

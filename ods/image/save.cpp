@@ -144,10 +144,10 @@ static std::string channel_name(const Layer& layer, char channel, std::string_vi
   return name + channel;
 }
 
-static void add_exr_channels(std::vector<Channel>& channels, bool half, std::string_view view, bool default_view) {
+static void add_exr_channels(std::vector<Channel>& channels, std::string_view view, bool default_view) {
   for (const Layer& layer : kLayers) {
     for (char channel : layer.channels) {
-      const Sample sample = half && !layer.wide ? Sample::kHalf : Sample::kFloat;
+      const Sample sample = layer.wide ? Sample::kFloat : Sample::kHalf;
       channels.push_back({channel_name(layer, channel, view, default_view), sample});
     }
   }
@@ -158,10 +158,10 @@ static float finite(float value, float lowest, float highest) {
 }
 
 // One row of one eye, all its layers; `stride` floats from pixel to pixel.
-static void fill_exr_row(const EyeImage& eye, int y, bool half, float* out, size_t stride) {
+static void fill_exr_row(const EyeImage& eye, int y, float* out, size_t stride) {
   for (const Layer& layer : kLayers) {
     const Image& image = eye.*layer.image;
-    const float limit = half && !layer.wide ? 65504.0f : std::numeric_limits<float>::max();
+    const float limit = layer.wide ? std::numeric_limits<float>::max() : 65504.0f;
     const float* in = image.at(0, y);
     for (int x = 0; x < image.width; x++) {
       for (int c = 0; c < image.channels; c++)
@@ -203,10 +203,10 @@ static FileHeader make_header(FileFormat format, Layout layout, const EyeList& e
   switch (format) {
     case FileFormat::kExr:
       add_exr(header.attributes, rig, layout, eyes);
-      if (layout != Layout::kMultiview) add_exr_channels(header.channels, options.half, "", true);
+      if (layout != Layout::kMultiview) add_exr_channels(header.channels, "", true);
       if (layout == Layout::kMultiview) {
         for (const EyeImage* eye : eyes) {
-          add_exr_channels(header.channels, options.half, eye_name(eye->eye), eye == eyes[0]);
+          add_exr_channels(header.channels, eye_name(eye->eye), eye == eyes[0]);
         }
       }
       return header;
@@ -217,13 +217,12 @@ static FileHeader make_header(FileFormat format, Layout layout, const EyeList& e
       header.attributes.push_back({"jpeg:subsampling", std::string("4:4:4")});
       [[fallthrough]];
     case FileFormat::kWebp:
-      header.attributes.push_back({"CompressionQuality", options.quality});
+      header.attributes.push_back({"CompressionQuality", options.jpeg_quality});
       break;
     case FileFormat::kTiff:
       header.attributes.push_back({"compression", std::string("zip")});
-      [[fallthrough]];
+      break;
     case FileFormat::kPng:
-      sample = options.sixteen_bits ? Sample::kUint16 : Sample::kUint8;
       break;
   }
   header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
@@ -240,15 +239,15 @@ static void write_file(AtomicFile& file, FileFormat format, Layout layout, const
     float* out = row.data();
     if (layout == Layout::kMultiview) {
       for (const EyeImage* eye : eyes) {
-        fill_exr_row(*eye, y, options.half, out, stride);
+        fill_exr_row(*eye, y, out, stride);
         out += stride / eyes.size();
       }
       return;
     }
     for (const EyeRow& part : packed_row(layout, eye_size, count, y)) {
-      const EyeImage& eye = *eyes[static_cast<size_t>(part.eye)];
+      const EyeImage& eye = *eyes[static_cast<size_t>(part.index)];
       if (format == FileFormat::kExr) {
-        fill_exr_row(eye, part.y, options.half, out, stride);
+        fill_exr_row(eye, part.y, out, stride);
       } else if (format == FileFormat::kHdr) {
         fill_hdr_row(eye, part.y, out);
       } else {

@@ -3,15 +3,16 @@
 //
 // A rendered picture into files. The extension decides the format.
 //
-// png, jpg, jpeg, tif, tiff, webp hold what a display shows: exposure, tone curve, sRGB, 8 bits (png and tif: 16 on
-// demand). hdr and exr hold the light of the scene as it was rendered: linear, Rec. 709, neither exposed nor toned.
-// No file holds NaN (it becomes 0) or infinity (it becomes the largest number of the format).
+// png, jpg, jpeg, tif, tiff, webp hold what a display shows: exposure, tone curve, sRGB, 8 bits. hdr and exr hold the
+// light of the scene as it was rendered: linear, Rec. 709, neither exposed nor toned. No file holds NaN (it becomes 0)
+// or infinity (it becomes the largest number of the format).
 //
-// exr adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and albedo.R G B, and says
-// how it was taken: chromaticities, ods:version, ods:projection, ods:layout, ods:ipd, ods:position, ods:yaw, ods:pitch,
-// ods:roll, ods:poleMergeTop and -Bottom (with Start, End, Exponent), ods:depthType; a file of one eye also envmap and
-// view. Multi-view follows "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with
-// R G B Z bare, and the view stands before the last word elsewhere: right.R, N.left.X, albedo.right.G.
+// exr holds 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and
+// albedo.R G B, and says how it was taken: chromaticities, ods:version, ods:projection, ods:layout, ods:ipd,
+// ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom (with Start, End, Exponent), ods:depthType;
+// a file of one eye also envmap and view. Multi-view follows "Storing Multi-View Images in OpenEXR Files", single part:
+// `left` is the default view with R G B Z bare, and the view stands before the last word elsewhere: right.R, N.left.X,
+// albedo.right.G.
 //
 // A file of one eye that can carry GPano (png, jpg, tif) does; a stereo one does not, because GPano knows no stereo and
 // viewers would wrap both eyes around one sphere.
@@ -30,9 +31,7 @@ struct SaveOptions {
   Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name means kSeparate, whatever stands here
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
-  int quality = 95;           // jpg and webp, 1..100
-  bool sixteen_bits = false;  // png and tif
-  bool half = true;           // exr: 16-bit floats for everything but Z; false: 32-bit
+  int jpeg_quality = 95;  // of jpg and webp, 1..100
 };
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a

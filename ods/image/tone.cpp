@@ -17,13 +17,6 @@ std::string_view tone_curve_name(ToneCurve curve) {
   return {};
 }
 
-std::optional<ToneCurve> tone_curve_of(std::string_view name) {
-  for (ToneCurve curve : kToneCurves) {
-    if (tone_curve_name(curve) == name) return curve;
-  }
-  return std::nullopt;
-}
-
 static vec3 neutral(vec3 color) {
   const float kFresnel = 0.04f;  // what a dielectric reflects straight on, taken off so that base colours come back
   const float kStart = 0.8f - kFresnel;

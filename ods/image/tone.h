@@ -3,7 +3,6 @@
 //
 // From the scene's light to a display: exposure, tone curve, sRGB.
 #pragma once
-#include <optional>
 #include <string_view>
 
 #include "ods/kernel/math.h"
@@ -18,7 +17,6 @@ enum class ToneCurve {
 // `neutral`, `linear`: the words of the command line.
 inline constexpr ToneCurve kToneCurves[] = {ToneCurve::kNeutral, ToneCurve::kLinear};
 std::string_view tone_curve_name(ToneCurve curve);
-std::optional<ToneCurve> tone_curve_of(std::string_view name);
 
 // Any number in, 0..1 out, both linear Rec. 709. The light is first multiplied by 2^exposure.
 // NaN and negative light become 0; infinite light is treated as the largest number.

@@ -2,50 +2,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/builtin.h"
 
-#include <cassert>
-
-#include "ods/scene/builtin_makers.h"
+#include "ods/scene/builtin/makers.h"
 
 namespace ods {
 
 static constexpr BuiltinScene kScenes[] = {
-    {"room", "a living room at dusk, lit by its lamps"},
-    {"wineglass", "red wine, water and glass on a table: refraction and absorption"},
-    {"mirrors", "flat, round and hollow mirrors around the viewer: reflections in stereo"},
-    {"fractal", "sphereflakes and sponges on all sides: millions of instanced triangles"},
-    {"axis", "a labelled reference: directions, degrees, distances, poles"},
-    {"furnace", "test: a glowing closed box, every pixel has the same known value"},
-    {"spheres", "test: small glowing spheres at known positions"},
-    {"lamp", "test: a floor under a disc lamp, radiance known at every point"},
-    {"slab", "test: a glass slab before a bright sky, transmittance known in every direction"},
+    {"room", "a living room at dusk, lit by its lamps", make_room},
+    {"wineglass", "red wine, water and glass on a table: refraction and absorption", make_wineglass},
+    {"mirrors", "flat, round and hollow mirrors around the viewer: reflections in stereo", make_mirrors},
+    {"fractal", "sphereflakes and sponges on all sides: millions of instanced triangles", make_fractal},
+    {"axis", "a labelled reference: directions, degrees, distances, poles", make_axis},
+    {"furnace", "test: a glowing closed box, every pixel has the same known value", make_furnace},
+    {"spheres", "test: small glowing spheres at known positions", make_marker_spheres},
+    {"lamp", "test: a floor under a disc lamp, radiance known at every point", make_lamp},
+    {"slab", "test: a glass slab before a bright sky, transmittance known in every direction", make_slab},
 };
-
-// In the order of kScenes.
-static constexpr Scene (*kMakers[])() = {
-    make_room,    make_wineglass,      make_mirrors, make_fractal, make_axis,
-    make_furnace, make_marker_spheres, make_lamp,    make_slab,
-};
-static_assert(std::size(kScenes) == std::size(kMakers));
 
 std::span<const BuiltinScene> builtin_scenes() {
   return kScenes;
 }
 
-static size_t index_of(const std::string& name) {
-  size_t i = 0;
-  while (i < std::size(kScenes) && name != kScenes[i].name) i++;
-  return i;
-}
-
-bool is_builtin(const std::string& name) {
-  return index_of(name) < std::size(kScenes);
-}
-
-Scene make_builtin(const std::string& name) {
-  assert(is_builtin(name));
-  Scene scene = kMakers[index_of(name)]();
-  scene.name = name;
-  return scene;
+const BuiltinScene* find_builtin(std::string_view name) {
+  for (const BuiltinScene& scene : kScenes) {
+    if (scene.name == name) return &scene;
+  }
+  return nullptr;
 }
 
 }  // namespace ods

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "ods/base/error.h"
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

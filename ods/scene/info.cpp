@@ -72,7 +72,7 @@ SceneInfo describe(const Scene& scene, vec3 camera_position) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
     info.instanced_triangles += mesh.triangle_count;
-    if (material.emission != vec3(0.0f)) info.emissive_triangles += mesh.triangle_count;
+    if (glows(material)) info.emissive_triangles += mesh.triangle_count;
     nearest = nearest_in(scene, instance, dvec3(camera_position), nearest);
   }
   if (std::isfinite(nearest)) info.nearest_surface = static_cast<float>(nearest);

@@ -13,7 +13,11 @@
 namespace ods {
 
 Scene load_scene(const std::string& name, const SceneOptions& options) {
-  if (is_builtin(name)) return make_builtin(name);
+  if (const BuiltinScene* builtin = find_builtin(name)) {
+    Scene scene = builtin->make();
+    scene.name = name;
+    return scene;
+  }
   std::error_code error;
   if (!std::filesystem::exists(name, error)) {
     std::vector<std::string> names;

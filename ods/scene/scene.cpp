@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/scene.h"
 
+#include <algorithm>
 #include <cassert>
+
+#include "ods/kernel/surface.h"
 
 namespace ods {
 
@@ -80,6 +83,42 @@ Bounds scene_bounds(const Scene& scene) {
     }
   }
   return bounds;
+}
+
+ViewPoint default_view(const Scene& scene) {
+  if (!scene.view_points.empty()) return scene.view_points.front();
+  const float kEyeHeight = 1.6f;
+  const float kElbowRoom = 1.0f;
+  const Bounds bounds = scene_bounds(scene);
+  const vec3 low = bounds.low, high = bounds.high, middle = 0.5f * (low + high);
+  const auto inside = [&](vec3 p) {
+    return p.x - kElbowRoom > low.x && p.x + kElbowRoom < high.x && p.z - kElbowRoom > low.z &&
+           p.z + kElbowRoom < high.z && p.y > low.y && p.y < high.y;
+  };
+  ViewPoint view;
+  view.position = vec3(0.0f, kEyeHeight, 0.0f);
+  view.name = "eye height above the origin";
+  if (inside(view.position)) return view;
+  view.position = vec3(middle.x, low.y + kEyeHeight, middle.z);
+  view.name = "eye height in the middle of the scene";
+  if (inside(view.position)) return view;
+  const vec3 size = high - low;
+  view.position = vec3(middle.x, middle.y, high.z + std::max({size.x, size.y, size.z}));
+  view.name = "before the scene";
+  return view;
+}
+
+bool glows(const Material& material) {
+  return material.unlit == 0 && luminance(material.emission) > 0.0f;
+}
+
+bool has_light(const Scene& scene) {
+  if (!scene.lights.empty() || scene.environment.radiance != vec3(0.0f)) return true;
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+    return material.unlit != 0 || (glows(material) && material.emission_slot.texture < 0);
+  });
 }
 
 }  // namespace ods

@@ -78,4 +78,15 @@ struct Bounds {
 // The box around every instanced vertex.
 Bounds scene_bounds(const Scene& scene);
 
+// Where to look from when nobody says: the first view point; without one at eye height in the scene, looking along -Z,
+// or before it.
+ViewPoint default_view(const Scene& scene);
+
+// Whether a surface of it is a lamp. Unlit surfaces are not: they show a colour and light nothing.
+bool glows(const Material& material);
+
+// Whether there is anything to see without a sky of one's own. Glowing textures do not count: most are the little lamps
+// of a gadget, which leave its picture black.
+bool has_light(const Scene& scene);
+
 }  // namespace ods

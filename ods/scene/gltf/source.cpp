@@ -5,32 +5,20 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
-#include "ods/scene/gltf_parts.h"
+#include "ods/base/read_file.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
 using Json = nlohmann::json;
 using Storage = std::shared_ptr<const std::vector<unsigned char>>;
 
-static Storage read_file(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw Error(ErrorKind::kInput, fmt::format("{}: no such file", path));
-  if (!std::filesystem::is_regular_file(status)) throw Error(ErrorKind::kInput, fmt::format("{} is not a file", path));
-  std::ifstream stream(path, std::ios::binary);
-  const uintmax_t size = std::filesystem::file_size(path, error);
-  if (!stream || error) throw Error(ErrorKind::kInput, fmt::format("{}: cannot be opened for reading", path));
-  std::vector<unsigned char> bytes(size);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (static_cast<uintmax_t>(stream.gcount()) != size) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: cannot be read to its end", path));
-  }
-  return std::make_shared<const std::vector<unsigned char>>(std::move(bytes));
+static Storage load_file(const std::string& path) {
+  return std::make_shared<const std::vector<unsigned char>>(read_file(path));
 }
 
 // --- the container: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#glb-file-format-specification
@@ -156,7 +144,7 @@ static Storage read_uri(const GltfFile& file, const std::string& uri) {
   const std::string name = decode_percent(uri);
   if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
   try {
-    return read_file((std::filesystem::path(file.path).parent_path() / name).string());
+    return load_file((std::filesystem::path(file.path).parent_path() / name).string());
   } catch (const Error&) {
     fail(file, fmt::format("refers to {}, which is not there or cannot be read", printable(uri)));
   }
@@ -217,14 +205,8 @@ static Json take(const GltfFile& file, Json& json, const char* key) {
 }
 
 Bytes buffer_view_bytes(const GltfFile& file, int index) {
-  if (index < 0 || static_cast<size_t>(index) >= file.model->bufferViews.size()) {
-    fail(file, fmt::format("buffer view {} does not exist; the file is damaged", index));
-  }
-  const tinygltf::BufferView& view = file.model->bufferViews[static_cast<size_t>(index)];
-  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= file.buffers.size()) {
-    fail(file, fmt::format("buffer {} does not exist; the file is damaged", view.buffer));
-  }
-  const Bytes buffer = file.buffers[static_cast<size_t>(view.buffer)];
+  const tinygltf::BufferView& view = element(file, file.model->bufferViews, index, "buffer view");
+  const Bytes buffer = element(file, file.buffers, view.buffer, "buffer");
   if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
     fail(file, fmt::format("buffer view {} runs past the end of its buffer; the file is damaged", index));
   }
@@ -274,7 +256,7 @@ static void parse(GltfFile& file, Bytes bytes) {
 GltfFile open_gltf(const std::string& path) {
   GltfFile file;
   file.path = path;
-  file.storage.push_back(read_file(path));
+  file.storage.push_back(load_file(path));
   parse(file, *file.storage.front());
   return file;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/stroke_font.h"
+#include "ods/scene/builtin/stroke_font.h"
 
 #include <cmath>
 #include <sstream>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
@@ -146,10 +146,7 @@ static std::vector<vec4> expand_sparse(GltfFile& file, int index, const Accessor
 AccessorView open_accessor(GltfFile& file, int index) {
   AccessorView attribute;
   if (index == -1) return attribute;
-  if (index < 0 || static_cast<size_t>(index) >= file.model->accessors.size()) {
-    fail(file, fmt::format("accessor {} does not exist; the file is damaged", index));
-  }
-  const tinygltf::Accessor& accessor = file.model->accessors[static_cast<size_t>(index)];
+  const tinygltf::Accessor& accessor = element(file, file.model->accessors, index, "accessor");
   attribute.components = component_count(accessor.type);
   attribute.component_type = accessor.componentType;
   attribute.normalized = accessor.normalized;

@@ -10,7 +10,7 @@
 #include <map>
 
 #include "ods/image/image_file.h"
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
@@ -43,7 +43,7 @@ static float clamped(double value, double low, double high, double fallback) {
   return static_cast<float>(std::isfinite(value) ? std::clamp(value, low, high) : fallback);
 }
 
-static vec3 colour(const std::vector<double>& values, double high) {
+static vec3 color(const std::vector<double>& values, double high) {
   vec3 result(0.0f);
   for (size_t i = 0; i < 3 && i < values.size(); i++) result[static_cast<int>(i)] = clamped(values[i], 0.0, high, 0.0);
   return result;
@@ -134,31 +134,23 @@ class TextureTable {
 int TextureTable::texture(int index, bool srgb) {
   const auto found = made_.find({index, srgb});
   if (found != made_.end()) return found->second;
-  if (index < 0 || static_cast<size_t>(index) >= model_.textures.size()) {
-    fail(file_, fmt::format("texture {} does not exist; the file is damaged", index));
-  }
-  const tinygltf::Texture& source = model_.textures[static_cast<size_t>(index)];
+  const tinygltf::Texture& source = element(file_, model_.textures, index, "texture");
   const int image = image_of(source);
   if (image == -1) {
     warn(scene_, fmt::format("texture {} has no picture that ods can read; it is left white", index));
     return made_[{index, srgb}] = -1;
   }
-  if (image < 0 || static_cast<size_t>(image) >= file_.images.size()) {
-    fail(file_, fmt::format("image {} does not exist; the file is damaged", image));
-  }
+  const size_t first_image = element(file_, file_.images, image, "image").first;
   Texture texture{};
   texture.srgb = srgb;
   if (source.sampler != -1) {
-    if (source.sampler < 0 || static_cast<size_t>(source.sampler) >= model_.samplers.size()) {
-      fail(file_, fmt::format("sampler {} does not exist; the file is damaged", source.sampler));
-    }
-    const tinygltf::Sampler& sampler = model_.samplers[static_cast<size_t>(source.sampler)];
+    const tinygltf::Sampler& sampler = element(file_, model_.samplers, source.sampler, "sampler");
     texture.wrap_u = wrap(sampler.wrapS);
     texture.wrap_v = wrap(sampler.wrapT);
     texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
   scene_.textures.push_back(texture);
-  images_.push_back(file_.images[static_cast<size_t>(image)].first);
+  images_.push_back(first_image);
   return made_[{index, srgb}] = static_cast<int>(images_.size()) - 1;
 }
 
@@ -216,7 +208,7 @@ static void read_extensions(const tinygltf::Material& source, Scene& scene, Text
   if (const Value* volume = extension(source.extensions, "KHR_materials_volume")) {
     material.thickness = clamped(number(*volume, "thicknessFactor", 0.0), 0.0, kFarthest, 0.0);
     material.attenuation_distance = clamped(number(*volume, "attenuationDistance", 0.0), 0.0, kFarthest, 0.0);
-    material.attenuation_color = colour(numbers(*volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
+    material.attenuation_color = color(numbers(*volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
   }
   material.unlit = source.extensions.count("KHR_materials_unlit") != 0;
 }
@@ -225,14 +217,14 @@ static Material read_material(const tinygltf::Material& source, Scene& scene, Te
   const auto& pbr = source.pbrMetallicRoughness;
   Material material = default_material();
   const std::vector<double>& base = pbr.baseColorFactor;
-  material.base_color = vec4(colour(base, 1.0), base.size() > 3 ? clamped(base[3], 0.0, 1.0, 1.0) : 1.0f);
+  material.base_color = vec4(color(base, 1.0), base.size() > 3 ? clamped(base[3], 0.0, 1.0, 1.0) : 1.0f);
   material.base_color_slot = textures.slot(pbr.baseColorTexture, true);
   material.metallic = clamped(pbr.metallicFactor, 0.0, 1.0, 1.0);
   material.roughness = clamped(pbr.roughnessFactor, 0.0, 1.0, 1.0);
   material.metallic_roughness_slot = textures.slot(pbr.metallicRoughnessTexture, false);
   material.normal_scale = clamped(source.normalTexture.scale, -1e3, 1e3, 1.0);
   material.normal_slot = textures.slot(source.normalTexture, false);
-  material.emission = colour(source.emissiveFactor, 1e9);
+  material.emission = color(source.emissiveFactor, 1e9);
   material.emission_slot = textures.slot(source.emissiveTexture, true);
   material.alpha_mode = source.alphaMode == "MASK"    ? kAlphaMask
                         : source.alphaMode == "BLEND" ? kAlphaBlend

@@ -3,9 +3,9 @@
 //
 // The scenes with answers in closed form.
 #include "ods/kernel/camera/camera.h"
-#include "ods/scene/builder.h"
 #include "ods/scene/builtin.h"
-#include "ods/scene/builtin_makers.h"
+#include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/makers.h"
 
 namespace ods {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/patterns.h"
+#include "ods/scene/builtin/patterns.h"
 
 #include "ods/kernel/camera/camera.h"
 

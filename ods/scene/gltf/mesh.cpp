@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
@@ -226,11 +226,8 @@ static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitiv
 }
 
 std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh) {
-  if (mesh < 0 || static_cast<size_t>(mesh) >= file.model->meshes.size()) {
-    fail(file, fmt::format("mesh {} does not exist; the file is damaged", mesh));
-  }
   std::vector<int> meshes;
-  for (const tinygltf::Primitive& primitive : file.model->meshes[static_cast<size_t>(mesh)].primitives) {
+  for (const tinygltf::Primitive& primitive : element(file, file.model->meshes, mesh, "mesh").primitives) {
     const int index = read_primitive(file, scene, primitive);
     if (index != -1) meshes.push_back(index);
   }

@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
-#include "ods/scene/gltf_parts.h"
+#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
@@ -60,19 +60,13 @@ struct Hierarchy {
   std::vector<int> order;    // every node, parents before their children
 };
 
-static void check_node(const GltfFile& file, int node) {
-  if (node < 0 || static_cast<size_t>(node) >= file.model->nodes.size()) {
-    fail(file, fmt::format("node {} does not exist; the file is damaged", node));
-  }
-}
-
 static Hierarchy read_hierarchy(const GltfFile& file) {
   const std::vector<Node>& nodes = file.model->nodes;
   Hierarchy tree;
   tree.parents.assign(nodes.size(), -1);
   for (size_t i = 0; i < nodes.size(); i++) {
     for (const int child : nodes[i].children) {
-      check_node(file, child);
+      element(file, nodes, child, "node");
       int& parent = tree.parents[static_cast<size_t>(child)];
       if (parent != -1)
         fail(file, fmt::format("node {} is the child of both {} and {}; the file is damaged", child, parent, i));
@@ -113,7 +107,7 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
   }
   std::vector<char> inside(tree.order.size(), 0);
   for (const int root : scenes[static_cast<size_t>(chosen)].nodes) {
-    check_node(file, root);
+    element(file, file.model->nodes, root, "node");
     if (tree.parents[static_cast<size_t>(root)] != -1) {
       fail(file, fmt::format("node {} is a root of the scene and has a parent; the file is damaged", root));
     }
@@ -156,10 +150,7 @@ class Placer {
 const std::vector<Placer::LoadedMesh>& Placer::load_mesh(int mesh) {
   static const std::vector<LoadedMesh> kNone;
   if (mesh == -1) return kNone;
-  if (mesh < 0 || static_cast<size_t>(mesh) >= meshes_.size()) {
-    fail(file_, fmt::format("mesh {} does not exist; the file is damaged", mesh));
-  }
-  auto& loaded = meshes_[static_cast<size_t>(mesh)];
+  auto& loaded = element(file_, meshes_, mesh, "mesh");
   if (loaded) return *loaded;
   loaded.emplace();
   for (const int index : read_mesh(file_, scene_, mesh)) {
@@ -242,10 +233,7 @@ static float finite_or(double value, float fallback) {
 
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_lights_punctual
 void Placer::place_light(int index, const dmat4& world) {
-  if (index < 0 || static_cast<size_t>(index) >= file_.model->lights.size()) {
-    fail(file_, fmt::format("light {} does not exist; the file is damaged", index));
-  }
-  const tinygltf::Light& source = file_.model->lights[static_cast<size_t>(index)];
+  const tinygltf::Light& source = element(file_, file_.model->lights, index, "light");
   PunctualLight light;
   if (source.type == "point") {
     light.kind = kLightPoint;
@@ -260,8 +248,8 @@ void Placer::place_light(int index, const dmat4& world) {
   light.position = vec3(world[3]);
   light.direction = vec3(unit(-dvec3(world[2]), dvec3(0.0, 0.0, -1.0)));
   for (int c = 0; c < 3; c++) {
-    const double colour = source.color.size() == 3 ? source.color[static_cast<size_t>(c)] : 1.0;
-    light.intensity[c] = std::max(0.0f, finite_or(colour * source.intensity, 0.0f));
+    const double color = source.color.size() == 3 ? source.color[static_cast<size_t>(c)] : 1.0;
+    light.intensity[c] = std::max(0.0f, finite_or(color * source.intensity, 0.0f));
   }
   light.range = std::max(0.0f, finite_or(source.range, 0.0f));
   light.outer_cone = std::clamp(finite_or(source.spot.outerConeAngle, 0.7853982f), 1e-3f, 1.5707963f);
@@ -269,28 +257,8 @@ void Placer::place_light(int index, const dmat4& world) {
   scene_.lights.push_back(light);
 }
 
-// The angles of CameraRig for an orientation; the inverse of make_camera(). Looking straight up or down, yaw and roll
-// turn about the same axis and roll is 0.
-static void set_angles(ViewPoint& view, const dvec3& forward, const dvec3& up) {
-  const double pitch = std::asin(std::clamp(forward.y, -1.0, 1.0));
-  dvec3 right = glm::cross(forward, up);
-  double yaw = std::atan2(forward.x, -forward.z), roll = 0.0;
-  if (std::hypot(forward.x, forward.z) < 1e-6) {
-    yaw = std::atan2(right.z, right.x);
-  } else {
-    const dvec3 level_right(std::cos(yaw), 0.0, std::sin(yaw));
-    roll = std::atan2(glm::dot(up, level_right), glm::dot(right, level_right));
-  }
-  view.yaw = static_cast<float>(glm::degrees(yaw));
-  view.pitch = static_cast<float>(glm::degrees(pitch));
-  view.roll = static_cast<float>(glm::degrees(roll));
-}
-
 void Placer::place_camera(const Node& node, const dmat4& world) {
-  if (node.camera < 0 || static_cast<size_t>(node.camera) >= file_.model->cameras.size()) {
-    fail(file_, fmt::format("camera {} does not exist; the file is damaged", node.camera));
-  }
-  const std::string& own = file_.model->cameras[static_cast<size_t>(node.camera)].name;
+  const std::string& own = element(file_, file_.model->cameras, node.camera, "camera").name;
   ViewPoint view;
   view.name = printable(!node.name.empty() ? node.name : !own.empty() ? own : fmt::format("camera {}", node.camera));
   view.position = vec3(world[3]);
@@ -299,7 +267,10 @@ void Placer::place_camera(const Node& node, const dmat4& world) {
   const dvec3 up(world[1]);
   const dvec3 any_across = std::abs(forward.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(0.0, 0.0, 1.0);
   const dvec3 fallback = unit(any_across - forward * glm::dot(forward, any_across), any_across);
-  set_angles(view, forward, unit(up - forward * glm::dot(forward, up), fallback));
+  const ViewAngles angles = view_angles(forward, unit(up - forward * glm::dot(forward, up), fallback));
+  view.yaw = angles.yaw;
+  view.pitch = angles.pitch;
+  view.roll = angles.roll;
   scene_.view_points.push_back(view);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the parts of the glTF reader share; only ods/scene/gltf*.cpp include this.
-//   gltf_source    bytes of the file, its buffers and pictures -> GltfFile
-//   gltf_accessor  numbers out of buffers
-//   gltf_material  materials, samplers, textures
-//   gltf_mesh      primitives -> meshes
-//   gltf_nodes     the hierarchy -> instances, lights, view points
+// What the parts of the glTF reader share; only ods/scene/gltf.cpp and its folder include this.
+//   source    bytes of the file, its buffers and pictures -> GltfFile
+//   accessor  numbers out of buffers
+//   material  materials, samplers, textures
+//   mesh      primitives -> meshes
+//   nodes     the hierarchy -> instances, lights, view points
 // Every function here throws Error(kInput) naming the file when the file does not hold what it promises.
 #pragma once
 #include <cstddef>
@@ -49,6 +49,15 @@ struct GltfFile {
 
 [[noreturn]] void fail(const GltfFile& file, const std::string& what);
 
+// Element `index` of a list of the file; `what` is its name in the message when there is none.
+template <class List>
+auto& element(const GltfFile& file, List& list, int index, const char* what) {
+  if (index < 0 || static_cast<size_t>(index) >= list.size()) {
+    fail(file, std::string(what) + " " + std::to_string(index) + " does not exist; the file is damaged");
+  }
+  return list[static_cast<size_t>(index)];
+}
+
 // Text of the file as it may stand in a message: one line, not endless.
 std::string printable(const std::string& text);
 
@@ -58,13 +67,13 @@ void warn(Scene& scene, const std::string& what);
 // Takes from the budget, so that a small file cannot ask for gigabytes by naming one accessor a million times.
 void spend(GltfFile& file, size_t count);
 
-// --- gltf_source.cpp
+// --- source.cpp
 GltfFile open_gltf(const std::string& path);
 GltfFile open_gltf_bytes(Bytes bytes, const std::string& path);
 Bytes buffer_view_bytes(const GltfFile& file, int view);
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
 
-// --- gltf_accessor.cpp
+// --- accessor.cpp
 // One accessor, checked to lie inside its buffer: at(i) is element i as floats (normalized integers mapped as the
 // specification says), components that it does not have are 0, w is 1.
 struct AccessorView {
@@ -84,7 +93,7 @@ struct AccessorView {
 // accessor -1: an AccessorView with count 0.
 AccessorView open_accessor(GltfFile& file, int accessor);
 
-// --- gltf_material.cpp
+// --- material.cpp
 // Scene materials are the file's in their order, then one more: what a primitive without a material gets.
 void read_materials(const GltfFile& file, Scene& scene);
 
@@ -94,14 +103,14 @@ int integer(const tinygltf::Value& object, const char* key, int fallback);
 // The member as an object; an empty one where it is absent or something else.
 const tinygltf::Value& object(const tinygltf::Value& object, const char* key);
 
-// --- gltf_mesh.cpp
+// --- mesh.cpp
 // The Scene meshes that a mesh of the file becomes: one for each primitive that has triangles.
 std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh);
 
 // Vertices without a tangent get one that follows u of the normal map's coordinates.
 void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& normal_slot);
 
-// --- gltf_nodes.cpp
+// --- nodes.cpp
 // Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras.
 void read_nodes(GltfFile& file, Scene& scene, int chosen);
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/furniture.h"
+#include "ods/scene/builtin/furniture.h"
 
-#include "ods/scene/builder.h"
-#include "ods/scene/decor.h"
-#include "ods/scene/patterns.h"
+#include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/decor.h"
+#include "ods/scene/builtin/patterns.h"
 
 namespace ods {
 
@@ -57,8 +57,8 @@ static void add_legs(Scene& scene, int material, const glm::mat4& place, vec2 ha
 // A seat between two arms with a back, seat and back cushions; what sofas and armchairs have in common.
 static void add_upholstery(Scene& scene, int material, const glm::mat4& place, vec3 size, int seats) {
   const float arm = 0.17f, back = 0.2f, base = 0.14f, seat_top = 0.32f;
-  const auto part = [&](vec3 extent, vec3 centre, float radius) {
-    add(scene, make_rounded_box(extent, radius, 4), material, place * placed(centre));
+  const auto part = [&](vec3 extent, vec3 center, float radius) {
+    add(scene, make_rounded_box(extent, radius, 4), material, place * placed(center));
   };
   part({size.x, seat_top - base, size.z}, {0.0f, 0.5f * (base + seat_top), 0.0f}, 0.03f);
   part({size.x, size.y - base, back}, {0.0f, 0.5f * (size.y + base), 0.5f * (back - size.z)}, 0.07f);
@@ -195,8 +195,8 @@ void add_sideboard(Scene& scene, const Finishes& f, const glm::mat4& place) {
 
 void add_bookcase(Scene& scene, const Finishes& f, const glm::mat4& place, uint seed) {
   const float width = 0.95f, depth = 0.32f, height = 2.2f, board = 0.028f;
-  const auto part = [&](vec3 size, vec3 centre) {
-    add(scene, make_rounded_box(size, 0.004f, 1), f.walnut, place * placed(centre));
+  const auto part = [&](vec3 size, vec3 center) {
+    add(scene, make_rounded_box(size, 0.004f, 1), f.walnut, place * placed(center));
   };
   for (const float side : {-1.0f, 1.0f})
     part({board, height, depth}, {side * 0.5f * (width - board), 0.5f * height, 0.0f});

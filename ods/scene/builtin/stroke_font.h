@@ -5,7 +5,7 @@
 #pragma once
 #include <string>
 
-#include "ods/scene/shapes.h"
+#include "ods/scene/builtin/shapes.h"
 
 namespace ods {
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/builder.h"
+#include "ods/scene/builtin/builder.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "ods/image/tone.h"
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -50,9 +51,7 @@ Material glass(float ior) {
 }
 
 static uint to_srgb8(float linear) {
-  const float x = clamp(linear, 0.0f, 1.0f);
-  const float curve = x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
-  return static_cast<uint>(curve * 255.0f + 0.5f);
+  return static_cast<uint>(srgb_encode(clamp(linear, 0.0f, 1.0f)) * 255.0f + 0.5f);
 }
 
 int add_texture(Scene& scene, int width, int height, const std::function<vec3(vec2)>& color) {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "ods/kernel/camera/camera.h"
-#include "ods/scene/builder.h"
-#include "ods/scene/builtin_makers.h"
-#include "ods/scene/decor.h"
-#include "ods/scene/furniture.h"
-#include "ods/scene/patterns.h"
+#include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/decor.h"
+#include "ods/scene/builtin/furniture.h"
+#include "ods/scene/builtin/makers.h"
+#include "ods/scene/builtin/patterns.h"
 
 namespace ods {
 

@@ -5,8 +5,8 @@
 #pragma once
 #include <functional>
 
+#include "ods/scene/builtin/shapes.h"
 #include "ods/scene/scene.h"
-#include "ods/scene/shapes.h"
 
 namespace ods {
 

@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "ods/kernel/camera/camera.h"
-#include "ods/scene/builder.h"
-#include "ods/scene/builtin_makers.h"
-#include "ods/scene/patterns.h"
+#include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/makers.h"
+#include "ods/scene/builtin/patterns.h"
 
 namespace ods {
 

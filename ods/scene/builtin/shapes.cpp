@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/shapes.h"
+#include "ods/scene/builtin/shapes.h"
 
 #include <cassert>
 #include <glm/gtc/matrix_inverse.hpp>

@@ -4,9 +4,9 @@
 // "fractal": sphereflakes (after Eric Haines' Standard Procedural Databases) and Menger sponges on all sides: a handful
 // of meshes, thousands of instances, millions of triangles.
 #include "ods/kernel/camera/camera.h"
-#include "ods/scene/builder.h"
-#include "ods/scene/builtin_makers.h"
-#include "ods/scene/patterns.h"
+#include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/makers.h"
+#include "ods/scene/builtin/patterns.h"
 
 namespace ods {
 

@@ -5,8 +5,8 @@
 //
 // Metres, right-handed, +Y up. Triangles are counter-clockwise seen from outside and normals are unit vectors pointing
 // outwards. Texture coordinates are metres too, u to the right and v down as seen from outside, so one texture repeats
-// at one size on everything (textured() in ods/scene/builder.h sets that size). Shapes are centred at the origin unless
-// said otherwise. "Closed" means that every edge belongs to exactly two triangles.
+// at one size on everything (textured() in ods/scene/builtin/builder.h sets that size). Shapes are centred at the
+// origin unless said otherwise. "Closed" means that every edge belongs to exactly two triangles.
 #pragma once
 #include <functional>
 #include <vector>

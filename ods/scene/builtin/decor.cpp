@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/decor.h"
+#include "ods/scene/builtin/decor.h"
 
 #include "ods/kernel/camera/camera.h"
-#include "ods/scene/builder.h"
-#include "ods/scene/patterns.h"
+#include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/patterns.h"
 
 namespace ods {
 

@@ -3,7 +3,7 @@
 //
 // What makes a room lived in: lamps, plants, books, pictures, curtains. Origins and fronts as in furniture.h.
 #pragma once
-#include "ods/scene/furniture.h"
+#include "ods/scene/builtin/furniture.h"
 
 namespace ods {
 
