@@ -116,7 +116,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
   const LightTable lights = make_lights(scene);
   const EmbreeScene embree(scene);
   PathTracer tracer;
-  static_cast<SceneView&>(tracer) = view_scene(scene, lights);
+  set_scene(tracer, scene, lights);
   const Camera camera = make_camera(rig_of(subject));
   const std::vector<TracedRay> rays = record_rays(embree, tracer, camera, 512);
   for (auto _ : state) {
@@ -187,7 +187,7 @@ void load_to_first_ray(benchmark::State& state, const Subject& subject) {
     const LightTable lights = make_lights(scene);
     const EmbreeScene embree(scene);
     PathTracer tracer;
-    static_cast<SceneView&>(tracer) = view_scene(scene, lights);
+    set_scene(tracer, scene, lights);
     const Ray ray = camera_ray(make_camera(rig_of(subject)), kLeft, vec2(0.5f));
     benchmark::DoNotOptimize(embree.closest_hit(tracer, ray, 0u));
     state.counters["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

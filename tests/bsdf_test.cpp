@@ -15,7 +15,7 @@ namespace {
 
 BsdfEvaluator make_kernel() {
   BsdfEvaluator kernel;
-  kernel.tables = kernel_tables().data();
+  kernel.tables = kernel_tables(true).data();
   return kernel;
 }
 
@@ -102,7 +102,7 @@ TEST(Glass, SmoothIsFresnelAndSnell) {
       for (int i = 0; i < count; i++) {
         const float pick = (static_cast<float>(i) + 0.5f) / count;
         const BsdfSample found = kernel.sample_bsdf(bsdf, pick, vec2(0.3f));
-        ASSERT_EQ(found.density, 0.0f);
+        ASSERT_EQ(found.pdf, 0.0f);
         const vec3 tint = found.through ? surface.base_color : vec3(1.0f);
         ASSERT_LT(length(found.weight - tint), 1e-6f);
         const vec3 wo = viewer(cosine);
@@ -217,10 +217,10 @@ TEST(Bsdf, NeverBreaks) {
       const vec2 uv(extreme(0.0f, 0.9999999f), extreme(0.0f, 0.9999999f));
       const BsdfSample found = kernel.sample_bsdf(bsdf, pick, uv);
       for (int c = 0; c < 3; c++) ASSERT_TRUE(found.weight[c] >= 0.0f && found.weight[c] < 1e4f) << found.weight[c];
-      ASSERT_TRUE(found.density >= 0.0f && std::isfinite(found.density));
+      ASSERT_TRUE(found.pdf >= 0.0f && std::isfinite(found.pdf));
       ASSERT_TRUE(found.weight == vec3(0.0f) || std::abs(length(found.direction) - 1.0f) < 1e-5f);
       const BsdfValue value = kernel.bsdf_value(bsdf, random_direction(dice, -1.0f, 1.0f));
-      ASSERT_TRUE(value.density >= 0.0f && std::isfinite(value.density));
+      ASSERT_TRUE(value.pdf >= 0.0f && std::isfinite(value.pdf));
       for (int c = 0; c < 3; c++) ASSERT_TRUE(value.value[c] >= 0.0f && std::isfinite(value.value[c]));
     }
   }

@@ -82,7 +82,7 @@ TEST(RandomPair, DimensionsOfOnePixelAreUncorrelated) {
 // for Blackman-Harris.
 TEST(PixelFilter, HasItsShape) {
   FilterSampler filter;
-  filter.tables = kernel_tables().data();
+  filter.tables = kernel_tables(true).data();
   const double pi = std::acos(-1.0);
   const auto share_left = [&](double x) {
     const double t = 2.0 * pi * x / 3.0;
@@ -187,7 +187,7 @@ TEST(Density, VisibleNormals) {
     for (float angle : {0.0f, 40.0f, 75.0f, 88.0f}) {
       const vec3 wo = viewer(angle);
       const double p = density_p(
-          16, [&](vec3 h) { return h.z > 0.0f ? double{ggx_visible_density(wo, h, alpha)} : 0.0; },
+          16, [&](vec3 h) { return h.z > 0.0f ? double{ggx_visible_pdf(wo, h, alpha)} : 0.0; },
           [&](Dice& dice) { return ggx_sample_visible(wo, alpha, dice.pair()); });
       EXPECT_GT(p, significance(16)) << alpha << ' ' << angle;
     }
@@ -213,7 +213,7 @@ struct Lobe {
 
 TEST(Density, EveryLobe) {
   BsdfEvaluator kernel;
-  kernel.tables = kernel_tables().data();
+  kernel.tables = kernel_tables(true).data();
   const Lobe lobes[] = {{"diffuse and gloss", 0, 0, false, 1.5f},    {"metal", 1, 0, false, 1.5f},
                         {"thin glass", 0, 1, false, 1.5f},           {"glass from outside", 0, 1, true, 1.5f},
                         {"glass from inside", 0, 1, true, 1 / 1.5f}, {"glass to water", 0, 1, true, 1.33f / 1.5f},
@@ -227,15 +227,15 @@ TEST(Density, EveryLobe) {
         surface.volume = lobe.volume;
         const Bsdf bsdf = kernel.make_bsdf(surface, -viewer(angle), lobe.eta);
         const double p = density_p(
-            24, [&](vec3 w) { return double{kernel.bsdf_value(bsdf, w).density}; },
+            24, [&](vec3 w) { return double{kernel.bsdf_value(bsdf, w).pdf}; },
             [&](Dice& dice) {
               const float pick = dice.next();
               const BsdfSample found = kernel.sample_bsdf(bsdf, pick, dice.pair());
-              if (found.density <= 0.0f) return vec3(0.0f);
+              if (found.pdf <= 0.0f) return vec3(0.0f);
               EXPECT_EQ(found.through, found.direction.z < 0.0f);
               const BsdfValue value = kernel.bsdf_value(bsdf, found.direction);
-              EXPECT_EQ(value.density, found.density);
-              EXPECT_LE(length(value.value - found.weight * found.density), 1e-5f * length(value.value));
+              EXPECT_EQ(value.pdf, found.pdf);
+              EXPECT_LE(length(value.value - found.weight * found.pdf), 1e-5f * length(value.value));
               return found.direction;
             });
         EXPECT_GT(p, significance(63)) << lobe.name << ' ' << roughness << ' ' << angle;
@@ -260,7 +260,7 @@ Scene lit_scene() {
 
 LightSampler reader_of(const Scene& scene, const LightTable& table) {
   LightSampler kernel;
-  static_cast<SceneView&>(kernel) = view_scene(scene, table);
+  set_scene(kernel, scene, table);
   return kernel;
 }
 
@@ -291,9 +291,9 @@ TEST(Density, Lights) {
   };
   const auto triangles = [&](vec3 w) {
     const Hit hit = meet_lamp(kernel, w);
-    return hit.t < 0.0f ? 0.0 : double{kernel.hit_light_density(hit, w, hit.t)};
+    return hit.t < 0.0f ? 0.0 : double{kernel.hit_light_pdf(hit, w, hit.t)};
   };
-  const auto environment = [&](vec3 w) { return double{kernel.environment_density(w)}; };
+  const auto environment = [&](vec3 w) { return double{kernel.environment_pdf(w)}; };
   EXPECT_GT(density_p(32, triangles, [&](Dice& dice) { return draw(dice, false); }), significance(2));
   EXPECT_GT(density_p(32, environment, [&](Dice& dice) { return draw(dice, true); }), significance(2));
 }
@@ -312,12 +312,12 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
     ASSERT_NEAR(length(light.direction), 1.0f, 1e-6f);
     if (light.distance > 1e29f) {
       EXPECT_EQ(light.radiance, kernel.environment_radiance(light.direction));
-      EXPECT_EQ(light.density, kernel.environment_density(light.direction));
+      EXPECT_EQ(light.pdf, kernel.environment_pdf(light.direction));
     } else if (const Hit hit = meet_lamp(kernel, light.direction); hit.t > 0.0f) {
       lamps++;
       EXPECT_NEAR(light.distance, hit.t, 1e-5f);
       EXPECT_EQ(light.radiance, vec3(2.0f, 3.0f, 1.0f));
-      EXPECT_NEAR(kernel.hit_light_density(hit, light.direction, hit.t) / light.density, 1.0f, 1e-4f);
+      EXPECT_NEAR(kernel.hit_light_pdf(hit, light.direction, hit.t) / light.pdf, 1.0f, 1e-4f);
     }
   }
   EXPECT_GT(lamps, 1000);

@@ -91,6 +91,7 @@ void put(Image& image, int x, int y, vec3 value) {
   at[0] = value.x, at[1] = value.y, at[2] = value.z;
 }
 
+// The job by value: a tile traces with a path state of its own.
 void render_tile(Job job, int tile, EyeImage& image) {
   const int width = image.radiance.width, height = image.radiance.height;
   const int across = (width + kTileSize - 1) / kTileSize;
@@ -144,7 +145,7 @@ Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions
     const LightTable lights = make_lights(scene);
     const EmbreeScene embree(scene);
     PathTracer tracer;
-    static_cast<SceneView&>(tracer) = view_scene(scene, lights);
+    set_scene(tracer, scene, lights);
     const Job job{embree,
                   tracer,
                   make_camera(rig),

@@ -4,9 +4,9 @@
 // How a surface scatters light: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
 //
 // Three lobes share every material:
-//   gloss    GGX reflection of metals and dielectrics, Schlick's Fresnel, scaled up by what single scattering loses
+//   specular GGX reflection of metals and dielectrics, Schlick's Fresnel, scaled up by what single scattering loses
 //            (Turquin, "Practical multiple scattering compensation for microfacet models", 2019);
-//   diffuse  Lambert under the dielectric, scaled by what the gloss above it lets through;
+//   diffuse  Lambert under the dielectric, scaled by what the specular lobe above it lets through;
 //   glass    reflection and refraction at a dielectric interface (Walter et al. 2007), or through a thin sheet
 //            (KHR_materials_transmission), scaled up likewise.
 // A white surface of any mixture and roughness reflects and lets through exactly what it receives.
@@ -20,7 +20,7 @@
 namespace ods {
 #endif
 
-const float kSmoothAlpha = 1e-3f;  // below it gloss and glass are mirrors: one direction, no density
+const float kSmoothAlpha = 1e-3f;  // below it the specular and glass lobes are mirrors: one direction, no pdf
 
 struct Bsdf {
   vec3 wo;  // towards the viewer, in the frame below
@@ -29,27 +29,27 @@ struct Bsdf {
   vec3 normal;
   vec3 geometric;
   float alpha;
-  float eta;      // index beyond / index on the viewer's side
-  bool thin;      // glass is a sheet: light goes straight through
-  vec3 gloss_f0;  // reflectance head-on and at grazing, weights and compensation included
-  vec3 gloss_f90;
+  float eta;         // index beyond / index on the viewer's side
+  bool thin;         // glass is a sheet: light goes straight through
+  vec3 specular_f0;  // reflectance head-on and at grazing, weights and compensation included
+  vec3 specular_f90;
   vec3 diffuse;      // albedo, all weights included
   vec3 glass;        // tint of what goes through
   float glass_gain;  // weight and compensation of the glass lobe
-  float p_gloss;     // chances of the lobes, their sum is 1
+  float p_specular;  // chances of the lobes, their sum is 1
   float p_diffuse;
   float p_glass;
 };
 
 struct BsdfValue {
-  vec3 value;     // BSDF times cosine
-  float density;  // of sample_bsdf, per solid angle
+  vec3 value;  // BSDF times cosine
+  float pdf;   // of sample_bsdf, per solid angle
 };
 
 struct BsdfSample {
   vec3 direction;  // world, unit length
-  vec3 weight;     // BSDF times cosine over density; 0: the path ends
-  float density;   // 0: a mirror direction, that light sampling cannot find
+  vec3 weight;     // BSDF times cosine over pdf; 0: the path ends
+  float pdf;       // per solid angle; 0: a mirror direction, that light sampling cannot find
   bool through;    // the direction leaves on the other side
 };
 
@@ -65,8 +65,8 @@ inline vec3 bsdf_to_world(Bsdf bsdf, vec3 w) {
 struct BsdfEvaluator : SurfaceReader {
 #endif
 
-  // Albedo of the gloss lobe without compensation, Schlick's two parts: x for f0, y for f90 - f0... so that
-  // albedo = f0 * x + f90 * y; x + y is the albedo of a perfect mirror.
+  // Albedo of the specular lobe without compensation, in Schlick's two parts: f0 * x + f90 * y. Their sum is what a
+  // perfect mirror keeps.
   inline vec2 ggx_albedo(float roughness, float cosine) {
     float r = clamp(roughness, 0.0f, 1.0f) * float(kGgxSize - 1);
     float c = clamp(cosine, 0.0f, 1.0f) * float(kGgxSize - 1);
@@ -139,7 +139,8 @@ struct BsdfEvaluator : SurfaceReader {
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
     float f0 = root * root;
-    float f90 = clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 has no gloss at grazing angles either (Lagarde 2014)
+    float f90 =
+        clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 does not shine at grazing angles either (Lagarde 2014)
 
     vec2 albedo = vec2(1.0f, 0.0f);
     float s = schlick(bsdf.wo.z);
@@ -151,8 +152,8 @@ struct BsdfEvaluator : SurfaceReader {
     float lost = 1.0f / max(albedo.x + albedo.y, 1e-3f) - 1.0f;
     float opaque_gain = 1.0f + f0 * lost;
     vec3 metal_gain = vec3(1.0f) + base * lost;
-    bsdf.gloss_f0 = base * metal_gain * metal + vec3(opaque * f0 * opaque_gain);
-    bsdf.gloss_f90 = metal_gain * metal + vec3(opaque * f90 * opaque_gain);
+    bsdf.specular_f0 = base * metal_gain * metal + vec3(opaque * f0 * opaque_gain);
+    bsdf.specular_f90 = metal_gain * metal + vec3(opaque * f90 * opaque_gain);
     float covered = min((f0 * albedo.x + f90 * albedo.y) * opaque_gain, 1.0f);
     bsdf.diffuse = base * (opaque * (1.0f - covered));
     bsdf.glass = base;
@@ -162,32 +163,32 @@ struct BsdfEvaluator : SurfaceReader {
       bsdf.glass_gain = clear / max(kept, 0.1f);
     }
 
-    float gloss = luminance(bsdf.gloss_f0 * albedo.x + bsdf.gloss_f90 * albedo.y);
+    float specular = luminance(bsdf.specular_f0 * albedo.x + bsdf.specular_f90 * albedo.y);
     float diffuse = luminance(bsdf.diffuse);
-    float total = gloss + diffuse + clear;
+    float total = specular + diffuse + clear;
     float scale = total > 0.0f ? 1.0f / total : 0.0f;
-    bsdf.p_gloss = gloss * scale;
+    bsdf.p_specular = specular * scale;
     bsdf.p_diffuse = diffuse * scale;
     bsdf.p_glass = clear * scale;
     return bsdf;
   }
 
-  inline vec3 gloss_fresnel(Bsdf bsdf, float cosine) {
-    return bsdf.gloss_f0 + (bsdf.gloss_f90 - bsdf.gloss_f0) * schlick(cosine);
+  inline vec3 specular_fresnel(Bsdf bsdf, float cosine) {
+    return bsdf.specular_f0 + (bsdf.specular_f90 - bsdf.specular_f0) * schlick(cosine);
   }
 
   inline float glass_fresnel(Bsdf bsdf, float cosine) {
     return fresnel_dielectric(cosine, bsdf.eta);
   }
 
-  // Value and density of reflection off microfacets, Fresnel left out.
+  // Value and pdf of reflection off microfacets, Fresnel left out.
   inline vec2 reflection_value(Bsdf bsdf, vec3 wi) {
     vec3 h = normalize(bsdf.wo + wi);
     float lambda_o = ggx_lambda(bsdf.wo, bsdf.alpha);
-    float d = ggx_density(h, bsdf.alpha);
+    float d = ggx_distribution(h, bsdf.alpha);
     float value = d / (4.0f * bsdf.wo.z * (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)));
-    float density = d / (4.0f * bsdf.wo.z * (1.0f + lambda_o));
-    return vec2(value, density);
+    float pdf = d / (4.0f * bsdf.wo.z * (1.0f + lambda_o));
+    return vec2(value, pdf);
   }
 
   // The same for refraction to wi (wi.z < 0).
@@ -202,16 +203,16 @@ struct BsdfEvaluator : SurfaceReader {
     float denominator = o + bsdf.eta * i;
     float jacobian = bsdf.eta * bsdf.eta * -i / max(denominator * denominator, 1e-12f);
     float lambda_o = ggx_lambda(bsdf.wo, bsdf.alpha);
-    float d = ggx_density(h, bsdf.alpha) * o * jacobian / bsdf.wo.z;
+    float d = ggx_distribution(h, bsdf.alpha) * o * jacobian / bsdf.wo.z;
     return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)), d / (1.0f + lambda_o));
   }
 
-  // BSDF times cosine towards a direction (world), and the density with which sample_bsdf finds it. Mirrors are left
+  // BSDF times cosine towards a direction (world), and the pdf with which sample_bsdf finds it. Mirrors are left
   // out.
   inline BsdfValue bsdf_value(Bsdf bsdf, vec3 direction) {
     BsdfValue result;
     result.value = vec3(0.0f);
-    result.density = 0.0f;
+    result.pdf = 0.0f;
     vec3 wi = bsdf_to_local(bsdf, direction);
     bool above = wi.z > 0.0f;
     // A direction that shading normal and triangle put on different sides carries nothing: light would leak.
@@ -219,16 +220,16 @@ struct BsdfEvaluator : SurfaceReader {
     bool rough = bsdf.alpha >= kSmoothAlpha;
     if (above) {
       result.value = bsdf.diffuse * (wi.z / kPi);
-      result.density = bsdf.p_diffuse * wi.z / kPi;
+      result.pdf = bsdf.p_diffuse * wi.z / kPi;
       if (rough) {
         float cosine = dot(bsdf.wo, normalize(bsdf.wo + wi));
         vec2 reflection = reflection_value(bsdf, wi);
-        result.value += gloss_fresnel(bsdf, cosine) * reflection.x;
-        result.density += bsdf.p_gloss * reflection.y;
+        result.value += specular_fresnel(bsdf, cosine) * reflection.x;
+        result.pdf += bsdf.p_specular * reflection.y;
         if (bsdf.p_glass > 0.0f) {
           float fresnel = glass_fresnel(bsdf, cosine);
           result.value += vec3(bsdf.glass_gain * fresnel * reflection.x);
-          result.density += bsdf.p_glass * fresnel * reflection.y;
+          result.pdf += bsdf.p_glass * fresnel * reflection.y;
         }
       }
     } else if (rough && bsdf.p_glass > 0.0f) {
@@ -237,7 +238,7 @@ struct BsdfEvaluator : SurfaceReader {
       vec3 h = bsdf.thin ? normalize(bsdf.wo + mirrored) : normalize(bsdf.wo + wi * bsdf.eta);
       float let_through = 1.0f - glass_fresnel(bsdf, abs(dot(bsdf.wo, h)));
       result.value = bsdf.glass * (bsdf.glass_gain * let_through * passage.x);
-      result.density = bsdf.p_glass * let_through * passage.y;
+      result.pdf = bsdf.p_glass * let_through * passage.y;
     }
     return result;
   }
@@ -251,20 +252,20 @@ struct BsdfEvaluator : SurfaceReader {
     return refract_through(bsdf.wo, h, bsdf.eta);
   }
 
-  // The mirror-like parts of a smooth surface have no density; each is chosen with its own chance.
+  // The mirror-like parts of a smooth surface have no pdf; each is chosen with its own chance.
   inline BsdfSample sample_mirror(Bsdf bsdf, bool glass, float pick) {
     vec3 up = vec3(0.0f, 0.0f, 1.0f);
     vec3 wi = glass ? sample_glass(bsdf, up, pick) : vec3(-bsdf.wo.x, -bsdf.wo.y, bsdf.wo.z);
     BsdfSample result;
     result.direction = normalize(bsdf_to_world(bsdf, wi));
-    result.density = 0.0f;
+    result.pdf = 0.0f;
     result.through = wi.z < 0.0f;
     result.weight = vec3(0.0f);
     if (glass) {
       vec3 tint = result.through ? bsdf.glass : vec3(1.0f);
       result.weight = tint * (bsdf.glass_gain / bsdf.p_glass);
     } else {
-      result.weight = gloss_fresnel(bsdf, bsdf.wo.z) * (1.0f / max(bsdf.p_gloss, 1e-20f));  // black: 0
+      result.weight = specular_fresnel(bsdf, bsdf.wo.z) * (1.0f / max(bsdf.p_specular, 1e-20f));  // black: 0
     }
     if (wi.z == 0.0f || result.through != (dot(result.direction, bsdf.geometric) < 0.0f)) result.weight = vec3(0.0f);
     return result;
@@ -280,12 +281,12 @@ struct BsdfEvaluator : SurfaceReader {
       float r = sqrt(uv.x);
       float phi = 2.0f * kPi * uv.y;
       wi = vec3(r * cos(phi), r * sin(phi), sqrt(max(1.0f - uv.x, 1e-9f)));
-    } else if (pick < bsdf.p_diffuse + bsdf.p_gloss || bsdf.p_glass <= 0.0f) {
+    } else if (pick < bsdf.p_diffuse + bsdf.p_specular || bsdf.p_glass <= 0.0f) {
       if (!rough) return sample_mirror(bsdf, false, 0.0f);
       h = ggx_sample_visible(bsdf.wo, bsdf.alpha, uv);
       wi = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;
     } else {
-      float left_over = clamp((pick - bsdf.p_diffuse - bsdf.p_gloss) / bsdf.p_glass, 0.0f, 0.9999999f);
+      float left_over = clamp((pick - bsdf.p_diffuse - bsdf.p_specular) / bsdf.p_glass, 0.0f, 0.9999999f);
       if (!rough) return sample_mirror(bsdf, true, left_over);
       h = ggx_sample_visible(bsdf.wo, bsdf.alpha, uv);
       glass = left_over >= glass_fresnel(bsdf, dot(bsdf.wo, h));
@@ -295,14 +296,14 @@ struct BsdfEvaluator : SurfaceReader {
     result.direction = bsdf_to_world(bsdf, wi);
     result.through = wi.z < 0.0f;
     result.weight = vec3(0.0f);
-    result.density = 0.0f;
+    result.pdf = 0.0f;
     // A microfacet may reflect into the surface, or refract back out: single scattering loses such light.
     float size = length(result.direction);
     if (result.through != glass || !(size > 0.5f)) return result;
     result.direction = result.direction * (1.0f / size);
     BsdfValue value = bsdf_value(bsdf, result.direction);
-    result.density = value.density;
-    if (value.density > 0.0f) result.weight = value.value * (1.0f / value.density);
+    result.pdf = value.pdf;
+    if (value.pdf > 0.0f) result.weight = value.value * (1.0f / value.pdf);
     return result;
   }
 

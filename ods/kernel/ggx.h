@@ -12,7 +12,7 @@ namespace ods {
 #endif
 
 // Density of microfacet normals h, per projected area. alpha = roughness squared, > 0.
-inline float ggx_density(vec3 h, float alpha) {
+inline float ggx_distribution(vec3 h, float alpha) {
   float a2 = alpha * alpha;
   float c = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
   return 1.0f / (kPi * a2 * c * c);
@@ -24,7 +24,7 @@ inline float ggx_lambda(vec3 w, float alpha) {
   return 0.5f * (sqrt(1.0f + alpha * alpha * (w.x * w.x + w.y * w.y) / z2) - 1.0f);
 }
 
-// A normal as seen from wo (wo.z > 0), with density ggx_visible_density().
+// A normal as seen from wo (wo.z > 0), with pdf ggx_visible_pdf().
 inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
   vec3 stretched = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
   float phi = 2.0f * kPi * u.x;
@@ -34,8 +34,8 @@ inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
   return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9f)));
 }
 
-inline float ggx_visible_density(vec3 wo, vec3 h, float alpha) {
-  return max(dot(wo, h), 0.0f) * ggx_density(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
+inline float ggx_visible_pdf(vec3 wo, vec3 h, float alpha) {
+  return max(dot(wo, h), 0.0f) * ggx_distribution(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
 }
 
 // Schlick's share of grazing reflectance at the cosine between ray and microfacet.

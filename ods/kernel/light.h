@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Picking a light and a point on it, and the density with which that would have found a given ray's light.
+// Picking a light and a point on it, and the pdf (probability density) with which that would have found the light that
+// a given ray meets.
 // Lights are picked by power from Walker's alias table, which the host makes (ods/scene/lights.h).
 #ifdef __cplusplus
 #pragma once
@@ -9,17 +10,19 @@
 namespace ods {
 #endif
 
+const float kFarAway = 1e30f;  // distance of the environment and of directional lights
+
 struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
-  vec3 radiance;  // arriving, over density where that is 0 (points and directions have no size)
-  float density;  // per solid angle, the chance of picking the light included
+  vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the chance of picking them
+  float pdf;      // per solid angle, the chance of picking the light included
   bool valid;
 };
 
-// Index of an entry of an alias table of n entries, picked by u in [0, 1), before asking the threshold.
-inline int alias_slot(float u, int n) {
-  return min(int(u * float(n)), n - 1);
+// Walker's alias method: slot was picked evenly, draw in [0, 1) decides between it and its alias.
+inline int alias_pick(AliasEntry entry, int slot, float draw) {
+  return draw < entry.threshold ? slot : entry.alias;
 }
 
 // KHR_lights_punctual's fall-off: inverse square, faded out to zero at the range.
@@ -66,8 +69,8 @@ struct LightSampler : BsdfEvaluator {
     return 2.0f * kPi / float(info.width) * (top - bottom);
   }
 
-  // Density per solid angle with which sample_light finds the environment in a direction.
-  inline float environment_density(vec3 direction) {
+  // Pdf per solid angle with which sample_light finds the environment in a direction.
+  inline float environment_pdf(vec3 direction) {
     EnvironmentInfo info = scene_environment();
     if (info.light < 0) return 0.0f;
     vec2 uv = direction_to_lat_long(direction);
@@ -78,20 +81,20 @@ struct LightSampler : BsdfEvaluator {
     return pick / environment_texel_angle(info, y);
   }
 
-  // Density per solid angle of the points of a triangle light, seen from a distance along a direction.
+  // Pdf per solid angle of the points of a triangle light, seen from a distance along a direction.
   // area: normal of the triangle, as long as its area.
-  inline float triangle_density(float pick, vec3 area, vec3 direction, float distance) {
+  inline float triangle_pdf(float pick, vec3 area, vec3 direction, float distance) {
     float projected = abs(dot(area, direction));
     return projected > 0.0f ? pick * distance * distance / projected : 0.0f;
   }
 
-  // Density with which sample_light finds the triangle that a ray has hit at a distance.
-  inline float hit_light_density(Hit hit, vec3 direction, float distance) {
+  // Pdf with which sample_light finds the triangle that a ray has hit at a distance.
+  inline float hit_light_pdf(Hit hit, vec3 direction, float distance) {
     Instance instance = scene_instance(hit.instance);
     if (instance.first_light < 0) return 0.0f;
     Triangle triangle = triangle_of(instance, corners_of(hit));
     float pick = scene_light(instance.first_light + hit.triangle).entry.probability;
-    return triangle_density(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
+    return triangle_pdf(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
   }
 
   inline LightSample sample_triangle(Light light, vec3 from, vec2 uv) {
@@ -110,8 +113,8 @@ struct LightSampler : BsdfEvaluator {
     LightSample result;
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
-    result.density = triangle_density(light.entry.probability, area, result.direction, result.distance);
-    result.valid = result.density > 0.0f;
+    result.pdf = triangle_pdf(light.entry.probability, area, result.direction, result.distance);
+    result.valid = result.pdf > 0.0f;
     Material material = scene_material(scene_mesh(instance.mesh).material);
     result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
     // A ray would pass through the rest.
@@ -121,9 +124,9 @@ struct LightSampler : BsdfEvaluator {
 
   inline LightSample sample_punctual(Light light, vec3 from) {
     LightSample result;
-    result.density = 0.0f;
+    result.pdf = 0.0f;
     result.valid = true;
-    result.distance = 1e30f;
+    result.distance = kFarAway;
     result.direction = -light.direction;
     result.radiance = light.intensity;
     if (light.kind != kLightDirectional) {
@@ -145,12 +148,10 @@ struct LightSampler : BsdfEvaluator {
     EnvironmentInfo info = scene_environment();
     float place = cell.x * float(info.height);
     int row = min(int(place), info.height - 1);
-    AliasEntry row_entry = scene_environment_row(row);
-    if (place - float(row) >= row_entry.threshold) row = row_entry.alias;
+    row = alias_pick(scene_environment_row(row), row, place - float(row));
     place = cell.y * float(info.width);
     int column = min(int(place), info.width - 1);
-    AliasEntry entry = scene_environment_texel(row * info.width + column).entry;
-    if (place - float(column) >= entry.threshold) column = entry.alias;
+    column = alias_pick(scene_environment_texel(row * info.width + column).entry, column, place - float(column));
     float theta = ((float(column) + uv.x) / float(info.width) - 0.5f) * (2.0f * kPi);
     float top = cos(kPi * float(row) / float(info.height));
     float bottom = cos(kPi * float(row + 1) / float(info.height));
@@ -158,10 +159,10 @@ struct LightSampler : BsdfEvaluator {
     float r = sqrt(max(1.0f - height * height, 0.0f));
     LightSample result;
     result.direction = vec3(r * sin(theta), height, -r * cos(theta));
-    result.distance = 1e30f;
+    result.distance = kFarAway;
     result.radiance = environment_radiance(result.direction);
-    result.density = environment_density(result.direction);
-    result.valid = result.density > 0.0f;
+    result.pdf = environment_pdf(result.direction);
+    result.valid = result.pdf > 0.0f;
     return result;
   }
 
@@ -170,9 +171,7 @@ struct LightSampler : BsdfEvaluator {
   inline LightSample sample_light(vec3 from, vec2 pick, vec2 cell, vec2 uv) {
     int count = scene_light_count();
     int index = min(int(pick.x * float(count)), count - 1);
-    AliasEntry entry = scene_light(index).entry;
-    if (pick.y >= entry.threshold) index = entry.alias;
-    Light light = scene_light(index);
+    Light light = scene_light(alias_pick(scene_light(index).entry, index, pick.y));
     if (light.kind == kLightTriangle) return sample_triangle(light, from, uv);
     if (light.kind == kLightEnvironment) return sample_environment(cell, uv);
     return sample_punctual(light, from);

@@ -81,9 +81,9 @@ struct MediumReader : LightSampler {
     if (medium < 0) return vec3(1.0f);
     Material material = scene_material(medium);
     float reach = material.attenuation_distance;
-    if (!(reach > 0.0f) || reach > 1e30f) return vec3(1.0f);
+    if (!(reach > 0.0f) || reach > kFarAway) return vec3(1.0f);
     vec3 color = clamp(material.attenuation_color, vec3(1e-6f), vec3(1.0f));
-    return exp(log(color) * (min(distance, 1e30f) / reach));
+    return exp(log(color) * (min(distance, kFarAway) / reach));
   }
 
 #ifdef __cplusplus

@@ -37,7 +37,7 @@ struct PathState {
   bool alive;
   int bounce;
   int passed;       // surfaces gone through without a bounce since the last one
-  float density;    // with which the ray's direction was found; 0: camera or mirror, no other way would find it
+  float pdf;        // with which the ray's direction was found; 0: camera or mirror, no other way would find it
   float travelled;  // from the last bounce to the ray's origin
   Media media;
   uint seed;   // of the pixel
@@ -85,7 +85,7 @@ struct PathTracer : MediumReader {
     path.alive = true;
     path.bounce = 0;
     path.passed = 0;
-    path.density = 0.0f;
+    path.pdf = 0.0f;
     path.travelled = 0.0f;
     path.media = no_media();
     path.seed = seed;
@@ -114,22 +114,22 @@ struct PathTracer : MediumReader {
     return hash_pair(hash_pair(path.seed, path.index), uint(path.bounce) * 2u + (shadow ? 1u : 0u));
   }
 
-  // Weight of light that was found with density a and could have been found with density b too.
+  // Weight of light that was found with pdf a and could have been found with pdf b too.
   inline float power_heuristic(float a, float b) {
     float ratio = b / a;
     return 1.0f / (1.0f + ratio * ratio);
   }
 
-  // Weight of light that the path's own ray has met, which light sampling finds with light_density.
-  inline float scattered_weight(PathSettings settings, float light_density) {
-    if (path.density <= 0.0f || light_density <= 0.0f) return 1.0f;
+  // Weight of light that the path's own ray has met, which light sampling finds with light_pdf.
+  inline float scattered_weight(PathSettings settings, float light_pdf) {
+    if (path.pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
     if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
     if (settings.light_sampling == kLightSamplingLightsOnly) return 0.0f;
-    return power_heuristic(path.density, light_density);
+    return power_heuristic(path.pdf, light_pdf);
   }
 
   inline void meet_environment(PathSettings settings) {
-    float weight = scattered_weight(settings, environment_density(path.ray.direction));
+    float weight = scattered_weight(settings, environment_pdf(path.ray.direction));
     path.radiance += path.throughput * environment_radiance(path.ray.direction) * weight;
     path.alive = false;
   }
@@ -137,31 +137,31 @@ struct PathTracer : MediumReader {
   // Goes on straight through a surface that does not count. Shadow rays stop there: only this ray finds what is behind.
   inline void pass_through(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
-    path.density = 0.0f;
+    path.pdf = 0.0f;
     path.travelled += t;
     path.passed += 1;
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // What a light would bring along the path if nothing stood between, over its density.
+  // What a light would bring along the path if nothing stood between, over its pdf.
   inline vec3 unshadowed_light(PathSettings settings, Bsdf bsdf, LightSample light, int medium) {
     BsdfValue scattered = bsdf_value(bsdf, light.direction);
     float weight = 1.0f;
-    if (light.density > 0.0f) weight = 1.0f / light.density;
-    if (light.density > 0.0f && settings.light_sampling == kLightSamplingBoth) {
-      weight = weight * power_heuristic(light.density, scattered.density);
+    if (light.pdf > 0.0f) weight = 1.0f / light.pdf;
+    if (light.pdf > 0.0f && settings.light_sampling == kLightSamplingBoth) {
+      weight = weight * power_heuristic(light.pdf, scattered.pdf);
     }
     return light.radiance * scattered.value * medium_transmittance(medium, light.distance) * weight;
   }
 
-  inline void shadow_towards(Surface surface, LightSample light) {
-    bool through = dot(light.direction, surface.geometric) < 0.0f;
+  inline void shadow_towards(Surface surface, vec3 direction, float distance) {
+    bool through = dot(direction, surface.geometric) < 0.0f;
     path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
-    path.shadow_ray.direction = light.direction;
-    path.shadow_length = light.distance;
-    if (light.distance < 1e29f) {
+    path.shadow_ray.direction = direction;
+    path.shadow_length = distance;
+    if (distance < kFarAway) {
       // From the moved origin a near lamp is nearer; a ray as long as before would end behind it.
-      vec3 to_light = surface.position + light.direction * light.distance - path.shadow_ray.origin;
+      vec3 to_light = surface.position + direction * distance - path.shadow_ray.origin;
       path.shadow_length = length(to_light) * 0.9999f;
       path.shadow_ray.direction = to_light * (0.9999f / max(path.shadow_length, 1e-20f));
     }
@@ -174,7 +174,8 @@ struct PathTracer : MediumReader {
     int candidates = min(scene_light_count(), path.bounce == 0 ? kLightCandidates : 1);
     float draw = path_random(kCandidatePair).x;
     float total = 0.0f;
-    LightSample chosen;
+    vec3 direction = vec3(0.0f);
+    float distance = 0.0f;
     vec3 chosen_light = vec3(0.0f);
     for (int i = 0; i < candidates; i++) {
       uint pair = kLightPair + 3u * uint(i);
@@ -188,7 +189,8 @@ struct PathTracer : MediumReader {
       total += brightness;
       float share = brightness / total;
       if (draw < share) {
-        chosen = light;
+        direction = light.direction;
+        distance = light.distance;
         chosen_light = arriving * (1.0f / brightness);
         draw = draw / share;
       } else {
@@ -197,7 +199,7 @@ struct PathTracer : MediumReader {
     }
     if (!(total > 0.0f)) return;
     path.shadow_light = path.throughput * chosen_light * (total / float(candidates));
-    shadow_towards(surface, chosen);
+    shadow_towards(surface, direction, distance);
   }
 
   // Ends dim paths at random and makes the others brighter by as much: no bias. Source: Arvo and Kirk, 1990.
@@ -214,7 +216,7 @@ struct PathTracer : MediumReader {
     path.throughput = path.throughput * found.weight;
     path.ray.origin = offset_point(surface.position, found.through ? -surface.geometric : surface.geometric);
     path.ray.direction = found.direction;
-    path.density = found.density;
+    path.pdf = found.pdf;
     path.travelled = 0.0f;
     path.passed = 0;
     if (found.through && surface.volume) path.media = beyond;
@@ -232,7 +234,7 @@ struct PathTracer : MediumReader {
     path.shadow_pending = false;
     int medium = current_medium(path.media);
     if (hit.t < 0.0f) {
-      path.throughput = path.throughput * medium_transmittance(medium, 1e30f);
+      path.throughput = path.throughput * medium_transmittance(medium, kFarAway);
       meet_environment(settings);
       return;
     }
@@ -272,7 +274,7 @@ struct PathTracer : MediumReader {
     }
     if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
       float distance = path.travelled + hit.t;
-      float weight = scattered_weight(settings, hit_light_density(hit, path.ray.direction, distance));
+      float weight = scattered_weight(settings, hit_light_pdf(hit, path.ray.direction, distance));
       path.radiance += path.throughput * surface.emission * weight;
     }
     if (path.bounce == settings.bounces) {

@@ -20,6 +20,9 @@ const int kGlassTable = kGgxTable + 2 * kGgxSize * kGgxSize;  // [in, out][refle
 const int kGlassSize = 16;
 const int kTablesSize = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize;
 
+// In GLSL all functions of the kernel are plain functions, included in order. C++ needs a `this` to find the scene, so
+// each header continues the struct of the one before: SceneView, FilterSampler, TextureReader, SurfaceReader,
+// BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is the whole. The bases mean no more than that.
 #ifdef __cplusplus
 struct SceneView {
   const Vertex* vertices = nullptr;

@@ -116,7 +116,7 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
 static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<double>& powers) {
   // Textures are read through the kernel, so that they mean the same here and there.
   LightSampler reader;
-  static_cast<SceneView&>(reader) = view_scene(scene, table);
+  set_scene(reader, scene, table);
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -162,8 +162,7 @@ static void add_environment_light(const Scene& scene, double scene_radius, Light
   powers.push_back(power);
 }
 
-SceneView view_scene(const Scene& scene, const LightTable& lights) {
-  SceneView view;
+void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.vertices = scene.vertices.data();
   view.triangles = scene.triangles.data();
   view.meshes = scene.meshes.data();
@@ -176,8 +175,9 @@ SceneView view_scene(const Scene& scene, const LightTable& lights) {
   view.environment = lights.environment;
   view.environment_texels = lights.environment_texels.data();
   view.environment_rows = lights.environment_rows.data();
-  view.tables = kernel_tables().data();
-  return view;
+  const auto refracts = [](const Material& m) { return m.transmission > 0.0f && m.thickness > 0.0f; };
+  const bool glass = std::any_of(scene.materials.begin(), scene.materials.end(), refracts);
+  view.tables = kernel_tables(glass).data();
 }
 
 LightTable make_lights(const Scene& scene) {

@@ -23,8 +23,8 @@ struct LightTable {
 // the scattered rays, which find it as well as any other way could.
 LightTable make_lights(const Scene& scene);
 
-// The kernel's view of a scene and its lights, both of which must outlive it.
-SceneView view_scene(const Scene& scene, const LightTable& lights);
+// Points the kernel's view at a scene and its lights, both of which must outlive it.
+void set_scene(SceneView& view, const Scene& scene, const LightTable& lights);
 
 // Walker's alias table of weights: finite, not negative; all zero counts as all equal.
 std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights);

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <mutex>
 
 #include "ods/kernel/ggx.h"
 #include "ods/kernel/scene_view.h"
@@ -110,15 +111,16 @@ static void fill_glass(float* table) {
   });
 }
 
-const std::vector<float>& kernel_tables() {
-  static const std::vector<float> tables = [] {
+const std::vector<float>& kernel_tables(bool glass) {
+  static std::vector<float> tables = [] {
     std::vector<float> all(kTablesSize);
     fill_srgb(all.data() + kSrgbTable);
     fill_filter(all.data() + kFilterTable);
     fill_ggx(all.data() + kGgxTable);
-    fill_glass(all.data() + kGlassTable);
     return all;
   }();
+  static std::once_flag glass_filled;
+  if (glass) std::call_once(glass_filled, [] { fill_glass(tables.data() + kGlassTable); });
   return tables;
 }
 

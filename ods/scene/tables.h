@@ -7,7 +7,8 @@
 
 namespace ods {
 
-// All kTablesSize entries. Computed at the first call (some tens of milliseconds), then kept. Safe from any thread.
-const std::vector<float>& kernel_tables();
+// All kTablesSize entries, computed at the first call that needs them and kept: some tens of milliseconds of CPU time,
+// thrice that with those for volumes of rough glass, which stay 0 until asked for. Safe from any thread.
+const std::vector<float>& kernel_tables(bool glass);
 
 }  // namespace ods
