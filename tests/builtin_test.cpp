@@ -51,7 +51,7 @@ float distance_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
 }
 
 // Each scene is made once for all tests of this program.
-const Scene& scene_named(const std::string& name) {
+const Scene& scene_named(const char* name) {
   static std::map<std::string, Scene> made;
   const auto found = made.find(name);
   return found != made.end() ? found->second : made.emplace(name, load_scene(name)).first->second;
@@ -59,7 +59,7 @@ const Scene& scene_named(const std::string& name) {
 
 class EveryBuiltin : public testing::TestWithParam<std::string> {
  protected:
-  const Scene& scene = scene_named(GetParam());
+  const Scene& scene = scene_named(GetParam().c_str());
 };
 
 TEST_P(EveryBuiltin, MeshesAreSound) {

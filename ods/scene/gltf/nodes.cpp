@@ -77,8 +77,7 @@ static Hierarchy read_hierarchy(const GltfFile& file) {
     if (tree.parents[i] == -1) tree.order.push_back(static_cast<int>(i));
   }
   for (size_t i = 0; i < tree.order.size(); i++) {
-    const std::vector<int>& children = nodes[static_cast<size_t>(tree.order[i])].children;
-    tree.order.insert(tree.order.end(), children.begin(), children.end());
+    for (const int child : nodes[static_cast<size_t>(tree.order[i])].children) tree.order.push_back(child);
   }
   if (tree.order.size() < nodes.size()) fail(file, "has nodes that are their own ancestors; the file is damaged");
   return tree;
