@@ -225,6 +225,8 @@ TEST_F(Cli, BadOptionsAreUsageErrors) {
                             "--merge-top nan",
                             "--progress loudly",
                             "--camera nowhere",
+                            "--camera=",
+                            "--env=",
                             "--scene -1",
                             "--scene 0.5",
                             "--unknown",
@@ -254,8 +256,9 @@ TEST_F(Cli, AbsentAndBrokenInputsAreInputErrors) {
 TEST_F(Cli, OutputThatCannotBeIsFoundBeforeRendering) {
   // Would take hours if it were rendered first.
   const std::string hours = "render furnace --width 8192 --samples 100000 -o ";
-  for (const std::string& output : {folder.path("picture.unknown"), folder.path("picture"), folder.path(""),
-                                    std::string("/dev/full/picture.png"), std::string("/dev/full")}) {
+  for (const std::string& output :
+       {folder.path("picture.unknown"), folder.path("picture"), folder.path(""), std::string("/dev/full/picture.png"),
+        std::string("/dev/full"), std::string("/proc/picture.png"), folder.path(std::string(300, 'x') + ".png")}) {
     EXPECT_EQ(run(hours + output), 4) << output;
     expect_one_error();
   }
@@ -326,8 +329,18 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
 }
 
 TEST_F(Cli, AFullStdoutIsAnOutputError) {
-  const std::string command = std::string(ODS_COMMAND) + " scenes >/dev/full 2>/dev/null";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  for (const std::string& words : {std::string("scenes"), render()}) {
+    const std::string command = std::string(ODS_COMMAND) + " " + words + " >/dev/full 2>/dev/null";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << words;
+  }
+}
+
+TEST_F(Cli, WhatIsPrintedToAClosedStreamDoesNotEndInThePicture) {
+  EXPECT_EQ(run(render()), 0) << err;
+  const std::string picture = folder.read("picture.png");
+  const std::string command = std::string(ODS_COMMAND) + " " + render() + " <&- >&- 2>&-";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_EQ(folder.read("picture.png"), picture);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -56,13 +57,16 @@ static Error cannot_read(const std::string& name, const std::string& why) {
 }
 
 static std::vector<std::byte> read_bytes(const std::string& path) {
+  // A pipe would be waited for, and a device may be endless.
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw cannot_read(path, "it is not a file");
+  }
   errno = 0;
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  // A folder opens, and claims to be endless.
-  if (size < 0 || size == std::numeric_limits<std::streamoff>::max()) {
-    throw cannot_read(path, errno != 0 ? std::strerror(errno) : "it is not a file");
-  }
+  if (size < 0) throw cannot_read(path, errno != 0 ? std::strerror(errno) : "it is not a file");
   std::vector<std::byte> bytes(static_cast<size_t>(size));
   stream.seekg(0);
   if (!stream.read(reinterpret_cast<char*>(bytes.data()), size)) throw cannot_read(path, "reading stopped halfway");

@@ -13,7 +13,13 @@
 namespace ods {
 
 Scene load_scene(const std::string& name, const SceneOptions& options) {
-  if (is_builtin(name)) return make_builtin(name);
+  if (is_builtin(name)) {
+    if (options.scene > 0) {
+      throw Error(ErrorKind::kInput,
+                  fmt::format("{} has no scene {}: a built-in scene is only one", name, options.scene));
+    }
+    return make_builtin(name);
+  }
   std::error_code error;
   if (!std::filesystem::exists(name, error)) {
     std::vector<std::string> names;
