@@ -328,6 +328,26 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
   }
 }
 
+TEST_F(Cli, AKilledRenderLeavesNoFile) {
+  Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "-o", folder.path("a.png")});
+  command.wait_for("camera at");
+  command.kill(SIGKILL);
+  EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Cli, TwoRendersOfOneFileDoNotMeet) {
+  const std::vector<std::string> words = {"render", "furnace", "--width",           "64", "--samples", "4",
+                                          "-q",     "-o",      folder.path("a.png")};
+  EXPECT_EQ(Ods(words).finish(), 0);
+  const std::string alone = folder.read("a.png");
+  Ods one(words), other(words);
+  EXPECT_EQ(one.finish(), 0) << one.err;
+  EXPECT_EQ(other.finish(), 0) << other.err;
+  EXPECT_EQ(folder.read("a.png"), alone);
+  EXPECT_EQ(files(), 1u);
+}
+
 TEST_F(Cli, AFullStdoutIsAnOutputError) {
   for (const std::string& words : {std::string("scenes"), render()}) {
     const std::string command = std::string(ODS_COMMAND) + " " + words + " >/dev/full 2>/dev/null";
