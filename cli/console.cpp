@@ -53,7 +53,8 @@ int run_command(const std::function<void()>& body) {
   try {
     body();
     // A full disk behind stdout shows only now.
-    if (std::fflush(stdout) != 0) return fail(kExitOutput, "standard output could not be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+      return fail(kExitOutput, "standard output could not be written");
     return kExitOk;
   } catch (const UsageError& error) {
     return fail(kExitUsage, error.what());

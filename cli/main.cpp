@@ -7,8 +7,11 @@
 // of a second to load (hundreds of libraries on Debian). The list of commands, --version and a misspelt command do not
 // wait for that; `ods COMMAND --help` does.
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "cli/exit_code.h"
@@ -54,6 +57,13 @@ int run(const char* function, int argc, char** argv) {
   return reinterpret_cast<int (*)(int, char**)>(symbol)(argc, argv);
 }
 
+// The first picture would get the number of a stream that is closed, and with it what is printed there.
+void open_closed_streams() {
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) != stream) std::abort();
+  }
+}
+
 int unknown_command(const char* name) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.push_back(command.name);
@@ -65,6 +75,7 @@ int unknown_command(const char* name) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   if (argc < 2) {
     print_help(stderr);
     return kExitUsage;

@@ -95,7 +95,12 @@ void Options::flag(const std::string& name, bool& value, const std::string& text
 
 void Options::text(const std::string& name, const std::string& unit, std::string& value, const std::string& text) {
   custom(
-      name, unit, value, [&value](const std::string& word) { value = word; }, text);
+      name, unit, value,
+      [=, &value](const std::string& word) {
+        if (word.empty()) throw UsageError(name + " is given nothing");
+        value = word;
+      },
+      text);
 }
 
 void Options::number(const std::string& name, int& value, int low, int high, const std::string& text) {

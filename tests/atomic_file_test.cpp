@@ -90,6 +90,8 @@ TEST(AtomicFile, RefusesWhatIsNoFile) {
   EXPECT_NE(refusal(folder.path(".")), "");
   EXPECT_NE(refusal(""), "");
   EXPECT_NE(refusal("/dev/null"), "");
+  EXPECT_NE(refusal("/proc/a.txt"), "") << "where root may write, and cannot";
+  EXPECT_NE(refusal(folder.path(std::string(256, 'x'))), "");
   EXPECT_NE(refusal(folder.path("file/a.txt")), "");
   EXPECT_NE(refusal(folder.path("file/new/a.txt")), "");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});

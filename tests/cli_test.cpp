@@ -225,6 +225,8 @@ TEST_F(Cli, BadOptionsAreUsageErrors) {
                             "--merge-top nan",
                             "--progress loudly",
                             "--camera nowhere",
+                            "--camera=",
+                            "--env=",
                             "--scene -1",
                             "--scene 0.5",
                             "--unknown",
@@ -254,8 +256,9 @@ TEST_F(Cli, AbsentAndBrokenInputsAreInputErrors) {
 TEST_F(Cli, OutputThatCannotBeIsFoundBeforeRendering) {
   // Would take hours if it were rendered first.
   const std::string hours = "render furnace --width 8192 --samples 100000 -o ";
-  for (const std::string& output : {folder.path("picture.unknown"), folder.path("picture"), folder.path(""),
-                                    std::string("/dev/full/picture.png"), std::string("/dev/full")}) {
+  for (const std::string& output :
+       {folder.path("picture.unknown"), folder.path("picture"), folder.path(""), std::string("/dev/full/picture.png"),
+        std::string("/dev/full"), std::string("/proc/picture.png"), folder.path(std::string(300, 'x') + ".png")}) {
     EXPECT_EQ(run(hours + output), 4) << output;
     expect_one_error();
   }
@@ -325,9 +328,39 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
   }
 }
 
+TEST_F(Cli, AKilledRenderLeavesNoFile) {
+  Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "-o", folder.path("a.png")});
+  command.wait_for("camera at");
+  command.kill(SIGKILL);
+  EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Cli, TwoRendersOfOneFileDoNotMeet) {
+  const std::vector<std::string> words = {"render", "furnace", "--width",           "64", "--samples", "4",
+                                          "-q",     "-o",      folder.path("a.png")};
+  EXPECT_EQ(Ods(words).finish(), 0);
+  const std::string alone = folder.read("a.png");
+  Ods one(words), other(words);
+  EXPECT_EQ(one.finish(), 0) << one.err;
+  EXPECT_EQ(other.finish(), 0) << other.err;
+  EXPECT_EQ(folder.read("a.png"), alone);
+  EXPECT_EQ(files(), 1u);
+}
+
 TEST_F(Cli, AFullStdoutIsAnOutputError) {
-  const std::string command = std::string(ODS_COMMAND) + " scenes >/dev/full 2>/dev/null";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  for (const std::string& words : {std::string("scenes"), render()}) {
+    const std::string command = std::string(ODS_COMMAND) + " " + words + " >/dev/full 2>/dev/null";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << words;
+  }
+}
+
+TEST_F(Cli, WhatIsPrintedToAClosedStreamDoesNotEndInThePicture) {
+  EXPECT_EQ(run(render()), 0) << err;
+  const std::string picture = folder.read("picture.png");
+  const std::string command = std::string(ODS_COMMAND) + " " + render() + " <&- >&- 2>&-";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+  EXPECT_EQ(folder.read("picture.png"), picture);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "ods/image/image_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <random>
@@ -192,6 +193,15 @@ TEST(DecodeImage, RefusesHugeSizesInSmallFiles) {
     exr.replace(at + 18, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
   }
   EXPECT_NE(refusal(exr), "");
+}
+
+TEST(ReadImage, RefusesWhatIsNoFile) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
+  for (const std::string& path : {folder.path("pipe"), folder.path(""), folder.path("absent"), std::string("/dev/zero"),
+                                  std::string("/proc/self/mem"), std::string()}) {
+    EXPECT_THROW(read_image(path), Error) << path;
+  }
 }
 
 TEST(DecodeImage, SurvivesRandomDamage) {

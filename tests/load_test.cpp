@@ -18,12 +18,19 @@ std::string error_of(const std::string& name) {
   return "";
 }
 
-TEST(LoadScene, BuiltInByName) { EXPECT_EQ(load_scene("furnace").name, "furnace"); }
+TEST(LoadScene, BuiltInByName) {
+  EXPECT_EQ(load_scene("furnace").name, "furnace");
+}
 
 TEST(LoadScene, SuggestsWhatMayHaveBeenMeant) {
   EXPECT_EQ(error_of("furnce"), "furnce: no such file, and no built-in scene; did you mean 'furnace'?");
   EXPECT_EQ(error_of("kitchen.glb"), "kitchen.glb: no such file, and no built-in scene");
   EXPECT_NE(error_of("./furnace").find("no such file"), std::string::npos);
+}
+
+TEST(LoadScene, BuiltInScenesHoldOnlyOne) {
+  EXPECT_EQ(load_scene("furnace", {.scene = 0}).name, "furnace");
+  EXPECT_THROW(load_scene("furnace", {.scene = 1}), Error);
 }
 
 }  // namespace

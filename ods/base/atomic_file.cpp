@@ -26,9 +26,29 @@ static fs::path folder_of(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
+// A new file with a name that is unique on this host and process; cut short because a name has at most 255 bytes.
+// Null, with errno, where there can be none.
+static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
+  static std::atomic<unsigned> counter{0};
+  char host[64] = "";
+  gethostname(host, sizeof(host) - 1);
+  const std::string name = fs::path(path).filename().native().substr(0, 120);
+  // A name already taken is what a killed process with our number left, or another machine's of our name.
+  const int kTries = 100;
+  std::FILE* stream = nullptr;
+  for (int i = 0; i < kTries && stream == nullptr; i++) {
+    temporary = folder / fmt::format(".{}.tmp.{}.{}.{}", name, host, getpid(), counter++);
+    stream = std::fopen(temporary.c_str(), "wbxe");
+    if (stream == nullptr && errno != EEXIST) break;
+  }
+  if (stream == nullptr) temporary.clear();
+  return stream;
+}
+
 void check_writable(const std::string& path) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
+  std::error_code error, ignored;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none) throw cannot_write(path, error.message());
   if (fs::is_directory(status) || fs::path(path).filename().empty()) {
     throw cannot_write(path, "it is a folder; add a file name");
   }
@@ -41,18 +61,14 @@ void check_writable(const std::string& path) {
   }
   if (!fs::is_directory(folder, ignored))
     throw cannot_write(path, fmt::format("'{}' is not a folder", folder.native()));
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+  // Only trying tells: permissions let root write everywhere, and in /proc nobody can.
+  std::string temporary;
+  std::FILE* stream = create_temporary(folder, path, temporary);
+  if (stream == nullptr) {
     throw cannot_write(path, fmt::format("folder '{}': {}", folder.native(), std::strerror(errno)));
   }
-}
-
-// Unique on this host and process; cut short because a name has at most 255 bytes.
-static fs::path temporary_name(const std::string& path) {
-  static std::atomic<unsigned> counter{0};
-  char host[64] = "";
-  gethostname(host, sizeof(host) - 1);
-  const std::string name = fs::path(path).filename().native().substr(0, 120);
-  return folder_of(path) / fmt::format(".{}.tmp.{}.{}.{}", name, host, getpid(), counter++);
+  std::fclose(stream);
+  std::remove(temporary.c_str());
 }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
@@ -60,13 +76,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   std::error_code error;
   fs::create_directories(folder_of(path), error);
   if (error) throw cannot_write(path, fmt::format("folder cannot be made: {}", error.message()));
-  // A name already taken is what a killed process with our number left, or another machine's of our name.
-  const int kTries = 100;
-  for (int i = 0; i < kTries && stream_ == nullptr; i++) {
-    temporary_ = temporary_name(path).native();
-    stream_ = std::fopen(temporary_.c_str(), "wbx");
-    if (stream_ == nullptr && errno != EEXIST) break;
-  }
+  stream_ = create_temporary(folder_of(path), path, temporary_);
   if (stream_ == nullptr) throw cannot_write(path, std::strerror(errno));
 }
 

@@ -9,8 +9,8 @@
 
 namespace ods {
 
-// Throws Error(kOutput) when a file could not be written there, and changes nothing on the disk: the name is a folder
-// or a device, the folder (or the nearest one that exists above it) is not writable.
+// Throws Error(kOutput) when a file could not be written there: the name is a folder or a device or too long, no file
+// can be made in the folder (or the nearest one that exists above it). Leaves nothing on the disk.
 void check_writable(const std::string& path);
 
 // Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and whatever stood under the final name is untouched;

@@ -36,7 +36,7 @@ struct SaveOptions {
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a
 // folder that is missing its write permission, a name that is a folder, a layout that does not fit, a size too large
-// for the format. `eyes` as in EyeImage, `width` of one eye. Writes nothing.
+// for the format. `eyes` as in EyeImage, `width` of one eye. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width);
 
 // Writes one file, or one per eye; all of them complete, or none. Creates missing folders. Returns the names written.

@@ -120,7 +120,7 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    if (material.unlit == 1 || !(luminance(material.emission) > 0.0f)) continue;
+    if (!glows(material)) continue;
     table.instances[i].first_light = static_cast<int>(table.lights.size());
     for (uint t = 0; t < mesh.triangle_count; t++) {
       Light light = blank_light(kLightTriangle);
