@@ -22,6 +22,14 @@ RenderOptions small_mono() {
   return options;
 }
 
+Vertex facing_back(vec3 position) {
+  Vertex v{};
+  v.position = position;
+  v.normal = vec3(0.0f, 0.0f, 1.0f);
+  v.color = vec4(1.0f);
+  return v;
+}
+
 // A panel 6 m below the ceiling glows upwards; a black sheet lies half a millimetre above it.
 TEST(Path, CoverCloseToALampHidesIt) {
   Scene scene;
@@ -49,10 +57,9 @@ TEST(Path, CoverCloseToALampHidesIt) {
 TEST(Path, SmallTriangleFarAwayKeepsItsShape) {
   Scene scene;
   scene.materials = {default_material()};
-  const int mesh = add_mesh(scene,
-                            {corner(vec3(0.0f), vec3(0, 0, 1)), corner(vec3(2e-3f, 0, 0), vec3(0, 0, 1)),
-                             corner(vec3(0, 2e-3f, 0), vec3(0, 0, 1))},
-                            {uvec3(0, 1, 2)}, 0);
+  const int mesh =
+      add_mesh(scene, {facing_back(vec3(0.0f)), facing_back(vec3(2e-3f, 0, 0)), facing_back(vec3(0, 2e-3f, 0))},
+               {uvec3(0, 1, 2)}, 0);
   glm::mat4 far_away(1.0f);
   far_away[3] = vec4(1e5f, 0.0f, -7.0f, 1.0f);
   add_instance(scene, mesh, far_away);

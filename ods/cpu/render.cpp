@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <mutex>
@@ -113,17 +114,21 @@ void render_tile(Job job, int tile, EyeImage& image) {
 
 // The volumes that a point is inside of: those which a ray from there leaves more often than it enters.
 Media media_at(const EmbreeScene& embree, PathTracer& tracer, vec3 point) {
-  Media inside = no_media(), entered = no_media();
+  Media inside = no_media();
+  std::vector<int> entered;
   Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};
   for (int i = 0; i < kMaxPassed; i++) {
     const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaKey);
     if (hit.t < 0.0f) break;
     const auto surface = tracer.surface_at(hit, ray.direction);
     const int material = tracer.scene_mesh(tracer.scene_instance(hit.instance).mesh).material;
-    if (surface.volume && surface.front) entered = enter_medium(entered, material);
+    if (surface.volume && surface.front) entered.push_back(material);
     if (surface.volume && !surface.front) {
-      if (!inside_medium(entered, material)) inside = enter_medium(inside, material);
-      entered = leave_medium(entered, material);
+      const auto entry = std::find(entered.begin(), entered.end(), material);
+      if (entry != entered.end())
+        entered.erase(entry);
+      else
+        inside = enter_medium(inside, material);
     }
     ray.origin = offset_point(surface.position, -surface.geometric);
   }
