@@ -8,19 +8,45 @@
 
 namespace ods {
 
-static constexpr std::string_view kMergeNames[] = {"none", "linear", "cosine", "smoothstep"};
-static_assert(kMergeNone == 0 && kMergeLinear == 1 && kMergeCosine == 2 && kMergeSmoothstep == 3);
-
 std::string_view merge_name(int mode) {
-  assert(mode >= kMergeNone && mode <= kMergeSmoothstep);
-  return kMergeNames[mode];
+  switch (mode) {
+    case kMergeNone:
+      return "none";
+    case kMergeLinear:
+      return "linear";
+    case kMergeCosine:
+      return "cosine";
+    case kMergeSmoothstep:
+      return "smoothstep";
+    case kMergeGaussian:
+      return "gaussian";
+    case kMergePower:
+      return "power";
+    case kMergeTiltBrush:
+      return "tilt-brush";
+    default:
+      assert(mode == kMergeMap);
+      return "map";
+  }
 }
 
 std::optional<int> merge_of(std::string_view name) {
-  for (int mode = kMergeNone; mode <= kMergeSmoothstep; mode++) {
+  for (int mode : kMerges) {
     if (merge_name(mode) == name) return mode;
   }
   return std::nullopt;
+}
+
+std::string_view convergence_name(int convergence) {
+  switch (convergence) {
+    case kParallel:
+      return "parallel";
+    case kToeIn:
+      return "toe-in";
+    default:
+      assert(convergence == kShift);
+      return "shift";
+  }
 }
 
 static PoleMerge make_merge(const PoleMergeSetting& setting) {
@@ -35,6 +61,7 @@ static PoleMerge make_merge(const PoleMergeSetting& setting) {
 
 Camera make_camera(const CameraRig& rig) {
   assert(rig.ipd >= 0.0f);
+  assert(rig.merge_map || (rig.top.mode != kMergeMap && rig.bottom.mode != kMergeMap));
   const double yaw = glm::radians(static_cast<double>(rig.yaw));
   const double pitch = glm::radians(static_cast<double>(rig.pitch));
   const double roll = glm::radians(static_cast<double>(rig.roll));
@@ -48,10 +75,24 @@ Camera make_camera(const CameraRig& rig) {
   camera.center = rig.position;
   camera.right = vec3(cr * level_right - sr * level_up);
   camera.up = vec3(sr * level_right + cr * level_up);
-  camera.back = vec3(back);
+  camera.back = rig.mirrored ? -vec3(back) : vec3(back);
+  camera.axis = vec3(0.0f, 1.0f, 0.0f);
+  if (rig.axis) {
+    const vec3 axis = normalize(*rig.axis);
+    camera.axis = vec3(dot(axis, camera.right), dot(axis, camera.up), dot(axis, camera.back));
+  }
   camera.ipd = rig.ipd;
+  camera.neck = rig.neck;
+  camera.convergence = rig.convergence;
+  camera.convergence_distance = rig.convergence_distance;
+  camera.lens_radius = rig.lens_radius;
+  camera.focus_distance = rig.focus_distance;
   camera.top = make_merge(rig.top);
   camera.bottom = make_merge(rig.bottom);
+  camera.projection = make_projection(rig.projection);
+  camera.map_width = rig.merge_map ? rig.merge_map->width : 0;
+  camera.map_height = rig.merge_map ? rig.merge_map->height : 0;
+  camera.map = rig.merge_map ? rig.merge_map->pixels.data() : nullptr;
   return camera;
 }
 

@@ -23,7 +23,8 @@ std::string_view pixel_filter_name(PixelFilter filter);  // blackman-harris, box
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
 struct RenderOptions {
-  int width = 2048;  // of one eye; its height is half of it
+  int width = 2048;  // of one eye
+  int height = 0;    // 0: natural_height() of the camera's projection
   int samples = 64;  // per pixel
   int bounces = 8;   // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;

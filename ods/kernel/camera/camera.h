@@ -2,88 +2,152 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Eye and image position -> ray: the omni-directional stereo camera, a pure function.
-// Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. With no pole merge it is
-// that model exactly; the merges scale its viewing circle by a factor of the elevation.
+// Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. As CameraRig's defaults
+// have it, it is that model exactly; the rest is what other systems add to it:
 //
-// Image positions: u runs 0..1 from left to right, v 0..1 from top to bottom of one eye's picture; (0.5, 0.5) looks
-// ahead. Positions outside are legal: u wraps, and v runs on over the pole, where the formula itself continues into the
-// picture of the other eye half a turn away, as a wide pixel filter needs.
+//   a ray of heading F, with R at its right hand, starts at   merge * (side * ipd/2 * R + neck * F)
+//   and looks along the projection's direction d, or, toed in on a distance C, along   C * d - merge * side * ipd/2 *
+//   R.
+//
+// Image positions may lie outside 0..1 (ods/kernel/camera/projection.h): lat-long wraps, and runs on over the pole,
+// where the formula itself continues into the picture of the other eye half a turn away, as a wide pixel filter needs.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/math.h"
+#include "ods/kernel/camera/projection.h"
 namespace ods {
 #endif
-
-const float kPi = 3.14159265358979f;
 
 const int kLeft = 0;
 const int kRight = 1;
 const int kMono = 2;
 
-const int kMergeNone = 0;
-const int kMergeLinear = 1;
-const int kMergeCosine = 2;
-const int kMergeSmoothstep = 3;
-
-// Elevations in radians from the horizon towards the pole, start < end.
-struct PoleMerge {
-  int mode;
-  float start;
-  float end;
-  float exponent;
-};
+const int kParallel = 0;
+const int kToeIn = 1;  // both eyes' rays of one direction meet at the distance
+const int kShift =
+    2;  // the eyes' pictures are turned against each other so that a point at the distance has no parallax
 
 struct Camera {
-  vec3 center;  // of the viewing circle, which lies in the plane of right and back
-  vec3 right;   // an orthonormal, right-handed frame
+  vec3 center;  // of the viewing circle
+  vec3 right;   // an orthonormal frame, right-handed unless the picture is mirrored
   vec3 up;
   vec3 back;
+  vec3 axis;  // in that frame, unit length: what the viewing circle lies square to; (0, 1, 0) is up
   float ipd;
+  float neck;  // metres that the eyes stand before the centre
+  int convergence;
+  float convergence_distance;
+  float lens_radius;     // 0: sharp everywhere
+  float focus_distance;  // along the ray from the eye
   PoleMerge top;
   PoleMerge bottom;
+  Projection projection;
+  int map_width;  // of kMergeMap: texels of a lat-long picture, 0..1, rows from the top; 0: none
+  int map_height;
+#ifdef __cplusplus
+  const float* map = nullptr;  // a shader has them in a buffer
+#endif
 };
 
 struct Ray {
   vec3 origin;
-  vec3 direction;  // unit length
+  vec3 direction;  // unit length; 0: the picture is empty here, there is no ray
 };
 
-// The share of the viewing circle's radius that is left at an elevation (radians, 0 at the horizon .. pi/2).
-inline float merge_factor(PoleMerge merge, float elevation) {
-  if (merge.mode == kMergeNone) return 1.0f;
-  float t = clamp((elevation - merge.start) / (merge.end - merge.start), 0.0f, 1.0f);
-  float left = 1.0f - t;
-  if (merge.mode == kMergeCosine) left = max(0.0f, cos(t * (0.5f * kPi)));
-  if (merge.mode == kMergeSmoothstep) left = 1.0f - t * t * (3.0f - 2.0f * t);
-  return merge.exponent == 1.0f ? left : pow(left, merge.exponent);
+#ifdef __cplusplus
+inline float merge_map_texel(const Camera& camera, int i) {
+  return camera.map[i];
+}
+#else
+float merge_map_texel(Camera camera, int i);
+#endif
+
+inline float merge_map_at(Camera camera, vec3 direction) {
+  float x = (0.5f + atan(direction.x, -direction.z) * (0.5f / kPi)) * float(camera.map_width) - 0.5f;
+  float level = sqrt(direction.x * direction.x + direction.z * direction.z);
+  float y = (0.5f - atan(direction.y, level) * (1.0f / kPi)) * float(camera.map_height) - 0.5f;
+  int x0 = int(floor(x));
+  int y0 = int(floor(y));
+  int left = x0 < 0 ? camera.map_width - 1 : x0;
+  int right = x0 + 1 >= camera.map_width ? 0 : x0 + 1;
+  int top = clamp(y0, 0, camera.map_height - 1) * camera.map_width;
+  int bottom = clamp(y0 + 1, 0, camera.map_height - 1) * camera.map_width;
+  float fx = x - float(x0);
+  return mix(mix(merge_map_texel(camera, top + left), merge_map_texel(camera, top + right), fx),
+             mix(merge_map_texel(camera, bottom + left), merge_map_texel(camera, bottom + right), fx), y - float(y0));
 }
 
-// Half the distance between the eyes for rays of elevation phi. Beyond a pole the elevation falls again.
-inline float eye_radius(Camera camera, float phi) {
+// What the pole merge leaves of the viewing circle for a direction (camera's frame) of elevation phi above its plane.
+// Beyond a pole the elevation falls again.
+inline float merge_at(Camera camera, vec3 direction, float phi) {
+  PoleMerge merge = camera.top;
+  if (phi < 0.0f) merge = camera.bottom;
+  if (merge.mode == kMergeMap) return merge_map_at(camera, direction);
   float elevation = abs(phi);
   if (elevation > 0.5f * kPi) elevation = abs(kPi - elevation);
-  float factor = phi < 0.0f ? merge_factor(camera.bottom, elevation) : merge_factor(camera.top, elevation);
-  return 0.5f * camera.ipd * factor;
+  return merge_factor(merge, elevation);
 }
 
 inline float eye_side(int eye) {
   return eye == kLeft ? -1.0f : eye == kRight ? 1.0f : 0.0f;
 }
 
-inline Ray camera_ray(Camera camera, int eye, vec2 uv) {
-  float theta = (uv.x - 0.5f) * (2.0f * kPi);
-  float phi = (0.5f - uv.y) * kPi;
-  float sin_theta = sin(theta);
-  float cos_theta = cos(theta);
-  float cos_phi = cos(phi);
-  float offset = eye_side(eye) * eye_radius(camera, phi);
+inline vec3 turn_about(vec3 v, vec3 axis, float angle) {
+  return v * cos(angle) + cross(axis, v) * sin(angle) + axis * (dot(axis, v) * (1.0f - cos(angle)));
+}
+
+// The angle by which a picture of kShift is turned to the right.
+inline float shift_angle(Camera camera, int eye) {
+  return eye_side(eye) * asin(clamp(0.5f * camera.ipd / camera.convergence_distance, 0.0f, 1.0f));
+}
+
+// A look's heading and elevation belong to the frame's up; these to the camera's axis.
+inline Look look_about_axis(Camera camera, Look look) {
+  if (camera.axis.y == 1.0f) return look;
+  float height = clamp(dot(look.direction, camera.axis), -1.0f, 1.0f);
+  vec3 level = look.direction - camera.axis * height;
+  float size = length(level);
+  look.elevation = atan(height, size);
+  if (size > 1e-20f) look.heading = level * (1.0f / size);
+  return look;
+}
+
+// home: the middle of the pixel to which the position uv belongs. lens: uniform in the unit square, chooses the ray's
+// place on the lens; at x = 0 it is the middle.
+inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
+  Look look = look_of(camera.projection, home, uv);
   Ray ray;
-  ray.origin = camera.center + (offset * cos_theta) * camera.right + (offset * sin_theta) * camera.back;
-  ray.direction = (sin_theta * cos_phi) * camera.right + sin(phi) * camera.up - (cos_theta * cos_phi) * camera.back;
+  ray.origin = camera.center;
+  ray.direction = vec3(0.0f);
+  if (!look.seen) return ray;
+  look = look_about_axis(camera, look);
+  if (camera.convergence == kShift) {
+    float angle = shift_angle(camera, eye);  // the ray turns left when the picture turns right
+    look.direction = turn_about(look.direction, camera.axis, angle);
+    look.heading = turn_about(look.heading, camera.axis, angle);
+  }
+  float left = merge_at(camera, look.direction, look.elevation);
+  vec3 stereo = cross(look.heading, camera.axis) * (0.5f * camera.ipd * eye_side(eye) * left);
+  vec3 origin = stereo + look.heading * (camera.neck * left);
+  vec3 direction = look.direction;
+  if (camera.convergence == kToeIn) direction = normalize(direction * camera.convergence_distance - stereo);
+  if (camera.lens_radius > 0.0f) {
+    // A disc about the eye, square to the ray; all its rays meet at the focus distance.
+    vec3 side = normalize(cross(direction, abs(direction.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f)));
+    float r = camera.lens_radius * sqrt(lens.x);
+    float phi = 2.0f * kPi * lens.y;
+    vec3 on_lens = side * (r * cos(phi)) + cross(side, direction) * (r * sin(phi));
+    direction = normalize(direction * camera.focus_distance - on_lens);
+    origin = origin + on_lens;
+  }
+  ray.origin = camera.center + origin.x * camera.right + origin.y * camera.up + origin.z * camera.back;
+  ray.direction = direction.x * camera.right + direction.y * camera.up + direction.z * camera.back;
   return ray;
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(PoleMerge) == 16 && sizeof(Camera) == 84);
+// Through the middle of the lens, as if uv were the middle of a pixel.
+inline Ray camera_ray(const Camera& camera, int eye, vec2 uv) {
+  return camera_ray(camera, eye, uv, uv, vec2(0.0f, 0.0f));
+}
 }  // namespace ods
 #endif

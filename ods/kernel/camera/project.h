@@ -3,12 +3,14 @@
 //
 // World point -> image position in each eye: the inverse of camera_ray().
 //
-// In the camera's frame let rho be the point's distance from the vertical axis and alpha its azimuth. The ray that
-// meets it starts on the viewing circle of radius r, touches that circle's tangent, and so
-//   theta = alpha - side * asin(r / rho),   phi = atan(height / sqrt(rho^2 - r^2)).
-// Without a merge r is half the ipd. With one, r depends on phi; the equation in phi has one root, since a circle that
-// shrinks towards the poles never makes rays cross. It is found by bisection, except where r = ipd/2 cos(phi), which
-// again has a closed form.
+// About the camera's axis let rho be the point's distance from it and y its height above the viewing circle's plane.
+// The ray that meets it starts r to the side and n ahead of the axis, in the heading F with R at its right. Parallel:
+//   rho^2 = r^2 + L^2 with L = dot(point, F) = n + t cos(phi),   tan(phi) = y / (L - n).
+// Toed in on C it leaves along C d - r R, and at its s-fold
+//   rho^2 = r^2 (1 - s)^2 + (n + s C cos(phi))^2,   y = s C sin(phi).
+// Without a merge and a neck both have a closed form, and so has r = ipd/2 cos(phi). Else r and n depend on phi, and
+// the equation in phi has one root, since a circle that shrinks towards the poles never makes rays cross: it is
+// bisected.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/camera.h"
@@ -18,56 +20,113 @@ namespace ods {
 struct ImagePosition {
   vec2 uv;      // both 0..1
   float depth;  // along the ray from its own origin
-  bool seen;    // false: inside the viewing circle's cylinder, where no ray of this eye passes
+  bool seen;    // false: no ray of this eye meets the point, or the picture does not reach it
 };
 
-// |phi| of the ray that meets a point at a height above (or below) the viewing circle's plane.
-inline float merged_elevation(PoleMerge merge, float radius, float rho, float height) {
-  if (merge.mode == kMergeCosine && merge.start == 0.0f && merge.exponent == 1.0f && merge.end > 0.4999f * kPi) {
-    float b = radius * radius + rho * rho + height * height;
-    float cos2 = 2.0f * rho * rho / (b + sqrt(max(b * b - 4.0f * radius * radius * rho * rho, 0.0f)));
-    float cosine = sqrt(min(cos2, 1.0f));
-    float r = radius * cosine;
-    return atan(height, sqrt(max(rho * rho - r * r, 0.0f)));
+// How the ray of one elevation that is to meet the point lies: its parts across and along the heading, and how much it
+// passes below the point (above: negative).
+struct Meeting {
+  float across;  // dot(point, R)
+  float along;   // dot(point, F)
+  float below;
+  float depth;
+};
+
+// r, n: merged already. Points nearer to the axis than r are met by no ray; the nearest that is stands in.
+inline Meeting meet(Camera camera, float r, float n, float rho, float y, float phi) {
+  Meeting meeting;
+  meeting.across = r;
+  if (camera.convergence != kToeIn) {
+    meeting.along = sqrt(max(rho * rho - r * r, 0.0f));
+    meeting.below = y * cos(phi) - (meeting.along - n) * sin(phi);
+    meeting.depth = length(vec2(meeting.along - n, y));
+    return meeting;
+  }
+  float c = camera.convergence_distance;
+  float square = r * r + c * c;
+  float half = r * r - n * c * cos(phi);
+  float s = (half + sqrt(max(half * half - square * (r * r + n * n - rho * rho - y * y), 0.0f))) / square;
+  meeting.across = r * (1.0f - s);
+  meeting.along = sqrt(max(rho * rho - meeting.across * meeting.across, 0.0f));
+  meeting.below = y - s * c * sin(phi);
+  meeting.depth = s * sqrt(square);
+  return meeting;
+}
+
+// The elevation 0..pi/2 of the ray that meets a point of height y >= 0, without merge and neck.
+inline float plain_elevation(Camera camera, float r, float rho, float y) {
+  Meeting meeting = meet(camera, r, 0.0f, rho, y, 0.0f);
+  if (camera.convergence != kToeIn) return atan(y, meeting.along);
+  float c = camera.convergence_distance;
+  return asin(clamp(y * sqrt(r * r + c * c) / max(meeting.depth * c, 1e-30f), 0.0f, 1.0f));
+}
+
+inline bool shrinks_as_cosine(PoleMerge merge) {
+  return merge.mode == kMergeCosine && merge.start == 0.0f && merge.exponent == 1.0f && merge.end > 0.4999f * kPi;
+}
+
+inline float cosine_elevation(float r, float rho, float y) {
+  float b = r * r + rho * rho + y * y;
+  float cos2 = 2.0f * rho * rho / (b + sqrt(max(b * b - 4.0f * r * r * rho * rho, 0.0f)));
+  float merged = r * sqrt(min(cos2, 1.0f));
+  return atan(y, sqrt(max(rho * rho - merged * merged, 0.0f)));
+}
+
+// phi with its sign. heading: of the point, for a merge map, which is a function of direction.
+inline float elevation_of(Camera camera, float r, float rho, float y, vec3 heading) {
+  PoleMerge merge = camera.top;
+  if (y < 0.0f) merge = camera.bottom;
+  float sign_of_y = y < 0.0f ? -1.0f : 1.0f;
+  if (camera.neck == 0.0f) {
+    if (merge.mode == kMergeNone || r == 0.0f) return sign_of_y * plain_elevation(camera, r, rho, abs(y));
+    if (camera.convergence != kToeIn && shrinks_as_cosine(merge)) return sign_of_y * cosine_elevation(r, rho, abs(y));
   }
   float low = 0.0f;
   float high = 0.5f * kPi;
   for (int i = 0; i < 40; i++) {
     float middle = 0.5f * (low + high);
-    float r = radius * merge_factor(merge, middle);
-    float reach2 = rho * rho - r * r;
-    bool too_low = reach2 < 0.0f || sin(middle) * sqrt(max(reach2, 0.0f)) < height * cos(middle);
-    if (too_low) {
+    vec3 direction = heading * cos(middle) + camera.axis * (sign_of_y * sin(middle));
+    float left = merge_at(camera, direction, sign_of_y * middle);
+    Meeting meeting = meet(camera, r * left, camera.neck * left, rho, abs(y), middle);
+    if (meeting.below > 0.0f || rho < r * left) {
       low = middle;
     } else {
       high = middle;
     }
   }
-  return 0.5f * (low + high);
+  return sign_of_y * 0.5f * (low + high);
 }
 
 inline ImagePosition project_point(Camera camera, int eye, vec3 point) {
-  vec3 p = point - camera.center;
-  float x = dot(p, camera.right);
-  float y = dot(p, camera.up);
-  float ahead = -dot(p, camera.back);
-  float rho = sqrt(x * x + ahead * ahead);
+  vec3 away = point - camera.center;
+  vec3 p = vec3(dot(away, camera.right), dot(away, camera.up), dot(away, camera.back));
+  float y = dot(p, camera.axis);
+  vec3 level = p - camera.axis * y;
+  float rho = length(level);
+  vec3 toward = rho > 0.0f ? level * (1.0f / rho) : vec3(0.0f, 0.0f, -1.0f);
   float side = eye_side(eye);
   float r = side == 0.0f ? 0.0f : 0.5f * camera.ipd;
-  PoleMerge merge = camera.top;
-  if (y < 0.0f) merge = camera.bottom;
-  if (merge.mode != kMergeNone && r > 0.0f) {
-    float elevation = merged_elevation(merge, r, rho, abs(y));
-    r = r * merge_factor(merge, elevation);
+  // A merge map asks for the ray's heading, which is nearly the point's: a few rounds find it.
+  int rounds = camera.top.mode == kMergeMap || camera.bottom.mode == kMergeMap ? 5 : 1;
+  vec3 heading = toward;
+  vec3 direction = toward;
+  float left = 1.0f;
+  Meeting meeting;
+  for (int i = 0; i < rounds; i++) {
+    float phi = elevation_of(camera, r, rho, y, heading);
+    left = merge_at(camera, heading * cos(phi) + camera.axis * sin(phi), phi);
+    meeting = meet(camera, r * left, camera.neck * left, rho, abs(y), abs(phi));
+    // The heading F from the point's own: dot(point, F) = along, dot(point, R) = side * across.
+    float size = max(sqrt(meeting.along * meeting.along + meeting.across * meeting.across), 1e-30f);
+    heading = (toward * meeting.along - cross(toward, camera.axis) * (side * meeting.across)) * (1.0f / size);
+    direction = heading * cos(phi) + camera.axis * sin(phi);
   }
-  float reach = sqrt(max(rho * rho - r * r, 0.0f));
-  float theta = atan(x, ahead) - side * asin(clamp(r / max(rho, 1e-30f), 0.0f, 1.0f));
-  float phi = atan(y, reach);
-  float u = 0.5f + theta * (0.5f / kPi);
+  if (camera.convergence == kShift) direction = turn_about(direction, camera.axis, -shift_angle(camera, eye));
+  Place place = place_of(camera.projection, direction);
   ImagePosition position;
-  position.uv = vec2(u - floor(u), 0.5f - phi * (1.0f / kPi));
-  position.depth = sqrt(reach * reach + y * y);
-  position.seen = rho > r || (r == 0.0f && position.depth > 0.0f);
+  position.uv = place.uv;
+  position.depth = meeting.depth;
+  position.seen = place.seen && rho >= meeting.across && meeting.depth > 0.0f && meeting.along >= camera.neck * left;
   return position;
 }
 

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/projection.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace ods {
+
+static ProjectionSetting of_kind(int kind) {
+  ProjectionSetting setting;
+  setting.kind = kind;
+  return setting;
+}
+
+static ProjectionSetting part(int kind, vec2 longitude, vec2 latitude) {
+  ProjectionSetting setting = of_kind(kind);
+  setting.longitude = longitude;
+  setting.latitude = latitude;
+  return setting;
+}
+
+static ProjectionSetting lens(int kind, float fov, float tilt) {
+  ProjectionSetting setting = of_kind(kind);
+  setting.fov = fov;
+  setting.tilt = tilt;
+  return setting;
+}
+
+std::span<const NamedProjection> named_projections() {
+  static const NamedProjection kAll[] = {
+      {"lat-long", "the whole sphere, or the part that --range gives", of_kind(kLatLong)},
+      {"vr180", "the front half of it", part(kLatLong, {-90.0f, 90.0f}, {-90.0f, 90.0f})},
+      {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
+      {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
+      {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
+      {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
+      {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
+      {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2)},
+      {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1)},
+      {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6)},
+      {"eac", "equi-angular cube, 3x2", of_kind(kEac)},
+  };
+  return kAll;
+}
+
+const NamedProjection* find_projection(std::string_view name) {
+  for (const NamedProjection& named : named_projections()) {
+    if (named.name == name) return &named;
+  }
+  return nullptr;
+}
+
+static bool same_numbers(const ProjectionSetting& a, const ProjectionSetting& b) {
+  return a.longitude == b.longitude && a.latitude == b.latitude && a.fov == b.fov && a.pan == b.pan && a.tilt == b.tilt;
+}
+
+std::string_view projection_name(const ProjectionSetting& setting) {
+  std::string_view first;
+  for (const NamedProjection& named : named_projections()) {
+    if (named.setting.kind != setting.kind) continue;
+    if (same_numbers(named.setting, setting)) return named.name;
+    if (first.empty()) first = named.name;
+  }
+  return first;
+}
+
+bool is_full_lat_long(const ProjectionSetting& setting) {
+  return setting.kind == kLatLong && same_numbers(setting, of_kind(kLatLong));
+}
+
+std::string projection_fault(const ProjectionSetting& setting) {
+  if (setting.kind == kLatLong || setting.kind == kCylinder) {
+    const float limit = setting.kind == kLatLong ? 90.0f : 89.0f;
+    const float turn = setting.longitude.y - setting.longitude.x;
+    if (!(turn > 0.0f && turn <= 360.0f)) return "longitudes run from left to right over at most 360 degrees";
+    if (!(setting.latitude.x >= -limit && setting.latitude.x < setting.latitude.y && setting.latitude.y <= limit)) {
+      return setting.kind == kLatLong ? "latitudes run from bottom to top within -90 and 90 degrees"
+                                      : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
+    }
+  }
+  const bool fisheye = setting.kind == kFisheye || setting.kind == kFisheyeEquisolid;
+  if (fisheye && !(setting.fov >= 1.0f && setting.fov <= 360.0f)) return "a fisheye sees 1 to 360 degrees";
+  if (setting.kind == kPerspective) {
+    if (!(setting.fov >= 1.0f && setting.fov <= 170.0f)) return "a flat window shows 1 to 170 degrees";
+    if (!(setting.aspect > 0.01f && setting.aspect < 100.0f)) return "a window's sides differ by at most 100 to 1";
+  }
+  return {};
+}
+
+static double tangent(float degrees) {
+  return std::tan(glm::radians(static_cast<double>(degrees)));
+}
+
+int natural_height(const ProjectionSetting& setting, int width) {
+  const double turn = glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
+  double aspect = 1.0;
+  switch (setting.kind) {
+    case kLatLong:
+      aspect = turn / glm::radians(static_cast<double>(setting.latitude.y - setting.latitude.x));
+      break;
+    case kCylinder:
+      aspect = turn / (tangent(setting.latitude.y) - tangent(setting.latitude.x));
+      break;
+    case kPerspective:
+      aspect = static_cast<double>(setting.aspect);
+      break;
+    case kCube3x2:
+    case kEac:
+      aspect = 1.5;
+      break;
+    case kCube6x1:
+      aspect = 6.0;
+      break;
+    case kCube1x6:
+      aspect = 1.0 / 6.0;
+      break;
+    default:
+      break;
+  }
+  return std::max(1, static_cast<int>(std::lround(width / aspect)));
+}
+
+int width_step(const ProjectionSetting& setting) {
+  return setting.kind >= kCube3x2 ? cube_columns(setting.kind) : 1;
+}
+
+Projection make_projection(const ProjectionSetting& setting) {
+  assert(projection_fault(setting).empty());
+  const auto radians = [](vec2 degrees) { return glm::dvec2(degrees) * (std::acos(-1.0) / 180.0); };
+  const glm::dvec2 longitude = radians(setting.longitude);
+  glm::dvec2 height = radians(setting.latitude);
+  if (setting.kind == kCylinder) height = glm::tan(height);
+  Projection projection;
+  projection.kind = setting.kind;
+  projection.center = vec2((longitude.x + longitude.y) / 2.0, (height.x + height.y) / 2.0);
+  projection.span = vec2(longitude.y - longitude.x, height.y - height.x);
+  projection.angle = glm::radians(setting.fov);
+  const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
+  projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
+  const double pan = glm::radians(static_cast<double>(setting.pan));
+  const double tilt = glm::radians(static_cast<double>(setting.tilt));
+  const glm::dvec3 right(std::cos(pan), 0.0, std::sin(pan));
+  const glm::dvec3 back(-std::sin(pan) * std::cos(tilt), -std::sin(tilt), std::cos(pan) * std::cos(tilt));
+  projection.lens_right = vec3(right);
+  projection.lens_up = vec3(glm::cross(back, right));
+  projection.lens_back = vec3(back);
+  return projection;
+}
+
+}  // namespace ods

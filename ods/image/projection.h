@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Projections as people set them: names, degrees, defaults. The formulas are in ods/kernel/camera/projection.h.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "ods/kernel/camera/projection.h"
+
+namespace ods {
+
+// Degrees throughout. Longitudes grow to the right, latitudes upwards, 0 is ahead.
+struct ProjectionSetting {
+  int kind = kLatLong;
+  vec2 longitude{-180.0f, 180.0f};  // kLatLong, kCylinder: of the left and right edge, at most 360 apart
+  vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; of a cylinder within +-89
+  float fov = 180.0f;               // kFisheye...: from edge to edge, at most 360; kPerspective: horizontal, below 180
+  float aspect = 1.0f;              // kPerspective: width over height
+  float pan = 0.0f;                 // kFisheye..., kPerspective: where the lens points, to the right
+  float tilt = 0.0f;                // and up; the viewing circle stays as it is
+};
+
+// A projection by the name that users type. Several names may be one kind with other defaults: `vr180` is the front
+// half of `lat-long`, `dome` a fisheye that looks up.
+struct NamedProjection {
+  std::string_view name;
+  std::string_view summary;
+  ProjectionSetting setting;
+};
+std::span<const NamedProjection> named_projections();
+const NamedProjection* find_projection(std::string_view name);
+
+// The name of a setting: the first whose kind fits and whose numbers are its defaults, else the first of the kind.
+std::string_view projection_name(const ProjectionSetting& setting);
+
+// Whether a setting is the whole sphere in lat-long, which players know without being told more.
+bool is_full_lat_long(const ProjectionSetting& setting);
+
+// What is wrong with a setting, in words for a message; empty: nothing.
+std::string projection_fault(const ProjectionSetting& setting);
+
+// The height that gives a picture of this width its true shape; at least 1.
+int natural_height(const ProjectionSetting& setting, int width);
+
+// Cubes need whole faces: the number that the width of one eye must divide by, 1 for all others.
+int width_step(const ProjectionSetting& setting);
+
+// Precondition: projection_fault() is empty.
+Projection make_projection(const ProjectionSetting& setting);
+
+}  // namespace ods

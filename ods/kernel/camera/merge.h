@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pole merge: the share of the viewing circle that is left at an elevation. The curves are those of the systems that
+// have one (docs/cameras.md names them).
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/math.h"
+namespace ods {
+#endif
+
+const float kPi = 3.14159265358979f;
+
+const int kMergeNone = 0;
+const int kMergeLinear = 1;
+const int kMergeCosine = 2;  // POV-Ray page, OSPRay, Arnold, Cycles
+const int kMergeSmoothstep = 3;
+const int kMergeGaussian = 4;   // eVRydayVR
+const int kMergePower = 5;      // Mandelbulber: 1 - t^exponent
+const int kMergeTiltBrush = 6;  // Google's Unity kit: never below 0.84
+const int kMergeMap = 7;        // a lat-long picture: the VR camera for Arnold's shader mode
+
+// Elevations in radians from the horizon towards the pole, start < end. t runs 0..1 between them.
+struct PoleMerge {
+  int mode;
+  float start;
+  float end;
+  float exponent;  // the curve to this power; of kMergePower, t's own
+};
+
+// What is left at an elevation (radians, 0 at the horizon .. pi/2). kMergeMap is not a function of elevation: 1.
+inline float merge_factor(PoleMerge merge, float elevation) {
+  if (merge.mode == kMergeNone || merge.mode == kMergeMap) return 1.0f;
+  float t = clamp((elevation - merge.start) / (merge.end - merge.start), 0.0f, 1.0f);
+  if (merge.mode == kMergePower) return 1.0f - pow(t, merge.exponent);
+  float left = 1.0f - t;
+  if (merge.mode == kMergeCosine) left = max(0.0f, cos(t * (0.5f * kPi)));
+  if (merge.mode == kMergeSmoothstep) left = 1.0f - t * t * (3.0f - 2.0f * t);
+  if (merge.mode == kMergeGaussian) left = (exp(-t * t) - exp(-1.0f)) / (1.0f - exp(-1.0f));
+  if (merge.mode == kMergeTiltBrush) left = 1.0f - sin(t * (0.5f / kPi));
+  return merge.exponent == 1.0f ? left : pow(max(left, 0.0f), merge.exponent);
+}
+
+#ifdef __cplusplus
+}  // namespace ods
+#endif

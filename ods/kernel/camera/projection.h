@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Projections: image position <-> direction, each with its exact inverse. To add one: a number, a function each way, a
+// name in ods/image/projection.cpp, and the tests that run every member.
+//
+// Image positions: u runs 0..1 from left to right, v 0..1 from top to bottom of one eye's picture. Directions are in
+// the camera's frame: x right, y up, z back; theta is the heading, 0 ahead and positive to the right, phi the
+// elevation.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/camera/merge.h"
+namespace ods {
+#endif
+
+const int kLatLong = 0;           // theta and phi run evenly, over the whole sphere or a part of it
+const int kCylinder = 1;          // theta runs evenly, and so does the tangent of phi
+const int kFisheye = 2;           // equidistant: the angle from the lens axis grows evenly
+const int kFisheyeEquisolid = 3;  // equal areas see equal solid angles
+const int kPerspective = 4;       // a flat window; with 90 degrees a face of a cube
+const int kCube3x2 = 5;           // as the VR camera for Arnold packs them
+const int kCube6x1 = 6;           // likewise ("NVIDIA" order)
+const int kCube1x6 = 7;           // the faces of kCube6x1 in a column
+const int kEac = 8;               // equi-angular cube, 3x2 as players of 360 video have it
+const int kProjectionCount = 9;
+
+struct Projection {
+  int kind;
+  vec2 center;      // kLatLong, kCylinder: theta and phi of the picture's middle, radians; kCylinder: tan(phi)
+  vec2 span;        // and how far the picture reaches from edge to edge, likewise
+  float angle;      // kFisheye...: from edge to edge of the image circle, radians
+  vec2 half_size;   // kPerspective: tangents of half the horizontal and vertical angle
+  vec3 lens_right;  // kFisheye..., kPerspective: where the lens points, in the camera's frame
+  vec3 lens_up;
+  vec3 lens_back;
+};
+
+// Where an image position looks.
+struct Look {
+  vec3 direction;   // unit length
+  vec3 heading;     // (sin theta, 0, -cos theta)
+  float elevation;  // phi; beyond +-pi/2 where a lat-long picture goes on over its pole
+  bool seen;        // false: the picture is empty there
+};
+
+struct Place {
+  vec2 uv;
+  bool seen;  // false: the direction is not in the picture
+};
+
+inline Look look_along(vec3 direction) {
+  Look look;
+  float level = sqrt(direction.x * direction.x + direction.z * direction.z);
+  float size = length(direction);
+  look.direction = direction * (1.0f / size);
+  look.heading = vec3(0.0f, 0.0f, -1.0f);
+  if (level > 0.0f) look.heading = vec3(direction.x / level, 0.0f, direction.z / level);
+  look.elevation = atan(direction.y, level);
+  look.seen = true;
+  return look;
+}
+
+inline Look look_at_angles(float theta, float phi) {
+  Look look;
+  look.heading = vec3(sin(theta), 0.0f, -cos(theta));
+  look.direction = look.heading * cos(phi) + vec3(0.0f, sin(phi), 0.0f);
+  look.elevation = phi;
+  look.seen = true;
+  return look;
+}
+
+// An angle moved by whole turns into the picture's reach where that is possible.
+inline float wrapped(float turns) {
+  return turns - floor(turns);
+}
+
+// u of a heading. Pictures of a full turn wrap.
+inline float place_heading(Projection projection, vec3 direction) {
+  float off = atan(direction.x, -direction.z) - projection.center.x;
+  off = (wrapped(off * (0.5f / kPi) + 0.5f) - 0.5f) * (2.0f * kPi);
+  return 0.5f + off / projection.span.x;
+}
+
+inline bool inside_picture(vec2 uv) {
+  return uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f;
+}
+
+inline Look lat_long_look(Projection projection, vec2 uv) {
+  return look_at_angles(projection.center.x + (uv.x - 0.5f) * projection.span.x,
+                        projection.center.y + (0.5f - uv.y) * projection.span.y);
+}
+
+inline Place lat_long_place(Projection projection, vec3 direction) {
+  float phi = atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z));
+  Place place;
+  place.uv = vec2(place_heading(projection, direction), 0.5f - (phi - projection.center.y) / projection.span.y);
+  place.seen = inside_picture(place.uv);
+  return place;
+}
+
+inline Look cylinder_look(Projection projection, vec2 uv) {
+  return look_at_angles(projection.center.x + (uv.x - 0.5f) * projection.span.x,
+                        atan(projection.center.y + (0.5f - uv.y) * projection.span.y));
+}
+
+inline Place cylinder_place(Projection projection, vec3 direction) {
+  float level = sqrt(direction.x * direction.x + direction.z * direction.z);
+  float slope = direction.y / max(level, 1e-30f);
+  Place place;
+  place.uv = vec2(place_heading(projection, direction), 0.5f - (slope - projection.center.y) / projection.span.y);
+  place.seen = inside_picture(place.uv);
+  return place;
+}
+
+inline vec3 from_lens(Projection projection, vec3 p) {
+  return projection.lens_right * p.x + projection.lens_up * p.y + projection.lens_back * p.z;
+}
+
+inline vec3 to_lens(Projection projection, vec3 d) {
+  return vec3(dot(d, projection.lens_right), dot(d, projection.lens_up), dot(d, projection.lens_back));
+}
+
+// The image circle touches the picture's edges. home decides what is inside, as in look_of().
+inline Look fisheye_look(Projection projection, vec2 home, vec2 uv) {
+  vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
+  float r = length(p);
+  float angle = 0.5f * projection.angle * r;
+  if (projection.kind == kFisheyeEquisolid) angle = 2.0f * asin(min(sin(0.25f * projection.angle) * r, 1.0f));
+  float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
+  Look look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
+  look.seen = length(vec2(2.0f * home.x - 1.0f, 1.0f - 2.0f * home.y)) <= 1.0f;
+  return look;
+}
+
+inline Place fisheye_place(Projection projection, vec3 direction) {
+  vec3 p = to_lens(projection, direction);
+  float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
+  float angle = atan(out_of_axis, -p.z);
+  float r = 2.0f * angle / projection.angle;
+  if (projection.kind == kFisheyeEquisolid) r = sin(0.5f * angle) / sin(0.25f * projection.angle);
+  float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
+  Place place;
+  place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
+  place.seen = r <= 1.0f;
+  return place;
+}
+
+inline Look perspective_look(Projection projection, vec2 uv) {
+  vec2 p = vec2((2.0f * uv.x - 1.0f) * projection.half_size.x, (1.0f - 2.0f * uv.y) * projection.half_size.y);
+  return look_along(from_lens(projection, vec3(p.x, p.y, -1.0f)));
+}
+
+inline Place perspective_place(Projection projection, vec3 direction) {
+  vec3 p = to_lens(projection, direction);
+  float ahead = max(-p.z, 1e-30f);
+  Place place;
+  place.uv =
+      vec2(0.5f + 0.5f * p.x / (ahead * projection.half_size.x), 0.5f - 0.5f * p.y / (ahead * projection.half_size.y));
+  place.seen = p.z < 0.0f && inside_picture(place.uv);
+  return place;
+}
+
+// One face of a cube around the camera: its middle, and where its picture's right and top edge lie from there.
+struct CubeFace {
+  vec3 middle;
+  vec3 right;
+  vec3 top;
+};
+
+inline CubeFace cube_face(vec3 middle, vec3 right, vec3 top) {
+  CubeFace face;
+  face.middle = middle;
+  face.right = right;
+  face.top = top;
+  return face;
+}
+
+inline int cube_columns(int kind) {
+  return kind == kCube6x1 ? 6 : kind == kCube1x6 ? 1 : 3;
+}
+
+// The face in a cell, counted in reading order.
+inline CubeFace cube_cell(int kind, int cell) {
+  vec3 x = vec3(1.0f, 0.0f, 0.0f);
+  vec3 y = vec3(0.0f, 1.0f, 0.0f);
+  vec3 z = vec3(0.0f, 0.0f, 1.0f);
+  if (kind == kEac) {
+    if (cell == 0) return cube_face(-x, -z, y);
+    if (cell == 1) return cube_face(-z, x, y);
+    if (cell == 2) return cube_face(x, z, y);
+    if (cell == 3) return cube_face(-y, -z, -x);
+    if (cell == 4) return cube_face(z, y, -x);
+    return cube_face(y, z, -x);
+  }
+  if (kind == kCube3x2) {
+    if (cell == 0) return cube_face(-z, x, y);
+    if (cell == 1) return cube_face(y, -x, -z);
+    if (cell == 2) return cube_face(-y, -x, z);
+    if (cell == 3) return cube_face(x, z, y);
+    if (cell == 4) return cube_face(z, -x, y);
+    return cube_face(-x, -z, y);
+  }
+  if (cell == 0) return cube_face(x, -y, z);
+  if (cell == 1) return cube_face(-x, y, z);
+  if (cell == 2) return cube_face(z, x, -y);
+  if (cell == 3) return cube_face(-z, x, y);
+  if (cell == 4) return cube_face(y, x, z);
+  return cube_face(-y, -x, z);
+}
+
+// Beyond the edge of its home cell a face goes on as the plane it is.
+inline Look cube_look(int kind, vec2 home, vec2 uv) {
+  int columns = cube_columns(kind);
+  int rows = 6 / columns;
+  int column = clamp(int(floor(home.x * float(columns))), 0, columns - 1);
+  int row = clamp(int(floor(home.y * float(rows))), 0, rows - 1);
+  float s = 2.0f * (uv.x * float(columns) - float(column)) - 1.0f;
+  float t = 1.0f - 2.0f * (uv.y * float(rows) - float(row));
+  if (kind == kEac) {
+    s = tan(0.25f * kPi * s);
+    t = tan(0.25f * kPi * t);
+  }
+  CubeFace face = cube_cell(kind, row * columns + column);
+  return look_along(face.middle + face.right * s + face.top * t);
+}
+
+inline Place cube_place(int kind, vec3 direction) {
+  int columns = cube_columns(kind);
+  int best = 0;
+  for (int cell = 1; cell < 6; cell++) {
+    if (dot(direction, cube_cell(kind, cell).middle) > dot(direction, cube_cell(kind, best).middle)) best = cell;
+  }
+  CubeFace face = cube_cell(kind, best);
+  float ahead = dot(direction, face.middle);
+  float s = clamp(dot(direction, face.right) / ahead, -1.0f, 1.0f);
+  float t = clamp(dot(direction, face.top) / ahead, -1.0f, 1.0f);
+  if (kind == kEac) {
+    s = atan(s) * (4.0f / kPi);
+    t = atan(t) * (4.0f / kPi);
+  }
+  Place place;
+  place.uv = vec2((float(best % columns) + 0.5f + 0.5f * s) / float(columns),
+                  (float(best / columns) + 0.5f - 0.5f * t) / float(6 / columns));
+  place.seen = true;
+  return place;
+}
+
+// Where an image position looks. home: the middle of the pixel it belongs to, which decides about faces and edges; a
+// pixel filter may reach beyond them, and sees the face or the sphere go on there.
+inline Look look_of(Projection projection, vec2 home, vec2 uv) {
+  if (projection.kind == kLatLong) return lat_long_look(projection, uv);
+  if (projection.kind == kCylinder) return cylinder_look(projection, uv);
+  if (projection.kind == kPerspective) return perspective_look(projection, uv);
+  if (projection.kind == kFisheye || projection.kind == kFisheyeEquisolid) return fisheye_look(projection, home, uv);
+  return cube_look(projection.kind, home, uv);
+}
+
+// Where a direction (any length but 0) lies in the picture.
+inline Place place_of(Projection projection, vec3 direction) {
+  if (projection.kind == kLatLong) return lat_long_place(projection, direction);
+  if (projection.kind == kCylinder) return cylinder_place(projection, direction);
+  if (projection.kind == kPerspective) return perspective_place(projection, direction);
+  if (projection.kind == kFisheye || projection.kind == kFisheyeEquisolid) return fisheye_place(projection, direction);
+  return cube_place(projection.kind, direction);
+}
+
+#ifdef __cplusplus
+static_assert(sizeof(Projection) == 68);
+}  // namespace ods
+#endif
