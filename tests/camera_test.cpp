@@ -180,8 +180,9 @@ TEST(Camera, PoleMergesAreThoseOfOtherRenderers) {
     for (int i = 0; i < 9; i++) {
       EXPECT_NEAR(merge_factor(camera.top, glm::radians(at[i])), known.factor[i], 1e-4f) << known.name << ' ' << at[i];
       // Only the upper half merges.
-      EXPECT_FLOAT_EQ(eye_radius(camera, -glm::radians(at[i])), 0.0325f);
-      EXPECT_NEAR(eye_radius(camera, glm::radians(at[i])), 0.0325f * known.factor[i], 1e-5f);
+      EXPECT_FLOAT_EQ(0.5f * camera.ipd * merge_at(camera, vec3(0.0f), -glm::radians(at[i])), 0.0325f);
+      EXPECT_NEAR(0.5f * camera.ipd * merge_at(camera, vec3(0.0f), glm::radians(at[i])), 0.0325f * known.factor[i],
+                  1e-5f);
     }
   }
 }

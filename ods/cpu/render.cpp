@@ -51,15 +51,19 @@ struct Pixel {
   }
 }
 
+vec2 pixel_center(const Job& job, int x, int y) {
+  return {(static_cast<float>(x) + 0.5f) / static_cast<float>(job.options.width),
+          (static_cast<float>(y) + 0.5f) / static_cast<float>(job.options.height)};
+}
+
 // Depths are not averaged: they belong to the ray through the pixel's centre.
 float center_depth(Job& job, int eye, int x, int y, uint seed) {
-  const int width = job.options.width, height = width / 2;
-  const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+  const Ray ray = camera_ray(job.camera, eye, pixel_center(job, x, y));
+  if (ray.direction == vec3(0.0f)) return kFarDepth;
   PathSettings first_hit_only = job.settings;
   first_hit_only.bounces = 0;
   PathTracer& tracer = job.tracer;
-  tracer.start_path(camera_ray(job.camera, eye, uv), job.media, seed, 0u);
+  tracer.start_path(ray, job.media, seed, 0u);
   while (tracer.path.alive) {
     tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
   }
@@ -68,15 +72,18 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
 }
 
 Pixel render_pixel(Job& job, int eye, int x, int y) {
-  const int width = job.options.width, height = width / 2;
+  const int width = job.options.width, height = job.options.height;
   const uint seed = hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), static_cast<uint>(y * width + x));
   const PathState& path = job.tracer.path;
+  const vec2 home = pixel_center(job, x, y);
   Pixel pixel;
   for (int i = 0; i < job.options.samples; i++) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
     const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
-    job.tracer.start_path(camera_ray(job.camera, eye, uv), job.media, seed, index);
+    const Ray ray = camera_ray(job.camera, eye, home, uv, random_pair(seed, index, kLensPair));
+    if (ray.direction == vec3(0.0f)) return {};
+    job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
     pixel.radiance += path.radiance;
     pixel.normal += path.normal;
@@ -160,11 +167,13 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
 
 }  // namespace
 
-Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& options, const Progress& progress) {
-  assert(options.width > 0 && options.width % 2 == 0 && options.samples > 0 && options.bounces >= 0);
+Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& wanted, const Progress& progress) {
+  RenderOptions options = wanted;
+  if (options.height == 0) options.height = natural_height(rig.projection, options.width);
+  assert(options.width > 0 && options.height >= 0 && options.samples > 0 && options.bounces >= 0);
   Picture picture;
   for (int eye : eyes_of(options.eyes)) {
-    const int w = options.width, h = options.width / 2;
+    const int w = options.width, h = options.height;
     picture.eyes.push_back({eye, Image(w, h, 3), Image(w, h, 1), Image(w, h, 3), Image(w, h, 3)});
   }
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);

@@ -68,8 +68,9 @@ const float kRouletteThreshold = 0.25f;
 // several lamps reaches equal noise in four fifths of the time that one takes; deeper surfaces gain nothing by it.
 const int kLightCandidates = 3;
 
-// Number pairs of a path: 0 places the sample in its pixel, then these for each bounce.
+// Number pairs of a path: 0 places the sample in its pixel, one places it on the lens, then these for each bounce.
 const uint kPixelPair = 0u;
+const uint kLensPair = 0xffffffffu;
 const uint kScatterPair = 1u;  // lobe, roulette
 const uint kDirectionPair = 2u;
 const uint kCandidatePair = 3u;  // which candidate, free

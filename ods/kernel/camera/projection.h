@@ -43,7 +43,7 @@ struct Look {
   bool seen;        // false: the picture is empty there
 };
 
-struct Place {
+struct ImagePlace {
   vec2 uv;
   bool seen;  // false: the direction is not in the picture
 };
@@ -90,9 +90,9 @@ inline Look lat_long_look(Projection projection, vec2 uv) {
                         projection.center.y + (0.5f - uv.y) * projection.span.y);
 }
 
-inline Place lat_long_place(Projection projection, vec3 direction) {
+inline ImagePlace lat_long_place(Projection projection, vec3 direction) {
   float phi = atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z));
-  Place place;
+  ImagePlace place;
   place.uv = vec2(place_heading(projection, direction), 0.5f - (phi - projection.center.y) / projection.span.y);
   place.seen = inside_picture(place.uv);
   return place;
@@ -103,10 +103,10 @@ inline Look cylinder_look(Projection projection, vec2 uv) {
                         atan(projection.center.y + (0.5f - uv.y) * projection.span.y));
 }
 
-inline Place cylinder_place(Projection projection, vec3 direction) {
+inline ImagePlace cylinder_place(Projection projection, vec3 direction) {
   float level = sqrt(direction.x * direction.x + direction.z * direction.z);
   float slope = direction.y / max(level, 1e-30f);
-  Place place;
+  ImagePlace place;
   place.uv = vec2(place_heading(projection, direction), 0.5f - (slope - projection.center.y) / projection.span.y);
   place.seen = inside_picture(place.uv);
   return place;
@@ -132,14 +132,14 @@ inline Look fisheye_look(Projection projection, vec2 home, vec2 uv) {
   return look;
 }
 
-inline Place fisheye_place(Projection projection, vec3 direction) {
+inline ImagePlace fisheye_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
   float angle = atan(out_of_axis, -p.z);
   float r = 2.0f * angle / projection.angle;
   if (projection.kind == kFisheyeEquisolid) r = sin(0.5f * angle) / sin(0.25f * projection.angle);
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
-  Place place;
+  ImagePlace place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
   place.seen = r <= 1.0f;
   return place;
@@ -150,10 +150,10 @@ inline Look perspective_look(Projection projection, vec2 uv) {
   return look_along(from_lens(projection, vec3(p.x, p.y, -1.0f)));
 }
 
-inline Place perspective_place(Projection projection, vec3 direction) {
+inline ImagePlace perspective_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float ahead = max(-p.z, 1e-30f);
-  Place place;
+  ImagePlace place;
   place.uv =
       vec2(0.5f + 0.5f * p.x / (ahead * projection.half_size.x), 0.5f - 0.5f * p.y / (ahead * projection.half_size.y));
   place.seen = p.z < 0.0f && inside_picture(place.uv);
@@ -224,7 +224,7 @@ inline Look cube_look(int kind, vec2 home, vec2 uv) {
   return look_along(face.middle + face.right * s + face.top * t);
 }
 
-inline Place cube_place(int kind, vec3 direction) {
+inline ImagePlace cube_place(int kind, vec3 direction) {
   int columns = cube_columns(kind);
   int best = 0;
   for (int cell = 1; cell < 6; cell++) {
@@ -238,7 +238,7 @@ inline Place cube_place(int kind, vec3 direction) {
     s = atan(s) * (4.0f / kPi);
     t = atan(t) * (4.0f / kPi);
   }
-  Place place;
+  ImagePlace place;
   place.uv = vec2((float(best % columns) + 0.5f + 0.5f * s) / float(columns),
                   (float(best / columns) + 0.5f - 0.5f * t) / float(6 / columns));
   place.seen = true;
@@ -256,7 +256,7 @@ inline Look look_of(Projection projection, vec2 home, vec2 uv) {
 }
 
 // Where a direction (any length but 0) lies in the picture.
-inline Place place_of(Projection projection, vec3 direction) {
+inline ImagePlace place_of(Projection projection, vec3 direction) {
   if (projection.kind == kLatLong) return lat_long_place(projection, direction);
   if (projection.kind == kCylinder) return cylinder_place(projection, direction);
   if (projection.kind == kPerspective) return perspective_place(projection, direction);
