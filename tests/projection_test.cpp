@@ -195,7 +195,6 @@ TEST(Projections, HaveNames) {
     EXPECT_EQ(find_projection(named.name), &named);
     EXPECT_EQ(projection_name(named.setting), named.name);
     EXPECT_EQ(projection_fault(named.setting), "");
-              0);
   }
   EXPECT_EQ(find_projection("mercator"), nullptr);
   for (int kind = 0; kind < kProjectionCount; kind++) {
