@@ -80,8 +80,8 @@ CameraRig like_clodo(float ipd, float modulation, float handedness, float angle)
   if (std::abs(handedness) != 1.0f) throw std::invalid_argument("povray: the handedness is -1 or 1");
   CameraRig rig =
       plain(ipd, modulation > 0.0f ? merge_from(kMergeCosine, 0.0f, 90.0f, modulation) : PoleMergeSetting());
-  rig.yaw = angle;
   rig.mirrored = handedness > 0.0f;
+  rig.yaw = rig.mirrored ? -angle : angle;  // clockwise in the mirror
   return rig;
 }
 
