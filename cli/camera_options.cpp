@@ -7,33 +7,13 @@
 #include <algorithm>
 
 #include "cli/console.h"
+#include "cli/eye_options.h"
+#include "cli/projection_options.h"
 #include "ods/base/suggest.h"
 
-using ods::CameraRig, ods::PoleMergeSetting, ods::Scene, ods::vec3, ods::ViewPoint;
+using ods::CameraRig, ods::Scene, ods::vec3, ods::ViewPoint;
 
 namespace {
-
-// MODE[,START[,END[,EXPONENT]]]
-PoleMergeSetting parse_merge(const std::string& name, const std::string& word) {
-  PoleMergeSetting merge;
-  size_t comma = std::min(word.find(','), word.size());
-  auto mode = ods::merge_of(word.substr(0, comma));
-  std::vector<float> numbers;
-  if (comma < word.size()) numbers = parse_numbers(word.substr(comma + 1));
-  if (numbers.size() > 0) merge.start = numbers[0];
-  if (numbers.size() > 1) merge.end = numbers[1];
-  if (numbers.size() > 2) merge.exponent = numbers[2];
-  bool legal = mode && numbers.size() <= 3 && numbers.empty() == (comma == word.size()) && merge.start >= 0.0f &&
-               merge.start < merge.end && merge.end <= 90.0f && merge.exponent > 0.0f && merge.exponent <= 100.0f;
-  if (!legal) {
-    throw UsageError(
-        fmt::format("{} is none, linear, cosine or smoothstep, then ,START,END in degrees (0 <= START < "
-                    "END <= 90) and ,EXP (above 0, at most 100), not '{}'",
-                    name, word));
-  }
-  merge.mode = *mode;
-  return merge;
-}
 
 vec3 parse_position(const std::string& word) {
   std::vector<float> numbers = parse_numbers(word);
@@ -66,22 +46,13 @@ void add_place_options(Options& options, CameraOptions& camera) {
 }
 
 void add_camera_options(Options& options, CameraOptions& camera) {
-  CameraRig& rig = camera.rig;
   add_place_options(options, camera);
   options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right; at 0 the middle looks along -Z");
   options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; tilts the horizon");
   options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; tilts the horizon");
-  options.number("--ipd", rig.ipd, 0.0f, 1e4f, "distance between the eyes, metres");
-  auto set_both = [&](const std::string& word) { rig.top = rig.bottom = parse_merge("--merge", word); };
-  auto set_top = [&](const std::string& word) { rig.top = parse_merge("--merge-top", word); };
-  auto set_bottom = [&](const std::string& word) { rig.bottom = parse_merge("--merge-bottom", word); };
-  const char* merge_unit = "MODE[,START[,END[,EXP]]]";
-  options.custom(
-      "--merge", merge_unit, "none,60,90,1", set_both,
-      "bring the eyes together towards the poles: none, linear, cosine or smoothstep; from START to END degrees "
-      "of elevation; the curve raised to the power EXP");
-  options.custom("--merge-top", merge_unit, "", set_top, "above only");
-  options.custom("--merge-bottom", merge_unit, "", set_bottom, "below only");
+  add_dialect_option(options, camera);
+  add_eye_options(options, camera);
+  add_projection_options(options, camera.rig.projection);
 }
 
 CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {

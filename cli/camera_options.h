@@ -11,7 +11,9 @@
 #include "ods/scene/scene.h"
 
 struct CameraOptions {
-  ods::CameraRig rig;  // what holds for every scene: the distance between the eyes, the pole merges
+  ods::CameraRig rig;  // what holds for every scene
+  std::string merge_map;
+  bool merge_map_inverted = false;
   std::string view_point;
   std::optional<ods::vec3> position;
   std::optional<float> yaw;
@@ -19,9 +21,12 @@ struct CameraOptions {
   std::optional<float> roll;
 };
 
-// --camera and --position alone, and all of them.
+// --camera and --position alone, the rest of where it stands, and how it sees. In this order.
 void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);
+
+// Looks at what was given as a whole, and reads the merge map. Throws UsageError and ods::Error.
+void finish_camera_options(CameraOptions& camera);
 
 // The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or
 // above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.

@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options that say how the eyes stand: after another system, their distance, merges, convergence, lens.
+#pragma once
+#include "cli/camera_options.h"
+
+void add_dialect_option(Options& options, CameraOptions& camera);
+void add_eye_options(Options& options, CameraOptions& camera);

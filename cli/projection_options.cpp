@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/projection_options.h"
+
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "ods/base/suggest.h"
+
+using ods::NamedProjection, ods::ProjectionSetting, ods::vec2;
+
+namespace {
+
+struct Face {
+  std::string_view name;
+  float pan;
+  float tilt;
+};
+constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"back", 180.0f, 0.0f},
+                           {"left", -90.0f, 0.0f}, {"up", 0.0f, 90.0f},    {"down", 0.0f, -90.0f}};
+
+void parse_projection(const std::string& name, ProjectionSetting& projection) {
+  const NamedProjection* named = ods::find_projection(name);
+  if (!named) {
+    std::vector<std::string> names;
+    for (const NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
+    throw UsageError(fmt::format("--projection is one of {}, not '{}'{}", fmt::join(names, ", "), name,
+                                 ods::did_you_mean(name, names)));
+  }
+  projection = named->setting;
+}
+
+// LON0,LON1[,LAT0,LAT1]
+void parse_range(const std::string& text, ProjectionSetting& projection) {
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != 2 && numbers.size() != 4) {
+    throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));
+  }
+  projection.longitude = vec2(numbers[0], numbers[1]);
+  if (numbers.size() == 4) projection.latitude = vec2(numbers[2], numbers[3]);
+}
+
+void parse_look(const std::string& text, ProjectionSetting& projection) {
+  const std::vector<float> numbers = parse_numbers(text);
+  const bool legal = numbers.size() == 2 && std::abs(numbers[0]) <= 36000.0f && std::abs(numbers[1]) <= 90.0f;
+  if (!legal) throw UsageError(fmt::format("--look is PAN,TILT in degrees, tilt within 90, not '{}'", text));
+  projection.pan = numbers[0], projection.tilt = numbers[1];
+}
+
+void parse_face(const std::string& name, ProjectionSetting& projection) {
+  for (const Face& face : kFaces) {
+    if (face.name != name) continue;
+    projection = ods::find_projection("perspective")->setting;
+    projection.pan = face.pan, projection.tilt = face.tilt;
+    return;
+  }
+  throw UsageError(fmt::format("--face is front, right, back, left, up or down, not '{}'", name));
+}
+
+}  // namespace
+
+void add_projection_options(Options& options, ProjectionSetting& projection) {
+  options.group("Projection");
+  std::string names;
+  for (const NamedProjection& each : ods::named_projections()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
+  }
+  options.custom(
+      "--projection", "NAME", "lat-long", [&](const std::string& text) { parse_projection(text, projection); },
+      "of each eye's picture: " + names);
+  options.custom(
+      "--face", "NAME", "", [&](const std::string& text) { parse_face(text, projection); },
+      "a single face of a cube: front, right, back, left, up or down");
+  options.custom(
+      "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },
+      "the part that a lat-long or a cylinder shows, degrees");
+  options.number("--fov", projection.fov, 1.0f, 360.0f, "of a fisheye or a window, degrees");
+  options.custom(
+      "--look", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
+      "where a fisheye or a window points, degrees right and up; the eyes stay level");
+}
+
+void check_projection(const ProjectionSetting& projection) {
+  const std::string fault = ods::projection_fault(projection);
+  if (!fault.empty()) throw UsageError(fault);
+}

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options that say which projection a picture has. Shared by the commands that make or read one.
+#pragma once
+#include "cli/options.h"
+#include "ods/image/projection.h"
+
+void add_projection_options(Options& options, ods::ProjectionSetting& projection);
+
+// Throws UsageError where the numbers do not fit together.
+void check_projection(const ods::ProjectionSetting& projection);
