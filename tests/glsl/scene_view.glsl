@@ -33,6 +33,10 @@ struct View {
   EnvironmentRows environment_rows;
   Tables tables;
 };
+// The map of a camera that has one.
+layout(binding = 3, scalar) readonly buffer MergeMap { float merge_map[]; };
+float merge_map_texel(Camera camera, int i) { return merge_map[i]; }
+
 layout(binding = 2, scalar) uniform ViewBuffer { View view; };
 
 Vertex scene_vertex(uint i) { return view.vertices.at[i]; }

@@ -44,8 +44,8 @@ inline Meeting meet(Camera camera, float r, float n, float rho, float y, float p
   }
   float c = camera.convergence_distance;
   float square = r * r + c * c;
-  float half = r * r - n * c * cos(phi);
-  float s = (half + sqrt(max(half * half - square * (r * r + n * n - rho * rho - y * y), 0.0f))) / square;
+  float middle = r * r - n * c * cos(phi);
+  float s = (middle + sqrt(max(middle * middle - square * (r * r + n * n - rho * rho - y * y), 0.0f))) / square;
   meeting.across = r * (1.0f - s);
   meeting.along = sqrt(max(rho * rho - meeting.across * meeting.across, 0.0f));
   meeting.below = y - s * c * sin(phi);
