@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "cli/console.h"
 #include "ods/base/suggest.h"
 #include "ods/image/dialect.h"
 #include "ods/image/image_file.h"
