@@ -75,13 +75,6 @@ std::span<const NamedSize> named_sizes() {
   return kSizes;
 }
 
-const NamedSize* find_size(std::string_view name) {
-  for (const NamedSize& size : kSizes) {
-    if (size.name == name) return &size;
-  }
-  return nullptr;
-}
-
 Extent file_size(const NamedSize& size) {
   return size.layout ? packed_size(*size.layout, size.eye, 2) : size.eye;
 }

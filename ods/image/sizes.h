@@ -24,9 +24,6 @@ struct NamedSize {
 
 std::span<const NamedSize> named_sizes();
 
-// Nothing when there is none of this name.
-const NamedSize* find_size(std::string_view name);
-
 // The size of the file that holds the eyes.
 Extent file_size(const NamedSize& size);
 
