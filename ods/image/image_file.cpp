@@ -129,6 +129,46 @@ Image read_image(const std::string& path) {
   return image;
 }
 
+FileInfo read_info(const std::string& path) {
+  const std::vector<unsigned char> file = read_file(path);
+  const Reader reader = open_reader(std::as_bytes(std::span(file)), path);
+  FileInfo info;
+  info.width = reader.spec.width;
+  info.height = reader.spec.height;
+  info.is_float = reader.spec.format.is_floating_point();
+  info.channels = reader.spec.channelnames;
+  for (const OIIO::ParamValue& attribute : reader.spec.extra_attribs) {
+    if (attribute.type() == OIIO::TypeString) info.text[attribute.name().string()] = attribute.get_string();
+  }
+  return info;
+}
+
+Image read_channels(const std::string& path, const std::vector<std::string>& names) {
+  const std::vector<unsigned char> file = read_file(path);
+  Reader reader = open_reader(std::as_bytes(std::span(file)), path);
+  std::vector<int> indices;
+  for (const std::string& name : names) {
+    indices.push_back(reader.spec.channelindex(name));
+    if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
+  }
+  // Files are compressed all channels together, so what lies between comes along.
+  const auto [first, last] = std::minmax_element(indices.begin(), indices.end());
+  Image span(reader.spec.width, reader.spec.height, *last - *first + 1);
+  if (!reader.input->read_image(0, 0, *first, *last + 1, OIIO::TypeDesc::FLOAT, span.pixels.data())) {
+    throw cannot_read(path, one_line(reader.input->geterror()));
+  }
+  Image image(span.width, span.height, static_cast<int>(names.size()));
+  for (int y = 0; y < image.height; y++) {
+    for (int x = 0; x < image.width; x++) {
+      for (size_t c = 0; c < indices.size(); c++) image.at(x, y)[c] = span.at(x, y)[indices[c] - *first];
+    }
+  }
+  if (!reader.spec.format.is_floating_point()) {
+    for (float& value : image.pixels) value = srgb_decode(value);
+  }
+  return image;
+}
+
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name) {
   Reader reader = open_reader(file, name);
   const int count = std::min(reader.spec.nchannels, 4);
