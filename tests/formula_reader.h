@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads the text of an exported camera and computes what it says. Knows nothing of how the text came about.
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ods {
+
+struct TextNode;
+
+// A camera as a text: numbers and formulas by name, and a ray at every image position.
+class TextCamera {
+ public:
+  // POV-Ray: #declare NAME = NUMBER; #declare NAME = function(x, y) { ... } camera { user_defined location { function
+  // { ... } x 3 } direction { ... } }. Throws std::runtime_error where the text is anything else.
+  static TextCamera from_povray(const std::string& text);
+
+  // Lines of a shading language: float NAME = ...; location = TYPE(..., ..., ...); what else there is, is passed over.
+  static TextCamera from_shader(const std::string& text);
+
+  std::array<double, 3> location(double x, double y) const { return vector(location_, x, y); }
+  std::array<double, 3> direction(double x, double y) const { return vector(direction_, x, y); }
+  void set(const std::string& name, double value);  // of a number that the text declares
+
+ private:
+  using Node = std::shared_ptr<const TextNode>;
+  using Values = std::map<std::string, double>;
+  double value(const TextNode& node, double x, double y, Values& known) const;
+  std::array<double, 3> vector(const std::vector<Node>& parts, double x, double y) const;
+
+  std::map<std::string, Node> names_;
+  std::vector<Node> location_;
+  std::vector<Node> direction_;
+};
+
+}  // namespace ods
