@@ -36,23 +36,37 @@ const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-void add_place_options(Options& options, CameraOptions& camera) {
-  options.group("Camera");
-  options.text("--camera", "NAME", camera.view_point,
-               "a camera of the file (ods info lists them); its first by default");
+static void add_position_option(Options& options, CameraOptions& camera) {
   options.custom(
       "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_position(word); },
       "metres, +Y up; eyes stand left and right of it");
 }
 
-void add_camera_options(Options& options, CameraOptions& camera) {
-  add_place_options(options, camera);
+static void add_attitude_options(Options& options, CameraOptions& camera) {
   options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right; at 0 the middle looks along -Z");
   options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; tilts the horizon");
   options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; tilts the horizon");
   add_dialect_option(options, camera);
   add_eye_options(options, camera);
   add_projection_options(options, camera.rig.projection);
+}
+
+void add_place_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  options.text("--camera", "NAME", camera.view_point,
+               "a camera of the file (ods info lists them); its first by default");
+  add_position_option(options, camera);
+}
+
+void add_camera_options(Options& options, CameraOptions& camera) {
+  add_place_options(options, camera);
+  add_attitude_options(options, camera);
+}
+
+void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  add_position_option(options, camera);
+  add_attitude_options(options, camera);
 }
 
 CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {

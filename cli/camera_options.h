@@ -24,6 +24,8 @@ struct CameraOptions {
 // --camera and --position alone, the rest of where it stands, and how it sees. In this order.
 void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);
+// The same without --camera, where there is no scene that could have one.
+void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
 // Looks at what was given as a whole, and reads the merge map. Throws UsageError and ods::Error.
 void finish_camera_options(CameraOptions& camera);

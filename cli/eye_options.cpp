@@ -177,7 +177,8 @@ static void read_merge_map(CameraOptions& camera) {
 void finish_camera_options(CameraOptions& camera) {
   CameraRig& rig = camera.rig;
   const bool wanted = rig.top.mode == ods::kMergeMap || rig.bottom.mode == ods::kMergeMap;
-  if (camera.merge_map.empty() && wanted) throw UsageError("--merge map needs a picture: --merge-map FILE");
+  if (camera.merge_map.empty() && wanted && !rig.merge_map)
+    throw UsageError("--merge map needs a picture: --merge-map FILE");
   if (!camera.merge_map.empty()) {
     if (!wanted) rig.top.mode = rig.bottom.mode = ods::kMergeMap;
     read_merge_map(camera);

@@ -28,6 +28,8 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "make a stereo 360 picture of a scene", "ods_render"},
     {"info", "tell what is in a scene", "ods_info"},
+    {"camera", "say a camera in the words of another renderer", "ods_camera"},
+    {"project", "tell where world points fall in each eye", "ods_project"},
     {"compare", "measure how far one picture is from another", "ods_compare"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
     {"sizes", "list the sizes that have names", "ods_sizes"},

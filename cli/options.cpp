@@ -94,6 +94,12 @@ void Options::optional_argument(const std::string& name, std::string& value, con
   explain(name, "", text);
 }
 
+void Options::arguments(const std::string& name, std::vector<std::string>& values, const std::string& text) {
+  app_->add_option("words", values);
+  usage_ += fmt::format(" [{}]", name);
+  explain(name, "", text);
+}
+
 void Options::flag(const std::string& name, bool& value, const std::string& text) {
   app_->add_flag(name, value);
   explain(name, "", text);

@@ -29,6 +29,7 @@ class Options {
   // Words that are no options, in their order.
   void argument(const std::string& name, std::string& value, const std::string& text);
   void optional_argument(const std::string& name, std::string& value, const std::string& text);
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
   void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
   void number(const std::string& name, int& value, int low, int high, const std::string& text);

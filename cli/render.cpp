@@ -52,6 +52,7 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.number("--width", job.render.width, 2, 32768, "of one eye in pixels, even; its height is half");
   options.choice("--eyes", job.render.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
   add_layout_option(options, job.save.layout, "how two eyes share the file");
+  options.flag("--sidecar", job.save.sidecar, "write picture.camera.json too, which ods camera reads");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
 }

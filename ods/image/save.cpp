@@ -12,6 +12,7 @@
 #include "ods/base/atomic_file.h"
 #include "ods/base/error.h"
 #include "ods/image/anaglyph.h"
+#include "ods/image/camera_file.h"
 #include "ods/image/image_file.h"
 
 namespace ods {
@@ -345,6 +346,11 @@ static std::vector<std::string> save_all(const Picture& picture, const CameraRig
     for (const EyeImage* eye : eyes) write(path_for_eye(path, eye->eye), {eye});
   } else {
     write(path, eyes);
+  }
+  if (options.sidecar && rig) {
+    names.push_back(sidecar_path(path));
+    const std::string text = write_camera({*rig, size_of(picture.eyes[0]), layout, which});
+    std::fwrite(text.data(), 1, text.size(), files.emplace_back(names.back()).stream());
   }
   commit_all(files);
   return names;

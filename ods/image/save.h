@@ -33,6 +33,7 @@ struct SaveOptions {
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;  // of jpg and webp, 1..100
+  bool sidecar = false;   // picture.camera.json too (ods/image/camera_file.h)
 };
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a
@@ -40,7 +41,8 @@ struct SaveOptions {
 // for the format. `eyes` as in EyeImage, `width` of one eye. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width);
 
-// Writes one file, or one per eye; all of them complete, or none. Creates missing folders. Returns the names written.
+// Writes one file, or one per eye, and the sidecar behind them; all of them complete, or none. Creates missing folders.
+// Returns the names written.
 // Layers that are empty are left out. Throws Error(kOutput). Precondition: one eye or two, all of one size, with light.
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path);

@@ -158,7 +158,7 @@ CameraExport to_osl(const CameraFile& file) {
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Resolution {} x {}.\n", size.width, size.height);
   text += fmt::format("// Place the camera object: position {:.6g}, {:.6g}, {:.6g} (x, -z, y of ours), {}.\n",
-                      file.rig.position.x, -file.rig.position.z, file.rig.position.y, yaw_pitch_roll(file.rig));
+                      file.rig.position.x, 0.0f - file.rig.position.z, file.rig.position.y, yaw_pitch_roll(file.rig));
   text += eye_hint(file, formula, "//", "eye");
   text += "#include \"stdcycles.h\"\n\nshader ods_camera(\n";
   for (const NamedFormula& parameter : formula.parameters) {

@@ -39,7 +39,7 @@ std::string json_numbers(glm::dvec3 v) {
 std::string json_strings(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
-  return "[" + text + "]";
+  return fmt::format("[{}]", text);
 }
 
 void warn_of_projection(const CameraFile& file, std::string_view system, std::vector<std::string>& warnings) {

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods camera: the same camera in the words of another renderer.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/camera_source.h"
+#include "cli/console.h"
+#include "ods/base/atomic_file.h"
+#include "ods/image/camera_export.h"
+
+using ods::CameraTarget;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods camera --for povray --ipd 0.064 --merge cosine,0,90,0.2 --position 0,1.6,0 > camera.inc\n"
+    "  ods camera --for blender --from picture.camera.json -o match.py\n"
+    "  ods camera --for json --like arnold -o arnold.camera.json";
+
+void camera(int argc, char** argv) {
+  CameraSource source;
+  CameraTarget target = CameraTarget::kNumbers;
+  std::string output;
+  Options options("camera", "Says a camera in the words of another renderer; what that cannot do is a comment there.",
+                  kExamples);
+  options.group("Output");
+  options.choice("--for", target, ods::kCameraTargets, ods::camera_target_name, "whose words");
+  options.text("-o,--output", "FILE", output, "where to; the terminal by default");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  add_camera_source(options, source);
+  if (!options.parse(argc, argv)) return;
+  const ods::CameraExport result = ods::export_camera(read_camera_source(source), target);
+  if (!result.refusal.empty()) {
+    throw UsageError(fmt::format("--for {}: {}", ods::camera_target_name(target), result.refusal));
+  }
+  for (const std::string& warning : result.warnings) note("not as asked: " + warning);
+  if (output.empty()) {
+    std::fwrite(result.text.data(), 1, result.text.size(), stdout);
+    return;
+  }
+  ods::AtomicFile file(output);
+  std::fwrite(result.text.data(), 1, result.text.size(), file.stream());
+  file.commit();
+  std::puts(output.c_str());
+}
+
+}  // namespace
+
+extern "C" int ods_camera(int argc, char** argv) {
+  return run_command([=] { camera(argc, argv); });
+}

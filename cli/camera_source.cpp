@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/camera_source.h"
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "cli/projection_options.h"
+
+using ods::CameraFile, ods::Eyes;
+
+namespace {
+
+void load(const std::string& path, CameraSource& source) {
+  std::vector<std::string> warnings;
+  source.file = ods::load_camera(path, warnings);
+  for (const std::string& warning : warnings) note(warning);
+  CameraOptions& camera = source.camera;
+  camera.rig = source.file.rig;
+  camera.position = camera.rig.position;
+  camera.yaw = camera.rig.yaw, camera.pitch = camera.rig.pitch, camera.roll = camera.rig.roll;
+  if (source.file.eye.width > 0) source.width = source.file.eye.width;
+  for (const Eyes eyes : ods::kAllEyes) {
+    if (ods::eyes_of(eyes) == source.file.eyes) source.eyes = eyes;
+  }
+}
+
+}  // namespace
+
+void add_camera_source(Options& options, CameraSource& source) {
+  options.group("Picture");
+  options.custom(
+      "--from", "FILE", "", [&](const std::string& path) { load(path, source); },
+      "a camera sidecar (ods render --sidecar); the options below change what it says");
+  options.number("--width", source.width, 2, 32768, "of one eye in pixels");
+  options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
+  add_layout_option(options, source.file.layout, "how two eyes share the file");
+  add_sceneless_camera_options(options, source.camera);
+}
+
+CameraFile read_camera_source(CameraSource& source) {
+  const CameraOptions& camera = source.camera;
+  check_projection(camera.rig.projection);
+  finish_camera_options(source.camera);
+  CameraFile file = source.file;
+  file.rig = camera.rig;
+  file.rig.position = camera.position.value_or(ods::vec3(0.0f));
+  file.rig.yaw = camera.yaw.value_or(0.0f);
+  file.rig.pitch = camera.pitch.value_or(0.0f);
+  file.rig.roll = camera.roll.value_or(0.0f);
+  file.eyes = ods::eyes_of(source.eyes);
+  // A sidecar's own height stays where its width does.
+  if (source.width != file.eye.width) {
+    file.eye = {source.width, ods::natural_height(file.rig.projection, source.width)};
+  }
+  return file;
+}

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of a camera without a scene: from a sidecar, or as ods render takes them.
+#pragma once
+#include "cli/camera_options.h"
+#include "ods/image/camera_file.h"
+#include "ods/scene/render_options.h"
+
+struct CameraSource {
+  CameraOptions camera;
+  ods::CameraFile file;
+  int width = 2048;  // of one eye
+  ods::Eyes eyes = ods::Eyes::kBothEyes;
+};
+
+// --from goes first: the options after it change what it says.
+void add_camera_source(Options& options, CameraSource& source);
+
+// What was asked for, once the options are parsed. Throws UsageError and ods::Error.
+ods::CameraFile read_camera_source(CameraSource& source);
