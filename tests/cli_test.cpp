@@ -128,8 +128,8 @@ class Cli : public ::testing::Test {
 };
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words :
-       {"--help", "-h", "help", "render --help", "info --help", "compare --help", "sizes --help", "scenes --help"}) {
+  for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
+                            "compare --help", "sizes --help", "scenes --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
@@ -404,6 +404,52 @@ TEST_F(Cli, WhatIsPrintedToAClosedStreamDoesNotEndInThePicture) {
   const std::string command = std::string(ODS_COMMAND) + " " + render() + " <&- >&- 2>&-";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
   EXPECT_EQ(folder.read("picture.png"), picture);
+}
+
+TEST_F(Cli, ASidecarStandsBesideItsPictureAndIsReadBack) {
+  EXPECT_EQ(run(render("--sidecar --position 0,0,0.1 --yaw 30 --merge cosine,60,75")), 0) << err;
+  EXPECT_EQ(out, folder.path("picture.png") + "\n" + folder.path("picture.camera.json") + "\n");
+  EXPECT_EQ(run("camera --for blender -q --from " + folder.path("picture.camera.json")), 0) << err;
+  EXPECT_NE(out.find("pole_merge_angle_to = radians(75)"), std::string::npos) << out;
+  EXPECT_NE(out.find("resolution_x = 16\n"), std::string::npos) << out;
+  EXPECT_EQ(run("camera --for json --yaw 40 --from " + folder.path("picture.camera.json")), 0) << err;
+  EXPECT_NE(out.find("\"yaw\": 40.0"), std::string::npos) << "what is given goes before what the file says" << out;
+}
+
+TEST_F(Cli, CamerasAreExportedOrRefusedInALine) {
+  EXPECT_EQ(run("camera --for povray -o " + folder.path("camera.inc")), 0) << err;
+  EXPECT_NE(folder.read("camera.inc").find("user_defined"), std::string::npos);
+  EXPECT_EQ(out, folder.path("camera.inc") + "\n");
+  EXPECT_EQ(run("camera --for unity --neck 0.1"), 0);
+  EXPECT_NE(err.find("not as asked"), std::string::npos) << err;
+  EXPECT_NE(out.find("// Not as asked: Unity has no eye-to-neck"), std::string::npos) << out;
+  folder.write("new.json", "{\"omnistereo_camera\": 7}");
+  EXPECT_EQ(run("camera --for json --from " + folder.path("new.json")), 3);
+  EXPECT_NE(err.find("newer ods"), std::string::npos) << err;
+  std::filesystem::remove(folder.path("new.json"));
+  std::filesystem::remove(folder.path("camera.inc"));
+  EXPECT_EQ(run("camera --for povray-fork --pitch 5"), 2);
+  expect_one_error();
+}
+
+TEST_F(Cli, PointsAreProjectedAndComeBack) {
+  EXPECT_EQ(run("project 0,0,-0.65 0.01,0,0 --width 4096"), 0) << err;
+  // 0.65 m ahead: asin(1/20) of a turn to the right in the left eye.
+  EXPECT_NE(out.find("0,0,-0.65  left   pixel 2080.609 1024.000"), std::string::npos) << out;
+  EXPECT_NE(out.find("0.01,0,0  right  not seen"), std::string::npos) << out;
+  EXPECT_EQ(run("project --width 4096 --from-pixel left,2080.6087,1024,0.64918698"), 0) << err;
+  float x = 1, y = 1, z = 1;
+  ASSERT_EQ(std::sscanf(out.c_str(), "%f,%f,%f", &x, &y, &z), 3) << out;
+  EXPECT_NEAR(x, 0.0f, 1e-6f);
+  EXPECT_NEAR(y, 0.0f, 1e-6f);
+  EXPECT_NEAR(z, -0.65f, 1e-6f);
+  EXPECT_EQ(run("project -1,-2,-3 --json"), 0) << err;
+  EXPECT_TRUE(out.starts_with("{\"point\":[-1.0,-2.0,-3.0],\"left\":{\"seen\":true,")) << out;
+  for (const char* words : {"project 1,2", "project nan,0,0", "project --from-pixel left,1,2",
+                            "project --from-pixel left,99999,2,1", "project --from-pixel up,1,2,3"}) {
+    EXPECT_EQ(run(words), 2) << words;
+    expect_one_error();
+  }
 }
 
 }  // namespace
