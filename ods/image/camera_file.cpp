@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/atomic_file.h"
+#include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
 #include "ods/base/suggest.h"
@@ -25,14 +25,6 @@ constexpr int64_t kLargestMap = 1 << 24;      // texels
 constexpr size_t kLargestFile = 512u << 20u;  // bytes; what such a map may take
 
 // --- writing ---------------------------------------------------------------------------------------------------------
-
-// The shortest decimal that is this float: 0.065, not 0.06499999761581421.
-double decimal(float value) {
-  double result = 0.0;
-  const std::string text = fmt::format("{}", value);
-  std::from_chars(text.data(), text.data() + text.size(), result);
-  return result;
-}
 
 Json numbers(std::initializer_list<float> values) {
   Json json = Json::array();

@@ -5,22 +5,15 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <charconv>
 #include <cmath>
+
+#include "ods/base/decimal.h"
 
 namespace ods {
 namespace {
 
 const double kExactPi = std::acos(-1.0);
 using Vector = std::array<Formula, 3>;
-
-// The decimal that a person typed: 0.065, not 0.0649999976.
-double decimal(float value) {
-  double result = 0.0;
-  const std::string text = fmt::format("{}", value);
-  std::from_chars(text.data(), text.data() + text.size(), result);
-  return result;
-}
 
 double radians(float degrees) {
   return decimal(degrees) * kExactPi / 180.0;
@@ -61,9 +54,9 @@ class Writer {
  private:
   // What is only turned to the right needs no matrix.
   bool is_level() const {
-    const bool upright = !rig_.axis || *rig_.axis == vec3(0.0f, 1.0f, 0.0f);
-    if (view_.camera_frame) return !rig_.axis || (upright && rig_.pitch == 0.0f && rig_.roll == 0.0f);
-    return upright && rig_.pitch == 0.0f && rig_.roll == 0.0f;
+    const bool level = rig_.pitch == 0.0f && rig_.roll == 0.0f;
+    const bool upright = !rig_.axis || (level && *rig_.axis == vec3(0.0f, 1.0f, 0.0f));
+    return upright && (level || view_.camera_frame);
   }
 
   Formula parameter(const std::string& name, float value, const std::string& meaning) {
