@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ods/base/error.h"
 #include "tests/statistics.h"
 #include "tests/temporary_folder.h"
@@ -160,6 +162,32 @@ TEST(CameraFile, NonsenseIsAnErrorOfOneLine) {
                                   std::string(R"({"omnistereo_camera": 0})"), std::string("\xff\xfe{")}) {
     EXPECT_NE(error_of(text), "") << text.substr(0, 40);
   }
+}
+
+// Bytes changed at random: an error of one line, or a camera whose rays are numbers.
+TEST(CameraFile, BrokenBytesAreErrorsOrCameras) {
+  Dice dice(3);
+  int cameras = 0, errors = 0;
+  for (size_t i = 0; i < 4000; i++) {
+    std::string text = write_camera(random_file(dice, i));
+    for (int k = 0; k < 2; k++) {
+      const char* bytes = "0123456789-e.,[]{}\"ntf\xff";
+      text[static_cast<size_t>(dice.next() * static_cast<float>(text.size() - 1))] =
+          bytes[static_cast<size_t>(dice.next() * 24.0f)];
+    }
+    std::vector<std::string> warnings;
+    try {
+      const Camera camera = make_camera(read_camera(text, "file", warnings).rig);
+      const Ray ray = camera_ray(camera, kLeft, vec2(0.4f, 0.3f));
+      ASSERT_TRUE(std::isfinite(length(ray.origin)) && std::isfinite(length(ray.direction))) << text;
+      cameras++;
+    } catch (const Error& error) {
+      ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      errors++;
+    }
+  }
+  EXPECT_GT(cameras, 100);
+  EXPECT_GT(errors, 100);
 }
 
 TEST(CameraFile, StandsBesideItsPicture) {
