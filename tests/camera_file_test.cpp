@@ -177,8 +177,8 @@ TEST(CameraFile, BrokenBytesAreErrorsOrCameras) {
     }
     std::vector<std::string> warnings;
     try {
-      const Camera camera = make_camera(read_camera(text, "file", warnings).rig);
-      const Ray ray = camera_ray(camera, kLeft, vec2(0.4f, 0.3f));
+      const CameraFile file = read_camera(text, "file", warnings);
+      const Ray ray = camera_ray(make_camera(file.rig), kLeft, vec2(0.4f, 0.3f));
       ASSERT_TRUE(std::isfinite(length(ray.origin)) && std::isfinite(length(ray.direction))) << text;
       cameras++;
     } catch (const Error& error) {
