@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/camera/project.h"
@@ -341,6 +342,25 @@ TEST(SameBits, WhateverTheThreads) {
   EXPECT_EQ(digest(pictures[0]), digest(pictures[2]));
   options.seed = 1;
   EXPECT_NE(digest(pictures[0]), digest(render_cpu(scene, CameraRig{}, options)));
+}
+
+TEST(SameBits, WhoeverElseRenders) {
+  const Scene with_glass = feature_scene();
+  Scene without;
+  add_box(without, vec3(-1.0f), vec3(1.0f), add_material(without, matte(vec3(0.5f))));
+  RenderOptions options = small_render(32, 2);
+  options.threads = 2;
+  std::vector<std::thread> callers;
+  std::vector<uint64_t> seen(4);
+  for (size_t i = 0; i < seen.size(); i++) {
+    callers.emplace_back(
+        [&, i] { seen[i] = digest(render_cpu(i % 2 == 0 ? without : with_glass, CameraRig{}, options)); });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(seen[0], digest(render_cpu(without, CameraRig{}, options)));
+  EXPECT_EQ(seen[1], digest(render_cpu(with_glass, CameraRig{}, options)));
+  EXPECT_EQ(seen[0], seen[2]);
+  EXPECT_EQ(seen[1], seen[3]);
 }
 
 TEST(Embree, InstancesAreMetLikeCopies) {
