@@ -357,6 +357,15 @@ TEST(Gltf, EveryFactorOfAMaterial) {
   expect_near(material.attenuation_color, vec3(.5f, 1, 1));
 }
 
+TEST(Gltf, AScenesReachIsWarnedOf) {
+  GltfBuilder file = make_triangle();
+  file.json["nodes"][0]["translation"] = {0, 0, -2999};
+  EXPECT_TRUE(file.load().warnings.empty());
+  file.json["nodes"][0]["translation"] = {0, 0, -6000};
+  EXPECT_EQ(file.load().warnings.size(), 1u);
+  EXPECT_NE(file.load().warnings.at(0).find("6 km"), std::string::npos);
+}
+
 // KHR_materials_ior: 0 asks for a Fresnel term of 1.
 TEST(Gltf, IndexOfRefractionZeroIsAMirror) {
   GltfBuilder file = make_triangle();

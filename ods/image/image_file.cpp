@@ -288,8 +288,12 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   if (header.format != FileFormat::kTiff) output->set_ioproxy(&sink);
   const bool written = output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows);
   const bool closed = output->close();
-  // A full disk says so itself; what the format's library made of it is of no help.
+  // A full disk says so itself; what the format's library made of it is of no help. libtiff wrote through a stream of
+  // its own, so ours asks the disk for a little more.
   if (!written || !closed) {
+    fseeko(file.stream(), 0, SEEK_END);
+    const std::vector<char> more(1 << 20);
+    std::fwrite(more.data(), 1, more.size(), file.stream());
     file.finish();
     throw failed(output->geterror());
   }
