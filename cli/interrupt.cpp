@@ -18,8 +18,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 
 void on_signal(int number) {
   ods::remove_unfinished_files();
-  const bool first = !said.exchange(true);
-  if (first && write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(128 + number);
+  const ssize_t ignored = said.exchange(true) ? 0 : write(STDERR_FILENO, words, std::strlen(words));
+  static_cast<void>(ignored);
   _exit(128 + number);
 }
 

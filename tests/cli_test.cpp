@@ -345,7 +345,7 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
   }
 }
 
-// However often and whenever it is told to stop: a signal that falls into saving is no exception.
+// However often it is told to stop, and while it saves.
 TEST_F(Cli, AnInterruptEndsSaving) {
   for (const int times : {1, 2}) {
     Ods command({"render", "furnace", "--width", "2048", "--samples", "1", "--bounces", "0", "--progress", "json", "-o",
