@@ -69,7 +69,7 @@ TEST(Path, SmallTriangleFarAwayKeepsItsShape) {
   PathTracer tracer;
   set_scene(tracer, scene, lights);
   const Hit hit{7.0f, 0.3f, 0.3f, 0, 0};
-  const auto surface = tracer.surface_at(hit, vec3(0.0f, 0.0f, -1.0f));
+  const auto surface = tracer.surface_at(hit, vec3(0.0f, 0.0f, -1.0f), false);
   EXPECT_NEAR(surface.geometric.z, 1.0f, 1e-6f);
   const auto triangle = tracer.triangle_of(scene.instances[0], tracer.corners_of(hit));
   EXPECT_NEAR(length(cross(triangle.ab, triangle.ac)), 4e-6f, 1e-11f);

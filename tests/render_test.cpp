@@ -443,10 +443,10 @@ TEST(Embree, InstancesAreMetLikeCopies) {
   for (int i = 0; i < 5000; i++) {
     const vec3 target(dice.between(-4, 4), dice.between(-1, 2), -3.0f);
     const Ray ray{vec3(0.0f), normalize(target)};
-    const Hit a = copied.closest_hit(tracer, ray, 0u), b = instanced.closest_hit(tracer, ray, 0u);
+    const Hit a = copied.closest_hit(tracer, ray, kPathRay), b = instanced.closest_hit(tracer, ray, kPathRay);
     ASSERT_EQ(a.instance, b.instance);
     ASSERT_NEAR(a.t, b.t, 1e-5f);
-    EXPECT_EQ(copied.occluded(tracer, ray, 100.0f, 0u), instanced.occluded(tracer, ray, 100.0f, 0u));
+    EXPECT_EQ(copied.occluded(tracer, ray, 100.0f), instanced.occluded(tracer, ray, 100.0f));
     met += a.t > 0.0f;
     if (a.triangle != b.triangle) continue;  // an edge's ray may go to either side
     ASSERT_NEAR(a.u, b.u, 1e-4f);

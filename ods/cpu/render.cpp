@@ -46,9 +46,8 @@ struct Pixel {
   PathTracer& tracer = job.tracer;
   const PathState& path = tracer.path;
   while (path.alive) {
-    tracer.shade(job.embree.closest_hit(tracer, path.ray, tracer.path_ray_key(false)), settings);
-    if (path.shadow_pending &&
-        !job.embree.occluded(tracer, path.shadow_ray, path.shadow_length, tracer.path_ray_key(true))) {
+    tracer.shade(job.embree.closest_hit(tracer, path.ray, kPathRay), settings);
+    if (path.shadow_pending && !job.embree.occluded(tracer, path.shadow_ray, path.shadow_length)) {
       tracer.add_shadow_light();
     }
   }
@@ -64,7 +63,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   PathTracer& tracer = job.tracer;
   tracer.start_path(camera_ray(job.camera, eye, uv), job.media, seed, 0u);
   while (tracer.path.alive) {
-    tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaKey), first_hit_only);
+    tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
   }
   const float depth = tracer.path.depth;
   return depth < 0.0f ? kFarDepth : depth;
@@ -121,9 +120,9 @@ Media media_at(const EmbreeScene& embree, PathTracer& tracer, vec3 point) {
   std::vector<int> entered;
   Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};
   for (int i = 0; i < kMaxPassed; i++) {
-    const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaKey);
+    const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaRay);
     if (hit.t < 0.0f) break;
-    const auto surface = tracer.surface_at(hit, ray.direction);
+    const auto surface = tracer.surface_at(hit, ray.direction, false);
     const int material = tracer.scene_mesh(tracer.scene_instance(hit.instance).mesh).material;
     if (surface.volume && surface.front) entered.push_back(material);
     if (surface.volume && !surface.front) {

@@ -56,6 +56,8 @@ struct Scene {
   std::vector<Material> materials;  // never empty once a mesh exists
   std::vector<Texture> textures;
   std::vector<uint> texels;
+  std::vector<Texture> reduced_textures;  // made by reduce_textures(); empty: the textures themselves serve
+  std::vector<uint> reduced_texels;
 
   std::vector<PunctualLight> lights;
   Environment environment;
