@@ -72,7 +72,7 @@ void expect_plane(const Scene& scene, int wrap_u, int wrap_v, bool nearest, cons
     // Single precision may fall on the other side of a texel's edge.
     const auto to_edge = [](double x) { return std::abs(x - std::round(x)); };
     if (nearest && std::min(to_edge(moved.x * kWidth), to_edge(moved.y * kHeight)) < 1e-4) continue;
-    const vec4 read = tracer.slot_at(scene.materials[0].metallic_roughness_slot, uv, other);
+    const vec4 read = tracer.slot_at(scene.materials[0].metallic_roughness_slot, uv, other, false);
     ASSERT_NEAR(double{read.y}, plane_at(moved, wrap_u, wrap_v, nearest), 2e-5)
         << uv.x << ' ' << uv.y << ", wrap " << wrap_u << ' ' << wrap_v << (nearest ? " nearest" : " linear");
   }
@@ -112,7 +112,7 @@ TEST(Texture, CoordinatesOfAnySizeStayInside) {
     PathTracer tracer;
     set_scene(tracer, scene, lights);
     for (const float far_away : {1e6f, -1e6f, 1e12f, -1e12f, 3e38f, -3e38f}) {
-      const float value = tracer.texture_at(scene.textures[0], vec2(far_away, -far_away)).y;
+      const float value = tracer.texture_at(scene.textures[0], false, vec2(far_away, -far_away)).y;
       EXPECT_TRUE(value >= 0.0f && value <= 1.0f) << value;
     }
   }

@@ -265,6 +265,7 @@ static void write_file(AtomicFile& file, FileFormat format, Layout layout, const
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path) {
   assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
+  assert(!keeps_layers(path) || !picture.eyes[0].depth.pixels.empty());
   const FileFormat format = format_for(path);
   EyeList eyes;
   std::vector<int> which;
