@@ -51,6 +51,10 @@ static FileFormat format_for(const std::string& path) {
   return *format;
 }
 
+bool keeps_layers(const std::string& path) {
+  return format_of_path(path) == FileFormat::kExr;
+}
+
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width) {
   assert(eyes.size() == 1 || eyes.size() == 2);
   check_layout(path, format_for(path), options, eyes, width);
@@ -261,6 +265,7 @@ static void write_file(AtomicFile& file, FileFormat format, Layout layout, const
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path) {
   assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
+  assert(!keeps_layers(path) || !picture.eyes[0].depth.pixels.empty());
   const FileFormat format = format_for(path);
   EyeList eyes;
   std::vector<int> which;

@@ -39,8 +39,12 @@ struct SaveOptions {
 // for the format. `eyes` as in EyeImage, `width` of one eye. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width);
 
+// Whether a file of this name would hold depth, normal and albedo: exr does.
+bool keeps_layers(const std::string& path);
+
 // Writes one file, or one per eye; all of them complete, or none. Creates missing folders. Returns the names written.
-// Throws Error(kOutput). Precondition: one eye or two, every image of them present and of one size.
+// Throws Error(kOutput). Precondition: one eye or two, of one size; depth, normal and albedo may be
+// empty where keeps_layers() is false.
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path);
 
