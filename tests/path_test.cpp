@@ -127,6 +127,30 @@ TEST(Path, CameraInsideAMediumSeesThroughIt) {
   EXPECT_NEAR(*picture.eyes[0].radiance.at(128, 64), 0.01f, 1e-4f);
 }
 
+// A glowing box of thin air hangs in clear water: its walls bend nothing, but are seen.
+TEST(Path, VolumesGlowInsideDenserOnes) {
+  Scene scene;
+  Material water = default_material();
+  water.transmission = 1.0f;
+  water.thickness = 1.0f;
+  water.ior = 1.33f;
+  Material lamp = water;
+  lamp.ior = 1.0f;
+  lamp.emission = vec3(2.0f);
+  lamp.double_sided = 0;
+  scene.materials = {water, lamp};
+  add_box(scene, vec3(-10.0f), vec3(10.0f), 0);
+  add_box(scene, vec3(-1.0f, -1.0f, -4.0f), vec3(1.0f, 1.0f, -2.0f), 1);
+  for (LightSampling way : {LightSampling::kBoth, LightSampling::kBsdfOnly}) {
+    RenderOptions options = small_mono();
+    options.filter = PixelFilter::kBox;
+    options.light_sampling = way;
+    const Picture picture = render_cpu(scene, {}, options);
+    EXPECT_NEAR(*picture.eyes[0].radiance.at(16, 8), 2.0f, 0.01f);  // its front; the rest is the water's far wall
+    EXPECT_LT(*picture.eyes[0].radiance.at(0, 8), 0.1f);
+  }
+}
+
 TEST(Path, DepthOfAVeilIsNotALottery) {
   for (float alpha : {0.4f, 0.6f}) {
     Scene scene;
