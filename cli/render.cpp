@@ -48,7 +48,7 @@ constexpr const char* kExamples =
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
-  add_size_option(options, job.render.width, job.save.layout);
+  add_size_option(options, job.render, job.save.layout);
   options.number("--width", job.render.width, 2, 32768, "of one eye in pixels, even; its height is half");
   options.choice("--eyes", job.render.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
   add_layout_option(options, job.save.layout, "how two eyes share the file");

@@ -151,16 +151,18 @@ Image read_channels(const std::string& path, const std::vector<std::string>& nam
     indices.push_back(reader.spec.channelindex(name));
     if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
   }
-  // Files are compressed all channels together, so what lies between comes along.
-  const auto [first, last] = std::minmax_element(indices.begin(), indices.end());
-  Image span(reader.spec.width, reader.spec.height, *last - *first + 1);
-  if (!reader.input->read_image(0, 0, *first, *last + 1, OIIO::TypeDesc::FLOAT, span.pixels.data())) {
-    throw cannot_read(path, one_line(reader.input->geterror()));
-  }
-  Image image(span.width, span.height, static_cast<int>(names.size()));
-  for (int y = 0; y < image.height; y++) {
-    for (int x = 0; x < image.width; x++) {
-      for (size_t c = 0; c < indices.size(); c++) image.at(x, y)[c] = span.at(x, y)[indices[c] - *first];
+  const int count = static_cast<int>(names.size());
+  Image image(reader.spec.width, reader.spec.height, count);
+  // At once where they are neighbours, as decoding one decodes all.
+  bool neighbours = true;
+  for (int c = 0; c < count; c++) neighbours = neighbours && indices[static_cast<size_t>(c)] == indices[0] + c;
+  const int step = neighbours ? count : 1;
+  const OIIO::stride_t pixel = count * static_cast<OIIO::stride_t>(sizeof(float));
+  for (int c = 0; c < count; c += step) {
+    const int first = indices[static_cast<size_t>(c)];
+    float* out = image.pixels.data() + c;
+    if (!reader.input->read_image(0, 0, first, first + step, OIIO::TypeDesc::FLOAT, out, pixel)) {
+      throw cannot_read(path, one_line(reader.input->geterror()));
     }
   }
   if (!reader.spec.format.is_floating_point()) {

@@ -105,12 +105,12 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, La
   if (layout == Layout::kMultiview) {
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   }
-  if (eyes.size() == 1) {
+  if (eyes.size() == 1 && rig != nullptr) {
     // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
     text("textureformat", "LatLong Environment");
     attributes.push_back({"openexr:levelmode", 0});
-    if (eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
   }
+  if (eyes.size() == 1 && eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
   text("ods:version", ODS_VERSION);
   text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]->eye));
   if (rig != nullptr) add_camera(attributes, *rig);
