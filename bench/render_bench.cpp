@@ -99,10 +99,10 @@ std::vector<TracedRay> record_rays(const EmbreeScene& embree, PathTracer tracer,
     tracer.start_path(camera_ray(camera, eye, uv), no_media(), hash(static_cast<uint>(i)), 0u);
     while (tracer.path.alive) {
       rays.push_back({tracer.path.ray, 0.0f, false});
-      tracer.shade(embree.closest_hit(tracer, tracer.path.ray, tracer.path_ray_key(false)), settings);
+      tracer.shade(embree.closest_hit(tracer, tracer.path.ray, kPathRay), settings);
       if (!tracer.path.shadow_pending) continue;
       rays.push_back({tracer.path.shadow_ray, tracer.path.shadow_length, true});
-      if (!embree.occluded(tracer, tracer.path.shadow_ray, tracer.path.shadow_length, tracer.path_ray_key(true))) {
+      if (!embree.occluded(tracer, tracer.path.shadow_ray, tracer.path.shadow_length)) {
         tracer.add_shadow_light();
       }
     }
@@ -123,9 +123,9 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
     const double start = cpu_seconds();
     for (const TracedRay& traced : rays) {
       if (traced.shadow) {
-        benchmark::DoNotOptimize(embree.occluded(tracer, traced.ray, traced.length, 0u));
+        benchmark::DoNotOptimize(embree.occluded(tracer, traced.ray, traced.length));
       } else {
-        benchmark::DoNotOptimize(embree.closest_hit(tracer, traced.ray, 0u));
+        benchmark::DoNotOptimize(embree.closest_hit(tracer, traced.ray, kPathRay));
       }
     }
     const double bare = cpu_seconds() - start;
@@ -189,7 +189,7 @@ void load_to_first_ray(benchmark::State& state, const Subject& subject) {
     PathTracer tracer;
     set_scene(tracer, scene, lights);
     const Ray ray = camera_ray(make_camera(rig_of(subject)), kLeft, vec2(0.5f));
-    benchmark::DoNotOptimize(embree.closest_hit(tracer, ray, 0u));
+    benchmark::DoNotOptimize(embree.closest_hit(tracer, ray, kPathRay));
     state.counters["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     state.counters["peak_MB"] = peak_megabytes();
   }

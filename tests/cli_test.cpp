@@ -12,18 +12,29 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/temporary_folder.h"
 
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 // A running ods, its stdout and stderr in pipes.
 class Ods {
  public:
-  explicit Ods(std::vector<std::string> arguments, rlim_t largest_file = RLIM_INFINITY) {
+  explicit Ods(std::vector<std::string> arguments, rlim_t largest_file = RLIM_INFINITY,
+               rlim_t address_space = RLIM_INFINITY) {
     arguments.insert(arguments.begin(), ODS_COMMAND);
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -34,9 +45,9 @@ class Ods {
     if (pid_ == 0) {
       dup2(out_[1], STDOUT_FILENO);
       dup2(err_[1], STDERR_FILENO);
-      const rlimit limit{largest_file, largest_file};
-      setrlimit(RLIMIT_FSIZE, &limit);
-      signal(SIGXFSZ, SIG_IGN);  // the write fails, as on a full disk
+      const rlimit file_limit{largest_file, largest_file}, memory_limit{address_space, address_space};
+      setrlimit(RLIMIT_FSIZE, &file_limit);
+      setrlimit(RLIMIT_AS, &memory_limit);
       execv(argv[0], argv.data());
       _exit(127);
     }
@@ -53,6 +64,12 @@ class Ods {
   }
 
   void kill(int number) { ::kill(pid_, number); }
+
+  // Of its process, now.
+  size_t threads() const {
+    const auto tasks = std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/task");
+    return static_cast<size_t>(std::distance(begin(tasks), end(tasks)));
+  }
 
   // The exit code; 1000 + the signal that ended it.
   int finish() {
@@ -95,11 +112,11 @@ class Ods {
 class Cli : public ::testing::Test {
  protected:
   // ods with these words, to its end.
-  int run(const std::string& words, rlim_t largest_file = RLIM_INFINITY) {
+  int run(const std::string& words, rlim_t largest_file = RLIM_INFINITY, rlim_t address_space = RLIM_INFINITY) {
     std::istringstream stream(words);
     std::vector<std::string> arguments;
     for (std::string word; stream >> word;) arguments.push_back(word);
-    Ods command(arguments, largest_file);
+    Ods command(arguments, largest_file, address_space);
     const int code = command.finish();
     out = command.out;
     err = command.err;
@@ -311,6 +328,7 @@ TEST_F(Cli, AFullDiskLeavesNoFile) {
   for (const char* name : {"picture.png", "picture.exr", "picture.jpg", "picture.tif", "picture.hdr", "picture.webp"}) {
     EXPECT_EQ(run("render furnace -q --width 64 --samples 1 -o " + folder.path(name), 64), 4) << name;
     expect_one_error();
+    EXPECT_TRUE(err.ends_with("': the disk is full or was lost\n") || err.ends_with("': File too large\n")) << err;
   }
 }
 
@@ -360,8 +378,7 @@ TEST_F(Cli, FarmsReadTheirLinesOnStdout) {
 
 TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
   for (const int number : {SIGINT, SIGTERM}) {
-    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "--progress", "json", "-o",
-                 folder.path("a.png")});
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "-o", folder.path("a.png")});
     command.wait_for("camera at");
     command.kill(number);
     EXPECT_EQ(command.finish(), 128 + number) << command.err;
@@ -369,6 +386,75 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
     EXPECT_NE(command.err.find("ods: interrupted"), std::string::npos) << command.err;
     EXPECT_EQ(files(), 0u);
   }
+}
+
+// However often it is told to stop, and while it saves.
+TEST_F(Cli, AnInterruptEndsSaving) {
+  for (const int times : {1, 2}) {
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "1", "--bounces", "0", "--progress", "json", "-o",
+                 folder.path("a.exr")});
+    command.wait_for("\"progress\":1.00");
+    for (int i = 0; i < 10000 && files() == 0; i++) usleep(1000);  // until its temporary file is there
+    for (int i = 0; i < times; i++) command.kill(SIGINT);
+    EXPECT_EQ(command.finish(), 130) << command.err;
+    EXPECT_NE(command.err.find("{\"error\":\"interrupted\"}\n"), std::string::npos) << command.err;
+    EXPECT_EQ(files(), 0u);
+  }
+}
+
+// Every line on stderr is a JSON object.
+TEST_F(Cli, JsonIsAllThatAProgramReads) {
+  folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_\"unknown\""]})");
+  const std::vector<std::pair<std::string, int>> runs = {
+      {render("--progress json --env 1"), 0},
+      {"render " + folder.path("a.gltf") + " --width 16 --samples 1 --progress json -o " + folder.path("b.png"), 0},
+      {"render absent.glb --progress json -o " + folder.path("c.png"), 3}};
+  std::set<std::string> keys;
+  for (const auto& [words, code] : runs) {
+    EXPECT_EQ(run(words), code) << err;
+    std::istringstream lines(err);
+    for (std::string line; std::getline(lines, line);) {
+      const nlohmann::json object = nlohmann::json::parse(line, nullptr, false);
+      EXPECT_TRUE(object.is_object()) << line;
+      if (object.is_object()) keys.insert(object.begin().key());
+    }
+  }
+  EXPECT_EQ(keys, (std::set<std::string>{"error", "note", "progress", "warning"}));
+}
+
+// A scene's pictures are read on all processors, unless told otherwise.
+TEST_F(Cli, ThreadsAreLimitedFromTheStart) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "skipped: one processor starts no threads anyway";
+  EXPECT_EQ(run(render("-q")), 0) << err;
+  nlohmann::json scene = {{"asset", {{"version", "2.0"}}}};
+  for (int i = 0; i < 32; i++) {
+    const std::string name = std::to_string(i) + ".png";
+    folder.write(name, folder.read("picture.png"));
+    scene["images"].push_back({{"uri", name}});
+    scene["textures"].push_back({{"source", i}});
+    scene["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  folder.write("a.gltf", scene.dump());
+  const auto threads_with = [&](const std::string& name, const std::string& limit) {
+    Ods command({"render", name, "--samples", "100000", "--threads", limit, "-o", folder.path("a.png")});
+    command.wait_for("camera at");
+    const size_t threads = command.threads();
+    command.kill(SIGTERM);
+    EXPECT_EQ(command.finish(), 128 + SIGTERM);
+    return threads;
+  };
+  const size_t idle = threads_with("axis", "1");  // what the libraries start for nothing
+  EXPECT_EQ(threads_with(folder.path("a.gltf"), "1"), idle);
+  EXPECT_GT(threads_with(folder.path("a.gltf"), "2"), idle);
+}
+
+TEST_F(Cli, APictureThatDoesNotFitTheMemoryIsRefused) {
+  if (kSanitized) GTEST_SKIP() << "skipped: a sanitizer takes all the address space";
+  // 4 GB of address space; the picture takes 43.
+  EXPECT_EQ(run("render furnace -q --width 32768 --samples 1 -o " + folder.path("a.exr"), RLIM_INFINITY, 1ull << 32),
+            1);
+  expect_one_error();
+  EXPECT_NE(err.find("needs 42.9 GB of memory"), std::string::npos) << err;
 }
 
 TEST_F(Cli, AKilledRenderLeavesNoFile) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ods/cpu/render.h"
 #include "ods/scene/lights.h"
 #include "tests/scenes.h"
@@ -67,10 +69,41 @@ TEST(Path, SmallTriangleFarAwayKeepsItsShape) {
   PathTracer tracer;
   set_scene(tracer, scene, lights);
   const Hit hit{7.0f, 0.3f, 0.3f, 0, 0};
-  const auto surface = tracer.surface_at(hit, vec3(0.0f, 0.0f, -1.0f));
+  const auto surface = tracer.surface_at(hit, vec3(0.0f, 0.0f, -1.0f), false);
   EXPECT_NEAR(surface.geometric.z, 1.0f, 1e-6f);
   const auto triangle = tracer.triangle_of(scene.instances[0], tracer.corners_of(hit));
   EXPECT_NEAR(length(cross(triangle.ab, triangle.ac)), 4e-6f, 1e-11f);
+}
+
+// A closed room in a bright world, its walls as thin as kThinnestWall allows, further and further from the origin.
+TEST(Path, WallsKeepLightOutFarFromTheOrigin) {
+  const vec3 half(2.0f, 1.5f, 2.0f);
+  for (const vec3 away : {vec3(300, 0, 0), vec3(1e3f, 0, 700), vec3(kFirmReach, 0, 0), vec3(4097, -4097, 4097),
+                          vec3(-9e3f, 100, 5e3f), vec3(40, 33e3f, 0)}) {
+    Scene scene;
+    scene.materials = {default_material()};
+    scene.environment.radiance = vec3(1.0f);
+    const vec3 reach = abs(away) + half;
+    const float wall = 1.1f * kThinnestWall * std::max({reach.x, reach.y, reach.z});
+    const vec3 low = away - half, high = away + half, thick(wall);
+    for (int axis = 0; axis < 3; axis++) {
+      vec3 before = high + thick, behind = low - thick;
+      before[axis] = low[axis];
+      behind[axis] = high[axis];
+      add_box(scene, low - thick, before, 0);
+      add_box(scene, behind, high + thick, 0);
+    }
+    RenderOptions options = small_mono();
+    options.width = 64;
+    options.samples = 32;
+    options.bounces = 3;
+    CameraRig rig;
+    rig.position = away;
+    const Picture picture = render_cpu(scene, rig, options);
+    for (const float value : picture.eyes[0].radiance.pixels) {
+      ASSERT_EQ(value, 0.0f) << away.x << ' ' << away.y << ' ' << away.z << ", walls of " << wall;
+    }
+  }
 }
 
 // A panel that shines by itself, 2 m away through water that leaves a tenth of the light after each metre.

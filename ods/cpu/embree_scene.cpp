@@ -54,7 +54,7 @@ namespace ods {
 struct RayContext {
   EmbreeContext embree;
   PathTracer* tracer;
-  uint key;
+  int ray;
 };
 
 struct EmbreeScene::Handles {
@@ -86,7 +86,7 @@ static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
   hit.v = RTCHitN_v(arguments->hit, 1, 0);
   hit.instance = static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance);
   hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, 1, 0));
-  if (context->tracer->passes(hit, context->tracer->alpha_draw(context->key, hit))) arguments->valid[0] = 0;
+  if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) arguments->valid[0] = 0;
 }
 
 // A mesh's triangles as Embree geometry; placed: with the instance's matrix applied to copies of the vertices.
@@ -186,20 +186,20 @@ static void set_ray(RTCRay& out, const Ray& ray, float length) {
   out.time = 0.0f, out.mask = ~0u, out.id = 0, out.flags = 0;
 }
 
-static RayContext make_context(PathTracer& tracer, uint key) {
+static RayContext make_context(PathTracer& tracer, int ray) {
   RayContext context;
   init_context(context.embree);
   context.tracer = &tracer;
-  context.key = key;
+  context.ray = ray;
   return context;
 }
 
-Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, uint key) const {
+Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const {
   RTCRayHit found;
   set_ray(found.ray, ray, std::numeric_limits<float>::infinity());
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RayContext context = make_context(tracer, key);
+  RayContext context = make_context(tracer, kind);
   intersect(handles_->top, context.embree, found);
   Hit hit;
   const bool missed = found.hit.geomID == RTC_INVALID_GEOMETRY_ID;
@@ -212,10 +212,10 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, uint key) const
   return hit;
 }
 
-bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, uint key) const {
+bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length) const {
   RTCRay shadow;
   set_ray(shadow, ray, length);
-  RayContext context = make_context(tracer, key);
+  RayContext context = make_context(tracer, kShadowRay);
   occlude(handles_->top, context.embree, shadow);
   return shadow.tfar < 0.0f;
 }

@@ -20,9 +20,10 @@ class EmbreeScene {
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  // Safe from many threads at once. tracer reads the same scene; key numbers the ray for surfaces with alpha.
-  Hit closest_hit(PathTracer& tracer, const Ray& ray, uint key) const;
-  bool occluded(PathTracer& tracer, const Ray& ray, float length, uint key) const;
+  // Safe from many threads at once, each with a tracer of its own that reads the same scene; it is asked about surfaces
+  // with alpha. kind: kPathRay or kHalfAlphaRay.
+  Hit closest_hit(PathTracer& tracer, const Ray& ray, int kind) const;
+  bool occluded(PathTracer& tracer, const Ray& ray, float length) const;
 
  private:
   struct Handles;

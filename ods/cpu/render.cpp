@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/cpu/render.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -12,6 +13,7 @@
 #include <mutex>
 
 #include "ods/base/error.h"
+#include "ods/base/memory.h"
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/path.h"
 #include "ods/scene/lights.h"
@@ -44,9 +46,8 @@ struct Pixel {
   PathTracer& tracer = job.tracer;
   const PathState& path = tracer.path;
   while (path.alive) {
-    tracer.shade(job.embree.closest_hit(tracer, path.ray, tracer.path_ray_key(false)), settings);
-    if (path.shadow_pending &&
-        !job.embree.occluded(tracer, path.shadow_ray, path.shadow_length, tracer.path_ray_key(true))) {
+    tracer.shade(job.embree.closest_hit(tracer, path.ray, kPathRay), settings);
+    if (path.shadow_pending && !job.embree.occluded(tracer, path.shadow_ray, path.shadow_length)) {
       tracer.add_shadow_light();
     }
   }
@@ -62,7 +63,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   PathTracer& tracer = job.tracer;
   tracer.start_path(camera_ray(job.camera, eye, uv), job.media, seed, 0u);
   while (tracer.path.alive) {
-    tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaKey), first_hit_only);
+    tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
   }
   const float depth = tracer.path.depth;
   return depth < 0.0f ? kFarDepth : depth;
@@ -87,7 +88,7 @@ Pixel render_pixel(Job& job, int eye, int x, int y) {
   pixel.radiance *= share;
   pixel.normal *= share;
   pixel.albedo *= share;
-  pixel.depth = center_depth(job, eye, x, y, seed);
+  if (job.options.layers) pixel.depth = center_depth(job, eye, x, y, seed);
   return pixel;
 }
 
@@ -105,6 +106,7 @@ void render_tile(Job job, int tile, EyeImage& image) {
     for (int x = x0; x < std::min(x0 + kTileSize, width); x++) {
       const Pixel pixel = render_pixel(job, image.eye, x, y);
       put(image.radiance, x, y, pixel.radiance);
+      if (!job.options.layers) continue;
       put(image.normal, x, y, pixel.normal);
       put(image.albedo, x, y, pixel.albedo);
       *image.depth.at(x, y) = pixel.depth;
@@ -118,9 +120,9 @@ Media media_at(const EmbreeScene& embree, PathTracer& tracer, vec3 point) {
   std::vector<int> entered;
   Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};
   for (int i = 0; i < kMaxPassed; i++) {
-    const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaKey);
+    const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaRay);
     if (hit.t < 0.0f) break;
-    const auto surface = tracer.surface_at(hit, ray.direction);
+    const auto surface = tracer.surface_at(hit, ray.direction, false);
     const int material = tracer.scene_mesh(tracer.scene_instance(hit.instance).mesh).material;
     if (surface.volume && surface.front) entered.push_back(material);
     if (surface.volume && !surface.front) {
@@ -143,7 +145,8 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
   std::mutex reporting;
-  tbb::parallel_for(0, total, [&](int tile) {
+  tbb::parallel_for(0, total, [&](int i) {
+    const int tile = job.options.last_tile_first ? total - 1 - i : i;
     if (stop || (progress.cancelled && progress.cancelled())) {
       stop = true;
       return;
@@ -163,10 +166,15 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
 
 Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& options, const Progress& progress) {
   assert(options.width > 0 && options.width % 2 == 0 && options.samples > 0 && options.bounces >= 0);
+  check_memory(picture_bytes(options), fmt::format("a picture {} pixels wide", options.width),
+               "a smaller width or a single eye needs less");
   Picture picture;
-  for (int eye : eyes_of(options.eyes)) {
+  for (int eye : eye_list(options.eyes)) {
     const int w = options.width, h = options.width / 2;
-    picture.eyes.push_back({eye, Image(w, h, 3), Image(w, h, 1), Image(w, h, 3), Image(w, h, 3)});
+    EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}});
+    if (!options.layers) continue;
+    image.depth = Image(w, h, 1);
+    image.normal = image.albedo = Image(w, h, 3);
   }
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {

@@ -66,6 +66,10 @@ static FileFormat format_for(const std::string& path) {
   return *format;
 }
 
+bool keeps_layers(const std::string& path) {
+  return format_of_path(path) == FileFormat::kExr;
+}
+
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width) {
   assert(eyes.size() == 1 || eyes.size() == 2);
   check_layout(path, format_for(path), options, eyes, {width, width / 2});

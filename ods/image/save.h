@@ -40,6 +40,9 @@ struct SaveOptions {
 // for the format. `eyes` as in EyeImage, `width` of one eye. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width);
 
+// Whether a file of this name would hold depth, normal and albedo: exr does.
+bool keeps_layers(const std::string& path);
+
 // Writes one file, or one per eye; all of them complete, or none. Creates missing folders. Returns the names written.
 // Layers that are empty are left out. Throws Error(kOutput). Precondition: one eye or two, all of one size, with light.
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,

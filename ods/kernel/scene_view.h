@@ -32,6 +32,8 @@ struct SceneView {
   const Material* materials = nullptr;
   const Texture* textures = nullptr;
   const uint* texels = nullptr;
+  const Texture* reduced_textures = nullptr;  // small copies of the textures
+  const uint* reduced_texels = nullptr;
   const Light* lights = nullptr;
   int light_count = 0;
   EnvironmentInfo environment = {};
@@ -46,6 +48,8 @@ struct SceneView {
   const Material& scene_material(int i) const { return materials[i]; }
   const Texture& scene_texture(int i) const { return textures[i]; }
   uint scene_texel(uint i) const { return texels[i]; }
+  const Texture& scene_reduced_texture(int i) const { return reduced_textures[i]; }
+  uint scene_reduced_texel(uint i) const { return reduced_texels[i]; }
   const Light& scene_light(int i) const { return lights[i]; }
   int scene_light_count() const { return light_count; }
   const EnvironmentInfo& scene_environment() const { return environment; }

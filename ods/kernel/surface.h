@@ -96,7 +96,7 @@ struct SurfaceReader : TextureReader {
     float a = scene_vertex(k.a).color.w;
     float alpha =
         material.base_color.w * (a + (scene_vertex(k.b).color.w - a) * k.wb + (scene_vertex(k.c).color.w - a) * k.wc);
-    alpha = alpha * slot_at(material.base_color_slot, uv0_of(k), uv1_of(k)).w;
+    alpha = alpha * slot_at(material.base_color_slot, uv0_of(k), uv1_of(k), false).w;
     if (material.alpha_mode == kAlphaMask) return alpha < material.alpha_cutoff ? 0.0f : 1.0f;
     return alpha;
   }
@@ -110,7 +110,8 @@ struct SurfaceReader : TextureReader {
   }
 
   // Normal of the normal map, on the front side. The frame follows the vertices' tangents as glTF defines it.
-  inline vec3 mapped_normal(Material material, Instance instance, Corners k, vec3 normal, float handedness) {
+  inline vec3 mapped_normal(Material material, Instance instance, Corners k, vec3 normal, float handedness,
+                            bool reduced) {
     vec4 tangent =
         scene_vertex(k.a).tangent * k.wa + scene_vertex(k.b).tangent * k.wb + scene_vertex(k.c).tangent * k.wc;
     vec3 local = vec3(tangent.x, tangent.y, tangent.z);
@@ -120,7 +121,7 @@ struct SurfaceReader : TextureReader {
     if (!(size > 1e-12f)) return normal;
     t = t * (1.0f / size);
     vec3 b = cross(normal, t) * (tangent.w < 0.0f ? -handedness : handedness);
-    vec4 map = slot_at(material.normal_slot, uv0_of(k), uv1_of(k));
+    vec4 map = slot_at(material.normal_slot, uv0_of(k), uv1_of(k), reduced);
     float x = (map.x * 2.0f - 1.0f) * material.normal_scale;
     float y = (map.y * 2.0f - 1.0f) * material.normal_scale;
     float z = max(map.z * 2.0f - 1.0f, 0.0f);
@@ -150,11 +151,12 @@ struct SurfaceReader : TextureReader {
   inline vec3 emission_at(Material material, Corners k, bool front) {
     if (!front && material.double_sided == 0) return vec3(0.0f);
     if (material.emission_slot.texture < 0) return material.emission;
-    vec4 glow = slot_at(material.emission_slot, uv0_of(k), uv1_of(k));
+    vec4 glow = slot_at(material.emission_slot, uv0_of(k), uv1_of(k), false);
     return material.emission * vec3(glow.x, glow.y, glow.z);
   }
 
-  inline Surface surface_at(Hit hit, vec3 direction) {
+  // reduced: small copies of textures will do, except for what glows, which must be as light sampling finds it.
+  inline Surface surface_at(Hit hit, vec3 direction, bool reduced) {
     Instance instance = scene_instance(hit.instance);
     Material material = scene_material(scene_mesh(instance.mesh).material);
     Corners k = corners_of(hit);
@@ -171,7 +173,7 @@ struct SurfaceReader : TextureReader {
     vec3 normal = vec3(dot(cross(row1, row2), n), dot(cross(row2, row0), n), dot(cross(row0, row1), n)) * handedness;
     float size = length(normal);
     normal = size > 1e-30f ? normal * (1.0f / size) : geometric;
-    if (material.normal_slot.texture >= 0) normal = mapped_normal(material, instance, k, normal, handedness);
+    if (material.normal_slot.texture >= 0) normal = mapped_normal(material, instance, k, normal, handedness, reduced);
     surface.front = dot(geometric, direction) < 0.0f;
     surface.geometric = surface.front ? geometric : -geometric;
     surface.normal = surface.front ? normal : -normal;
@@ -182,13 +184,13 @@ struct SurfaceReader : TextureReader {
     vec2 uv0 = uv0_of(k);
     vec2 uv1 = uv1_of(k);
     vec4 color = scene_vertex(k.a).color * k.wa + scene_vertex(k.b).color * k.wb + scene_vertex(k.c).color * k.wc;
-    vec4 base = material.base_color * color * slot_at(material.base_color_slot, uv0, uv1);
-    vec4 mr = slot_at(material.metallic_roughness_slot, uv0, uv1);
+    vec4 base = material.base_color * color * slot_at(material.base_color_slot, uv0, uv1, reduced);
+    vec4 mr = slot_at(material.metallic_roughness_slot, uv0, uv1, reduced);
     surface.base_color = vec3(base.x, base.y, base.z);
     surface.emission = emission_at(material, k, surface.front);
     surface.metallic = material.metallic * mr.z;
     surface.roughness = material.roughness * mr.y;
-    surface.transmission = material.transmission * slot_at(material.transmission_slot, uv0, uv1).x;
+    surface.transmission = material.transmission * slot_at(material.transmission_slot, uv0, uv1, reduced).x;
     surface.ior = material.ior;
     surface.volume = material.transmission > 0.0f && material.thickness > 0.0f;
     return surface;

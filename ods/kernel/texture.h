@@ -33,8 +33,9 @@ struct TextureReader : FilterSampler {
 #endif
 
   // One texel, linear.
-  inline vec4 texel_at(Texture texture, int x, int y) {
-    uint bits = scene_texel(texture.first_texel + uint(y) * uint(texture.width) + uint(x));
+  inline vec4 texel_at(Texture texture, bool reduced, int x, int y) {
+    uint at = texture.first_texel + uint(y) * uint(texture.width) + uint(x);
+    uint bits = reduced ? scene_reduced_texel(at) : scene_texel(at);
     int r = int(bits & 255u);
     int g = int((bits >> 8u) & 255u);
     int b = int((bits >> 16u) & 255u);
@@ -45,13 +46,13 @@ struct TextureReader : FilterSampler {
     return vec4(vec3(float(r), float(g), float(b)) * (1.0f / 255.0f), a);
   }
 
-  // uv as in glTF: (0, 0) is the top left corner of the picture. Beyond a million turns the place within a texel is
-  // lost to rounding; what is read stays inside the texture.
-  inline vec4 texture_at(Texture texture, vec2 uv) {
+  // reduced: the texture is one of the small copies. uv as in glTF: (0, 0) is the top left corner of the picture.
+  // Beyond a million turns the place within a texel is lost to rounding; what is read stays inside the texture.
+  inline vec4 texture_at(Texture texture, bool reduced, vec2 uv) {
     float x = wrap_coordinate(uv.x, texture.wrap_u) * float(texture.width);
     float y = wrap_coordinate(uv.y, texture.wrap_v) * float(texture.height);
     if (texture.nearest == 1) {
-      return texel_at(texture, min(int(x), texture.width - 1), min(int(y), texture.height - 1));
+      return texel_at(texture, reduced, min(int(x), texture.width - 1), min(int(y), texture.height - 1));
     }
     int x0 = floor_int(x - 0.5f);
     int y0 = floor_int(y - 0.5f);
@@ -61,16 +62,18 @@ struct TextureReader : FilterSampler {
     int y1 = wrap_texel(y0 + 1, texture.height, texture.wrap_v);
     x0 = wrap_texel(x0, texture.width, texture.wrap_u);
     y0 = wrap_texel(y0, texture.height, texture.wrap_v);
-    vec4 top = mix(texel_at(texture, x0, y0), texel_at(texture, x1, y0), fx);
-    vec4 bottom = mix(texel_at(texture, x0, y1), texel_at(texture, x1, y1), fx);
+    vec4 top = mix(texel_at(texture, reduced, x0, y0), texel_at(texture, reduced, x1, y0), fx);
+    vec4 bottom = mix(texel_at(texture, reduced, x0, y1), texel_at(texture, reduced, x1, y1), fx);
     return mix(top, bottom, fy);
   }
 
   // What a material reads through a slot; 1 where it has no texture.
-  inline vec4 slot_at(TextureSlot slot, vec2 uv0, vec2 uv1) {
+  inline vec4 slot_at(TextureSlot slot, vec2 uv0, vec2 uv1, bool reduced) {
     if (slot.texture < 0) return vec4(1.0f);
     vec2 uv = slot.uv_set == 0 ? uv0 : uv1;
-    return texture_at(scene_texture(slot.texture), slot.offset + slot.axis_u * uv.x + slot.axis_v * uv.y);
+    vec2 place = slot.offset + slot.axis_u * uv.x + slot.axis_v * uv.y;
+    if (reduced) return texture_at(scene_reduced_texture(slot.texture), true, place);
+    return texture_at(scene_texture(slot.texture), false, place);
   }
 
 #ifdef __cplusplus

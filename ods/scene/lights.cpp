@@ -170,6 +170,9 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.materials = scene.materials.data();
   view.textures = scene.textures.data();
   view.texels = scene.texels.data();
+  const bool reduced = !scene.reduced_textures.empty();
+  view.reduced_textures = reduced ? scene.reduced_textures.data() : view.textures;
+  view.reduced_texels = reduced ? scene.reduced_texels.data() : view.texels;
   view.lights = lights.lights.data();
   view.light_count = static_cast<int>(lights.lights.size());
   view.environment = lights.environment;

@@ -9,6 +9,7 @@
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/scene/builtin.h"
+#include "ods/scene/reduced_textures.h"
 
 namespace ods {
 
@@ -20,6 +21,7 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
     }
     Scene scene = builtin->make();
     scene.name = name;
+    reduce_textures(scene);
     return scene;
   }
   std::error_code error;
@@ -29,7 +31,9 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
     throw Error(ErrorKind::kInput,
                 fmt::format("{}: no such file, and no built-in scene{}", name, did_you_mean(name, names)));
   }
-  return load_gltf(name, options);
+  Scene scene = load_gltf(name, options);
+  reduce_textures(scene);
+  return scene;
 }
 
 }  // namespace ods

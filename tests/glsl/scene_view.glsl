@@ -26,6 +26,8 @@ struct View {
   Materials materials;
   Textures textures;
   Texels texels;
+  Textures reduced_textures;
+  Texels reduced_texels;
   Lights lights;
   EnvironmentTexels environment_texels;
   EnvironmentRows environment_rows;
@@ -40,6 +42,8 @@ Instance scene_instance(int i) { return view.instances.at[i]; }
 Material scene_material(int i) { return view.materials.at[i]; }
 Texture scene_texture(int i) { return view.textures.at[i]; }
 uint scene_texel(uint i) { return view.texels.at[i]; }
+Texture scene_reduced_texture(int i) { return view.reduced_textures.at[i]; }
+uint scene_reduced_texel(uint i) { return view.reduced_texels.at[i]; }
 Light scene_light(int i) { return view.lights.at[i]; }
 int scene_light_count() { return view.light_count; }
 EnvironmentInfo scene_environment() { return view.environment; }
