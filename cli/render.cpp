@@ -13,6 +13,7 @@
 
 #include "cli/camera_options.h"
 #include "cli/console.h"
+#include "cli/form_options.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/scene_source.h"
@@ -48,9 +49,10 @@ constexpr const char* kExamples =
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  add_size_option(options, job.render, job.save.layout);
   options.number("--width", job.render.width, 2, 32768, "of one eye in pixels, even; its height is half");
   options.choice("--eyes", job.render.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
-  options.choice("--layout", job.save.layout, ods::kLayouts, ods::layout_name, "how two eyes share the file");
+  add_layout_option(options, job.save.layout, "how two eyes share the file");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
 }
@@ -58,12 +60,9 @@ void add_picture_options(Options& options, RenderJob& job) {
 void add_render_options(Options& options, RenderJob& job) {
   options.group("Quality");
   std::string sizes;
-  for (const Quality& quality : kQualities) {
-    sizes +=
-        fmt::format("{} {}: {} x {} samples", sizes.empty() ? "" : ",", quality.name, quality.width, quality.samples);
-  }
+  for (const Quality& q : kQualities) sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
   auto name_of = [](Quality quality) { return quality.name; };
-  options.choice("--quality", job.quality, kQualities, +name_of, "width and samples at once:" + sizes);
+  options.choice("--quality", job.quality, kQualities, +name_of, "width and samples at once" + sizes);
   options.number("--samples", job.render.samples, 1, 1 << 20, "per pixel");
   options.number("--bounces", job.render.bounces, 0, 1024, "of light");
   options.choice("--filter", job.render.filter, ods::kPixelFilters, ods::pixel_filter_name, "of the pixel");
@@ -89,7 +88,7 @@ bool read_options(RenderJob& job, int argc, char** argv) {
   add_console_options(options, job);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
-  if (!options.given("--width")) job.render.width = job.quality.width;
+  if (!options.given("--width") && !options.given("--size")) job.render.width = job.quality.width;
   if (!options.given("--samples")) job.render.samples = job.quality.samples;
   job.render.layers = ods::keeps_layers(job.output);
   if (job.render.width % 2 != 0) throw UsageError(fmt::format("--width is even, not {}", job.render.width));

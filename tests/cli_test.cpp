@@ -145,7 +145,8 @@ class Cli : public ::testing::Test {
 };
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "scenes --help"}) {
+  for (const char* words :
+       {"--help", "-h", "help", "render --help", "info --help", "compare --help", "sizes --help", "scenes --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
@@ -190,6 +191,45 @@ TEST_F(Cli, InfoIsForPeopleAndForPrograms) {
   EXPECT_EQ(err, "");
 }
 
+TEST_F(Cli, SizesAreListed) {
+  EXPECT_EQ(run("sizes"), 0) << err;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << line;
+  EXPECT_EQ(run("sizes tb-high-6480 --json"), 0) << err;
+  EXPECT_NE(out.find("\"layout\": \"top-bottom\""), std::string::npos) << out;
+  EXPECT_EQ(run("sizes tb-hi-6480"), 2);
+  EXPECT_NE(err.find("did you mean 'tb-high-6480'?"), std::string::npos) << err;
+}
+
+TEST_F(Cli, ANamedSizeSetsWidthAndLayout) {
+  const std::string small = " --quality draft --samples 1 --eyes mono";
+  EXPECT_EQ(run("render furnace -q --size tb-quick-test-512" + small + " -o " + folder.path("a.exr")), 0) << err;
+  EXPECT_EQ(run("render furnace -q --width 512" + small + " -o " + folder.path("b.exr")), 0) << err;
+  EXPECT_EQ(folder.read("a.exr"), folder.read("b.exr"));
+  EXPECT_EQ(run("render furnace -q --width 16 --size lr-low-7200 --samples 1 -o " + folder.path("c.exr")), 0) << err;
+  EXPECT_EQ(run("compare " + folder.path("c.exr") + " " + folder.path("c.exr")), 0) << err;
+  EXPECT_NE(out.find("side-by-side, the file says so"), std::string::npos) << out;
+}
+
+TEST_F(Cli, CompareMeasuresAndJudges) {
+  const std::string render = "render furnace -q --width 16 --samples 1 ";
+  EXPECT_EQ(run(render + "-o " + folder.path("a_bt.png") + " --layout BT"), 0) << err;
+  EXPECT_EQ(run(render + "-o " + folder.path("b_%V.png")), 0) << err;
+  EXPECT_EQ(run(render + "--exposure -1 -o " + folder.path("c_SBS.png") + " --layout sbs"), 0) << err;
+  const std::string a = "compare " + folder.path("a_bt.png") + " ";
+  EXPECT_EQ(run(a + folder.path("b_%V.png") + " --max-error 0 --json"), 0) << err;
+  EXPECT_NE(out.find("\"rmse\": 0.0"), std::string::npos) << out;
+  for (const char* limit : {"--max-rmse 0.001", "--min-psnr 60", "--max-error 0.001"}) {
+    EXPECT_EQ(run(a + folder.path("c_SBS.png") + " " + limit), 1) << limit;
+    EXPECT_NE(err.find(limit), std::string::npos) << err;
+  }
+  EXPECT_EQ(run(a + folder.path("c_SBS.png") + " --diff " + folder.path("d.exr")), 0) << err;
+  EXPECT_EQ(run(a + folder.path("d.exr") + " --min-psnr 100"), 1) << err;
+  EXPECT_EQ(run(a + folder.path("b_left.png") + " --layout separate"), 3);
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  EXPECT_EQ(run(a + folder.path("absent.png")), 3);
+}
+
 TEST_F(Cli, SlipsGetASuggestion) {
   EXPECT_EQ(run("rendr"), 2);
   expect_one_error();
@@ -228,6 +268,9 @@ TEST_F(Cli, BadOptionsAreUsageErrors) {
                             "--yaw ninety",
                             "--eyes three",
                             "--layout diagonal",
+                            "--layout mono",
+                            "--size huge",
+                            "--size tb-1440p-2560",
                             "--tone loud",
                             "--filter tent",
                             "--quality best",

@@ -126,10 +126,15 @@ static std::vector<T> read_channels(Reader& reader, int count, const std::string
   return values;
 }
 
-Image read_image(const std::string& path) {
+// The bytes of a file that starts as an image does.
+static std::vector<unsigned char> read_image_bytes(const std::string& path) {
   const std::vector<unsigned char> start = read_start(path, 16);
   if (!format_of_bytes(std::as_bytes(std::span(start)))) throw cannot_read(path, unknown_format());
-  const std::vector<unsigned char> file = read_file(path, kMaxFileBytes);
+  return read_file(path, kMaxFileBytes);
+}
+
+Image read_image(const std::string& path) {
+  const std::vector<unsigned char> file = read_image_bytes(path);
   Reader reader = open_reader(std::as_bytes(std::span(file)), path);
   const int count = reader.spec.nchannels < 3 ? 1 : 3;
   Image image(reader.spec.width, reader.spec.height, 3);
@@ -138,6 +143,48 @@ Image read_image(const std::string& path) {
     image.pixels = std::move(values);
   } else {
     for (size_t i = 0; i < image.pixels.size(); i++) image.pixels[i] = values[i / 3];
+  }
+  if (!reader.spec.format.is_floating_point()) {
+    for (float& value : image.pixels) value = srgb_decode(value);
+  }
+  return image;
+}
+
+FileInfo read_info(const std::string& path) {
+  const std::vector<unsigned char> file = read_image_bytes(path);
+  const Reader reader = open_reader(std::as_bytes(std::span(file)), path);
+  FileInfo info;
+  info.width = reader.spec.width;
+  info.height = reader.spec.height;
+  info.is_float = reader.spec.format.is_floating_point();
+  info.channels = reader.spec.channelnames;
+  for (const OIIO::ParamValue& attribute : reader.spec.extra_attribs) {
+    if (attribute.type() == OIIO::TypeString) info.text[attribute.name().string()] = attribute.get_string();
+  }
+  return info;
+}
+
+Image read_channels(const std::string& path, const std::vector<std::string>& names) {
+  const std::vector<unsigned char> file = read_image_bytes(path);
+  Reader reader = open_reader(std::as_bytes(std::span(file)), path);
+  std::vector<int> indices;
+  for (const std::string& name : names) {
+    indices.push_back(reader.spec.channelindex(name));
+    if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
+  }
+  const int count = static_cast<int>(names.size());
+  Image image(reader.spec.width, reader.spec.height, count);
+  // At once where they are neighbours, as decoding one decodes all.
+  bool neighbours = true;
+  for (int c = 0; c < count; c++) neighbours = neighbours && indices[static_cast<size_t>(c)] == indices[0] + c;
+  const int step = neighbours ? count : 1;
+  const OIIO::stride_t pixel = count * static_cast<OIIO::stride_t>(sizeof(float));
+  for (int c = 0; c < count; c += step) {
+    const int first = indices[static_cast<size_t>(c)];
+    float* out = image.pixels.data() + c;
+    if (!reader.input->read_image(0, 0, first, first + step, OIIO::TypeDesc::FLOAT, out, pixel)) {
+      throw cannot_read(path, one_line(reader.input->geterror()));
+    }
   }
   if (!reader.spec.format.is_floating_point()) {
     for (float& value : image.pixels) value = srgb_decode(value);

@@ -4,7 +4,8 @@
 // A rendered picture into files. The extension decides the format.
 //
 // png, jpg, jpeg, tif, tiff, webp hold what a display shows: exposure, tone curve, sRGB, 8 bits. hdr and exr hold the
-// light of the scene as it was rendered: linear, Rec. 709, neither exposed nor toned. No file holds NaN (it becomes 0)
+// light of the scene as it was rendered: linear, Rec. 709, neither exposed nor toned. Squeezed eyes are squeezed in the
+// scene's light, as if rendered with larger pixels; of two depths the nearer stays. No file holds NaN (it becomes 0)
 // or infinity (it becomes the largest number of the format).
 //
 // exr holds 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and
@@ -43,9 +44,11 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 bool keeps_layers(const std::string& path);
 
 // Writes one file, or one per eye; all of them complete, or none. Creates missing folders. Returns the names written.
-// Throws Error(kOutput). Precondition: one eye or two, of one size; depth, normal and albedo may be
-// empty where keeps_layers() is false.
+// Layers that are empty are left out. Throws Error(kOutput). Precondition: one eye or two, all of one size, with light.
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path);
+
+// The same of a picture whose camera is not known: the file says nothing of one.
+std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path);
 
 }  // namespace ods
