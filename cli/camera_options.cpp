@@ -55,6 +55,11 @@ void add_camera_options(Options& options, CameraOptions& camera) {
   add_projection_options(options, camera.rig.projection);
 }
 
+void finish_camera_options(CameraOptions& camera, ods::RenderOptions& render) {
+  finish_eye_options(camera);
+  finish_projection(camera.rig.projection, render.width, render.height);
+}
+
 CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
   ViewPoint view = camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
   bool from_file = !scene.view_points.empty();

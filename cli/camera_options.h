@@ -8,6 +8,7 @@
 
 #include "cli/options.h"
 #include "ods/image/camera_rig.h"
+#include "ods/scene/render_options.h"
 #include "ods/scene/scene.h"
 
 struct CameraOptions {
@@ -25,8 +26,9 @@ struct CameraOptions {
 void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);
 
-// Looks at what was given as a whole, and reads the merge map. Throws UsageError and ods::Error.
-void finish_camera_options(CameraOptions& camera);
+// Looks at what was given as a whole, reads the merge map, and finds the height of the picture where it is 0. Throws
+// UsageError and ods::Error.
+void finish_camera_options(CameraOptions& camera, ods::RenderOptions& render);
 
 // The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or
 // above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.

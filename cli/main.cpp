@@ -28,7 +28,9 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "make a stereo 360 picture of a scene", "ods_render"},
     {"info", "tell what is in a scene", "ods_info"},
+    {"compare", "measure how far one picture is from another", "ods_compare"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
+    {"sizes", "list the sizes that have names", "ods_sizes"},
 };
 
 void print_help(std::FILE* out) {

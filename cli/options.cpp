@@ -49,7 +49,7 @@ std::vector<float> parse_numbers(const std::string& text) {
 
 Options::Options(const std::string& command, const std::string& summary, const std::string& examples)
     : app_(std::make_unique<CLI::App>("", "ods " + command)) {
-  help_ = fmt::format("{}\n\nExamples:\n{}\n\nUsage: ods {} ", summary, examples, command);
+  usage_ = fmt::format("{}\n\nExamples:\n{}\n\nUsage: ods {}", summary, examples, command);
   app_->set_help_flag("-h,--help");
 }
 
@@ -84,7 +84,13 @@ void Options::custom(const std::string& name, const std::string& unit, const std
 
 void Options::argument(const std::string& name, std::string& value, const std::string& text) {
   app_->add_option(name, value)->required();
-  help_ += fmt::format("{} [OPTION...]\n", name);
+  usage_ += " " + name;
+  explain(name, "", text);
+}
+
+void Options::optional_argument(const std::string& name, std::string& value, const std::string& text) {
+  app_->add_option(name, value);
+  usage_ += fmt::format(" [{}]", name);
   explain(name, "", text);
 }
 
@@ -160,7 +166,7 @@ bool Options::parse(int argc, char** argv) {
     app_->parse(argc, argv);
     return true;
   } catch (const CLI::CallForHelp&) {
-    std::fputs(help_.c_str(), stdout);
+    std::fputs((usage_ + " [OPTION...]\n" + help_).c_str(), stdout);
     return false;
   } catch (const CLI::ExtrasError&) {
     throw UsageError(describe_extras());

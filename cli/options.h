@@ -26,7 +26,9 @@ class Options {
   // Options added from here on stand under this heading in help.
   void group(const std::string& heading) { help_ += "\n" + heading + ":\n"; }
 
+  // Words that are no options, in their order.
   void argument(const std::string& name, std::string& value, const std::string& text);
+  void optional_argument(const std::string& name, std::string& value, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
   void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
   void number(const std::string& name, int& value, int low, int high, const std::string& text);
@@ -61,7 +63,8 @@ class Options {
   std::string describe_extras() const;
 
   std::unique_ptr<CLI::App> app_;
-  std::string help_;
+  std::string usage_;  // what help starts with, up to the arguments
+  std::string help_;   // their explanation and the options'
 };
 
 // "1.5" or "1,0.5,2": numbers between commas, NaN and infinity among them; empty when it is anything else.

@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "ods/image/anaglyph.h"
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -16,6 +17,20 @@ TEST(Layout, EveryLayoutHasItsOwnName) {
   for (Layout layout : kLayouts) names.insert(layout_name(layout));
   EXPECT_EQ(names.size(), std::size(kLayouts));
   EXPECT_FALSE(names.contains(""));
+}
+
+TEST(Layout, NamesAndAliasesLeadBack) {
+  for (Layout layout : kLayouts) EXPECT_EQ(layout_of(layout_name(layout)), layout);
+  std::set<std::string_view> words;
+  for (const LayoutAlias& alias : layout_aliases()) {
+    EXPECT_EQ(layout_of(alias.word), alias.layout) << alias.word;
+    EXPECT_TRUE(words.insert(alias.word).second) << alias.word;
+  }
+  EXPECT_EQ(layout_of("Over-Under"), Layout::kTopBottom);
+  EXPECT_EQ(layout_of("TB"), Layout::kTopBottom);
+  EXPECT_EQ(layout_of("RL"), Layout::kCrossEyed);
+  EXPECT_EQ(layout_of("diagonal"), std::nullopt);
+  EXPECT_EQ(layout_of(""), std::nullopt);
 }
 
 // Every row of the packed image, as eye and row of that eye, from left to right.
@@ -31,19 +46,103 @@ std::string rows(Layout layout, int eye_count) {
   return text;
 }
 
-TEST(Layout, LeftIsOnTopAndOnTheLeft) {
-  EXPECT_EQ(rows(Layout::kTopBottom, 2), "0:0 / 0:1 / 1:0 / 1:1 / ");
-  EXPECT_EQ(rows(Layout::kSideBySide, 2), "0:0 1:0 / 0:1 1:1 / ");
-  for (Layout layout : kLayouts) EXPECT_EQ(rows(layout, 1), "0:0 / 0:1 / ");
+TEST(Layout, EveryEyeIsWhereItsLayoutSays) {
+  const auto expected = [](Layout layout) {
+    switch (layout) {
+      case Layout::kTopBottom:
+      case Layout::kTopBottomHalf:
+        return "0:0 / 0:1 / 1:0 / 1:1 / ";
+      case Layout::kBottomTop:
+        return "1:0 / 1:1 / 0:0 / 0:1 / ";
+      case Layout::kCrossEyed:
+        return "1:0 0:0 / 1:1 0:1 / ";
+      case Layout::kRowInterleaved:
+        return "0:0 / 1:0 / 0:1 / 1:1 / ";
+      case Layout::kSideBySide:
+      case Layout::kSideBySideHalf:
+      case Layout::kAnaglyph:
+      case Layout::kAnaglyphHalf:
+      case Layout::kAnaglyphDubois:
+      case Layout::kSeparate:
+      case Layout::kMultiview:
+        break;
+    }
+    return "0:0 1:0 / 0:1 1:1 / ";
+  };
+  for (Layout layout : kLayouts) {
+    EXPECT_EQ(rows(layout, 2), expected(layout)) << layout_name(layout);
+    EXPECT_EQ(rows(layout, 1), "0:0 / 0:1 / ") << layout_name(layout);
+  }
 }
 
-TEST(Layout, PackedSizeFitsItsRows) {
+TEST(Layout, HalvesHaveTheSizeOfAnEye) {
+  for (Layout layout : {Layout::kTopBottomHalf, Layout::kSideBySideHalf}) {
+    const Extent squeeze = squeeze_of(layout, 2);
+    const Extent size = packed_size(layout, {8 / squeeze.width, 4 / squeeze.height}, 2);
+    EXPECT_EQ(size.width, 8);
+    EXPECT_EQ(size.height, 4);
+    EXPECT_EQ(squeeze.width * squeeze.height, 2);
+    EXPECT_EQ(squeeze_of(layout, 1).width * squeeze_of(layout, 1).height, 1) << "one eye has the file for itself";
+  }
+}
+
+Image eye_image(int eye) {
+  Image image(4, 2, 3);
+  for (size_t i = 0; i < image.pixels.size(); i++)
+    image.pixels[i] = static_cast<float>(100 * eye) + static_cast<float>(i);
+  return image;
+}
+
+TEST(Layout, UnpackUndoesEveryPacking) {
+  const Extent eye{4, 2};
+  const Image eyes[] = {eye_image(0), eye_image(1)};
   for (Layout layout : kLayouts) {
-    for (int eye_count : {1, 2}) {
-      const Extent size = packed_size(layout, {4, 2}, eye_count);
-      EXPECT_EQ(size.width, 4 * static_cast<int>(packed_row(layout, {4, 2}, eye_count, 0).size()));
+    if (is_anaglyph(layout)) continue;
+    SCOPED_TRACE(layout_name(layout));
+    const bool alone = layout == Layout::kSeparate || layout == Layout::kMultiview;
+    const int count = alone ? 1 : 2;
+    const Extent size = packed_size(layout, eye, count);
+    Image packed(size.width, size.height, 3);
+    for (int y = 0; y < size.height; y++) {
+      int x = 0;
+      for (const EyeRow& part : packed_row(layout, eye, count, y)) {
+        for (int i = 0; i < 12; i++) packed.at(x, y)[i] = eyes[part.index].at(0, part.y)[i];
+        x += eye.width;
+      }
+    }
+    EXPECT_EQ(unpacked_size(layout, size)->width, eye.width);
+    EXPECT_EQ(unpacked_size(layout, size)->height, eye.height);
+    const std::vector<Image> unpacked = unpack(layout, packed);
+    ASSERT_EQ(unpacked.size(), static_cast<size_t>(count));
+    for (size_t i = 0; i < unpacked.size(); i++) EXPECT_EQ(unpacked[i].pixels, eyes[i].pixels);
+  }
+}
+
+TEST(Layout, OddSizesCannotBeUnpacked) {
+  EXPECT_FALSE(unpacked_size(Layout::kTopBottom, {4, 3}));
+  EXPECT_FALSE(unpacked_size(Layout::kRowInterleaved, {4, 1}));
+  EXPECT_FALSE(unpacked_size(Layout::kCrossEyed, {5, 2}));
+  EXPECT_TRUE(unpacked_size(Layout::kTopBottom, {5, 2}));
+}
+
+TEST(Anaglyph, GreyStaysGrey) {
+  for (Layout layout : kLayouts) {
+    if (!is_anaglyph(layout)) continue;
+    for (float grey : {0.0f, 0.25f, 1.0f}) {
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(anaglyph_color(layout, vec3(grey), vec3(grey))[c], grey, 0.0011f * grey);
     }
   }
+}
+
+TEST(Anaglyph, TheLeftEyeIsRed) {
+  const vec3 white(1.0f), black(0.0f);
+  EXPECT_EQ(anaglyph_color(Layout::kAnaglyph, white, black), vec3(1.0f, 0.0f, 0.0f));
+  EXPECT_EQ(anaglyph_color(Layout::kAnaglyph, black, white), vec3(0.0f, 1.0f, 1.0f));
+  EXPECT_EQ(anaglyph_color(Layout::kAnaglyph, vec3(0.2f, 0.3f, 0.4f), vec3(0.5f, 0.6f, 0.7f)), vec3(0.2f, 0.6f, 0.7f));
+  // The luminance of pure green, and what the projection makes of pure green: clamped, the published column.
+  EXPECT_FLOAT_EQ(anaglyph_color(Layout::kAnaglyphHalf, vec3(0, 1, 0), black).x, 0.7152f);
+  EXPECT_EQ(anaglyph_color(Layout::kAnaglyphDubois, vec3(0, 1, 0), black), vec3(0.449f, 0.0f, 0.0f));
+  EXPECT_EQ(anaglyph_color(Layout::kAnaglyphDubois, black, vec3(0, 1, 0)), vec3(0.0f, 0.761f, 0.0f));
 }
 
 TEST(Layout, FileNamesOfEyes) {

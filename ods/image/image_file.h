@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <variant>
@@ -23,10 +24,27 @@ inline constexpr int kMaxSide = 32768;
 inline constexpr int64_t kMaxPixels = int64_t{1} << 28;
 inline constexpr int64_t kSmallPixels = int64_t{1} << 24;
 inline constexpr int64_t kMaxPixelsPerByte = 1024;
+inline constexpr size_t kMaxFileBytes = size_t{1} << 32;  // of a file, before it is read
 
 // Linear light in three channels. Files of integers are decoded from sRGB, files of floats taken as they are; grey
 // becomes three equal channels, alpha is left out. Throws Error(kInput).
 Image read_image(const std::string& path);
+
+// What a file says of itself, without its pixels.
+struct FileInfo {
+  int width = 0;
+  int height = 0;
+  bool is_float = false;                    // light as it is; else code values of a display
+  std::vector<std::string> channels;        // R, G, B, A first
+  std::map<std::string, std::string> text;  // attributes that are words, by OpenImageIO's names
+};
+
+// Throws Error(kInput).
+FileInfo read_info(const std::string& path);
+
+// Some channels of a file, by their names and in their order. Integers are decoded from sRGB as above.
+// Throws Error(kInput), also where there is no such channel.
+Image read_channels(const std::string& path, const std::vector<std::string>& names);
 
 // 8 bits each of R, G, B, A with R in the low byte, rows from the top, alpha not multiplied in: the code values of the
 // file. What is missing is grey or opaque.

@@ -3,37 +3,78 @@
 //
 // How two eyes share a file. This is the only place that knows; until here every eye is an image of its own.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "ods/image/picture.h"
+
 namespace ods {
 
 enum class Layout {
-  kTopBottom,   // one image, the left eye on top
-  kSideBySide,  // one image, the left eye on the left
-  kSeparate,    // a file per eye: %V in its name becomes left or right, %v l or r
-  kMultiview,   // one EXR of the size of an eye; every eye has its own channels
+  kTopBottom,       // one image, the left eye on top
+  kBottomTop,       // the right eye on top
+  kSideBySide,      // the left eye on the left
+  kCrossEyed,       // the right eye on the left: seen with crossed eyes, without a device
+  kTopBottomHalf,   // top-bottom of eyes squeezed to half their height: the file has the size of an eye
+  kSideBySideHalf,  // side-by-side of eyes squeezed to half their width
+  kRowInterleaved,  // every row of the left eye is followed by the right eye's; none is left out
+  kAnaglyph,        // for red-cyan glasses: see anaglyph.h
+  kAnaglyphHalf,
+  kAnaglyphDubois,
+  kSeparate,   // a file per eye: %V in its name becomes left or right, %v l or r
+  kMultiview,  // one EXR of the size of an eye; every eye has its own channels
 };
 
-// `top-bottom`, `side-by-side`, `separate`, `multiview`: the words of the command line.
-inline constexpr Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kSeparate, Layout::kMultiview};
+// `top-bottom`, `side-by-side-half`, ...: the words of the command line.
+inline constexpr Layout kLayouts[] = {Layout::kTopBottom, Layout::kBottomTop,     Layout::kSideBySide,
+                                      Layout::kCrossEyed, Layout::kTopBottomHalf, Layout::kSideBySideHalf,
+                                      Layout::kSeparate,  Layout::kMultiview,     Layout::kRowInterleaved,
+                                      Layout::kAnaglyph,  Layout::kAnaglyphHalf,  Layout::kAnaglyphDubois};
 std::string_view layout_name(Layout layout);
 
+// What others call them, in small letters: over-under, tb, sbs, ...
+struct LayoutAlias {
+  std::string_view word;
+  Layout layout;
+};
+const std::vector<LayoutAlias>& layout_aliases();
+
+// By name or alias, in capitals or not.
+std::optional<Layout> layout_of(std::string_view word);
+
+// Both eyes are in every pixel, as a display shows them: nobody can take them apart again.
+bool is_anaglyph(Layout layout);
+
 struct Extent {
-  int width;
-  int height;
+  int width = 0;
+  int height = 0;
 };
 
-// The size of the image that packs eyes of one size. A single eye, and every layout but the first two, packs nothing.
+// How many columns and rows of an eye become one of the file: 2x1 and 1x2 for the halves, 1x1 for all others and for a
+// single eye. The mean of them does: an area filter, in linear light.
+Extent squeeze_of(Layout layout, int eye_count);
+
+// The size of the image that packs eyes which are `eye` large once they are squeezed. A single eye, anaglyphs,
+// kSeparate and kMultiview pack nothing.
 Extent packed_size(Layout layout, Extent eye, int eye_count);
 
-// What row y of that image is, from left to right: the row of one eye, or of one after the other.
+// What row y of that image is, from left to right: the row of one eye, or of one after the other. Of anaglyphs and
+// kMultiview: the row of every eye, in one place.
 struct EyeRow {
   int index;  // of the eye in the picture: 0 is the left, or the only one
   int y;
 };
 std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
+
+// The size of either eye in a packed image; nothing when an image of that size cannot be of this layout. Squeezed eyes
+// stay as they are stored. Precondition: not an anaglyph.
+std::optional<Extent> unpacked_size(Layout layout, Extent packed);
+
+// The eyes of a packed image, left and right, bit for bit. kSeparate and kMultiview: the image itself, as it is one
+// eye. Precondition: unpacked_size() has a value.
+std::vector<Image> unpack(Layout layout, const Image& packed);
 
 // kLeft, kRight, kMono -> `left`, `right`, `mono`.
 std::string_view eye_name(int eye);

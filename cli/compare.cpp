@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods compare: how far one picture is from another.
+#include "ods/image/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "cli/compare_report.h"
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "cli/interrupt.h"
+#include "ods/base/error.h"
+#include "ods/image/save.h"
+#include "ods/kernel/camera/camera.h"
+
+using ods::Image, ods::LoadedEyes;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods compare reference.exr picture.exr\n"
+    "  ods compare a_%V.png b_TB.png --diff difference.exr\n"
+    "  ods compare reference.png picture.jpg --min-psnr 40 || echo too far off";
+
+constexpr const char* kSummary =
+    "Measures how far picture B is from picture A: RMSE, PSNR, WS-PSNR (rows weighed by what they cover of the\n"
+    "sphere), the largest error and where it is, for each eye and both. Files of code values are compared in those,\n"
+    "0..1; floats, and floats with code values, in linear light; the peak is 1. Exit code 1: a limit was passed.";
+
+struct CompareJob {
+  std::string a, b;
+  std::optional<ods::Layout> layout;
+  std::string difference;
+  bool json = false;
+  std::optional<float> max_rmse, min_psnr, max_error;
+};
+
+bool read_options(CompareJob& job, int argc, char** argv) {
+  Options options("compare", kSummary, kExamples);
+  options.argument("A", job.a, "a picture file; %V in its name: a file per eye");
+  options.argument("B", job.b, "another, of the same size, perhaps in another layout");
+  add_layout_option(options, job.layout,
+                    "of both files, where what they say, their names (_TB, _LR, ...) and shapes do not tell; separate "
+                    "is one eye");
+  options.text("--diff", "FILE", job.difference,
+               "write a picture of the difference, the left eye on top: .exr holds B - A; all others hold |B - A|, its "
+               "largest value white");
+  options.group("Limits, for scripts");
+  options.number("--max-rmse", job.max_rmse, 0.0f, 1e30f, "of all eyes");
+  options.number("--min-psnr", job.min_psnr, -1e4f, 1e4f, "of all eyes, dB");
+  options.number("--max-error", job.max_error, 0.0f, 1e30f, "the largest of any value");
+  options.group("Console");
+  options.flag("--json", job.json, "for programs");
+  return options.parse(argc, argv);
+}
+
+void encode(LoadedEyes& file) {
+  for (Image& eye : file.eyes) {
+    for (float& value : eye.pixels) value = ods::srgb_encode(value);
+  }
+}
+
+CompareReport compare(const CompareJob& job) {
+  CompareReport report;
+  report.paths = {job.a, job.b};
+  auto& [a, b] = report.files;
+  a = ods::load_eyes(job.a, job.layout);
+  b = ods::load_eyes(job.b, job.layout);
+  if (a.projection != b.projection) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' is {} and '{}' is {}", job.a, a.projection, job.b, b.projection));
+  }
+  report.in_code_values = !a.is_float && !b.is_float;
+  if (report.in_code_values) {
+    encode(a);
+    encode(b);
+  }
+  report.comparison = ods::compare_eyes(a.eyes, b.eyes);
+  if (!a.variance.empty() && !b.variance.empty()) report.z = z_test(a.eyes, b.eyes, a.variance, b.variance);
+  return report;
+}
+
+void write_difference(const CompareReport& report, const std::string& path) {
+  const bool is_signed = ods::format_of_path(path) == ods::FileFormat::kExr;
+  const double largest = report.comparison.whole.largest.error;
+  const float scale = largest > 0.0 ? static_cast<float>(1.0 / largest) : 1.0f;
+  ods::Picture picture;
+  const size_t count = report.comparison.eyes.size();
+  for (size_t i = 0; i < count; i++) {
+    ods::EyeImage eye;
+    eye.eye = count == 1 ? ods::kMono : i == 0 ? ods::kLeft : ods::kRight;
+    eye.radiance = ods::difference(report.files[0].eyes[i], report.files[1].eyes[i]);
+    // Scaled in code values, which saving encodes again.
+    for (float& value : eye.radiance.pixels) value = is_signed ? value : ods::srgb_decode(scale * std::abs(value));
+    picture.eyes.push_back(std::move(eye));
+  }
+  ods::SaveOptions options;
+  options.tone = ods::ToneCurve::kLinear;
+  save_picture(picture, options, path);
+}
+
+// Becomes exit code 1. NaN, where nothing could be compared, is beyond every limit.
+void check_limits(const CompareJob& job, const ods::Errors& whole) {
+  auto fail = [](const std::string& text) { throw std::runtime_error(text); };
+  if (job.max_rmse && !(whole.rmse <= *job.max_rmse)) {
+    fail(fmt::format("RMSE {:.4g} is above --max-rmse {}", whole.rmse, *job.max_rmse));
+  }
+  if (job.min_psnr && !(whole.psnr >= *job.min_psnr)) {
+    fail(fmt::format("PSNR {:.2f} is below --min-psnr {}", whole.psnr, *job.min_psnr));
+  }
+  if (job.max_error && !(whole.largest.error <= *job.max_error)) {
+    fail(fmt::format("the largest error {:.4g} is above --max-error {}", whole.largest.error, *job.max_error));
+  }
+  const bool limited = job.max_rmse || job.min_psnr || job.max_error;
+  if (limited && whole.not_finite > 0) fail(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
+}
+
+void run(int argc, char** argv) {
+  CompareJob job;
+  if (!read_options(job, argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  const CompareReport report = compare(job);
+  job.json ? print_json(report) : print_text(report);
+  if (!job.difference.empty()) write_difference(report, job.difference);
+  check_limits(job, report.comparison.whole);
+}
+
+}  // namespace
+
+extern "C" int ods_compare(int argc, char** argv) {
+  return run_command([=] { run(argc, argv); });
+}

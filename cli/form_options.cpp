@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/form_options.h"
+
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "ods/base/suggest.h"
+#include "ods/image/sizes.h"
+
+using ods::Layout;
+
+namespace {
+
+std::vector<std::string> layout_names() {
+  std::vector<std::string> names;
+  for (Layout layout : ods::kLayouts) names.emplace_back(ods::layout_name(layout));
+  return names;
+}
+
+// "top-bottom (over-under, ou, tb), bottom-top (under-over, bt), ..."
+std::string layout_list() {
+  std::string list;
+  for (Layout layout : ods::kLayouts) {
+    std::string aliases;
+    for (const ods::LayoutAlias& alias : ods::layout_aliases()) {
+      if (alias.layout == layout) aliases += fmt::format("{}{}", aliases.empty() ? " (" : ", ", alias.word);
+    }
+    list += fmt::format("{}{}{}{}", list.empty() ? "" : ", ", ods::layout_name(layout), aliases,
+                        aliases.empty() ? "" : ")");
+  }
+  return list;
+}
+
+Layout parse_layout(const std::string& word) {
+  if (auto layout = ods::layout_of(word)) return *layout;
+  throw UsageError(fmt::format("--layout: there is no layout '{}'{} (--help lists them)", word,
+                               ods::did_you_mean(word, layout_names())));
+}
+
+}  // namespace
+
+void add_layout_option(Options& options, Layout& layout, const std::string& text) {
+  auto set = [&](const std::string& word) { layout = parse_layout(word); };
+  options.custom("--layout", "LAYOUT", std::string(ods::layout_name(layout)), set, text + ": " + layout_list());
+}
+
+void add_layout_option(Options& options, std::optional<Layout>& layout, const std::string& text) {
+  auto set = [&](const std::string& word) { layout = parse_layout(word); };
+  options.custom("--layout", "LAYOUT", "", set, text + ": " + layout_list());
+}
+
+const ods::NamedSize& size_by_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ods::NamedSize& size : ods::named_sizes()) {
+    if (size.name == name) return size;
+    names.emplace_back(size.name);
+  }
+  throw UsageError(fmt::format("there is no size '{}'{} (ods sizes lists them)", name, ods::did_you_mean(name, names)));
+}
+
+void add_size_option(Options& options, ods::RenderOptions& render, Layout& layout) {
+  auto set = [&](const std::string& name) {
+    const ods::NamedSize& size = size_by_name(name);
+    render.width = size.eye.width;
+    render.height = size.eye.height;
+    layout = size.layout.value_or(layout);
+    if (!size.layout) render.eyes = ods::Eyes::kMonoEye;
+  };
+  options.custom("--size", "NAME", "", set, "width, height, layout and mono at once, by a name of ods sizes");
+}
