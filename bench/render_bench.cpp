@@ -64,6 +64,7 @@ RenderOptions options_of(int width, int samples) {
   options.width = width;
   options.samples = samples;
   options.filter = PixelFilter::kBox;
+  options.layers = false;
   return options;
 }
 

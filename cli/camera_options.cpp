@@ -69,6 +69,11 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
   add_attitude_options(options, camera);
 }
 
+void finish_camera_options(CameraOptions& camera, int width, int& height) {
+  finish_eye_options(camera);
+  finish_projection(camera.rig.projection, width, height);
+}
+
 CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
   ViewPoint view = camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
   bool from_file = !scene.view_points.empty();

@@ -27,8 +27,9 @@ void add_camera_options(Options& options, CameraOptions& camera);
 // The same without --camera, where there is no scene that could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
-// Looks at what was given as a whole, and reads the merge map. Throws UsageError and ods::Error.
-void finish_camera_options(CameraOptions& camera);
+// Looks at what was given as a whole, reads the merge map, and finds the height of the picture where it is 0. Throws
+// UsageError and ods::Error.
+void finish_camera_options(CameraOptions& camera, int width, int& height);
 
 // The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or
 // above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.

@@ -20,7 +20,7 @@ void load(const std::string& path, CameraSource& source) {
   camera.yaw = camera.rig.yaw, camera.pitch = camera.rig.pitch, camera.roll = camera.rig.roll;
   if (source.file.eye.width > 0) source.width = source.file.eye.width;
   for (const Eyes eyes : ods::kAllEyes) {
-    if (ods::eyes_of(eyes) == source.file.eyes) source.eyes = eyes;
+    if (ods::eye_list(eyes) == source.file.eyes) source.eyes = eyes;
   }
 }
 
@@ -39,18 +39,15 @@ void add_camera_source(Options& options, CameraSource& source) {
 
 CameraFile read_camera_source(CameraSource& source) {
   const CameraOptions& camera = source.camera;
-  check_projection(camera.rig.projection);
-  finish_camera_options(source.camera);
+  int height = source.width == source.file.eye.width ? source.file.eye.height : 0;  // its own stays with its width
+  finish_camera_options(source.camera, source.width, height);
   CameraFile file = source.file;
   file.rig = camera.rig;
   file.rig.position = camera.position.value_or(ods::vec3(0.0f));
   file.rig.yaw = camera.yaw.value_or(0.0f);
   file.rig.pitch = camera.pitch.value_or(0.0f);
   file.rig.roll = camera.roll.value_or(0.0f);
-  file.eyes = ods::eyes_of(source.eyes);
-  // A sidecar's own height stays where its width does.
-  if (source.width != file.eye.width) {
-    file.eye = {source.width, ods::natural_height(file.rig.projection, source.width)};
-  }
+  file.eyes = ods::eye_list(source.eyes);
+  file.eye = {source.width, height};
   return file;
 }

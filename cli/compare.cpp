@@ -13,6 +13,7 @@
 #include "cli/compare_report.h"
 #include "cli/console.h"
 #include "cli/form_options.h"
+#include "cli/interrupt.h"
 #include "ods/base/error.h"
 #include "ods/image/save.h"
 #include "ods/kernel/camera/camera.h"
@@ -122,6 +123,7 @@ void check_limits(const CompareJob& job, const ods::Errors& whole) {
 void run(int argc, char** argv) {
   CompareJob job;
   if (!read_options(job, argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
   const CompareReport report = compare(job);
   job.json ? print_json(report) : print_text(report);
   if (!job.difference.empty()) write_difference(report, job.difference);

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "cli/exit_code.h"
-#include "cli/interrupt.h"
 #include "ods/base/error.h"
 
 Console console;
@@ -20,13 +20,19 @@ bool stderr_is_terminal() {
   return isatty(STDERR_FILENO) && term && std::string_view(term) != "dumb";
 }
 
-void note(const std::string& text) {
-  if (!console.quiet) std::fprintf(stderr, "ods: %s\n", text.c_str());
-}
-
 namespace {
 
+void print_json(const char* key, const std::string& text) {
+  // A file's name may be no UTF-8.
+  const nlohmann::json line = {{key, text}};
+  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
 int fail(ExitCode code, std::string text) {
+  if (console.json) {
+    print_json("error", text);
+    return code;
+  }
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;  // a file's name may hold anything
   const char* no_color = std::getenv("NO_COLOR");
   bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
@@ -34,20 +40,32 @@ int fail(ExitCode code, std::string text) {
   return code;
 }
 
-int fail(const ods::Error& error) {
-  switch (error.kind()) {
+ExitCode exit_code(ods::ErrorKind kind) {
+  switch (kind) {
     case ods::ErrorKind::kInput:
-      return fail(kExitInput, error.what());
+      return kExitInput;
     case ods::ErrorKind::kOutput:
-      return fail(kExitOutput, error.what());
-    case ods::ErrorKind::kCancelled:
-      break;
+      return kExitOutput;
+    case ods::ErrorKind::kMemory:
+    case ods::ErrorKind::kCancelled:  // by nobody: interrupts end the process themselves
+      return kExitRenderError;
   }
-  std::fputs("ods: interrupted, no file was written\n", stderr);
-  return 128 + interrupt_signal();
+  return kExitRenderError;
 }
 
 }  // namespace
+
+void note(const std::string& text) {
+  if (console.quiet) return;
+  if (console.json) return print_json("note", text);
+  std::fprintf(stderr, "ods: %s\n", text.c_str());
+}
+
+void warn(const std::string& text) {
+  if (console.quiet) return;
+  if (console.json) return print_json("warning", text);
+  std::fprintf(stderr, "ods: warning: %s\n", text.c_str());
+}
 
 int run_command(const std::function<void()>& body) {
   try {
@@ -59,9 +77,9 @@ int run_command(const std::function<void()>& body) {
   } catch (const UsageError& error) {
     return fail(kExitUsage, error.what());
   } catch (const ods::Error& error) {
-    return fail(error);
+    return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
-    return fail(kExitRenderError, "not enough memory; a smaller --width needs less");
+    return fail(kExitRenderError, "not enough memory; a smaller scene or picture needs less");
   } catch (const std::exception& error) {
     return fail(kExitRenderError, error.what());
   }

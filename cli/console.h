@@ -15,6 +15,7 @@ struct UsageError : std::runtime_error {
 struct Console {
   bool quiet = false;     // says nothing but errors
   bool no_color = false;  // NO_COLOR, TERM=dumb and a stderr that is no terminal do the same
+  bool json = false;      // every line is a JSON object: what follows in quotes below
 };
 
 extern Console console;
@@ -22,8 +23,12 @@ extern Console console;
 // stderr is a terminal that can move its cursor.
 bool stderr_is_terminal();
 
-// "ods: text", unless quiet.
+// "ods: text" or {"note":"text"}, unless quiet.
 void note(const std::string& text);
 
-// Runs a command's body. What it throws becomes one line on stderr and an exit code (cli/exit_code.h).
+// "ods: warning: text" or {"warning":"text"}, unless quiet.
+void warn(const std::string& text);
+
+// Runs a command's body. What it throws becomes one line on stderr, "ods: error: text" or {"error":"text"}, and an exit
+// code (cli/exit_code.h).
 int run_command(const std::function<void()>& body);

@@ -174,7 +174,7 @@ static void read_merge_map(CameraOptions& camera) {
   camera.rig.merge_map = map;
 }
 
-void finish_camera_options(CameraOptions& camera) {
+void finish_eye_options(CameraOptions& camera) {
   CameraRig& rig = camera.rig;
   const bool wanted = rig.top.mode == ods::kMergeMap || rig.bottom.mode == ods::kMergeMap;
   if (camera.merge_map.empty() && wanted && !rig.merge_map)

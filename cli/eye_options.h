@@ -7,3 +7,6 @@
 
 void add_dialect_option(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);
+
+// Reads the picture that --merge-map names. Throws UsageError and ods::Error.
+void finish_eye_options(CameraOptions& camera);

@@ -59,15 +59,13 @@ const ods::NamedSize& size_by_name(const std::string& name) {
   throw UsageError(fmt::format("there is no size '{}'{} (ods sizes lists them)", name, ods::did_you_mean(name, names)));
 }
 
-void add_size_option(Options& options, int& width, Layout& layout) {
+void add_size_option(Options& options, ods::RenderOptions& render, Layout& layout) {
   auto set = [&](const std::string& name) {
     const ods::NamedSize& size = size_by_name(name);
-    if (size.eye.width != 2 * size.eye.height) {
-      throw UsageError(fmt::format("--size {}: its eyes have {}x{} pixels, and render makes them twice as wide as high",
-                                   name, size.eye.width, size.eye.height));
-    }
-    width = size.eye.width;
+    render.width = size.eye.width;
+    render.height = size.eye.height;
     layout = size.layout.value_or(layout);
+    if (!size.layout) render.eyes = ods::Eyes::kMonoEye;
   };
-  options.custom("--size", "NAME", "", set, "width and layout at once, by a name of ods sizes");
+  options.custom("--size", "NAME", "", set, "width, height, layout and mono at once, by a name of ods sizes");
 }

@@ -46,7 +46,7 @@ void print_text(const SceneInfo& info, vec3 position) {
   if (info.nearest_surface >= 0.0f) {
     row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
   }
-  for (const std::string& warning : info.warnings) row("not rendered", warning);
+  for (const std::string& warning : info.warnings) row("warning", warning);
 }
 
 nlohmann::ordered_json to_json(vec3 p) {

@@ -6,31 +6,35 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstring>
+
+#include "ods/base/atomic_file.h"
 
 namespace {
 
-std::atomic<int> received{0};
-static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may touch it");
+const char* words = "";
+std::atomic<bool> said{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
 
 void on_signal(int number) {
-  if (received.exchange(number) != 0) _exit(128 + number);
+  ods::remove_unfinished_files();
+  const ssize_t ignored = said.exchange(true) ? 0 : write(STDERR_FILENO, words, std::strlen(words));
+  static_cast<void>(ignored);
+  _exit(128 + number);
 }
 
 }  // namespace
 
-void catch_interrupts() {
-  const int kNumbers[] = {SIGINT, SIGTERM};
+void end_on_interrupts(const char* last_words) {
+  words = last_words;
+  signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
+  const int kNumbers[] = {SIGHUP, SIGINT, SIGTERM};
   for (int number : kNumbers) {
     struct sigaction before = {};
     sigaction(number, nullptr, &before);
     if (before.sa_handler == SIG_IGN) continue;  // started by nohup or as a shell's background job
     struct sigaction action = {};
     action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;
     sigaction(number, &action, nullptr);
   }
-}
-
-int interrupt_signal() {
-  return received;
 }

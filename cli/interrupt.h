@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ctrl-C and kill: the first asks the work to stop and clean up, the second ends the process at once.
+// Ctrl-C, kill and a terminal that goes away.
 #pragma once
 
-void catch_interrupts();
-
-// SIGINT or SIGTERM once one has come, 0 until then.
-int interrupt_signal();
+// From here on such a signal removes what is not complete, says last_words on stderr and ends the process at once with
+// 128 + its number, whatever is being loaded, rendered or saved. last_words must outlive the process.
+void end_on_interrupts(const char* last_words);

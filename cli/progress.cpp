@@ -33,6 +33,11 @@ bool progress_is_for_farm(ProgressMode mode) {
   return mode == ProgressMode::kDeadline || mode == ProgressMode::kOpenJd || mode == ProgressMode::kTractor;
 }
 
+const char* interrupted_line(ProgressMode mode) {
+  if (mode == ProgressMode::kJson) return "{\"error\":\"interrupted\"}\n";
+  return mode == ProgressMode::kBar ? "\r\x1b[Kods: interrupted\n" : "ods: interrupted\n";
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
   long whole = static_cast<long>(std::min(seconds, 1e9) + 0.5);

@@ -11,7 +11,7 @@ enum class ProgressMode {
   kAuto,      // the bar on a terminal, plain lines elsewhere
   kBar,       // one line that redraws itself
   kPlain,     // a line for every tenth, at most one a second
-  kJson,      // {"progress":0.42,"seconds":10.5,"seconds_left":14.5} for every hundredth
+  kJson,      // {"progress":0.42,"seconds":10.5,"seconds_left":14.5} for every hundredth; console.json goes with it
   kNone,      //
   kDeadline,  // "Progress: 42%"           AWS Thinkbox Deadline
   kOpenJd,    // "openjd_progress: 42"     Open Job Description
@@ -25,6 +25,9 @@ std::string_view progress_mode_name(ProgressMode mode);
 
 // A farm reads stdout; everything else is for stderr.
 bool progress_is_for_farm(ProgressMode mode);
+
+// The last line on stderr of a job that a signal ends; a bar is taken off the screen.
+const char* interrupted_line(ProgressMode mode);
 
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);

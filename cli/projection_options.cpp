@@ -80,7 +80,17 @@ void add_projection_options(Options& options, ProjectionSetting& projection) {
       "where a fisheye or a window points, degrees right and up; the eyes stay level");
 }
 
-void check_projection(const ProjectionSetting& projection) {
+void finish_projection(ProjectionSetting& projection, int width, int& height) {
+  if (height > 0) projection.aspect = static_cast<float>(width) / static_cast<float>(height);
   const std::string fault = ods::projection_fault(projection);
   if (!fault.empty()) throw UsageError(fault);
+  if (ods::is_full_lat_long(projection) && height == 0 && width % 2 != 0) {
+    throw UsageError(fmt::format("--width is even, not {}: a lat-long picture is twice as wide as high", width));
+  }
+  const int step = ods::width_step(projection);
+  if (width % step != 0) {
+    throw UsageError(fmt::format("--width is a multiple of {} for {}, not {}: its faces are {} abreast", step,
+                                 ods::projection_name(projection), width, step));
+  }
+  if (height == 0) height = ods::natural_height(projection, width);
 }

@@ -8,5 +8,6 @@
 
 void add_projection_options(Options& options, ods::ProjectionSetting& projection);
 
-// Throws UsageError where the numbers do not fit together.
-void check_projection(const ods::ProjectionSetting& projection);
+// Finds the height of one eye's picture where it is 0, and a window's aspect where it is not. Throws UsageError where
+// the numbers do not fit together.
+void finish_projection(ods::ProjectionSetting& projection, int width, int& height);

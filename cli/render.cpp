@@ -5,9 +5,11 @@
 #include "ods/cpu/render.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 #include "cli/camera_options.h"
 #include "cli/console.h"
@@ -15,7 +17,6 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/scene_source.h"
-#include "ods/base/error.h"
 #include "ods/image/save.h"
 
 namespace {
@@ -48,8 +49,9 @@ constexpr const char* kExamples =
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
-  add_size_option(options, job.render.width, job.save.layout);
-  options.number("--width", job.render.width, 2, 32768, "of one eye in pixels, even; its height is half");
+  add_size_option(options, job.render, job.save.layout);
+  options.number("--width", job.render.width, 1, 32768, "of one eye in pixels");
+  options.number("--height", job.render.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
   options.choice("--eyes", job.render.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
   add_layout_option(options, job.save.layout, "how two eyes share the file");
   options.flag("--sidecar", job.save.sidecar, "write picture.camera.json too, which ods camera reads");
@@ -73,7 +75,7 @@ void add_render_options(Options& options, RenderJob& job) {
 void add_console_options(Options& options, RenderJob& job) {
   options.group("Console");
   options.choice("--progress", job.progress, kProgressModes, progress_mode_name,
-                 "deadline, openjd and tractor go to stdout");
+                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
   options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
 }
@@ -90,7 +92,10 @@ bool read_options(RenderJob& job, int argc, char** argv) {
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
   if (!options.given("--width") && !options.given("--size")) job.render.width = job.quality.width;
   if (!options.given("--samples")) job.render.samples = job.quality.samples;
-  if (job.render.width % 2 != 0) throw UsageError(fmt::format("--width is even, not {}", job.render.width));
+  job.render.layers = ods::keeps_layers(job.output);
+  if (options.given("--width") && !options.given("--height")) job.render.height = 0;
+  finish_camera_options(job.camera, job.render.width, job.render.height);
+  console.json = job.progress == ProgressMode::kJson;
   if (job.progress == ProgressMode::kAuto) {
     job.progress = console.quiet          ? ProgressMode::kNone
                    : stderr_is_terminal() ? ProgressMode::kBar
@@ -103,37 +108,32 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void stop_if_interrupted() {
-  if (interrupt_signal() != 0) throw ods::Error(ods::ErrorKind::kCancelled, "interrupted");
-}
-
 void render_to_file(const RenderJob& job, ProgressLines& lines) {
-  ods::check_output(job.output, job.save, ods::eyes_of(job.render.eyes), job.render.width);
+  ods::check_output(job.output, job.save, ods::eye_list(job.render.eyes), {job.render.width, job.render.height});
   ods::Scene scene = open_scene(job.scene);
   add_environment(scene, job.scene);
   ods::CameraRig rig = place_camera(job.camera, scene);
-  stop_if_interrupted();
 
   auto start = std::chrono::steady_clock::now();
   ods::Progress progress;
   progress.report = [&](double done) { lines.report(done, seconds_since(start)); };
-  progress.cancelled = [] { return interrupt_signal() != 0; };
   ods::Picture picture = ods::render_cpu(scene, rig, job.render, progress);
   double seconds = seconds_since(start);
   lines.clear();
-  stop_if_interrupted();
 
   std::vector<std::string> files = ods::save_picture(picture, rig, job.save, job.output);
   for (const std::string& file : files) std::cout << file << std::endl;
-  double samples =
-      0.5 * job.render.width * job.render.width * job.render.samples * static_cast<double>(picture.eyes.size());
+  double samples = 1.0 * job.render.width * job.render.height * job.render.samples;
+  samples *= static_cast<double>(picture.eyes.size());
   note(fmt::format("{} in {}, {:.3g} Msamples/s", files.front(), duration_text(seconds), samples / seconds * 1e-6));
 }
 
 void render(int argc, char** argv) {
   RenderJob job;
   if (!read_options(job, argc, argv)) return;
-  catch_interrupts();
+  end_on_interrupts(interrupted_line(job.progress));
+  std::optional<tbb::global_control> limit;
+  if (job.render.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, job.render.threads);
   ProgressLines lines(job.progress, progress_is_for_farm(job.progress) ? std::cout : std::cerr);
   try {
     render_to_file(job, lines);

@@ -24,7 +24,7 @@ void add_light_options(Options& options, SceneSource& source) {
 
 Scene open_scene(const SceneSource& source) {
   Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1)});
-  for (const std::string& warning : scene.warnings) note("warning: " + warning);
+  for (const std::string& warning : scene.warnings) warn(warning);
   return scene;
 }
 

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/base/atomic_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "cli/interrupt.h"
 #include "ods/base/error.h"
 #include "tests/temporary_folder.h"
 
@@ -44,6 +48,41 @@ TEST(AtomicFile, SeveralAppearTogether) {
   commit_all(files);
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"left", "right"}));
   EXPECT_EQ(folder.read("right"), "right");
+}
+
+// What a signal handler does before it ends the process.
+TEST(AtomicFile, UnfinishedFilesCanBeRemovedAtOnce) {
+  const TemporaryFolder folder;
+  folder.write("a.txt", "old");
+  AtomicFile done(folder.path("b.txt"));
+  done.commit();
+  AtomicFile open(folder.path("a.txt")), written(folder.path("c.txt"));
+  written.finish();
+  EXPECT_EQ(folder.names().size(), 4u);
+  remove_unfinished_files();
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.txt", "b.txt"}));
+}
+
+TEST(AtomicFile, ASignalEndsTheProcessAndLeavesNothing) {
+  const TemporaryFolder folder;
+  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int out = open(folder.path("words").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      dup2(out, STDERR_FILENO);
+      signal(number, SIG_DFL);
+      end_on_interrupts("stopped\n");
+      const AtomicFile file(folder.path("a.txt"));
+      std::fputs("half", file.stream());
+      raise(number);
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 128 + number);
+    EXPECT_EQ(folder.read("words"), "stopped\n");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"words"});
+  }
 }
 
 TEST(AtomicFile, MakesFolders) {

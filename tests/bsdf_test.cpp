@@ -143,6 +143,33 @@ TEST(Glass, EqualIndicesDoNothing) {
   }
 }
 
+// Half of it is glass that is not there; the other half stays the rough surface that it is.
+TEST(Glass, EqualIndicesLeaveTheRestRough) {
+  BsdfEvaluator kernel = make_kernel();
+  Surface surface = white_surface(0.5f);
+  surface.transmission = 0.5f;
+  surface.volume = true;
+  const Bsdf bsdf = kernel.make_bsdf(surface, -viewer(0.7f), 1.0f);
+  EXPECT_NEAR(bsdf.alpha, 0.25f, 1e-6f);
+  Dice dice(1);
+  double kept = 0.0;
+  int straight = 0;
+  const int count = 100000;
+  for (int i = 0; i < count; i++) {
+    const BsdfSample found = kernel.sample_bsdf(bsdf, dice.next(), dice.pair());
+    kept += double{found.weight.x};
+    if (found.weight.x == 0.0f) continue;  // a facet that reflects into the surface
+    if (!found.through) {
+      ASSERT_GT(found.pdf, 0.0f);
+      continue;
+    }
+    straight++;
+    ASSERT_LT(length(found.direction + viewer(0.7f)), 1e-5f);
+  }
+  EXPECT_NEAR(kept / count, 1.0, 0.01);
+  EXPECT_NEAR(straight, count * double{bsdf.p_glass}, 5.0 * std::sqrt(count));
+}
+
 vec3 random_direction(Dice& dice, float lowest, float highest) {
   const float z = dice.between(lowest, highest), turn = dice.between(0.0f, 2.0f * kPi), r = std::sqrt(1.0f - z * z);
   return vec3(r * std::cos(turn), r * std::sin(turn), z);

@@ -2,130 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command as its user meets it: what it writes, where, and how it ends.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "tests/temporary_folder.h"
+#include "tests/cli_runner.h"
 
 namespace {
 
-// A running ods, its stdout and stderr in pipes.
-class Ods {
- public:
-  explicit Ods(std::vector<std::string> arguments, rlim_t largest_file = RLIM_INFINITY) {
-    arguments.insert(arguments.begin(), ODS_COMMAND);
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    EXPECT_EQ(pipe2(out_.data(), O_CLOEXEC), 0);
-    EXPECT_EQ(pipe2(err_.data(), O_CLOEXEC), 0);
-    pid_ = fork();
-    if (pid_ == 0) {
-      dup2(out_[1], STDOUT_FILENO);
-      dup2(err_[1], STDERR_FILENO);
-      const rlimit limit{largest_file, largest_file};
-      setrlimit(RLIMIT_FSIZE, &limit);
-      signal(SIGXFSZ, SIG_IGN);  // the write fails, as on a full disk
-      execv(argv[0], argv.data());
-      _exit(127);
-    }
-    close(out_[1]);
-    close(err_[1]);
-  }
-  Ods(const Ods&) = delete;
-  Ods& operator=(const Ods&) = delete;
-
-  // Reads until stderr says it or ends.
-  void wait_for(const std::string& text) {
-    while (err.find(text) == std::string::npos && read_some()) {
-    }
-  }
-
-  void kill(int number) { ::kill(pid_, number); }
-
-  // The exit code; 1000 + the signal that ended it.
-  int finish() {
-    while (read_some()) {
-    }
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-  }
-
-  std::string out;
-  std::string err;
-
- private:
-  bool read_some() {
-    std::array<pollfd, 2> ends = {pollfd{out_[0], POLLIN, 0}, pollfd{err_[0], POLLIN, 0}};
-    poll(ends.data(), ends.size(), -1);
-    return read_end(ends[0], out_[0], out) | read_end(ends[1], err_[0], err);
-  }
-
-  static bool read_end(const pollfd& polled, int& end, std::string& text) {
-    if (end < 0) return false;
-    if (polled.revents == 0) return true;
-    std::array<char, 4096> bytes{};
-    const ssize_t size = read(end, bytes.data(), bytes.size());
-    if (size > 0) {
-      text.append(bytes.data(), static_cast<size_t>(size));
-      return true;
-    }
-    close(end);
-    end = -1;
-    return false;
-  }
-
-  pid_t pid_ = -1;
-  std::array<int, 2> out_{-1, -1};
-  std::array<int, 2> err_{-1, -1};
-};
-
-class Cli : public ::testing::Test {
- protected:
-  // ods with these words, to its end.
-  int run(const std::string& words, rlim_t largest_file = RLIM_INFINITY) {
-    std::istringstream stream(words);
-    std::vector<std::string> arguments;
-    for (std::string word; stream >> word;) arguments.push_back(word);
-    Ods command(arguments, largest_file);
-    const int code = command.finish();
-    out = command.out;
-    err = command.err;
-    return code;
-  }
-
-  // A command that renders a picture of next to nothing into the folder.
-  std::string render(const std::string& words = "") const {
-    return "render furnace --width 16 --samples 1 -o " + folder.path("picture.png") + " " + words;
-  }
-
-  size_t files() const { return folder.names().size(); }
-
-  // Nothing but one line, which starts as every error does.
-  void expect_one_error() const {
-    EXPECT_EQ(out, "");
-    EXPECT_TRUE(err.starts_with("ods: error: ")) << err;
-    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
-    EXPECT_EQ(err.find_first_of("\r\x1b"), std::string::npos) << "colours and cursors are for terminals";
-    EXPECT_EQ(files(), 0u);
-  }
-
-  ods::TemporaryFolder folder;
-  std::string out;
-  std::string err;
-};
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
 
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
@@ -224,65 +123,6 @@ TEST_F(Cli, SlipsGetASuggestion) {
   EXPECT_EQ(err.find("did you mean"), std::string::npos) << err;
 }
 
-TEST_F(Cli, BadOptionsAreUsageErrors) {
-  for (const char* words : {"--width 0",
-                            "--width 17",
-                            "--width -2",
-                            "--width 1e9",
-                            "--width 99999999999999999999",
-                            "--width x",
-                            "--width 8.5",
-                            "--samples 0",
-                            "--samples -5",
-                            "--bounces -1",
-                            "--seed -1",
-                            "--threads -1",
-                            "--ipd nan",
-                            "--ipd -0.1",
-                            "--ipd inf",
-                            "--env nan",
-                            "--env 1,2",
-                            "--env -1",
-                            "--env 1,1,1,1",
-                            "--position 1,2",
-                            "--position a,b,c",
-                            "--position nan,0,0",
-                            "--yaw nan",
-                            "--yaw ninety",
-                            "--eyes three",
-                            "--layout diagonal",
-                            "--layout mono",
-                            "--size huge",
-                            "--size tb-1440p-2560",
-                            "--tone loud",
-                            "--filter tent",
-                            "--quality best",
-                            "--exposure inf",
-                            "--merge cubic",
-                            "--merge cosine,80,60",
-                            "--merge cosine,10,95",
-                            "--merge cosine,",
-                            "--merge ,",
-                            "--merge cosine,60,90,0",
-                            "--merge cosine,60,90,1,1",
-                            "--merge-top nan",
-                            "--progress loudly",
-                            "--camera nowhere",
-                            "--camera=",
-                            "--env=",
-                            "--scene -1",
-                            "--scene 0.5",
-                            "--unknown",
-                            "surplus",
-                            "--width"}) {
-    EXPECT_EQ(run(render(words)), 2) << words;
-    expect_one_error();
-  }
-  EXPECT_EQ(run("render"), 2);
-  EXPECT_EQ(run("render furnace"), 2);
-  expect_one_error();
-}
-
 TEST_F(Cli, AbsentAndBrokenInputsAreInputErrors) {
   for (const char* name : {"absent.glb", "absent.gltf", "absent"}) {
     EXPECT_EQ(run("render " + folder.path(name) + " -o " + folder.path("picture.png")), 3) << name;
@@ -311,6 +151,7 @@ TEST_F(Cli, AFullDiskLeavesNoFile) {
   for (const char* name : {"picture.png", "picture.exr", "picture.jpg", "picture.tif", "picture.hdr", "picture.webp"}) {
     EXPECT_EQ(run("render furnace -q --width 64 --samples 1 -o " + folder.path(name), 64), 4) << name;
     expect_one_error();
+    EXPECT_TRUE(err.ends_with("': the disk is full or was lost\n") || err.ends_with("': File too large\n")) << err;
   }
 }
 
@@ -360,8 +201,7 @@ TEST_F(Cli, FarmsReadTheirLinesOnStdout) {
 
 TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
   for (const int number : {SIGINT, SIGTERM}) {
-    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "--progress", "json", "-o",
-                 folder.path("a.png")});
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "100000", "-o", folder.path("a.png")});
     command.wait_for("camera at");
     command.kill(number);
     EXPECT_EQ(command.finish(), 128 + number) << command.err;
@@ -369,6 +209,75 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
     EXPECT_NE(command.err.find("ods: interrupted"), std::string::npos) << command.err;
     EXPECT_EQ(files(), 0u);
   }
+}
+
+// However often it is told to stop, and while it saves.
+TEST_F(Cli, AnInterruptEndsSaving) {
+  for (const int times : {1, 2}) {
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "1", "--bounces", "0", "--progress", "json", "-o",
+                 folder.path("a.exr")});
+    command.wait_for("\"progress\":1.00");
+    for (int i = 0; i < 10000 && files() == 0; i++) usleep(1000);  // until its temporary file is there
+    for (int i = 0; i < times; i++) command.kill(SIGINT);
+    EXPECT_EQ(command.finish(), 130) << command.err;
+    EXPECT_NE(command.err.find("{\"error\":\"interrupted\"}\n"), std::string::npos) << command.err;
+    EXPECT_EQ(files(), 0u);
+  }
+}
+
+// Every line on stderr is a JSON object.
+TEST_F(Cli, JsonIsAllThatAProgramReads) {
+  folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_\"unknown\""]})");
+  const std::vector<std::pair<std::string, int>> runs = {
+      {render("--progress json --env 1"), 0},
+      {"render " + folder.path("a.gltf") + " --width 16 --samples 1 --progress json -o " + folder.path("b.png"), 0},
+      {"render absent.glb --progress json -o " + folder.path("c.png"), 3}};
+  std::set<std::string> keys;
+  for (const auto& [words, code] : runs) {
+    EXPECT_EQ(run(words), code) << err;
+    std::istringstream lines(err);
+    for (std::string line; std::getline(lines, line);) {
+      const nlohmann::json object = nlohmann::json::parse(line, nullptr, false);
+      EXPECT_TRUE(object.is_object()) << line;
+      if (object.is_object()) keys.insert(object.begin().key());
+    }
+  }
+  EXPECT_EQ(keys, (std::set<std::string>{"error", "note", "progress", "warning"}));
+}
+
+// A scene's pictures are read on all processors, unless told otherwise.
+TEST_F(Cli, ThreadsAreLimitedFromTheStart) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "skipped: one processor starts no threads anyway";
+  EXPECT_EQ(run(render("-q")), 0) << err;
+  nlohmann::json scene = {{"asset", {{"version", "2.0"}}}};
+  for (int i = 0; i < 32; i++) {
+    const std::string name = std::to_string(i) + ".png";
+    folder.write(name, folder.read("picture.png"));
+    scene["images"].push_back({{"uri", name}});
+    scene["textures"].push_back({{"source", i}});
+    scene["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  folder.write("a.gltf", scene.dump());
+  const auto threads_with = [&](const std::string& name, const std::string& limit) {
+    Ods command({"render", name, "--samples", "100000", "--threads", limit, "-o", folder.path("a.png")});
+    command.wait_for("camera at");
+    const size_t threads = command.threads();
+    command.kill(SIGTERM);
+    EXPECT_EQ(command.finish(), 128 + SIGTERM);
+    return threads;
+  };
+  const size_t idle = threads_with("axis", "1");  // what the libraries start for nothing
+  EXPECT_EQ(threads_with(folder.path("a.gltf"), "1"), idle);
+  EXPECT_GT(threads_with(folder.path("a.gltf"), "2"), idle);
+}
+
+TEST_F(Cli, APictureThatDoesNotFitTheMemoryIsRefused) {
+  if (kSanitized) GTEST_SKIP() << "skipped: a sanitizer takes all the address space";
+  // 4 GB of address space; the picture takes 43.
+  EXPECT_EQ(run("render furnace -q --width 32768 --samples 1 -o " + folder.path("a.exr"), RLIM_INFINITY, 1ull << 32),
+            1);
+  expect_one_error();
+  EXPECT_NE(err.find("needs 42.9 GB of memory"), std::string::npos) << err;
 }
 
 TEST_F(Cli, AKilledRenderLeavesNoFile) {

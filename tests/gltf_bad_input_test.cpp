@@ -15,6 +15,7 @@
 
 #include "ods/base/error.h"
 #include "tests/gltf_builder.h"
+#include "tests/temporary_folder.h"
 
 namespace ods {
 namespace {
@@ -196,6 +197,107 @@ TEST(GltfBadInput, OnePictureUnderManyNamesIsReadOnce) {
   const Scene scene = file.load();
   EXPECT_EQ(scene.textures.size(), 100u);
   EXPECT_EQ(scene.texels.size(), 4u);
+}
+
+void append_chunk(Binary& png, const std::string& type, const Binary& data) {
+  Binary typed(type.begin(), type.end());
+  typed.insert(typed.end(), data.begin(), data.end());
+  uint32_t crc = 0xffffffffu;
+  for (const unsigned char byte : typed) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+  }
+  const auto append = [&](size_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) png.push_back(static_cast<unsigned char>(value >> shift));
+  };
+  append(data.size());
+  png.insert(png.end(), typed.begin(), typed.end());
+  append(~crc);
+}
+
+// 4096 x 4096 texels of one bit, all black, in 2 kB: next to all of its packed bytes are zero.
+Binary vast_png() {
+  Binary pixels = {0x78, 0xda, 0xed, 0xc1, 0x31, 0x01, 0x00, 0x00, 0x00,
+                   0xc2, 0xa0, 0xf5, 0x4f, 0x6d, 0x0a, 0x3f, 0xa0};
+  pixels.resize(2059 - 6);
+  pixels.insert(pixels.end(), {0xbe, 0x06, 0x11, 0xe0, 0x00, 0x01});
+  Binary png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  append_chunk(png, "IHDR", {0, 0, 0x10, 0, 0, 0, 0x10, 0, 1, 0, 0, 0, 0});
+  append_chunk(png, "IDAT", pixels);
+  append_chunk(png, "IEND", {});
+  return png;
+}
+
+// Five of them are more than 64 million texels and a thousand for each byte; in which order they are read is no matter.
+TEST(GltfBadInput, TexelsThatAFileOfItsSizeCannotHold) {
+  GltfBuilder file = make_triangle();
+  for (int i = 0; i < 5; i++) {
+    file.json["images"].push_back({{"bufferView", file.add_view(vast_png())}});
+    file.json["textures"].push_back({{"source", i}});
+    file.json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  EXPECT_NE(error_of(file.glb()).find("far more texels"), std::string::npos);
+  file.json["materials"].erase(4);
+  EXPECT_EQ(error_of(file.glb()), "");
+}
+
+// --- files that are larger than what is in them (sparse: they take no room on the disk) ------------------------------
+
+class GltfSparseFile : public testing::Test {
+ protected:
+  static constexpr uintmax_t kHuge = uintmax_t{1} << 43;
+
+  void write(const std::string& name, const Binary& bytes) {
+    folder.write(name, std::string(bytes.begin(), bytes.end()));
+    std::error_code error;
+    std::filesystem::resize_file(folder.path(name), kHuge, error);
+    if (error) GTEST_SKIP() << "skipped: no sparse files of 8 TB here: " << error.message();
+  }
+  std::string error_of_file(const std::string& name) const {
+    try {
+      load_gltf(folder.path(name));
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(GltfSparseFile, AContainerEndsWhereItsHeaderSays) {
+  write("a.glb", make_triangle().glb());
+  EXPECT_EQ(error_of_file("a.glb"), "");
+}
+
+TEST_F(GltfSparseFile, TextHasALimit) {
+  write("a.gltf", {'{'});
+  EXPECT_NE(error_of_file("a.gltf").find("limit"), std::string::npos) << error_of_file("a.gltf");
+  write("b.gltf", {'x'});
+  EXPECT_NE(error_of_file("b.gltf").find("is not a glTF file"), std::string::npos);
+}
+
+TEST_F(GltfSparseFile, BuffersAreReadAsFarAsTheyAreUsed) {
+  GltfBuilder file = make_triangle();
+  write("a.bin", file.binary);
+  file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "a.bin"}}};
+  folder.write("a.gltf", file.json.dump());
+  EXPECT_EQ(error_of_file("a.gltf"), "");
+  file.json["buffers"][0]["byteLength"] = kHuge;
+  folder.write("a.gltf", file.json.dump());
+  EXPECT_NE(error_of_file("a.gltf").find("a.bin"), std::string::npos) << error_of_file("a.gltf");
+}
+
+TEST_F(GltfSparseFile, Pictures) {
+  write("a.png", small_png());
+  GltfBuilder file = make_triangle();
+  file.json["images"] = {{{"uri", "a.png"}}};
+  file.json["textures"] = Json::parse(R"([{"source": 0}])");
+  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "a.bin"}}};
+  folder.write("a.bin", std::string(file.binary.begin(), file.binary.end()));
+  folder.write("a.gltf", file.json.dump());
+  EXPECT_NE(error_of_file("a.gltf").find("limit"), std::string::npos) << error_of_file("a.gltf");
 }
 
 TEST(GltfBadInput, VerticesThatAreNowhere) {

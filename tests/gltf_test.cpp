@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "ods/base/error.h"
+#include "ods/kernel/ggx.h"
 #include "tests/gltf_builder.h"
 #include "tests/scene_check.h"
 
@@ -130,6 +131,35 @@ TEST(Gltf, SparseAccessor) {
   const Scene scene = file.load();
   expect_near(scene.vertices[1].position, vec3(5, 6, 7));
   expect_near(scene.vertices[2].position, vec3(0, 1, 0));
+}
+
+// Integers of 32 bits are no floats: 16777217 would become 16777216.
+TEST(Gltf, SparseIndicesAreExact) {
+  GltfBuilder file = make_triangle();
+  const int where = file.add<uint8_t>({0, 1, 2}, kUbyte, "SCALAR");
+  const int corners = file.add<uint32_t>({0, 1, 16777217}, kUint, "SCALAR");
+  file.primitive()["indices"] = file.add<uint32_t>({0, 0, 0}, kUint, "SCALAR");
+  file.json["accessors"].back()["sparse"] = {{"count", 3},
+                                             {"indices", {{"bufferView", where}, {"componentType", kUbyte}}},
+                                             {"values", {{"bufferView", corners}}}};
+  EXPECT_NE(error_of(file.glb()).find("has the index 16777217,"), std::string::npos) << error_of(file.glb());
+}
+
+TEST(Gltf, TextureCoordinatesAreCutAtOnePlace) {
+  GltfBuilder file = make_triangle();
+  file.primitive()["material"] = 0;
+  file.primitive()["attributes"]["TEXCOORD_0"] = file.add<float>({5e5f, -5e5f, 2e6f, -2e6f, 0, 0}, kFloat, "VEC2");
+  file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
+  file.json["textures"] = Json::parse(R"([{"source": 0}])");
+  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+      {"offset": [5e5, -2e6], "scale": [-5e5, 2e6]}}}}])");
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.vertices[0].uv0, vec2(5e5f, -5e5f));
+  EXPECT_EQ(scene.vertices[1].uv0, vec2(1e6f, -1e6f));
+  const TextureSlot& slot = scene.materials[0].emission_slot;
+  EXPECT_EQ(slot.offset, vec2(5e5f, -1e6f));
+  EXPECT_EQ(slot.axis_u.x, -5e5f);
+  EXPECT_EQ(slot.axis_v.y, 1e6f);
 }
 
 TEST(Gltf, InterleavedAttributes) {
@@ -325,6 +355,30 @@ TEST(Gltf, EveryFactorOfAMaterial) {
   EXPECT_EQ(material.thickness, .01f);
   EXPECT_EQ(material.attenuation_distance, 2.0f);
   expect_near(material.attenuation_color, vec3(.5f, 1, 1));
+}
+
+TEST(Gltf, AScenesReachIsWarnedOf) {
+  GltfBuilder file = make_triangle();
+  file.json["nodes"][0]["translation"] = {0, 0, -2999};
+  EXPECT_TRUE(file.load().warnings.empty());
+  file.json["nodes"][0]["translation"] = {0, 0, -6000};
+  EXPECT_EQ(file.load().warnings.size(), 1u);
+  EXPECT_NE(file.load().warnings.at(0).find("6 km"), std::string::npos);
+}
+
+// KHR_materials_ior: 0 asks for a Fresnel term of 1.
+TEST(Gltf, IndexOfRefractionZeroIsAMirror) {
+  GltfBuilder file = make_triangle();
+  file.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_ior": {"ior": 0}}},
+      {"extensions": {"KHR_materials_ior": {"ior": 0.5}}},
+      {"extensions": {"KHR_materials_ior": {"ior": 0}, "KHR_materials_specular": {"specularFactor": 0.1}}}])");
+  const Scene scene = file.load();
+  const float ior = scene.materials[0].ior;
+  EXPECT_EQ((ior - 1.0f) / (ior + 1.0f), 1.0f);
+  EXPECT_EQ(fresnel_dielectric(0.7f, ior), 1.0f);
+  EXPECT_EQ(scene.materials[1].ior, 1.5f);
+  EXPECT_EQ(scene.materials[2].ior, 1.5f) << "what would dim the mirror is not rendered";
+  EXPECT_EQ(scene.warnings.size(), 1u);
 }
 
 TEST(Gltf, TexturesAndTheirSamplers) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ods/cpu/render.h"
 #include "ods/scene/lights.h"
 #include "tests/scenes.h"
@@ -73,6 +75,37 @@ TEST(Path, SmallTriangleFarAwayKeepsItsShape) {
   EXPECT_NEAR(length(cross(triangle.ab, triangle.ac)), 4e-6f, 1e-11f);
 }
 
+// A closed room in a bright world, its walls as thin as kThinnestWall allows, further and further from the origin.
+TEST(Path, WallsKeepLightOutFarFromTheOrigin) {
+  const vec3 half(2.0f, 1.5f, 2.0f);
+  for (const vec3 away : {vec3(300, 0, 0), vec3(1e3f, 0, 700), vec3(kFirmReach, 0, 0), vec3(4097, -4097, 4097),
+                          vec3(-9e3f, 100, 5e3f), vec3(40, 33e3f, 0)}) {
+    Scene scene;
+    scene.materials = {default_material()};
+    scene.environment.radiance = vec3(1.0f);
+    const vec3 reach = abs(away) + half;
+    const float wall = 1.1f * kThinnestWall * std::max({reach.x, reach.y, reach.z});
+    const vec3 low = away - half, high = away + half, thick(wall);
+    for (int axis = 0; axis < 3; axis++) {
+      vec3 before = high + thick, behind = low - thick;
+      before[axis] = low[axis];
+      behind[axis] = high[axis];
+      add_box(scene, low - thick, before, 0);
+      add_box(scene, behind, high + thick, 0);
+    }
+    RenderOptions options = small_mono();
+    options.width = 64;
+    options.samples = 32;
+    options.bounces = 3;
+    CameraRig rig;
+    rig.position = away;
+    const Picture picture = render_cpu(scene, rig, options);
+    for (const float value : picture.eyes[0].radiance.pixels) {
+      ASSERT_EQ(value, 0.0f) << away.x << ' ' << away.y << ' ' << away.z << ", walls of " << wall;
+    }
+  }
+}
+
 // A panel that shines by itself, 2 m away through water that leaves a tenth of the light after each metre.
 TEST(Path, CameraInsideAMediumSeesThroughIt) {
   Scene scene;
@@ -92,6 +125,30 @@ TEST(Path, CameraInsideAMediumSeesThroughIt) {
   options.filter = PixelFilter::kBox;
   const Picture picture = render_cpu(scene, {}, options);
   EXPECT_NEAR(*picture.eyes[0].radiance.at(128, 64), 0.01f, 1e-4f);
+}
+
+// A glowing box of thin air hangs in clear water: its walls bend nothing, but are seen.
+TEST(Path, VolumesGlowInsideDenserOnes) {
+  Scene scene;
+  Material water = default_material();
+  water.transmission = 1.0f;
+  water.thickness = 1.0f;
+  water.ior = 1.33f;
+  Material lamp = water;
+  lamp.ior = 1.0f;
+  lamp.emission = vec3(2.0f);
+  lamp.double_sided = 0;
+  scene.materials = {water, lamp};
+  add_box(scene, vec3(-10.0f), vec3(10.0f), 0);
+  add_box(scene, vec3(-1.0f, -1.0f, -4.0f), vec3(1.0f, 1.0f, -2.0f), 1);
+  for (LightSampling way : {LightSampling::kBoth, LightSampling::kBsdfOnly}) {
+    RenderOptions options = small_mono();
+    options.filter = PixelFilter::kBox;
+    options.light_sampling = way;
+    const Picture picture = render_cpu(scene, {}, options);
+    EXPECT_NEAR(*picture.eyes[0].radiance.at(16, 8), 2.0f, 0.01f);  // its front; the rest is the water's far wall
+    EXPECT_LT(*picture.eyes[0].radiance.at(0, 8), 0.1f);
+  }
 }
 
 TEST(Path, DepthOfAVeilIsNotALottery) {

@@ -8,7 +8,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <thread>
 
+#include "ods/base/error.h"
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/kernel/path.h"
@@ -175,12 +177,13 @@ TEST(Lamps, Directional) {
 }
 
 // Lambert's formula: half the sum of the angles that the lamp's edges span, each times the cosine of its plane's
-// normal.
-double polygon_irradiance(glm::dvec3 p, const std::vector<glm::dvec3>& corners, double radiance) {
+// normal to the surface's.
+double polygon_irradiance(glm::dvec3 p, const std::vector<glm::dvec3>& corners, double radiance,
+                          glm::dvec3 normal = {0.0, 1.0, 0.0}) {
   double sum = 0.0;
   for (size_t i = 0; i < corners.size(); i++) {
     const glm::dvec3 a = normalize(corners[i] - p), b = normalize(corners[(i + 1) % corners.size()] - p);
-    sum += std::acos(dot(a, b)) * normalize(cross(a, b)).y;
+    sum += std::acos(dot(a, b)) * dot(normalize(cross(a, b)), normal);
   }
   return std::abs(sum) * 0.5 * radiance;
 }
@@ -197,6 +200,62 @@ TEST(Lamps, Rectangle) {
     const std::vector<glm::dvec3> corners = {{-0.5, 0.5, -1}, {1, 0.5, -1}, {1, 0.5, 0}, {-0.5, 0.5, 0}};
     expect_floor(
         scene, 1024, 0.04, [&](glm::dvec3 p) { return polygon_irradiance(p, corners, 4.0); }, height);
+  }
+}
+
+// --- a matte sphere of radius 1, 2.5 metres ahead, under a lamp ------------------------------------------------------
+
+const glm::dvec3 kSphere(0.0, 0.0, -2.5), kLamp(1.5, 2.0, -0.5);
+
+// Compares every pixel that sees nothing but the lit side of the sphere with albedo / pi times an irradiance of a point
+// and its normal.
+void expect_sphere(Scene scene, double albedo, double tolerance,
+                   const std::function<double(glm::dvec3, glm::dvec3)>& irradiance) {
+  add_sphere(scene, vec3(kSphere), 1.0f, add_material(scene, matte(vec3(static_cast<float>(albedo)))), 128);
+  RenderOptions options = small_render(128, 256);
+  options.bounces = 1;
+  const Picture picture = render_cpu(scene, CameraRig{}, options);
+  int compared = 0;
+  for (int y = 0; y < 64; y++) {
+    for (int x = 0; x < 128; x++) {
+      bool lit = true;
+      const double expected = pixel_mean(128, x, y, [&](glm::dvec3 d) {
+        const double middle = dot(d, kSphere), root = middle * middle - dot(kSphere, kSphere) + 1.0;
+        const glm::dvec3 p = d * (middle - std::sqrt(std::max(root, 0.0))), normal = p - kSphere;
+        lit = lit && middle > 0.0 && root > 0.01 && dot(normalize(kLamp - p), normal) > 0.15;
+        return irradiance(p, normal) * albedo / std::numbers::pi;
+      });
+      if (!lit) continue;
+      compared++;
+      ASSERT_NEAR(double{*picture.eyes[0].radiance.at(x, y)}, expected, tolerance * expected) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(compared, 100);
+}
+
+TEST(Sphere, UnderAPoint) {
+  Scene scene;
+  PunctualLight lamp;
+  lamp.position = vec3(kLamp);
+  lamp.intensity = vec3(9.0f);
+  scene.lights.push_back(lamp);
+  for (const double albedo : {1.0, 0.5}) {
+    expect_sphere(scene, albedo, 0.003, [&](glm::dvec3 p, glm::dvec3 normal) {
+      return 9.0 * dot(kLamp - p, normal) / std::pow(length(kLamp - p), 3.0);
+    });
+  }
+}
+
+TEST(Sphere, UnderASmallRectangle) {
+  const glm::dvec3 a(0.2, 0.0, 0.0), b(0.0, 0.1, 0.2), low = kLamp - 0.5 * (a + b);
+  Scene scene;
+  Material glow = matte(vec3(0.0f));
+  glow.emission = vec3(200.0f);
+  add_rectangle(scene, vec3(low), vec3(a), vec3(b), add_material(scene, glow));
+  const std::vector<glm::dvec3> corners = {low, low + a, low + a + b, low + b};
+  for (const double albedo : {1.0, 0.5}) {
+    expect_sphere(scene, albedo, 0.01,
+                  [&](glm::dvec3 p, glm::dvec3 normal) { return polygon_irradiance(p, corners, 200.0, normal); });
   }
 }
 
@@ -217,6 +276,30 @@ TEST(Render, FirstHitLayers) {
         ASSERT_NEAR(eye.albedo.at(x, y)[c], below ? kAlbedo : 0.0f, 1e-6f);
       }
     }
+  }
+}
+
+// What a file cannot hold takes no memory, and changes nothing else.
+TEST(Render, LayersCanBeLeftOut) {
+  const Scene scene = floor_scene();
+  RenderOptions options = small_render(32, 2);
+  options.height = 16;
+  const Picture whole = render_cpu(scene, CameraRig{}, options);
+  EXPECT_EQ(picture_bytes(options), 32u * 16 * 10 * sizeof(float));
+  options.layers = false;
+  const Picture bare = render_cpu(scene, CameraRig{}, options);
+  EXPECT_EQ(picture_bytes(options), 32u * 16 * 3 * sizeof(float));
+  EXPECT_EQ(bare.eyes[0].radiance.pixels, whole.eyes[0].radiance.pixels);
+  EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
+}
+
+TEST(Render, APictureLargerThanTheMemoryIsAnError) {
+  RenderOptions options = small_render(1 << 24, 1);
+  try {
+    render_cpu(floor_scene(), CameraRig{}, options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
   }
 }
 
@@ -326,7 +409,7 @@ TEST(Environment, LooksAsItWasGiven) {
 
 // --- the same picture, another way -----------------------------------------------------------------------------------
 
-TEST(SameBits, WhateverTheThreads) {
+TEST(SameBits, WhateverTheThreadsAndTheOrderOfTiles) {
   const Scene scene = feature_scene();
   RenderOptions options = small_render(48, 4);
   options.eyes = Eyes::kBothEyes;
@@ -339,8 +422,29 @@ TEST(SameBits, WhateverTheThreads) {
   }
   EXPECT_EQ(digest(pictures[0]), digest(pictures[1]));
   EXPECT_EQ(digest(pictures[0]), digest(pictures[2]));
+  options.last_tile_first = true;
+  EXPECT_EQ(digest(pictures[0]), digest(render_cpu(scene, CameraRig{}, options)));
   options.seed = 1;
   EXPECT_NE(digest(pictures[0]), digest(render_cpu(scene, CameraRig{}, options)));
+}
+
+TEST(SameBits, WhoeverElseRenders) {
+  const Scene with_glass = feature_scene();
+  Scene without;
+  add_box(without, vec3(-1.0f), vec3(1.0f), add_material(without, matte(vec3(0.5f))));
+  RenderOptions options = small_render(32, 2);
+  options.threads = 2;
+  std::vector<std::thread> callers;
+  std::vector<uint64_t> seen(4);
+  for (size_t i = 0; i < seen.size(); i++) {
+    callers.emplace_back(
+        [&, i] { seen[i] = digest(render_cpu(i % 2 == 0 ? without : with_glass, CameraRig{}, options)); });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(seen[0], digest(render_cpu(without, CameraRig{}, options)));
+  EXPECT_EQ(seen[1], digest(render_cpu(with_glass, CameraRig{}, options)));
+  EXPECT_EQ(seen[0], seen[2]);
+  EXPECT_EQ(seen[1], seen[3]);
 }
 
 TEST(Embree, InstancesAreMetLikeCopies) {

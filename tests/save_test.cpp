@@ -137,6 +137,35 @@ TEST(Save, EveryFormatInEveryLayout) {
   }
 }
 
+TEST(Save, SqueezedPixelsAreTheMeanButOfDepthTheNearest) {
+  const TemporaryFolder folder;
+  SaveOptions options;
+  options.layout = Layout::kTopBottomHalf;
+  Picture picture = stereo();
+  *picture.eyes[1].depth.at(3, 5) = 2.0f;
+  save_picture(picture, {}, options, folder.path("a.exr"));
+  const Image image = read_channels(folder.path("a.exr"), {"N.Y", "Z"});
+  ASSERT_EQ(image.height, kHeight);
+  const float mean = 10.0f + 0.5f * (light(kRight, 3, 4, 1) + light(kRight, 3, 5, 1));
+  EXPECT_NEAR(image.at(3, kHeight / 2 + 2)[0], mean, 0.005f);
+  EXPECT_EQ(image.at(3, kHeight / 2 + 2)[1], 2.0f);
+  EXPECT_EQ(image.at(4, kHeight / 2 + 2)[1], 1000.0f + light(kRight, 4, 4, 0));
+}
+
+TEST(Save, APictureOfNoKnownCameraSaysNothingOfOne) {
+  const TemporaryFolder folder;
+  Picture picture = single(kMono);
+  picture.eyes[0].depth = picture.eyes[0].normal = picture.eyes[0].albedo = Image();
+  for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+    save_picture(picture, {}, folder.path(name));
+    EXPECT_EQ(folder.read(name).find("ods:ipd"), std::string::npos) << name;
+    EXPECT_EQ(folder.read(name).find("GPano"), std::string::npos) << name;
+    EXPECT_EQ(folder.read(name).find("envmap"), std::string::npos) << name;
+  }
+  EXPECT_EQ(read_info(folder.path("a.exr")).channels, (std::vector<std::string>{"R", "G", "B"}));
+  EXPECT_EQ(read_info(folder.path("a.exr")).text.at("ods:layout"), "mono");
+}
+
 TEST(Save, DisplayFormatsAreExposedAndSceneFormatsAreNot) {
   const TemporaryFolder folder;
   SaveOptions options;
@@ -186,7 +215,7 @@ std::string refusal(const std::string& path, const SaveOptions& options, const P
   for (const EyeImage& eye : picture.eyes) eyes.push_back(eye.eye);
   std::string checked, saved;
   try {
-    check_output(path, options, eyes, picture.eyes[0].radiance.width);
+    check_output(path, options, eyes, {picture.eyes[0].radiance.width, picture.eyes[0].radiance.height});
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kOutput);
     checked = error.what();
@@ -215,6 +244,12 @@ TEST(CheckOutput, RefusesWhatCannotBeSaved) {
   EXPECT_NE(refusal(folder.path("a.exr"), with(Layout::kMultiview), single(kMono)), "");
   EXPECT_NE(refusal(folder.path("a.exr"), with(Layout::kSeparate), stereo()), "");
   EXPECT_NE(refusal(folder.path("%V.exr"), {}, single(kMono)), "");
+  EXPECT_NE(refusal(folder.path("a.exr"), with(Layout::kAnaglyph), stereo()), "");
+  EXPECT_NE(refusal(folder.path("a.hdr"), with(Layout::kAnaglyphDubois), stereo()), "");
+  EXPECT_NE(refusal(folder.path("a.png"), with(Layout::kAnaglyphHalf), single(kLeft)), "");
+  EXPECT_THROW(check_output(folder.path("a.png"), with(Layout::kTopBottomHalf), {kLeft, kRight}, {34, 17}), Error);
+  EXPECT_NO_THROW(check_output(folder.path("a.png"), with(Layout::kSideBySideHalf), {kLeft, kRight}, {34, 17}));
+  EXPECT_NO_THROW(check_output(folder.path("a.png"), with(Layout::kTopBottomHalf), {kMono}, {34, 17}));
   EXPECT_NE(refusal("/dev/null/a.png", {}, stereo()), "");
   EXPECT_TRUE(folder.names().empty());
 
@@ -223,9 +258,9 @@ TEST(CheckOutput, RefusesWhatCannotBeSaved) {
   EXPECT_NE(refusal(folder.path("%V.png"), {}, stereo()), "");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"left.png"}) << "no right eye without a left one";
 
-  EXPECT_THROW(check_output(folder.path("a.webp"), {}, {kLeft, kRight}, 16384), Error);
-  EXPECT_THROW(check_output(folder.path("a.jpg"), with(Layout::kSideBySide), {kLeft, kRight}, 32768), Error);
-  EXPECT_NO_THROW(check_output(folder.path("a.exr"), {}, {kLeft, kRight}, 32768));
+  EXPECT_THROW(check_output(folder.path("a.webp"), {}, {kLeft, kRight}, {16384, 8192}), Error);
+  EXPECT_THROW(check_output(folder.path("a.jpg"), with(Layout::kSideBySide), {kLeft, kRight}, {32768, 16384}), Error);
+  EXPECT_NO_THROW(check_output(folder.path("a.exr"), {}, {kLeft, kRight}, {32768, 16384}));
 
   EXPECT_EQ(refusal(folder.path("new/a.exr"), with(Layout::kMultiview), stereo()), "");
   EXPECT_EQ(refusal(folder.path("%v.png"), with(Layout::kSeparate), single(kRight)), "");

@@ -60,7 +60,7 @@ static std::string check_material(const Scene& scene, const Material& m) {
        {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w, m.metallic, m.roughness, m.transmission}) {
     if (!in_unit(share)) return "factor";
   }
-  if (!bounded(m.emission, 1e18f) || !(m.ior >= 1.0f && m.ior <= 100.0f)) return "emission or ior";
+  if (!bounded(m.emission, 1e18f) || !(m.ior >= 1.0f && m.ior <= 1e8f)) return "emission or ior";
   return bounded(m.attenuation_color) && m.thickness >= 0.0f && bounded(vec2(m.thickness, m.attenuation_distance))
              ? ""
              : "volume";

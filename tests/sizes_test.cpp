@@ -37,7 +37,7 @@ TEST(Sizes, TheQuickresTableIsThePages) {
     if (!size.title.starts_with("ODS ")) continue;
     rows++;
     std::string name(size.title.substr(4, size.title.find(" x ") - 4));
-    name.replace(name.find(" - "), 3, "-");
+    name.erase(name.find(" - "), 2);
     for (char& c : name) c = c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     EXPECT_EQ(size.name, name);
     const Extent file = file_size(size);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -26,6 +27,34 @@ static fs::path folder_of(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
+// The names of temporary files, where a signal handler may read them. The strings outlast their entries.
+static std::array<std::atomic<const char*>, 16> unfinished{};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+static void replace_unfinished(const char* old_name, const char* new_name) {
+  for (std::atomic<const char*>& entry : unfinished) {
+    const char* expected = old_name;
+    if (entry.compare_exchange_strong(expected, new_name)) return;
+  }
+}
+
+static void forget(std::string& temporary) {
+  replace_unfinished(temporary.c_str(), nullptr);
+  temporary.clear();
+}
+
+static void remove_temporary(std::string& temporary) {
+  std::remove(temporary.c_str());
+  forget(temporary);
+}
+
+void remove_unfinished_files() {
+  for (const std::atomic<const char*>& entry : unfinished) {
+    const char* name = entry;
+    if (name != nullptr) unlink(name);
+  }
+}
+
 // A new file with a name that is unique on this host and process; cut short because a name has at most 255 bytes.
 // Null, with errno, where there can be none.
 static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
@@ -36,12 +65,16 @@ static std::FILE* create_temporary(const fs::path& folder, const std::string& pa
   // A name already taken is what a killed process with our number left, or another machine's of our name.
   const int kTries = 100;
   std::FILE* stream = nullptr;
-  for (int i = 0; i < kTries && stream == nullptr; i++) {
+  for (int i = 0; i < kTries; i++) {
     temporary = folder / fmt::format(".{}.tmp.{}.{}.{}", name, host, getpid(), counter++);
+    replace_unfinished(nullptr, temporary.c_str());  // before it exists, so that no signal falls between
     stream = std::fopen(temporary.c_str(), "wbxe");
-    if (stream == nullptr && errno != EEXIST) break;
+    if (stream != nullptr) break;
+    const int why = errno;
+    forget(temporary);
+    errno = why;
+    if (why != EEXIST) break;
   }
-  if (stream == nullptr) temporary.clear();
   return stream;
 }
 
@@ -68,7 +101,7 @@ void check_writable(const std::string& path) {
     throw cannot_write(path, fmt::format("folder '{}': {}", folder.native(), std::strerror(errno)));
   }
   std::fclose(stream);
-  std::remove(temporary.c_str());
+  remove_temporary(temporary);
 }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
@@ -82,7 +115,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
 
 AtomicFile::~AtomicFile() {
   if (stream_ != nullptr) std::fclose(stream_);
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  if (!temporary_.empty()) remove_temporary(temporary_);
 }
 
 void AtomicFile::finish() {
@@ -94,8 +127,7 @@ void AtomicFile::finish() {
   const int close_error = errno;
   stream_ = nullptr;
   if (written && closed) return;
-  std::remove(temporary_.c_str());
-  temporary_.clear();  // so that no later commit() can publish a part
+  remove_temporary(temporary_);  // so that no later commit() can publish a part
   const int code = written ? close_error : flush_error;
   throw cannot_write(path_, code == 0 ? "the disk is full or was lost" : std::strerror(code));
 }
@@ -103,7 +135,7 @@ void AtomicFile::finish() {
 void AtomicFile::commit() {
   finish();
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw cannot_write(path_, std::strerror(errno));
-  temporary_.clear();
+  forget(temporary_);
 }
 
 void commit_all(std::list<AtomicFile>& files) {

@@ -43,4 +43,8 @@ class AtomicFile {
 // Files that belong together: none gets its final name before the last one is on the disk.
 void commit_all(std::list<AtomicFile>& files);
 
+// Removes every temporary file that this process has at this moment. For a signal handler that ends the process:
+// async-signal-safe. (Of files open at once it knows the first 16.)
+void remove_unfinished_files();
+
 }  // namespace ods

@@ -12,6 +12,7 @@ namespace ods {
 enum class ErrorKind {
   kInput,      // a file that is absent, broken or not supported
   kOutput,     // a file that could not be written
+  kMemory,     // the machine has not enough
   kCancelled,  // Progress::cancelled said so
 };
 

@@ -4,33 +4,56 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "ods/base/error.h"
+#include "ods/base/memory.h"
 
 namespace ods {
 
-std::vector<unsigned char> read_file(const std::string& path) {
-  const auto cannot_read = [&](const std::string& why) {
-    return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
-  };
+static Error cannot_read(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
+}
+
+size_t file_size(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw cannot_read("no such file");
+  if (!std::filesystem::exists(status)) throw cannot_read(path, "no such file");
   // A folder opens as if it were endless, a pipe waits for ever.
-  if (!std::filesystem::is_regular_file(status)) throw cannot_read("it is not a file");
+  if (!std::filesystem::is_regular_file(status)) throw cannot_read(path, "it is not a file");
+  const uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw cannot_read(path, error.message());
+  return static_cast<size_t>(size);
+}
+
+std::vector<unsigned char> read_start(const std::string& path, size_t count) {
+  count = std::min(count, file_size(path));
+  const size_t available = available_memory();
+  if (count > available) {
+    throw cannot_read(
+        path, fmt::format("{} of it are needed, and {} of memory are free", bytes_text(count), bytes_text(available)));
+  }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  const uintmax_t size = std::filesystem::file_size(path, error);
-  if (!stream || error) throw cannot_read(errno != 0 ? std::strerror(errno) : "it does not open");
-  std::vector<unsigned char> bytes(size);
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-    throw cannot_read("reading stopped halfway");
+  if (!stream) throw cannot_read(path, errno != 0 ? std::strerror(errno) : "it does not open");
+  std::vector<unsigned char> bytes(count);
+  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count))) {
+    throw cannot_read(path, "reading stopped halfway");
   }
   return bytes;
+}
+
+std::vector<unsigned char> read_file(const std::string& path, size_t most) {
+  const size_t size = file_size(path);
+  if (size > most) {
+    throw cannot_read(path,
+                      fmt::format("it has {}, {} are the limit for such a file", bytes_text(size), bytes_text(most)));
+  }
+  return read_start(path, size);
 }
 
 }  // namespace ods

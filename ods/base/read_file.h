@@ -1,14 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file's bytes.
+// A file's bytes. Everything here throws Error(kInput): there is no such file, it is a folder or a device, or it may
+// not be read.
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace ods {
 
-// The whole file. Throws Error(kInput): there is none, it is a folder or a device, or it may not be read.
-std::vector<unsigned char> read_file(const std::string& path);
+size_t file_size(const std::string& path);
+
+// The whole file. One with more than `most` bytes, or more than there is memory for, is an Error before it is read.
+std::vector<unsigned char> read_file(const std::string& path, size_t most);
+
+// Its first `count` bytes, or all where it has fewer; likewise.
+std::vector<unsigned char> read_start(const std::string& path, size_t count);
 
 }  // namespace ods

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/cpu/render.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -12,6 +13,7 @@
 #include <mutex>
 
 #include "ods/base/error.h"
+#include "ods/base/memory.h"
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/path.h"
 #include "ods/scene/lights.h"
@@ -81,7 +83,8 @@ Pixel render_pixel(Job& job, int eye, int x, int y) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
     const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
-    const Ray ray = camera_ray(job.camera, eye, home, uv, random_pair(seed, index, kLensPair));
+    const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
+    const Ray ray = camera_ray(job.camera, eye, home, uv, lens);
     if (ray.direction == vec3(0.0f)) return {};
     job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
@@ -93,7 +96,7 @@ Pixel render_pixel(Job& job, int eye, int x, int y) {
   pixel.radiance *= share;
   pixel.normal *= share;
   pixel.albedo *= share;
-  pixel.depth = center_depth(job, eye, x, y, seed);
+  if (job.options.layers) pixel.depth = center_depth(job, eye, x, y, seed);
   return pixel;
 }
 
@@ -111,6 +114,7 @@ void render_tile(Job job, int tile, EyeImage& image) {
     for (int x = x0; x < std::min(x0 + kTileSize, width); x++) {
       const Pixel pixel = render_pixel(job, image.eye, x, y);
       put(image.radiance, x, y, pixel.radiance);
+      if (!job.options.layers) continue;
       put(image.normal, x, y, pixel.normal);
       put(image.albedo, x, y, pixel.albedo);
       *image.depth.at(x, y) = pixel.depth;
@@ -149,7 +153,8 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
   std::mutex reporting;
-  tbb::parallel_for(0, total, [&](int tile) {
+  tbb::parallel_for(0, total, [&](int i) {
+    const int tile = job.options.last_tile_first ? total - 1 - i : i;
     if (stop || (progress.cancelled && progress.cancelled())) {
       stop = true;
       return;
@@ -168,13 +173,18 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
 }  // namespace
 
 Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& wanted, const Progress& progress) {
+  assert(wanted.width > 0 && wanted.height >= 0 && wanted.samples > 0 && wanted.bounces >= 0);
   RenderOptions options = wanted;
   if (options.height == 0) options.height = natural_height(rig.projection, options.width);
-  assert(options.width > 0 && options.height >= 0 && options.samples > 0 && options.bounces >= 0);
+  check_memory(picture_bytes(options), fmt::format("a picture {} pixels wide", options.width),
+               "a smaller width or a single eye needs less");
   Picture picture;
-  for (int eye : eyes_of(options.eyes)) {
+  for (int eye : eye_list(options.eyes)) {
     const int w = options.width, h = options.height;
-    picture.eyes.push_back({eye, Image(w, h, 3), Image(w, h, 1), Image(w, h, 3), Image(w, h, 3)});
+    EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}});
+    if (!options.layers) continue;
+    image.depth = Image(w, h, 1);
+    image.normal = image.albedo = Image(w, h, 3);
   }
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {

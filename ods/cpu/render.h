@@ -12,8 +12,9 @@
 namespace ods {
 
 // Renders every eye asked for. The same arguments give the same bits, whatever the number of threads.
-// Throws Error: kCancelled when progress says so.
-// Precondition: width a positive even number, samples and bounces not negative (samples > 0), threads >= 0.
+// Throws Error: kCancelled when progress says so, kMemory before anything else when the machine has too little for the
+// picture (picture_bytes).
+// Precondition: width a positive number, samples and bounces not negative (samples > 0), threads >= 0.
 Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& options,
                    const Progress& progress = {});
 

@@ -330,8 +330,7 @@ CameraFile read_camera(std::string_view text, const std::string& name, std::vect
 }
 
 CameraFile load_camera(const std::string& path, std::vector<std::string>& warnings) {
-  const std::vector<unsigned char> bytes = read_file(path);
-  if (bytes.size() > kLargestFile) throw Error(ErrorKind::kInput, fmt::format("'{}' is too large for a camera", path));
+  const std::vector<unsigned char> bytes = read_file(path, kLargestFile);
   return read_camera({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, warnings);
 }
 

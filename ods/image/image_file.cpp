@@ -5,10 +5,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <mutex>
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
@@ -35,10 +37,18 @@ static const char* plugin_name(FileFormat format) {
   return "";
 }
 
-// Debian builds OpenImageIO so that it comments on broken files on stderr; that is not a library's place.
-static void silence_openimageio() {
-  static const bool silent = OIIO::attribute("debug", 0);
-  (void)silent;
+// Debian builds OpenImageIO so that it comments on broken files on stderr; that is not a library's place. It and
+// OpenEXR have threads of their own: as many as TBB may have, so that one limit (tbb::global_control) holds for all.
+static void set_up_openimageio() {
+  static std::mutex setting;
+  static int threads = 0;
+  const std::lock_guard lock(setting);
+  const int allowed = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (allowed == threads) return;
+  threads = allowed;
+  OIIO::attribute("debug", 0);
+  OIIO::attribute("threads", threads);
+  OIIO::attribute("exr_threads", threads);
 }
 
 static std::string one_line(std::string text) {
@@ -51,6 +61,10 @@ static std::string one_line(std::string text) {
 
 static Error cannot_read(const std::string& name, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", name, why));
+}
+
+static std::string unknown_format() {
+  return fmt::format("it is none of {}", known_extensions());
 }
 
 static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std::string& name) {
@@ -77,9 +91,9 @@ struct Reader {
 };
 
 static Reader open_reader(std::span<const std::byte> file, const std::string& name) {
-  silence_openimageio();
+  set_up_openimageio();
   const std::optional<FileFormat> format = format_of_bytes(file);
-  if (!format) throw cannot_read(name, fmt::format("it is none of {}", known_extensions()));
+  if (!format) throw cannot_read(name, unknown_format());
   Reader reader;
   reader.input = OIIO::ImageInput::create(plugin_name(*format));
   if (!reader.input) throw cannot_read(name, fmt::format("OpenImageIO here has no {} reader", plugin_name(*format)));
@@ -112,8 +126,15 @@ static std::vector<T> read_channels(Reader& reader, int count, const std::string
   return values;
 }
 
+// The bytes of a file that starts as an image does.
+static std::vector<unsigned char> read_image_bytes(const std::string& path) {
+  const std::vector<unsigned char> start = read_start(path, 16);
+  if (!format_of_bytes(std::as_bytes(std::span(start)))) throw cannot_read(path, unknown_format());
+  return read_file(path, kMaxFileBytes);
+}
+
 Image read_image(const std::string& path) {
-  const std::vector<unsigned char> file = read_file(path);
+  const std::vector<unsigned char> file = read_image_bytes(path);
   Reader reader = open_reader(std::as_bytes(std::span(file)), path);
   const int count = reader.spec.nchannels < 3 ? 1 : 3;
   Image image(reader.spec.width, reader.spec.height, 3);
@@ -130,7 +151,7 @@ Image read_image(const std::string& path) {
 }
 
 FileInfo read_info(const std::string& path) {
-  const std::vector<unsigned char> file = read_file(path);
+  const std::vector<unsigned char> file = read_image_bytes(path);
   const Reader reader = open_reader(std::as_bytes(std::span(file)), path);
   FileInfo info;
   info.width = reader.spec.width;
@@ -144,23 +165,25 @@ FileInfo read_info(const std::string& path) {
 }
 
 Image read_channels(const std::string& path, const std::vector<std::string>& names) {
-  const std::vector<unsigned char> file = read_file(path);
+  const std::vector<unsigned char> file = read_image_bytes(path);
   Reader reader = open_reader(std::as_bytes(std::span(file)), path);
   std::vector<int> indices;
   for (const std::string& name : names) {
     indices.push_back(reader.spec.channelindex(name));
     if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
   }
-  // Files are compressed all channels together, so what lies between comes along.
-  const auto [first, last] = std::minmax_element(indices.begin(), indices.end());
-  Image span(reader.spec.width, reader.spec.height, *last - *first + 1);
-  if (!reader.input->read_image(0, 0, *first, *last + 1, OIIO::TypeDesc::FLOAT, span.pixels.data())) {
-    throw cannot_read(path, one_line(reader.input->geterror()));
-  }
-  Image image(span.width, span.height, static_cast<int>(names.size()));
-  for (int y = 0; y < image.height; y++) {
-    for (int x = 0; x < image.width; x++) {
-      for (size_t c = 0; c < indices.size(); c++) image.at(x, y)[c] = span.at(x, y)[indices[c] - *first];
+  const int count = static_cast<int>(names.size());
+  Image image(reader.spec.width, reader.spec.height, count);
+  // At once where they are neighbours, as decoding one decodes all.
+  bool neighbours = true;
+  for (int c = 0; c < count; c++) neighbours = neighbours && indices[static_cast<size_t>(c)] == indices[0] + c;
+  const int step = neighbours ? count : 1;
+  const OIIO::stride_t pixel = count * static_cast<OIIO::stride_t>(sizeof(float));
+  for (int c = 0; c < count; c += step) {
+    const int first = indices[static_cast<size_t>(c)];
+    float* out = image.pixels.data() + c;
+    if (!reader.input->read_image(0, 0, first, first + step, OIIO::TypeDesc::FLOAT, out, pixel)) {
+      throw cannot_read(path, one_line(reader.input->geterror()));
     }
   }
   if (!reader.spec.format.is_floating_point()) {
@@ -299,7 +322,7 @@ static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, cons
 
 void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows) {
   assert(header.width > 0 && header.height > 0 && !header.channels.empty());
-  silence_openimageio();
+  set_up_openimageio();
   const char* plugin = plugin_name(header.format);
   const auto failed = [&](const std::string& why) {
     return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", file.path(), one_line(why)));
@@ -312,8 +335,12 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   if (header.format != FileFormat::kTiff) output->set_ioproxy(&sink);
   const bool written = output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows);
   const bool closed = output->close();
-  // A full disk says so itself; what the format's library made of it is of no help.
+  // A full disk says so itself; what the format's library made of it is of no help. libtiff wrote through a stream of
+  // its own, so ours asks the disk for a little more.
   if (!written || !closed) {
+    fseeko(file.stream(), 0, SEEK_END);
+    const std::vector<char> more(1 << 20);
+    std::fwrite(more.data(), 1, more.size(), file.stream());
     file.finish();
     throw failed(output->geterror());
   }

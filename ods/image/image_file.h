@@ -24,6 +24,7 @@ inline constexpr int kMaxSide = 32768;
 inline constexpr int64_t kMaxPixels = int64_t{1} << 28;
 inline constexpr int64_t kSmallPixels = int64_t{1} << 24;
 inline constexpr int64_t kMaxPixelsPerByte = 1024;
+inline constexpr size_t kMaxFileBytes = size_t{1} << 32;  // of a file, before it is read
 
 // Linear light in three channels. Files of integers are decoded from sRGB, files of floats taken as they are; grey
 // becomes three equal channels, alpha is left out. Throws Error(kInput).

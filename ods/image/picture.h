@@ -39,7 +39,8 @@ struct EyeImage {
   Image albedo;    // 3 channels: first hit, averaged over the pixel
 };
 
-// One eye, or two in the order left, right. All of one size.
+// One eye, or two in the order left, right. All of one size; depth, normal and albedo are empty where nobody asked for
+// them (RenderOptions::layers).
 struct Picture {
   std::vector<EyeImage> eyes;
 };

@@ -25,7 +25,9 @@ std::string xmp_chunk(const std::string& packet);
 inline constexpr size_t kPngAfterHeader = 33;
 
 // A PNG reduced to the chunks that make its pixels; nothing when one is cut short, damaged or missing. libpng comments
-// on such files, and on common flaws of the other chunks, on stderr.
+// on such files, and on common flaws of the other chunks, on stderr. (It still does on a file whose chunks are whole
+// and make no picture: OpenImageIO's handler of errors returns into libpng, which then prints. Only unpacking the
+// pixels twice would tell before.)
 std::optional<std::vector<std::byte>> essential_png(std::span<const std::byte> file);
 
 }  // namespace ods

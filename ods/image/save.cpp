@@ -67,10 +67,14 @@ static FileFormat format_for(const std::string& path) {
   return *format;
 }
 
-void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width) {
+bool keeps_layers(const std::string& path) {
+  return format_of_path(path) == FileFormat::kExr;
+}
+
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye) {
   assert(eyes.size() == 1 || eyes.size() == 2);
-  check_layout(path, format_for(path), options, eyes, {width, width / 2});
-  for (int eye : eyes) check_writable(names_eye(path) ? path_for_eye(path, eye) : path);
+  check_layout(path, format_for(path), options, eyes, eye);
+  for (int each : eyes) check_writable(names_eye(path) ? path_for_eye(path, each) : path);
 }
 
 // --- what stands in the header -------------------------------------------------------------------------------------
@@ -83,8 +87,36 @@ static void add_merge(std::vector<Attribute>& attributes, const std::string& nam
   attributes.push_back({name + "Exponent", merge.exponent});
 }
 
+static void add_projection(std::vector<Attribute>& attributes, const ProjectionSetting& projection) {
+  const auto pair = [&](const char* name, float a, float b) { attributes.push_back({name, std::vector<float>{a, b}}); };
+  attributes.push_back({"ods:projection", std::string(projection_name(projection))});
+  const bool flat = projection.kind == kLatLong || projection.kind == kCylinder;
+  if (flat && !is_full_lat_long(projection)) {
+    pair("ods:longitude", projection.longitude.x, projection.longitude.y);
+    pair("ods:latitude", projection.latitude.x, projection.latitude.y);
+  }
+  if (projection.kind == kFisheye || projection.kind == kFisheyeEquisolid || projection.kind == kPerspective) {
+    attributes.push_back({"ods:fov", projection.fov});
+    pair("ods:look", projection.pan, projection.tilt);
+  }
+}
+
+// What few cameras have is named only where it is.
+static void add_extras(std::vector<Attribute>& attributes, const CameraRig& rig) {
+  if (rig.convergence != kParallel) {
+    attributes.push_back({"ods:convergence", std::string(convergence_name(rig.convergence))});
+    attributes.push_back({"ods:convergenceDistance", rig.convergence_distance});
+  }
+  if (rig.neck != 0.0f) attributes.push_back({"ods:neck", rig.neck});
+  if (rig.axis) attributes.push_back({"ods:axis", std::vector<float>{rig.axis->x, rig.axis->y, rig.axis->z}});
+  if (rig.lens_radius > 0.0f) {
+    attributes.push_back({"ods:lens", std::vector<float>{rig.lens_radius, rig.focus_distance}});
+  }
+  if (rig.mirrored) attributes.push_back({"ods:mirrored", 1});
+}
+
 static void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig) {
-  attributes.push_back({"ods:projection", std::string("lat-long")});
+  add_projection(attributes, rig.projection);
   attributes.push_back({"ods:depthType", std::string("ray")});
   attributes.push_back({"ods:ipd", rig.ipd});
   attributes.push_back({"ods:position", std::vector<float>{rig.position.x, rig.position.y, rig.position.z}});
@@ -93,6 +125,7 @@ static void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig)
   attributes.push_back({"ods:roll", rig.roll});
   add_merge(attributes, "ods:poleMergeTop", rig.top);
   add_merge(attributes, "ods:poleMergeBottom", rig.bottom);
+  add_extras(attributes, rig);
 }
 
 static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, Layout layout, const EyeList& eyes) {
@@ -106,12 +139,12 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, La
   if (layout == Layout::kMultiview) {
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   }
-  if (eyes.size() == 1) {
+  if (eyes.size() == 1 && rig != nullptr && is_full_lat_long(rig->projection)) {
     // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
     text("textureformat", "LatLong Environment");
     attributes.push_back({"openexr:levelmode", 0});
-    if (eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
   }
+  if (eyes.size() == 1 && eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
   text("ods:version", ODS_VERSION);
   text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]->eye));
   if (rig != nullptr) add_camera(attributes, *rig);
@@ -128,16 +161,25 @@ static void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, 
   const float heading = std::remainder(yaw, 360.0f);
   attributes.push_back({"GPano:ProjectionType", std::string("equirectangular")});
   attributes.push_back({"GPano:UsePanoramaViewer", std::string("True")});
+  const vec2 longitude = rig.projection.longitude, latitude = rig.projection.latitude;
+  const float per_degree_x = static_cast<float>(size.width) / (longitude.y - longitude.x);
+  const float per_degree_y = static_cast<float>(size.height) / (latitude.y - latitude.x);
+  const auto pixels = [](float count) { return static_cast<int>(std::lround(count)); };
   attributes.push_back({"GPano:CroppedAreaImageWidthPixels", size.width});
   attributes.push_back({"GPano:CroppedAreaImageHeightPixels", size.height});
-  attributes.push_back({"GPano:FullPanoWidthPixels", size.width});
-  attributes.push_back({"GPano:FullPanoHeightPixels", size.height});
-  attributes.push_back({"GPano:CroppedAreaLeftPixels", 0});
-  attributes.push_back({"GPano:CroppedAreaTopPixels", 0});
+  attributes.push_back({"GPano:FullPanoWidthPixels", pixels(360.0f * per_degree_x)});
+  attributes.push_back({"GPano:FullPanoHeightPixels", pixels(180.0f * per_degree_y)});
+  attributes.push_back({"GPano:CroppedAreaLeftPixels", pixels((longitude.x + 180.0f) * per_degree_x)});
+  attributes.push_back({"GPano:CroppedAreaTopPixels", pixels((90.0f - latitude.y) * per_degree_y)});
   attributes.push_back({"GPano:PoseHeadingDegrees", heading < 0.0f ? heading + 360.0f : heading});
   attributes.push_back({"GPano:PosePitchDegrees", pitch});
   attributes.push_back({"GPano:PoseRollDegrees", std::remainder(roll, 360.0f)});
   attributes.push_back({"GPano:StitchingSoftware", std::string("Omnistereo " ODS_VERSION)});
+}
+
+// GPano knows lat-long, whole or a part that does not cross the seam.
+static bool fits_gpano(const ProjectionSetting& projection) {
+  return projection.kind == kLatLong && projection.longitude.x >= -180.0f && projection.longitude.y <= 180.0f;
 }
 
 static bool carries_gpano(FileFormat format) {
@@ -264,7 +306,9 @@ static FileHeader make_header(FileFormat format, Layout layout, const EyeList& e
   header.height = size.height;
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
   header.attributes.push_back({"oiio:ColorSpace", std::string(is_scene_referred(format) ? "Linear" : "sRGB")});
-  if (carries_gpano(format) && count == 1 && rig != nullptr) add_gpano(header.attributes, *rig, size);
+  if (carries_gpano(format) && count == 1 && rig != nullptr && fits_gpano(rig->projection)) {
+    add_gpano(header.attributes, *rig, size);
+  }
 
   Sample sample = Sample::kUint8;
   switch (format) {

@@ -10,7 +10,9 @@
 //
 // exr holds 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and
 // albedo.R G B, and says how it was taken: chromaticities, ods:version, ods:projection, ods:layout, ods:ipd,
-// ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom (with Start, End, Exponent), ods:depthType;
+// ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom (with Start, End, Exponent), ods:depthType,
+// and of what differs from the plain camera ods:longitude, ods:latitude, ods:fov, ods:look, ods:convergence (with
+// Distance), ods:neck, ods:axis, ods:lens (radius, focus), ods:mirrored;
 // a file of one eye also envmap and view. Multi-view follows "Storing Multi-View Images in OpenEXR Files", single part:
 // `left` is the default view with R G B Z bare, and the view stands before the last word elsewhere: right.R, N.left.X,
 // albedo.right.G.
@@ -38,8 +40,11 @@ struct SaveOptions {
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a
 // folder that is missing its write permission, a name that is a folder, a layout that does not fit, a size too large
-// for the format. `eyes` as in EyeImage, `width` of one eye. Leaves nothing on the disk.
-void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, int width);
+// for the format. `eyes` as in EyeImage, `eye` the size of one. Leaves nothing on the disk.
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye);
+
+// Whether a file of this name would hold depth, normal and albedo: exr does.
+bool keeps_layers(const std::string& path);
 
 // Writes one file, or one per eye, and the sidecar behind them; all of them complete, or none. Creates missing folders.
 // Returns the names written.

@@ -31,6 +31,7 @@ struct Bsdf {
   float alpha;
   float eta;         // index beyond / index on the viewer's side
   bool thin;         // glass is a sheet: light goes straight through
+  bool straight;     // glass has one index on both sides: nothing bends, however rough it is
   vec3 specular_f0;  // reflectance head-on and at grazing, weights and compensation included
   vec3 specular_f90;
   vec3 diffuse;      // albedo, all weights included
@@ -133,8 +134,7 @@ struct BsdfEvaluator : SurfaceReader {
 
     float metal = clamp(surface.metallic, 0.0f, 1.0f);
     float clear = (1.0f - metal) * clamp(surface.transmission, 0.0f, 1.0f);
-    // Between equal indices nothing bends, however rough: one direction again.
-    if (clear > 0.0f && !bsdf.thin && abs(eta - 1.0f) < 1e-3f) bsdf.alpha = 0.0f;
+    bsdf.straight = !bsdf.thin && abs(eta - 1.0f) < 1e-3f;
     float opaque = 1.0f - metal - clear;
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
@@ -158,7 +158,7 @@ struct BsdfEvaluator : SurfaceReader {
     bsdf.diffuse = base * (opaque * (1.0f - covered));
     bsdf.glass = base;
     bsdf.glass_gain = clear;
-    if (clear > 0.0f && bsdf.alpha >= kSmoothAlpha) {
+    if (clear > 0.0f && bsdf.alpha >= kSmoothAlpha && !bsdf.straight) {
       float kept = bsdf.thin ? albedo.x + albedo.y : glass_albedo(eta, roughness, bsdf.wo.z);
       bsdf.glass_gain = clear / max(kept, 0.1f);
     }
@@ -226,13 +226,13 @@ struct BsdfEvaluator : SurfaceReader {
         vec2 reflection = reflection_value(bsdf, wi);
         result.value += specular_fresnel(bsdf, cosine) * reflection.x;
         result.pdf += bsdf.p_specular * reflection.y;
-        if (bsdf.p_glass > 0.0f) {
+        if (bsdf.p_glass > 0.0f && !bsdf.straight) {
           float fresnel = glass_fresnel(bsdf, cosine);
           result.value += vec3(bsdf.glass_gain * fresnel * reflection.x);
           result.pdf += bsdf.p_glass * fresnel * reflection.y;
         }
       }
-    } else if (rough && bsdf.p_glass > 0.0f) {
+    } else if (rough && bsdf.p_glass > 0.0f && !bsdf.straight) {
       vec3 mirrored = vec3(wi.x, wi.y, -wi.z);
       vec2 passage = bsdf.thin ? reflection_value(bsdf, mirrored) : refraction_value(bsdf, wi);
       vec3 h = bsdf.thin ? normalize(bsdf.wo + mirrored) : normalize(bsdf.wo + wi * bsdf.eta);
@@ -287,7 +287,7 @@ struct BsdfEvaluator : SurfaceReader {
       wi = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;
     } else {
       float left_over = clamp((pick - bsdf.p_diffuse - bsdf.p_specular) / bsdf.p_glass, 0.0f, 0.9999999f);
-      if (!rough) return sample_mirror(bsdf, true, left_over);
+      if (!rough || bsdf.straight) return sample_mirror(bsdf, true, left_over);
       h = ggx_sample_visible(bsdf.wo, bsdf.alpha, uv);
       glass = left_over >= glass_fresnel(bsdf, dot(bsdf.wo, h));
       wi = sample_glass(bsdf, h, left_over);

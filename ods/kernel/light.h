@@ -78,7 +78,7 @@ struct LightSampler : BsdfEvaluator {
     vec2 uv = direction_to_lat_long(direction);
     int x = clamp(int(uv.x * float(info.width)), 0, info.width - 1);
     int y = clamp(int(uv.y * float(info.height)), 0, info.height - 1);
-    float pick = scene_light(info.light).entry.probability * scene_environment_row(y).probability *
+    float pick = scene_light(info.light).probability * scene_environment_row(y).probability *
                  scene_environment_texel(y * info.width + x).entry.probability;
     return pick / environment_texel_angle(info, y);
   }
@@ -95,7 +95,7 @@ struct LightSampler : BsdfEvaluator {
     Instance instance = scene_instance(hit.instance);
     if (instance.first_light < 0) return 0.0f;
     Triangle triangle = triangle_of(instance, corners_of(hit));
-    float pick = scene_light(instance.first_light + hit.triangle).entry.probability;
+    float pick = scene_light(instance.first_light + hit.triangle).probability;
     return triangle_pdf(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
   }
 
@@ -117,7 +117,7 @@ struct LightSampler : BsdfEvaluator {
     result.end = offset_point(point, normalize(dot(area, to_light) > 0.0f ? -area : area));
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
-    result.pdf = triangle_pdf(light.entry.probability, area, result.direction, result.distance);
+    result.pdf = triangle_pdf(light.probability, area, result.direction, result.distance);
     result.valid = result.pdf > 0.0f;
     Material material = scene_material(scene_mesh(instance.mesh).material);
     result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
@@ -144,7 +144,7 @@ struct LightSampler : BsdfEvaluator {
         result.radiance = result.radiance * (cone * cone);
       }
     }
-    result.radiance = result.radiance * (1.0f / light.entry.probability);
+    result.radiance = result.radiance * (1.0f / light.probability);
     return result;
   }
 
@@ -173,11 +173,12 @@ struct LightSampler : BsdfEvaluator {
   }
 
   // pick chooses the light, cell a texel of an environment, uv the point on the light; all uniform in [0, 1).
-  // Precondition: there is a light.
+  // Precondition: there is a light that shines.
   inline LightSample sample_light(vec3 from, vec2 pick, vec2 cell, vec2 uv) {
-    int count = scene_light_count();
+    int count = scene_light_pick_count();
     int index = min(int(pick.x * float(count)), count - 1);
-    Light light = scene_light(alias_pick(scene_light(index).entry, index, pick.y));
+    LightPick slot = scene_light_pick(index);
+    Light light = scene_light(pick.y < slot.threshold ? slot.light : slot.alias);
     if (light.kind == kLightTriangle) return sample_triangle(light, from, uv);
     if (light.kind == kLightEnvironment) return sample_environment(cell, uv);
     return sample_punctual(light, from);

@@ -180,7 +180,7 @@ struct PathTracer : MediumReader {
   // Leaves a shadow ray towards a light: of several picked by power, one by what it would bring here.
   // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
   inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
-    int candidates = min(scene_light_count(), path.bounce == 0 ? kLightCandidates : 1);
+    int candidates = min(scene_light_pick_count(), path.bounce == 0 ? kLightCandidates : 1);
     if (candidates == 0) return;
     float draw = path_random(kCandidatePair).x;
     float total = 0.0f;
@@ -272,6 +272,13 @@ struct PathTracer : MediumReader {
     }
     int beyond = current_medium(beyond_media);
     path.throughput = path.throughput * medium_transmittance(medium, hit.t);
+    bool unlit = scene_material(material_index).unlit == 1;
+    if (!unlit && surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
+      float distance = path.travelled + hit.t;
+      float weight = scattered_weight(settings, hit_light_pdf(hit, path.ray.direction, distance));
+      path.radiance += path.throughput * surface.emission * weight;
+    }
+    // The wall of a volume inside a denser one.
     if (volume && beyond == medium) {
       path.media = beyond_media;
       pass_through(surface, hit.t);
@@ -279,15 +286,10 @@ struct PathTracer : MediumReader {
     }
 
     if (path.bounce == 0) note_first_hit(surface, hit.t);
-    if (scene_material(material_index).unlit == 1) {
+    if (unlit) {
       path.radiance += path.throughput * surface.base_color;
       path.alive = false;
       return;
-    }
-    if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
-      float distance = path.travelled + hit.t;
-      float weight = scattered_weight(settings, hit_light_pdf(hit, path.ray.direction, distance));
-      path.radiance += path.throughput * surface.emission * weight;
     }
     if (path.bounce == settings.bounces) {
       path.alive = false;

@@ -101,7 +101,6 @@ struct AliasEntry {
   int alias;
 };
 
-// One entry of the table that lights are picked from.
 struct Light {
   int kind;
   int instance;       // triangle: which instance,
@@ -112,7 +111,14 @@ struct Light {
   float range;        // point, spot: metres; <= 0: unlimited
   float cone_scale;   // spot: clamp(cos * scale + offset, 0, 1) squared fades from inner to outer cone
   float cone_offset;  //
-  AliasEntry entry;
+  float probability;  // of being picked
+};
+
+// One slot of the table that lights are picked from: an alias table of those that shine.
+struct LightPick {
+  int light;
+  float threshold;
+  int alias;  // the other light of the slot
 };
 
 // One texel of a lat-long environment (rows from the top, centre of the picture along -Z of the world).
@@ -140,7 +146,7 @@ struct Hit {
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 20 && sizeof(Instance) == 56 && sizeof(Texture) == 28);
-static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 72);
+static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 64);
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
 }  // namespace ods
 #endif

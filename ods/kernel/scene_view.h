@@ -35,7 +35,8 @@ struct SceneView {
   const Texture* reduced_textures = nullptr;  // small copies of the textures
   const uint* reduced_texels = nullptr;
   const Light* lights = nullptr;
-  int light_count = 0;
+  const LightPick* light_picks = nullptr;
+  int light_pick_count = 0;
   EnvironmentInfo environment = {};
   const EnvironmentTexel* environment_texels = nullptr;
   const AliasEntry* environment_rows = nullptr;
@@ -51,7 +52,8 @@ struct SceneView {
   const Texture& scene_reduced_texture(int i) const { return reduced_textures[i]; }
   uint scene_reduced_texel(uint i) const { return reduced_texels[i]; }
   const Light& scene_light(int i) const { return lights[i]; }
-  int scene_light_count() const { return light_count; }
+  const LightPick& scene_light_pick(int i) const { return light_picks[i]; }
+  int scene_light_pick_count() const { return light_pick_count; }
   const EnvironmentInfo& scene_environment() const { return environment; }
   const EnvironmentTexel& scene_environment_texel(int i) const { return environment_texels[i]; }
   const AliasEntry& scene_environment_row(int i) const { return environment_rows[i]; }

@@ -76,12 +76,23 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
   if (!file.model->skins.empty()) warn(scene, "skins are ignored: the meshes stand as they are stored");
 }
 
+static void check_reach(Scene& scene) {
+  const Bounds bounds = scene_bounds(scene);
+  const vec3 corner = max(abs(bounds.low), abs(bounds.high));
+  const float reach = std::max({corner.x, corner.y, corner.z});
+  if (reach <= kFirmReach) return;
+  warn(scene, fmt::format("the scene reaches {:.3g} km from the origin, where light seeps through walls thinner than "
+                          "{:.2g} m; move it nearer",
+                          reach * 1e-3f, reach * kThinnestWall));
+}
+
 static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
   read_materials(file, scene);
   read_nodes(file, scene, options.scene);
+  check_reach(scene);
   return scene;
 }
 

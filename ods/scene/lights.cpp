@@ -174,13 +174,30 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.reduced_textures = reduced ? scene.reduced_textures.data() : view.textures;
   view.reduced_texels = reduced ? scene.reduced_texels.data() : view.texels;
   view.lights = lights.lights.data();
-  view.light_count = static_cast<int>(lights.lights.size());
+  view.light_picks = lights.picks.data();
+  view.light_pick_count = static_cast<int>(lights.picks.size());
   view.environment = lights.environment;
   view.environment_texels = lights.environment_texels.data();
   view.environment_rows = lights.environment_rows.data();
   const auto refracts = [](const Material& m) { return m.transmission > 0.0f && m.thickness > 0.0f; };
   const bool glass = std::any_of(scene.materials.begin(), scene.materials.end(), refracts);
   view.tables = kernel_tables(glass).data();
+}
+
+// Most triangles of a gadget with little lamps are dark: left out, the table stays small enough to be at hand.
+static void fill_picks(const std::vector<double>& powers, LightTable& table) {
+  std::vector<int> shining;
+  std::vector<double> weights;
+  for (size_t i = 0; i < powers.size(); i++) {
+    if (!(powers[i] > 0.0)) continue;
+    shining.push_back(static_cast<int>(i));
+    weights.push_back(powers[i]);
+  }
+  const std::vector<AliasEntry> entries = make_alias_table(weights);
+  for (size_t i = 0; i < entries.size(); i++) {
+    table.lights[static_cast<size_t>(shining[i])].probability = entries[i].probability;
+    table.picks.push_back({shining[i], entries[i].threshold, shining[static_cast<size_t>(entries[i].alias)]});
+  }
 }
 
 LightTable make_lights(const Scene& scene) {
@@ -197,8 +214,7 @@ LightTable make_lights(const Scene& scene) {
     powers.push_back(power);
   }
   add_environment_light(scene, radius, table, powers);
-  const std::vector<AliasEntry> entries = make_alias_table(powers);
-  for (size_t i = 0; i < table.lights.size(); i++) table.lights[i].entry = entries[i];
+  fill_picks(powers, table);
   return table;
 }
 

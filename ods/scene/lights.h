@@ -12,6 +12,7 @@ namespace ods {
 
 struct LightTable {
   std::vector<Light> lights;  // each glowing triangle, each punctual light, and the environment last
+  std::vector<LightPick> picks;
   std::vector<EnvironmentTexel> environment_texels;
   std::vector<AliasEntry> environment_rows;
   EnvironmentInfo environment;

@@ -20,7 +20,7 @@ std::string_view eyes_name(Eyes eyes) {
   return {};
 }
 
-std::vector<int> eyes_of(Eyes eyes) {
+std::vector<int> eye_list(Eyes eyes) {
   switch (eyes) {
     case Eyes::kBothEyes:
       return {kLeft, kRight};
@@ -42,6 +42,13 @@ std::string_view pixel_filter_name(PixelFilter filter) {
       return "box";
   }
   return {};
+}
+
+size_t picture_bytes(const RenderOptions& options) {
+  const size_t radiance = 3, depth = 1, normal = 3, albedo = 3;
+  const size_t channels = radiance + (options.layers ? depth + normal + albedo : 0);
+  const size_t width = static_cast<size_t>(options.width);
+  return eye_list(options.eyes).size() * width * static_cast<size_t>(options.height) * channels * sizeof(float);
 }
 
 }  // namespace ods

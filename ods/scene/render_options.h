@@ -3,6 +3,7 @@
 //
 // How a scene is rendered, on any device.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@ enum class Eyes { kBothEyes, kLeftEye, kRightEye, kMonoEye };
 
 inline constexpr Eyes kAllEyes[] = {Eyes::kBothEyes, Eyes::kLeftEye, Eyes::kRightEye, Eyes::kMonoEye};
 std::string_view eyes_name(Eyes eyes);  // both, left, right, mono
-std::vector<int> eyes_of(Eyes eyes);    // as EyeImage has them: kLeft, kRight, kMono
+std::vector<int> eye_list(Eyes eyes);   // as EyeImage has them: kLeft, kRight, kMono
 
 enum class PixelFilter { kBlackmanHarris, kBox };
 inline constexpr PixelFilter kPixelFilters[] = {PixelFilter::kBlackmanHarris, PixelFilter::kBox};
@@ -29,9 +30,14 @@ struct RenderOptions {
   int bounces = 8;   // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // 1.5 pixels radius; the box is 1 pixel wide
+  bool layers = true;  // depth, normal and albedo beside radiance; without them their images are empty
   uint32_t seed = 0;
   int threads = 0;  // 0: all of the machine's
   LightSampling light_sampling = LightSampling::kBoth;
+  bool last_tile_first = false;  // the other way round: for proving that the order changes nothing
 };
+
+// What the Picture of these options takes. Precondition: height > 0.
+size_t picture_bytes(const RenderOptions& options);
 
 }  // namespace ods

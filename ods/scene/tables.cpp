@@ -3,6 +3,7 @@
 #include "ods/scene/tables.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <mutex>
@@ -11,6 +12,13 @@
 #include "ods/kernel/scene_view.h"
 
 namespace ods {
+
+// A thread that waits for its loop may take up other work meanwhile. Were that a call of kernel_tables(), it would wait
+// for the very table that this thread is filling.
+template <typename Function>
+static void isolated_parallel_for(int count, Function function) {
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, count, function); });
+}
 
 static void fill_srgb(float* table) {
   for (int i = 0; i < kSrgbSize; i++) {
@@ -59,7 +67,7 @@ static vec3 viewer_at(float cosine) {
 }
 
 static void fill_ggx(float* table) {
-  tbb::parallel_for(0, kGgxSize * kGgxSize, [&](int cell) {
+  isolated_parallel_for(kGgxSize * kGgxSize, [&](int cell) {
     const float roughness = static_cast<float>(cell / kGgxSize) / static_cast<float>(kGgxSize - 1);
     const float alpha = max(roughness * roughness, 1e-4f);
     const vec3 wo = viewer_at(static_cast<float>(cell % kGgxSize) / static_cast<float>(kGgxSize - 1));
@@ -86,7 +94,7 @@ static float glass_cosine(float eta, float place) {
 
 static void fill_glass(float* table) {
   constexpr int kRow = kGlassSize * kGlassSize;
-  tbb::parallel_for(0, 2 * kGlassSize * kRow, [&](int cell) {
+  isolated_parallel_for(2 * kGlassSize * kRow, [&](int cell) {
     const float row = static_cast<float>(cell / kRow % kGlassSize) / static_cast<float>(kGlassSize - 1);
     const float reflectance = 0.5f * row * row;
     const float ratio = (1.0f + reflectance) / (1.0f - reflectance);

@@ -10,6 +10,7 @@ layout(buffer_reference, scalar) readonly buffer Materials { Material at[]; };
 layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
 layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
 layout(buffer_reference, scalar) readonly buffer Lights { Light at[]; };
+layout(buffer_reference, scalar) readonly buffer LightPicks { LightPick at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
 layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
@@ -17,7 +18,7 @@ layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
 struct View {
   Camera camera;
   EnvironmentInfo environment;
-  int light_count;
+  int light_pick_count;
   int bounces;
   Vertices vertices;
   Triangles triangles;
@@ -29,6 +30,7 @@ struct View {
   Textures reduced_textures;
   Texels reduced_texels;
   Lights lights;
+  LightPicks light_picks;
   EnvironmentTexels environment_texels;
   EnvironmentRows environment_rows;
   Tables tables;
@@ -49,7 +51,8 @@ uint scene_texel(uint i) { return view.texels.at[i]; }
 Texture scene_reduced_texture(int i) { return view.reduced_textures.at[i]; }
 uint scene_reduced_texel(uint i) { return view.reduced_texels.at[i]; }
 Light scene_light(int i) { return view.lights.at[i]; }
-int scene_light_count() { return view.light_count; }
+LightPick scene_light_pick(int i) { return view.light_picks.at[i]; }
+int scene_light_pick_count() { return view.light_pick_count; }
 EnvironmentInfo scene_environment() { return view.environment; }
 EnvironmentTexel scene_environment_texel(int i) { return view.environment_texels.at[i]; }
 AliasEntry scene_environment_row(int i) { return view.environment_rows.at[i]; }

@@ -85,7 +85,6 @@ static uint load_index(const unsigned char* data, int type) {
 }
 
 vec4 AccessorView::at(size_t i) const {
-  if (data == nullptr) return expanded[i];
   vec4 value(0.0f, 0.0f, 0.0f, 1.0f);
   const unsigned char* element = data + i * stride;
   const size_t size = component_size(component_type);
@@ -96,7 +95,7 @@ vec4 AccessorView::at(size_t i) const {
 }
 
 uint AccessorView::index_at(size_t i) const {
-  return data == nullptr ? static_cast<uint>(expanded[i].x) : load_index(data + i * stride, component_type);
+  return load_index(data + i * stride, component_type);
 }
 
 // A run of elements inside a buffer view, or fail().
@@ -109,38 +108,39 @@ static const unsigned char* checked_elements(const GltfFile& file, int accessor,
   return bytes.data() + offset;
 }
 
-// The values of a sparse accessor: those of its buffer view (or zeros), with some replaced.
-static std::vector<vec4> expand_sparse(GltfFile& file, int index, const AccessorView& plain) {
+// The elements of a sparse accessor without gaps: those of its buffer view (or zeros), with some replaced.
+static std::shared_ptr<const std::vector<unsigned char>> expand_sparse(GltfFile& file, int index,
+                                                                       const AccessorView& plain, size_t size) {
   const tinygltf::Accessor& accessor = file.model->accessors[static_cast<size_t>(index)];
   // A file may say that there are a billion zeros; it has to pay for them.
   spend(file, accessor.count);
-  std::vector<vec4> values(accessor.count, vec4(0.0f, 0.0f, 0.0f, plain.components == 4 ? 0.0f : 1.0f));
+  auto expanded = std::make_shared<std::vector<unsigned char>>(accessor.count * size);
+  const auto put = [&](size_t i, const unsigned char* element) {
+    std::memcpy(expanded->data() + i * size, element, size);
+  };
   if (plain.data != nullptr) {
-    for (size_t i = 0; i < values.size(); i++) values[i] = plain.at(i);
+    for (size_t i = 0; i < accessor.count; i++) put(i, plain.data + i * plain.stride);
   }
   const auto& sparse = accessor.sparse;
   const size_t count = static_cast<size_t>(std::max(0, static_cast<int>(sparse.count)));
-  if (count == 0) return values;
+  if (count == 0) return expanded;
   const int index_type = sparse.indices.componentType;
   if (index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
       index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
     fail(file, fmt::format("sparse accessor {} has indices that are not unsigned integers", index));
   }
   const size_t index_size = component_size(index_type);
-  AccessorView replacement = plain;
-  replacement.stride = component_size(plain.component_type) * static_cast<size_t>(plain.components);
-  replacement.data =
-      checked_elements(file, index, sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset), count,
-                       replacement.stride, replacement.stride);
+  const unsigned char* values = checked_elements(file, index, sparse.values.bufferView,
+                                                 static_cast<size_t>(sparse.values.byteOffset), count, size, size);
   const unsigned char* where =
       checked_elements(file, index, sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset), count,
                        index_size, index_size);
   for (size_t i = 0; i < count; i++) {
     const uint target = load_index(where + i * index_size, index_type);
-    if (target >= values.size()) fail(file, fmt::format("sparse accessor {} has an index out of range", index));
-    values[target] = replacement.at(i);
+    if (target >= accessor.count) fail(file, fmt::format("sparse accessor {} has an index out of range", index));
+    put(target, values + i * size);
   }
-  return values;
+  return expanded;
 }
 
 AccessorView open_accessor(GltfFile& file, int index) {
@@ -162,8 +162,9 @@ AccessorView open_accessor(GltfFile& file, int index) {
         checked_elements(file, index, accessor.bufferView, accessor.byteOffset, accessor.count, size, attribute.stride);
   }
   if (accessor.sparse.isSparse || attribute.data == nullptr) {
-    attribute.expanded = expand_sparse(file, index, attribute);
-    attribute.data = nullptr;
+    attribute.expanded = expand_sparse(file, index, attribute, size);
+    attribute.data = attribute.expanded->data();
+    attribute.stride = size;
   }
   return attribute;
 }

@@ -59,9 +59,6 @@ static std::vector<double> numbers(const Value& parent, const char* key, const s
   return values;
 }
 
-// Far beyond any use, and small enough that texel coordinates still fit an integer.
-static constexpr double kLargestUv = 1e4;
-
 // Textures are made where a material first asks for one: the use decides about the sRGB curve.
 class TextureTable {
  public:
@@ -104,7 +101,7 @@ class TextureTable {
     const std::vector<double> scale = numbers(transform, "scale", {1.0, 1.0});
     const double rotation = number(transform, "rotation", 0.0);
     const double c = std::cos(rotation), s = std::sin(rotation);
-    auto legal = [](double value) { return clamped(value, -kLargestUv, kLargestUv, 0.0); };
+    auto legal = [](double value) { return clamped(value, double{-kLargestUv}, double{kLargestUv}, 0.0); };
     slot.offset = vec2(legal(offset[0]), legal(offset[1]));
     slot.axis_u = vec2(legal(c * scale[0]), legal(-s * scale[0]));
     slot.axis_v = vec2(legal(s * scale[1]), legal(c * scale[1]));
@@ -161,16 +158,19 @@ void TextureTable::decode_images() {
   std::vector<CodeImage> decoded(used.size());
   // One small picture may be much; a hundred names for it would be a hundred times that.
   constexpr size_t kSmallTexels = size_t(1) << 26, kTexelsPerByte = 1024;
-  std::atomic<size_t> allowed = kSmallTexels + kTexelsPerByte * file_.size, taken = 0;
+  size_t allowed = kSmallTexels + kTexelsPerByte * file_.size;
+  for (const size_t i : used) {
+    allowed += kTexelsPerByte * std::min(external_bytes(file_, file_.images[i]), kMaxFileBytes);
+  }
+  std::atomic<size_t> taken = 0;
   tbb::parallel_for(size_t(0), used.size(), [&](size_t i) {
     const std::vector<unsigned char> bytes = image_bytes(file_, file_.images[used[i]]);
     const std::string name = fmt::format("{}: image {}", file_.path, used[i]);
     if (bytes.empty()) fail(file_, fmt::format("image {} is empty", used[i]));
-    const std::string& uri = file_.images[used[i]].uri;
-    if (!uri.empty() && !uri.starts_with("data:")) allowed += kTexelsPerByte * bytes.size();  // beyond file_.size
-    if (taken > allowed) fail(file_, "holds far more texels than a file of its size can; it looks damaged");
     decoded[i] = decode_image(std::as_bytes(Bytes(bytes)), name);
     taken += decoded[i].pixels.size();
+    // In whatever order they come, their sum decides.
+    if (taken > allowed) fail(file_, "holds far more texels than a file of its size can; it looks damaged");
   });
   size_t total = 0;
   for (const CodeImage& image : decoded) total += image.pixels.size();
@@ -191,6 +191,11 @@ void TextureTable::decode_images() {
   }
 }
 
+// The extension's index 0 asks for a Fresnel term of 1: that of an index so large that a float does not see the 1
+// beside it. (With it go the tints of KHR_materials_specular, without which such a material would be a mirror by
+// mistake.)
+static constexpr float kMirrorIor = 1e8f;
+
 static void read_extensions(const tinygltf::Material& source, Scene& scene, TextureTable& textures,
                             Material& material) {
   if (const Value* strength = extension(source.extensions, "KHR_materials_emissive_strength")) {
@@ -198,8 +203,15 @@ static void read_extensions(const tinygltf::Material& source, Scene& scene, Text
   }
   if (const Value* ior = extension(source.extensions, "KHR_materials_ior")) {
     const double value = number(*ior, "ior", 1.5);
-    if (value < 1.0) warn(scene, "a material has an index of refraction below 1; 1.5 is taken");
-    material.ior = value < 1.0 ? 1.5f : clamped(value, 1.0, 100.0, 1.5);
+    const bool tinted = source.extensions.count("KHR_materials_specular") != 0;
+    if (value == 0.0 && !tinted) {
+      material.ior = kMirrorIor;
+    } else if (value < 1.0) {
+      warn(scene, "a material has an index of refraction below 1; 1.5 is taken");
+      material.ior = 1.5f;
+    } else {
+      material.ior = clamped(value, 1.0, 100.0, 1.5);
+    }
   }
   if (const Value* transmission = extension(source.extensions, "KHR_materials_transmission")) {
     material.transmission = clamped(number(*transmission, "transmissionFactor", 0.0), 0.0, 1.0, 0.0);

@@ -97,10 +97,9 @@ static AccessorView read_attribute(GltfFile& file, const tinygltf::Primitive& pr
 }
 
 static vec2 read_uv(const AccessorView& attribute, size_t i) {
-  constexpr float kLargest = 1e6f;
   if (attribute.count == 0) return vec2(0.0f);
   const vec4 uv = attribute.at(i);
-  auto legal = [](float x) { return std::abs(x) <= kLargest ? x : 0.0f; };
+  auto legal = [](float x) { return std::isnan(x) ? 0.0f : clamp(x, -kLargestUv, kLargestUv); };
   return vec2(legal(uv.x), legal(uv.y));
 }
 

@@ -29,6 +29,10 @@ using Bytes = std::span<const unsigned char>;
 // Nothing in a Scene lies further from its origin than this: squared areas still fit a float.
 inline constexpr float kFarthest = 1e9f;  // metres
 
+// Texture coordinates, and each number of their transforms, are cut here: further out a float has no digits left for
+// the place within a texel.
+inline constexpr float kLargestUv = 1e6f;
+
 struct ImageSource {
   std::string uri;  // empty where the picture lies in the buffer view
   int view = -1;
@@ -72,6 +76,8 @@ GltfFile open_gltf(const std::string& path);
 GltfFile open_gltf_bytes(Bytes bytes, const std::string& path);
 Bytes buffer_view_bytes(const GltfFile& file, int view);
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
+// The size of the picture's own file; 0 where it lies in the glTF file, or nowhere.
+size_t external_bytes(const GltfFile& file, const ImageSource& image);
 
 // --- accessor.cpp
 // One accessor, checked to lie inside its buffer: at(i) is element i as floats (normalized integers mapped as the
@@ -83,11 +89,11 @@ struct AccessorView {
   vec4 at(size_t i) const;
   uint index_at(size_t i) const;
 
-  const unsigned char* data = nullptr;  // nullptr: expanded holds the values
+  const unsigned char* data = nullptr;
   size_t stride = 0;
   int component_type = 0;
   bool normalized = false;
-  std::vector<vec4> expanded;  // of a sparse accessor
+  std::shared_ptr<const std::vector<unsigned char>> expanded;  // what data points to in a sparse accessor
 };
 
 // accessor -1: an AccessorView with count 0.

@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
+#include "ods/base/memory.h"
 #include "ods/base/read_file.h"
+#include "ods/image/image_file.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
@@ -17,8 +20,8 @@ namespace ods {
 using Json = nlohmann::json;
 using Storage = std::shared_ptr<const std::vector<unsigned char>>;
 
-static Storage load_file(const std::string& path) {
-  return std::make_shared<const std::vector<unsigned char>>(read_file(path));
+static Storage share(std::vector<unsigned char> bytes) {
+  return std::make_shared<const std::vector<unsigned char>>(std::move(bytes));
 }
 
 // --- the container: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#glb-file-format-specification
@@ -33,9 +36,13 @@ static uint32_t read_uint32(Bytes bytes, size_t offset) {
          static_cast<uint32_t>(bytes[offset + 2]) << 16 | static_cast<uint32_t>(bytes[offset + 3]) << 24;
 }
 
+static bool is_container(Bytes bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
 static Chunks split_container(const GltfFile& file, Bytes bytes) {
   if (bytes.empty()) fail(file, "is empty");
-  if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {bytes, {}};
+  if (!is_container(bytes)) return {bytes, {}};
   if (bytes.size() < 20) fail(file, "ends inside its header; the file is damaged");
   if (read_uint32(bytes, 4) != 2) fail(file, "is not glTF version 2; convert it to glTF 2.0");
   const size_t length = read_uint32(bytes, 8);
@@ -131,50 +138,74 @@ static std::string uri_key(const std::string& uri) {
   return uri.starts_with("data:") ? uri : std::filesystem::path(decode_percent(uri)).lexically_normal().string();
 }
 
-static Storage read_uri(const GltfFile& file, const std::string& uri) {
-  if (uri.starts_with("data:")) {
-    const size_t comma = uri.find(";base64,");
-    if (comma == std::string::npos) fail(file, "has a data URI that is not in base64");
-    return std::make_shared<const std::vector<unsigned char>>(decode_base64(std::string_view(uri).substr(comma + 8)));
-  }
+static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
+  const size_t comma = uri.find(";base64,");
+  if (comma == std::string::npos) fail(file, "has a data URI that is not in base64");
+  return share(decode_base64(std::string_view(uri).substr(comma + 8)));
+}
+
+// The file that a URI names.
+static std::string uri_path(const GltfFile& file, const std::string& uri) {
   if (uri.find("://") != std::string::npos) {
     fail(file,
          fmt::format("refers to {}; ods does not fetch from the network, put the file beside it", printable(uri)));
   }
   const std::string name = decode_percent(uri);
   if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
+  return (std::filesystem::path(file.path).parent_path() / name).string();
+}
+
+// The first `most` bytes of what a URI names: a file may be larger than what is asked of it.
+static Storage read_uri(const GltfFile& file, const std::string& uri, size_t most) {
+  if (uri.starts_with("data:")) return read_data_uri(file, uri);
+  const std::string path = uri_path(file, uri);
   try {
-    return load_file((std::filesystem::path(file.path).parent_path() / name).string());
+    return share(read_start(path, most));
   } catch (const Error&) {
-    fail(file, fmt::format("refers to {}, which is not there or cannot be read", printable(uri)));
+    fail(file, fmt::format("refers to {}, which is not there, cannot be read or is larger than the free memory",
+                           printable(uri)));
   }
 }
 
 // --- buffers and pictures
 
+static size_t buffer_length(const GltfFile& file, const Json& buffer, size_t index) {
+  const bool sound = buffer.is_object() && buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned();
+  if (!sound) fail(file, fmt::format("buffer {} has no length", index));
+  return buffer["byteLength"].get<size_t>();
+}
+
+static bool has_uri(const Json& object) {
+  return object.contains("uri") && object["uri"].is_string();
+}
+
 static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
+  std::map<std::string, size_t> lengths;  // how much of each file is needed
+  for (size_t i = 0; i < json.size(); i++) {
+    const size_t length = buffer_length(file, json[i], i);
+    if (!has_uri(json[i])) continue;
+    size_t& longest = lengths[uri_key(json[i]["uri"].get<std::string>())];
+    longest = std::max(longest, length);
+  }
   std::map<std::string, Storage> loaded;
-  for (const Json& buffer : json) {
-    const size_t index = file.buffers.size();
-    const bool sound = buffer.is_object() && buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned();
-    if (!sound) fail(file, fmt::format("buffer {} has no length", index));
+  for (size_t i = 0; i < json.size(); i++) {
     Bytes bytes = binary;
-    if (buffer.contains("uri") && buffer["uri"].is_string()) {
-      const std::string uri = buffer["uri"].get<std::string>();
-      Storage& storage = loaded[uri_key(uri)];
+    if (has_uri(json[i])) {
+      const std::string uri = json[i]["uri"].get<std::string>(), key = uri_key(uri);
+      Storage& storage = loaded[key];
       if (!storage) {
-        storage = read_uri(file, uri);
+        storage = read_uri(file, uri, lengths[key]);
         file.storage.push_back(storage);
         file.size += storage->size();
       }
       bytes = *storage;
-    } else if (index > 0) {
-      fail(file, fmt::format("buffer {} has no data", index));
+    } else if (i > 0) {
+      fail(file, fmt::format("buffer {} has no data", i));
     }
-    const size_t length = buffer["byteLength"].get<size_t>();
+    const size_t length = buffer_length(file, json[i], i);
     if (length > bytes.size()) {
       fail(file,
-           fmt::format("buffer {} has {} bytes, but should have {}; the file is damaged", index, bytes.size(), length));
+           fmt::format("buffer {} has {} bytes, but should have {}; the file is damaged", i, bytes.size(), length));
     }
     file.buffers.push_back(bytes.first(length));
   }
@@ -186,7 +217,7 @@ static void take_images(GltfFile& file, const Json& json) {
     const size_t index = file.images.size();
     if (!image.is_object()) fail(file, fmt::format("image {} is not an object", index));
     ImageSource source;
-    if (image.contains("uri") && image["uri"].is_string()) source.uri = image["uri"].get<std::string>();
+    if (has_uri(image)) source.uri = image["uri"].get<std::string>();
     if (image.contains("bufferView") && image["bufferView"].is_number_integer())
       source.view = image["bufferView"].get<int>();
     source.first = first.emplace(std::pair(uri_key(source.uri), source.view), index).first->second;
@@ -213,8 +244,22 @@ Bytes buffer_view_bytes(const GltfFile& file, int index) {
   return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
+size_t external_bytes(const GltfFile& file, const ImageSource& image) {
+  if (image.uri.empty() || image.uri.starts_with("data:")) return 0;
+  const std::string path = uri_path(file, image.uri);
+  try {
+    return file_size(path);
+  } catch (const Error&) {
+    return 0;  // whoever reads it says why
+  }
+}
+
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image) {
-  if (!image.uri.empty()) return *read_uri(file, image.uri);
+  if (external_bytes(file, image) > kMaxFileBytes) {
+    fail(file, fmt::format("refers to {}: more than {}, the limit for a picture", printable(image.uri),
+                           bytes_text(kMaxFileBytes)));
+  }
+  if (!image.uri.empty()) return *read_uri(file, image.uri, kMaxFileBytes);
   const Bytes bytes = buffer_view_bytes(file, image.view);
   return {bytes.begin(), bytes.end()};
 }
@@ -253,10 +298,21 @@ static void parse(GltfFile& file, Bytes bytes) {
   file.budget = (size_t(1) << 20) + 16 * file.size;
 }
 
+// A container says its length; what is no container is text, and should look like it before it is read.
+static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
+  constexpr size_t kLongestText = size_t(1) << 30;
+  const std::vector<unsigned char> start = read_start(file.path, 64);
+  if (is_container(start)) return read_start(file.path, start.size() < 12 ? start.size() : read_uint32(start, 8));
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+  const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
+  return read_file(file.path, kLongestText);
+}
+
 GltfFile open_gltf(const std::string& path) {
   GltfFile file;
   file.path = path;
-  file.storage.push_back(load_file(path));
+  file.storage.push_back(share(read_scene_file(file)));
   parse(file, *file.storage.front());
   return file;
 }

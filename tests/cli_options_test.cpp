@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command answers to options that are wrong.
+#include <gtest/gtest.h>
+
+#include "tests/cli_runner.h"
+
+namespace {
+
+TEST_F(Cli, BadOptionsAreUsageErrors) {
+  for (const char* words :
+       {"--width 0",     "--width 17",    "--width -2",        "--width 1e9",    "--width 99999999999999999999",
+        "--width x",     "--width 8.5",   "--samples 0",       "--samples -5",   "--bounces -1",
+        "--seed -1",     "--threads -1",  "--env nan",         "--env 1,2",      "--env -1",
+        "--env 1,1,1,1", "--eyes three",  "--layout diagonal", "--layout mono",  "--size huge",
+        "--tone loud",   "--filter tent", "--quality best",    "--exposure inf", "--progress loudly",
+        "--env=",        "--scene -1",    "--scene 0.5",       "--unknown",      "surplus",
+        "--width"}) {
+    EXPECT_EQ(run(render(words)), 2) << words;
+    expect_one_error();
+  }
+  EXPECT_EQ(run("render"), 2);
+  EXPECT_EQ(run("render furnace"), 2);
+  expect_one_error();
+}
+
+TEST_F(Cli, BadCamerasAreUsageErrors) {
+  for (const char* words : {"--ipd nan",
+                            "--ipd -0.1",
+                            "--ipd inf",
+                            "--position 1,2",
+                            "--position a,b,c",
+                            "--position nan,0,0",
+                            "--yaw nan",
+                            "--yaw ninety",
+                            "--merge cubic",
+                            "--projection mercator",
+                            "--range 0,400",
+                            "--face inside",
+                            "--convergence toe-in,0",
+                            "--axis 0,0,0",
+                            "--lens 1",
+                            "--like cycles:cheese=1",
+                            "--like cheese",
+                            "--merge map",
+                            "--projection cube-3x2 --width 100",
+                            "--fov 200 --projection perspective",
+                            "--merge cosine,80,60",
+                            "--merge cosine,10,95",
+                            "--merge cosine,",
+                            "--merge ,",
+                            "--merge cosine,60,90,0",
+                            "--merge cosine,60,90,1,1",
+                            "--merge-top nan",
+                            "--camera nowhere",
+                            "--camera="}) {
+    EXPECT_EQ(run(render(words)), 2) << words;
+    expect_one_error();
+  }
+}
+
+}  // namespace
