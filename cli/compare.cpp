@@ -76,6 +76,11 @@ CompareReport compare(const CompareJob& job) {
                      fmt::format("'{}' is {} and '{}' is {}", job.a, a.projection, job.b, b.projection));
   }
   report.in_code_values = !a.is_float && !b.is_float;
+  if (a.is_float != b.is_float) {
+    note(
+        "one file holds light, the other what a display shows: a tone curve between them counts as a difference "
+        "(render with --tone linear to leave it out)");
+  }
   if (report.in_code_values) {
     encode(a);
     encode(b);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/console.h"
 #include "ods/base/suggest.h"
 
@@ -30,8 +32,26 @@ void parse_projection(const std::string& name, ProjectionSetting& projection) {
   projection = named->setting;
 }
 
+// An option that a projection has no use for would otherwise be lost without a word.
+void expect_kind(const char* option, const ProjectionSetting& projection, std::initializer_list<int> kinds,
+                 const char* owners) {
+  if (std::find(kinds.begin(), kinds.end(), projection.kind) != kinds.end()) return;
+  throw UsageError(
+      fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
+}
+
+void expect_range(const ProjectionSetting& projection) {
+  expect_kind("--range", projection, {ods::kLatLong, ods::kCylinder}, "lat-long and cylinder");
+}
+
+void expect_lens(const char* option, const ProjectionSetting& projection) {
+  expect_kind(option, projection, {ods::kFisheye, ods::kFisheyeEquisolid, ods::kPerspective},
+              "fisheye and perspective");
+}
+
 // LON0,LON1[,LAT0,LAT1]
 void parse_range(const std::string& text, ProjectionSetting& projection) {
+  expect_range(projection);
   const std::vector<float> numbers = parse_numbers(text);
   if (numbers.size() != 2 && numbers.size() != 4) {
     throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));
@@ -41,10 +61,18 @@ void parse_range(const std::string& text, ProjectionSetting& projection) {
 }
 
 void parse_look(const std::string& text, ProjectionSetting& projection) {
+  expect_lens("--look", projection);
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 2 && std::abs(numbers[0]) <= 36000.0f && std::abs(numbers[1]) <= 90.0f;
   if (!legal) throw UsageError(fmt::format("--look is PAN,TILT in degrees, tilt within 90, not '{}'", text));
   projection.pan = numbers[0], projection.tilt = numbers[1];
+}
+
+void parse_fov(const std::string& text, ProjectionSetting& projection) {
+  expect_lens("--fov", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != 1) throw UsageError(fmt::format("--fov is an angle in degrees, not '{}'", text));
+  projection.fov = numbers[0];
 }
 
 void parse_face(const std::string& name, ProjectionSetting& projection) {
@@ -74,7 +102,9 @@ void add_projection_options(Options& options, ProjectionSetting& projection) {
   options.custom(
       "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },
       "the part that a lat-long or a cylinder shows, degrees");
-  options.number("--fov", projection.fov, 1.0f, 360.0f, "of a fisheye or a window, degrees");
+  options.custom(
+      "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
+      "of a fisheye from edge to edge (180), of a perspective window from left to right (90)");
   options.custom(
       "--look", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
       "where a fisheye or a window points, degrees right and up; the eyes stay level");
@@ -89,8 +119,8 @@ void finish_projection(ProjectionSetting& projection, int width, int& height) {
   }
   const int step = ods::width_step(projection);
   if (width % step != 0) {
-    throw UsageError(fmt::format("--width is a multiple of {} for {}, not {}: its faces are {} abreast", step,
-                                 ods::projection_name(projection), width, step));
+    throw UsageError(fmt::format("--width is a multiple of {} for {}, whose faces are {} abreast: {}, not {}", step,
+                                 ods::projection_name(projection), step, width - width % step + step, width));
   }
   if (height == 0) height = ods::natural_height(projection, width);
 }

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_source.h"
 
+#include <filesystem>
+
 #include "cli/console.h"
+#include "ods/base/error.h"
 #include "ods/scene/environment.h"
 #include "ods/scene/load.h"
 
@@ -37,7 +40,14 @@ void add_environment(Scene& scene, const SceneSource& source) {
   }
   std::vector<float> numbers = parse_numbers(source.environment);
   if (numbers.empty()) {
+    if (!std::filesystem::exists(source.environment)) {
+      throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
+                                                   "'; a colour is written R,G,B, as 0.5,0.6,0.8");
+    }
     scene.environment = ods::load_environment(source.environment);
+    if (scene.environment.width != 2 * scene.environment.height) {
+      note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
+    }
     return;
   }
   bool legal = numbers.size() == 1 || numbers.size() == 3;

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_job.h"
+
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "ods/image/file_format.h"
+
+namespace {
+
+// What --quality sets; --width and --samples go before it.
+struct Quality {
+  std::string_view name;
+  int width;
+  int samples;
+};
+constexpr Quality kQualities[] = {{"draft", 1024, 16}, {"preview", 2048, 64}, {"final", 4096, 512}};
+
+constexpr const char* kExamples =
+    "  ods render scene.glb -o picture.png\n"
+    "  ods render scene.glb -o picture.exr --width 4096 --samples 256 --env sky.hdr\n"
+    "  ods render scene.glb -o picture.jpg --position 0,1.6,0 --yaw 90 --quality draft\n"
+    "  ods render scene.glb -o eye_%V.png         eye_left.png and eye_right.png\n"
+    "  ods render scene.glb -o picture.png --merge cosine,60,90";
+
+void add_picture_options(Options& options, RenderJob& job) {
+  options.group("Picture");
+  options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  add_size_option(options, job.render, job.save.layout);
+  options.number("--width", job.render.width, 1, 32768, "of one eye in pixels");
+  options.number("--height", job.render.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
+  options.choice("--eyes", job.render.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
+  add_layout_option(options, job.save.layout, "how two eyes share the file (vr180: side-by-side)");
+  options.flag("--sidecar", job.save.sidecar, "write picture.camera.json too, which ods camera reads");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
+}
+
+void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
+  options.group("Quality");
+  std::string sizes;
+  for (const Quality& q : kQualities) sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
+  auto name_of = [](Quality each) { return each.name; };
+  options.choice("--quality", quality, kQualities, +name_of, "width and samples at once" + sizes);
+  options.number("--samples", job.render.samples, 1, 1 << 20, "per pixel");
+  options.number("--bounces", job.render.bounces, 0, 1024, "of light");
+  options.choice("--filter", job.render.filter, ods::kPixelFilters, ods::pixel_filter_name, "of the pixel");
+  options.number("--seed", job.render.seed, "the same seed gives the same picture");
+  options.number("--threads", job.render.threads, 0, 1024, "0: all processors");
+}
+
+void add_console_options(Options& options, RenderJob& job) {
+  options.group("Console");
+  options.choice("--progress", job.progress, kProgressModes, progress_mode_name,
+                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
+}
+
+// Players take the front half of the sphere side by side, the whole top-bottom.
+ods::Layout usual_layout(const ods::ProjectionSetting& projection) {
+  return ods::projection_name(projection) == "vr180" ? ods::Layout::kSideBySide : ods::Layout::kTopBottom;
+}
+
+bool keeps_light(const std::string& path) {
+  const auto format = ods::format_of_path(path);
+  return format && ods::is_scene_referred(*format);
+}
+
+}  // namespace
+
+bool read_render_job(RenderJob& job, int argc, char** argv) {
+  Quality quality = kQualities[1];
+  Options options("render", "Makes a stereo 360 picture of a scene.", kExamples);
+  add_scene_argument(options, job.scene);
+  add_light_options(options, job.scene);
+  add_picture_options(options, job);
+  add_camera_options(options, job.camera);
+  add_quality_options(options, job, quality);
+  add_console_options(options, job);
+  if (!options.parse(argc, argv)) return false;
+  console.json = job.progress == ProgressMode::kJson;
+  if (job.output.empty()) throw UsageError("where to? -o picture.png");
+  if (!options.given("--width") && !options.given("--size")) {
+    job.render.width = quality.width - quality.width % ods::width_step(job.camera.rig.projection);
+  }
+  if (!options.given("--samples")) job.render.samples = quality.samples;
+  if (!options.given("--layout") && !options.given("--size")) {
+    job.save.layout = usual_layout(job.camera.rig.projection);
+  }
+  if (options.given("--exposure") && keeps_light(job.output))
+    note("--exposure leaves .exr and .hdr as the scene is lit");
+  job.render.layers = ods::keeps_layers(job.output);
+  if (options.given("--width") && !options.given("--height")) job.render.height = 0;
+  finish_camera_options(job.camera, job.render.width, job.render.height);
+  if (job.progress == ProgressMode::kAuto) {
+    job.progress = console.quiet          ? ProgressMode::kNone
+                   : stderr_is_terminal() ? ProgressMode::kBar
+                                          : ProgressMode::kPlain;
+  }
+  return true;
+}
