@@ -1,0 +1,50 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Makes docs/images/projections.jpg, layouts.jpg and merges.jpg. Needs build/release/ods and oiiotool.
+set -eu
+cd "$(dirname "$0")/.."
+ods=build/release/ods
+count=10
+parts=$(mktemp -d)
+trap 'rm -rf "$parts"' EXIT
+
+# tile NAME OPTION...: the axis scene seen so, fitted into a box with its name below.
+tile() {
+  name=$1
+  shift
+  count=$((count + 1))
+  "$ods" render axis --quiet --samples 24 -o "$parts/raw.png" "$@" > /dev/null
+  oiiotool "$parts/raw.png" --ch R,G,B --fit:pad=1 320x240 --cut 320x268+0+0 \
+    --text:x=160:y=262:size=17:xalign=center:color=1,1,1:font=DejaVuSans.ttf "$name" -d uint8 -o "$parts/tile-$(printf %02d $count).png"
+}
+
+# sheet COLUMNSxROWS FILE
+sheet() {
+  oiiotool "$parts"/tile-*.png --mosaic:pad=8 "$1" --compression jpeg:90 -d uint8 -o "docs/images/$2"
+  rm "$parts"/tile-*.png
+}
+
+for name in lat-long vr180 cylinder fisheye fisheye-equisolid dome perspective cube-3x2 cube-6x1 cube-1x6 eac; do
+  width=480
+  [ $name = cube-1x6 ] && width=120
+  tile $name --eyes left --projection $name --width $width
+done
+tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
+sheet 4x3 projections.jpg
+
+for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved anaglyph \
+  anaglyph-half anaglyph-dubois; do
+  tile $name --layout $name --width 480
+done
+tile "--eyes left" --eyes left --width 480
+tile "--eyes mono" --eyes mono --width 480
+sheet 4x3 layouts.jpg
+
+# Straight down at the floor's grid, where a merge shows most: red-cyan, with eyes far apart.
+for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 gaussian,0,90 power,0,90,10 \
+  tilt-brush,0,72; do
+  tile "$merge" --layout anaglyph --projection fisheye --look 0,-90 --ipd 0.4 --merge "$merge" --width 320
+done
+sheet 4x2 merges.jpg
