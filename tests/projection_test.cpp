@@ -50,7 +50,7 @@ dvec3 exact_face(int kind, int cell, double s, double t) {
   }
   if (kind == kEac) {
     s = std::tan(kExactPi / 4.0 * s), t = std::tan(kExactPi / 4.0 * t);
-    const dvec3 faces[] = {{-1, t, -s}, {s, t, -1}, {1, t, s}, {-t, -1, -s}, {-t, s, 1}, {-t, 1, s}};
+    const dvec3 faces[] = {{-1, t, -s}, {s, t, -1}, {1, t, s}, {t, -1, s}, {t, s, 1}, {t, 1, -s}};
     return faces[cell];
   }
   const dvec3 faces[] = {{1, -s, t}, {-1, s, t}, {s, -t, 1}, {s, t, -1}, {s, 1, t}, {-s, -1, t}};
@@ -188,6 +188,22 @@ TEST(Projections, FacesGoOnBeyondTheirCells) {
       EXPECT_LT(angle_between(in, out), 0.05) << kind << ' ' << i;
     }
   }
+}
+
+// Seen from inside, no face is mirrored; and in the rows that players show as strips, neighbours share an edge.
+TEST(Projections, FacesAreSeenFromInside) {
+  for (int kind : {kCube3x2, kCube6x1, kCube1x6, kEac}) {
+    for (int cell = 0; cell < 6; cell++) {
+      const CubeFace face = cube_cell(kind, cell);
+      EXPECT_EQ(cross(face.right, face.top), -face.middle) << kind << ' ' << cell;
+    }
+  }
+  const auto joined = [](int kind, int cell) {
+    const CubeFace left = cube_cell(kind, cell), right = cube_cell(kind, cell + 1);
+    return left.right == right.middle && right.right == -left.middle && left.top == right.top;
+  };
+  for (int cell : {0, 1, 3, 4}) EXPECT_TRUE(joined(kEac, cell)) << cell;
+  for (int cell : {3, 4}) EXPECT_TRUE(joined(kCube3x2, cell)) << cell;
 }
 
 TEST(Projections, HaveNames) {

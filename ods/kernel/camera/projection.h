@@ -188,9 +188,9 @@ inline CubeFace cube_cell(int kind, int cell) {
     if (cell == 0) return cube_face(-x, -z, y);
     if (cell == 1) return cube_face(-z, x, y);
     if (cell == 2) return cube_face(x, z, y);
-    if (cell == 3) return cube_face(-y, -z, -x);
-    if (cell == 4) return cube_face(z, y, -x);
-    return cube_face(y, z, -x);
+    if (cell == 3) return cube_face(-y, z, x);
+    if (cell == 4) return cube_face(z, y, x);
+    return cube_face(y, -z, x);
   }
   if (kind == kCube3x2) {
     if (cell == 0) return cube_face(-z, x, y);
