@@ -228,7 +228,8 @@ TEST(CameraExport, BlendersScriptIsPython) {
   for (const CameraFile& file : many_cameras()) {
     const std::string name = std::to_string(i++) + ".py";
     folder.write(name, export_camera(file, CameraTarget::kBlender).text);
-    all += " " + folder.path(name);
+    all += ' ';
+    all += folder.path(name);
   }
   EXPECT_TRUE(runs("python3 -m py_compile" + all));
 }
