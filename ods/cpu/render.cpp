@@ -41,7 +41,7 @@ struct Pixel {
   float depth = kFarDepth;
 };
 
-// The render loop. Inlining all of the kernel here makes it a quarter faster.
+// The render loop. Inlining all of the kernel here, and the camera below, makes it a quarter faster.
 [[gnu::flatten]] void trace_path(Job& job, const PathSettings& settings) {
   PathTracer& tracer = job.tracer;
   const PathState& path = tracer.path;
@@ -73,7 +73,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   return depth < 0.0f ? kFarDepth : depth;
 }
 
-Pixel render_pixel(Job& job, int eye, int x, int y) {
+[[gnu::flatten]] Pixel render_pixel(Job& job, int eye, int x, int y) {
   const int width = job.options.width, height = job.options.height;
   const uint seed = hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), static_cast<uint>(y * width + x));
   const PathState& path = job.tracer.path;
