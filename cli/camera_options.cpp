@@ -15,14 +15,6 @@ using ods::CameraRig, ods::Scene, ods::vec3, ods::ViewPoint;
 
 namespace {
 
-vec3 parse_position(const std::string& word) {
-  std::vector<float> numbers = parse_numbers(word);
-  bool legal = numbers.size() == 3;
-  for (float number : numbers) legal = legal && std::abs(number) <= 1e6f;
-  if (!legal) throw UsageError("--position is X,Y,Z in metres, each within 1e6, not '" + word + "'");
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (const ViewPoint& view : scene.view_points) {
@@ -36,9 +28,16 @@ const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
+vec3 parse_point(const std::string& name, const std::string& word) {
+  const std::vector<float> p = parse_numbers(word);
+  const bool legal = p.size() == 3 && std::all_of(p.begin(), p.end(), [](float x) { return std::abs(x) <= 1e6f; });
+  if (!legal) throw UsageError(fmt::format("{} is X,Y,Z in metres, each within 1e6, not '{}'", name, word));
+  return {p[0], p[1], p[2]};
+}
+
 static void add_position_option(Options& options, CameraOptions& camera) {
   options.custom(
-      "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_position(word); },
+      "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_point("--position", word); },
       "metres, +Y up; eyes stand left and right of it");
 }
 

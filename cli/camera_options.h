@@ -21,6 +21,9 @@ struct CameraOptions {
   std::optional<float> roll;
 };
 
+// X,Y,Z of a place. name: of the option, for the message. Throws UsageError.
+ods::vec3 parse_point(const std::string& name, const std::string& word);
+
 // --camera and --position alone, the rest of where it stands, and how it sees. In this order.
 void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);

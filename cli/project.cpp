@@ -26,14 +26,6 @@ constexpr const char* kExamples =
     "  ods project --from picture.camera.json --json < points.txt\n"
     "  ods project --from picture.camera.json --from-pixel left,2048.5,1024.5,3.2";
 
-vec3 parse_point(std::string word) {
-  for (char& c : word) c = c == ' ' || c == '\t' ? ',' : c;
-  const std::vector<float> p = parse_numbers(word);
-  const bool legal = p.size() == 3 && std::all_of(p.begin(), p.end(), [](float x) { return std::abs(x) <= 1e6f; });
-  if (!legal) throw UsageError("a point is X,Y,Z in metres, each within 1e6, not '" + word + "'");
-  return {p[0], p[1], p[2]};
-}
-
 // Pixels are counted from the left and top edge of the eye's own picture: the middle of the first is 0.5.
 struct Found {
   int eye;
@@ -87,15 +79,17 @@ void print_point_of(const std::string& word, const CameraFile& file, const Camer
       eye >= 0 && n.size() == 3 && std::isfinite(n[0]) && std::isfinite(n[1]) && n[2] > 0.0f && std::isfinite(n[2]);
   if (!legal) throw UsageError("--from-pixel is EYE,X,Y,DEPTH, as left,2048.5,1024.5,3.2, not '" + word + "'");
   const vec2 uv(n[0] / static_cast<float>(file.eye.width), n[1] / static_cast<float>(file.eye.height));
-  const bool inside = uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f;
   const ods::Ray ray = camera_ray(camera, eye, uv);
-  if (!inside || ray.direction == vec3(0.0f)) {
+  if (!ods::inside_picture(uv) || ray.direction == vec3(0.0f)) {
     throw UsageError(fmt::format("--from-pixel {}: outside the picture, which has {}x{} pixels", word, file.eye.width,
                                  file.eye.height));
   }
   const vec3 p = ray.origin + n[2] * ray.direction;
-  if (json) return std::puts(nlohmann::ordered_json({{"point", {p.x, p.y, p.z}}}).dump().c_str()), void();
-  fmt::print("{:.7g},{:.7g},{:.7g}\n", p.x, p.y, p.z);
+  if (json) {
+    std::puts(nlohmann::ordered_json({{"point", {p.x, p.y, p.z}}}).dump().c_str());
+  } else {
+    fmt::print("{:.7g},{:.7g},{:.7g}\n", p.x, p.y, p.z);
+  }
 }
 
 void project(int argc, char** argv) {
@@ -113,10 +107,16 @@ void project(int argc, char** argv) {
   if (!options.parse(argc, argv)) return;
   const CameraFile file = read_camera_source(source);
   const Camera camera = make_camera(file.rig);
-  const auto print = [&](const std::string& word) {
-    const vec3 point = parse_point(word);
+  const auto print = [&](std::string word) {
+    std::replace_if(
+        word.begin(), word.end(), [](char c) { return c == ' ' || c == '\t'; }, ',');
+    const vec3 point = parse_point("a point", word);
     const std::vector<Found> all = find(file, camera, point);
-    json ? void(std::puts(to_json(point, all).dump().c_str())) : print_text(point, all);
+    if (json) {
+      std::puts(to_json(point, all).dump().c_str());
+    } else {
+      print_text(point, all);
+    }
   };
   if (!pixel.empty()) print_point_of(pixel, file, camera, json);
   for (const std::string& word : words) print(word);

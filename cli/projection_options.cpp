@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "cli/console.h"
 #include "ods/base/suggest.h"
@@ -33,25 +33,19 @@ void parse_projection(const std::string& name, ProjectionSetting& projection) {
 }
 
 // An option that a projection has no use for would otherwise be lost without a word.
-void expect_kind(const char* option, const ProjectionSetting& projection, std::initializer_list<int> kinds,
-                 const char* owners) {
-  if (std::find(kinds.begin(), kinds.end(), projection.kind) != kinds.end()) return;
+void expect(bool useful, const char* option, const char* owners, const ProjectionSetting& projection) {
+  if (useful) return;
   throw UsageError(
       fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
 }
 
-void expect_range(const ProjectionSetting& projection) {
-  expect_kind("--range", projection, {ods::kLatLong, ods::kCylinder}, "lat-long and cylinder");
-}
-
 void expect_lens(const char* option, const ProjectionSetting& projection) {
-  expect_kind(option, projection, {ods::kFisheye, ods::kFisheyeEquisolid, ods::kPerspective},
-              "fisheye and perspective");
+  expect(ods::has_lens(projection.kind), option, "fisheye and perspective", projection);
 }
 
 // LON0,LON1[,LAT0,LAT1]
 void parse_range(const std::string& text, ProjectionSetting& projection) {
-  expect_range(projection);
+  expect(ods::has_range(projection.kind), "--range", "lat-long and cylinder", projection);
   const std::vector<float> numbers = parse_numbers(text);
   if (numbers.size() != 2 && numbers.size() != 4) {
     throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));

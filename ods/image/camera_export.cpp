@@ -112,8 +112,7 @@ std::string camera_title(const CameraFile& file) {
 
 Extent picture_size(const CameraFile& file) {
   const int count = static_cast<int>(file.eyes.size());
-  const Extent squeeze = squeeze_of(file.layout, count);
-  return packed_size(file.layout, {file.eye.width / squeeze.width, file.eye.height / squeeze.height}, count);
+  return packed_size(file.layout, squeezed_eye(file.layout, file.eye, count), count);
 }
 
 std::string yaw_pitch_roll(const CameraRig& rig) {

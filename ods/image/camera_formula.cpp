@@ -110,7 +110,7 @@ class Writer {
 
   // theta and phi of the direction: about the viewing circle's axis.
   void write_angles() {
-    const bool even = setting_.kind == kLatLong || setting_.kind == kCylinder;
+    const bool even = has_range(setting_.kind);
     Formula theta = 0.0, phi = 0.0;
     if (even) {
       const double left = radians(setting_.longitude.x), right = radians(setting_.longitude.y);
@@ -150,30 +150,21 @@ class Writer {
 
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
-    const Projection lens = make_projection(setting_);
-    const std::array<glm::dvec3, 3> columns{lens_axis(0), lens_axis(1), lens_axis(2)};
+    const std::array<glm::dvec3, 3> columns = attitude(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
-    if (lens.kind == kPerspective) {
+    if (setting_.kind == kPerspective) {
       const double half = std::tan(radians(setting_.fov) / 2.0);
       return combine(columns, {half * x, half / decimal(setting_.aspect) * y, -1.0});
     }
-    if (lens.kind != kFisheye && lens.kind != kFisheyeEquisolid) return cube_direction();
+    if (!is_fisheye(setting_.kind)) return cube_direction();
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
     const Formula angle =
-        step("from_axis", lens.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
+        step("from_axis", setting_.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
     seen_ = step("seen", select(1.0 - radius, 0.0, 1.0));
     return combine(columns, {px * outwards, py * outwards, -cos(angle)});
-  }
-
-  // Right, up and back of the lens. As make_projection() has them, in double precision.
-  glm::dvec3 lens_axis(int i) const {
-    const double pan = radians(setting_.pan), tilt = radians(setting_.tilt);
-    const glm::dvec3 right(std::cos(pan), 0.0, std::sin(pan));
-    const glm::dvec3 back(-std::sin(pan) * std::cos(tilt), -std::sin(tilt), std::cos(pan) * std::cos(tilt));
-    return i == 0 ? right : i == 1 ? glm::cross(back, right) : back;
   }
 
   // The face is chosen by the cell, s and t run -1..1 across it.
@@ -207,12 +198,9 @@ class Writer {
 
   // The camera's frame in the world: its right, up and back.
   std::array<glm::dvec3, 3> frame() const {
-    const double yaw = radians(rig_.yaw), pitch = radians(rig_.pitch), roll = radians(rig_.roll);
-    const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
-    const glm::dvec3 level_right(cy, 0.0, sy), back(-sy * cp, -sp, cy * cp);
-    const glm::dvec3 level_up = glm::cross(back, level_right);
-    return {std::cos(roll) * level_right - std::sin(roll) * level_up,
-            std::sin(roll) * level_right + std::cos(roll) * level_up, rig_.mirrored ? -back : back};
+    std::array<glm::dvec3, 3> columns = attitude(radians(rig_.yaw), radians(rig_.pitch), radians(rig_.roll));
+    if (rig_.mirrored) columns[2] = -columns[2];
+    return columns;
   }
 
   // A frame in the camera's whose up is the viewing circle's axis; right and back as near to the camera's as can be.

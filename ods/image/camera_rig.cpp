@@ -62,19 +62,12 @@ static PoleMerge make_merge(const PoleMergeSetting& setting) {
 Camera make_camera(const CameraRig& rig) {
   assert(rig.ipd >= 0.0f);
   assert(rig.merge_map || (rig.top.mode != kMergeMap && rig.bottom.mode != kMergeMap));
-  const double yaw = glm::radians(static_cast<double>(rig.yaw));
-  const double pitch = glm::radians(static_cast<double>(rig.pitch));
-  const double roll = glm::radians(static_cast<double>(rig.roll));
-  // Columns of Ry(-yaw) * Rx(pitch) * Rz(-roll).
-  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
-  const double cr = std::cos(roll), sr = std::sin(roll);
-  const glm::dvec3 level_right(cy, 0.0, sy);
-  const glm::dvec3 back(-sy * cp, -sp, cy * cp);
-  const glm::dvec3 level_up = glm::cross(back, level_right);
+  const auto radians = [](float degrees) { return glm::radians(static_cast<double>(degrees)); };
+  const auto [right, up, back] = attitude(radians(rig.yaw), radians(rig.pitch), radians(rig.roll));
   Camera camera;
   camera.center = rig.position;
-  camera.right = vec3(cr * level_right - sr * level_up);
-  camera.up = vec3(sr * level_right + cr * level_up);
+  camera.right = vec3(right);
+  camera.up = vec3(up);
   camera.back = rig.mirrored ? -vec3(back) : vec3(back);
   camera.axis = vec3(0.0f, 1.0f, 0.0f);
   if (rig.axis) {

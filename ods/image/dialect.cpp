@@ -177,11 +177,6 @@ CameraRig like_domemaster(const Values& values) {
   return rig;
 }
 
-constexpr DialectParameter kNerfstudio[] = {{"IPD", "0.064", "distance between the eyes"}};
-CameraRig like_nerfstudio(const Values& values) {
-  return plain(values.number("IPD", 0.0f, kLongest));
-}
-
 constexpr DialectParameter kReplica[] = {{"radius", "0.032", "of the viewing circle"}};
 CameraRig like_replica(const Values& values) {
   return plain(2.0f * values.number("radius", 0.0f, kLongest));
@@ -240,7 +235,7 @@ constexpr Entry kEntries[] = {
     {{"domemaster", "Domemaster3D LatLongStereo", true, "LatLongStereo.cpp; its maps are --merge-map here",
       kDomemaster},
      like_domemaster},
-    {{"nerfstudio", "nerfstudio", true, "cameras.py", kNerfstudio}, like_nerfstudio},
+    {{"nerfstudio", "nerfstudio", true, "cameras.py", kGoogle}, like_google},
     {{"replica360", "Replica360, MatryODShka", true, "mesh-ptex-spherical.vert", kReplica}, like_replica},
     {{"mandelbulber", "Mandelbulber", true, "render_worker.cpp, infinite correction 0", kMandelbulber},
      like_mandelbulber},

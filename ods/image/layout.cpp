@@ -116,6 +116,11 @@ static Extent cuts_of(Arrangement arrangement, int eye_count) {
   return arrangement == Arrangement::kBeside ? Extent{eye_count, 1} : Extent{1, eye_count};
 }
 
+Extent squeezed_eye(Layout layout, Extent eye, int eye_count) {
+  const Extent squeeze = squeeze_of(layout, eye_count);
+  return {eye.width / squeeze.width, eye.height / squeeze.height};
+}
+
 Extent packed_size(Layout layout, Extent eye, int eye_count) {
   const Extent cuts = cuts_of(form_of(layout).arrangement, eye_count);
   return {eye.width * cuts.width, eye.height * cuts.height};

@@ -55,6 +55,7 @@ struct Extent {
 // How many columns and rows of an eye become one of the file: 2x1 and 1x2 for the halves, 1x1 for all others and for a
 // single eye. The mean of them does: an area filter, in linear light.
 Extent squeeze_of(Layout layout, int eye_count);
+Extent squeezed_eye(Layout layout, Extent eye, int eye_count);
 
 // The size of the image that packs eyes which are `eye` large once they are squeezed. A single eye, anaglyphs,
 // kSeparate and kMultiview pack nothing.

@@ -71,7 +71,7 @@ bool is_full_lat_long(const ProjectionSetting& setting) {
 }
 
 std::string projection_fault(const ProjectionSetting& setting) {
-  if (setting.kind == kLatLong || setting.kind == kCylinder) {
+  if (has_range(setting.kind)) {
     const float limit = setting.kind == kLatLong ? 90.0f : 89.0f;
     const float turn = setting.longitude.y - setting.longitude.x;
     if (!(turn > 0.0f && turn <= 360.0f)) return "longitudes run from left to right over at most 360 degrees";
@@ -80,8 +80,7 @@ std::string projection_fault(const ProjectionSetting& setting) {
                                       : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
     }
   }
-  const bool fisheye = setting.kind == kFisheye || setting.kind == kFisheyeEquisolid;
-  if (fisheye && !(setting.fov >= 1.0f && setting.fov <= 360.0f)) return "a fisheye sees 1 to 360 degrees";
+  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= 360.0f)) return "a fisheye sees 1 to 360 degrees";
   if (setting.kind == kPerspective) {
     if (!(setting.fov >= 1.0f && setting.fov <= 170.0f)) return "a flat window shows 1 to 170 degrees";
     if (!(setting.aspect > 0.01f && setting.aspect < 100.0f)) return "a window's sides differ by at most 100 to 1";
@@ -126,6 +125,16 @@ int width_step(const ProjectionSetting& setting) {
   return setting.kind >= kCube3x2 ? cube_columns(setting.kind) : 1;
 }
 
+// Columns of Ry(-yaw) * Rx(pitch) * Rz(-roll).
+std::array<glm::dvec3, 3> attitude(double yaw, double pitch, double roll) {
+  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
+  const double cr = std::cos(roll), sr = std::sin(roll);
+  const glm::dvec3 level_right(cy, 0.0, sy);
+  const glm::dvec3 back(-sy * cp, -sp, cy * cp);
+  const glm::dvec3 level_up = glm::cross(back, level_right);
+  return {cr * level_right - sr * level_up, sr * level_right + cr * level_up, back};
+}
+
 Projection make_projection(const ProjectionSetting& setting) {
   assert(projection_fault(setting).empty());
   const auto radians = [](vec2 degrees) { return glm::dvec2(degrees) * (std::acos(-1.0) / 180.0); };
@@ -139,12 +148,10 @@ Projection make_projection(const ProjectionSetting& setting) {
   projection.angle = glm::radians(setting.fov);
   const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
   projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
-  const double pan = glm::radians(static_cast<double>(setting.pan));
-  const double tilt = glm::radians(static_cast<double>(setting.tilt));
-  const glm::dvec3 right(std::cos(pan), 0.0, std::sin(pan));
-  const glm::dvec3 back(-std::sin(pan) * std::cos(tilt), -std::sin(tilt), std::cos(pan) * std::cos(tilt));
+  const auto [right, up, back] = attitude(glm::radians(static_cast<double>(setting.pan)),
+                                          glm::radians(static_cast<double>(setting.tilt)), 0.0);
   projection.lens_right = vec3(right);
-  projection.lens_up = vec3(glm::cross(back, right));
+  projection.lens_up = vec3(up);
   projection.lens_back = vec3(back);
   return projection;
 }

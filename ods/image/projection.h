@@ -3,7 +3,7 @@
 //
 // Projections as people set them: names, degrees, defaults. The formulas are in ods/kernel/camera/projection.h.
 #pragma once
-#include <optional>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +47,9 @@ int natural_height(const ProjectionSetting& setting, int width);
 
 // Cubes need whole faces: the number that the width of one eye must divide by, 1 for all others.
 int width_step(const ProjectionSetting& setting);
+
+// Right, up and back of what looks along -Z and is rolled clockwise, then pitched up, then turned to the right. Radians.
+std::array<glm::dvec3, 3> attitude(double yaw, double pitch, double roll);
 
 // Precondition: projection_fault() is empty.
 Projection make_projection(const ProjectionSetting& setting);

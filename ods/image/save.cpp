@@ -29,10 +29,6 @@ static Error unfit(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
 }
 
-static Extent squeezed(Extent eye, Extent squeeze) {
-  return {eye.width / squeeze.width, eye.height / squeeze.height};
-}
-
 static void check_layout(const std::string& path, FileFormat format, const SaveOptions& options,
                          const std::vector<int>& eyes, Extent eye) {
   const Layout layout = layout_for(path, options);
@@ -54,7 +50,7 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
     throw unfit(path, fmt::format("eyes of {}x{} pixels cannot be halved for {}; make their sides even", eye.width,
                                   eye.height, layout_name(layout)));
   }
-  const Extent size = packed_size(layout, squeezed(eye, squeeze), count);
+  const Extent size = packed_size(layout, squeezed_eye(layout, eye, count), count);
   if (std::max(size.width, size.height) > longest_side(format)) {
     throw unfit(path, fmt::format("{}x{} pixels are too many for this format; use .exr, .tif or .png", size.width,
                                   size.height));
@@ -90,12 +86,11 @@ static void add_merge(std::vector<Attribute>& attributes, const std::string& nam
 static void add_projection(std::vector<Attribute>& attributes, const ProjectionSetting& projection) {
   const auto pair = [&](const char* name, float a, float b) { attributes.push_back({name, std::vector<float>{a, b}}); };
   attributes.push_back({"ods:projection", std::string(projection_name(projection))});
-  const bool flat = projection.kind == kLatLong || projection.kind == kCylinder;
-  if (flat && !is_full_lat_long(projection)) {
+  if (has_range(projection.kind) && !is_full_lat_long(projection)) {
     pair("ods:longitude", projection.longitude.x, projection.longitude.y);
     pair("ods:latitude", projection.latitude.x, projection.latitude.y);
   }
-  if (projection.kind == kFisheye || projection.kind == kFisheyeEquisolid || projection.kind == kPerspective) {
+  if (has_lens(projection.kind)) {
     attributes.push_back({"ods:fov", projection.fov});
     pair("ods:look", projection.pan, projection.tilt);
   }
@@ -299,7 +294,7 @@ static Extent size_of(const EyeImage& eye) {
 static FileHeader make_header(FileFormat format, Layout layout, const EyeList& eyes, const CameraRig* rig,
                               const SaveOptions& options) {
   const int count = static_cast<int>(eyes.size());
-  const Extent size = packed_size(layout, squeezed(size_of(*eyes[0]), squeeze_of(layout, count)), count);
+  const Extent size = packed_size(layout, squeezed_eye(layout, size_of(*eyes[0]), count), count);
   FileHeader header;
   header.format = format;
   header.width = size.width;
@@ -345,7 +340,7 @@ static void write_file(AtomicFile& file, FileFormat format, Layout layout, const
   const FileHeader header = make_header(format, layout, eyes, rig, options);
   const int count = static_cast<int>(eyes.size());
   Rows rows{squeeze_of(layout, count), {}};
-  const Extent eye_size = squeezed(size_of(*eyes[0]), rows.squeeze);
+  const Extent eye_size = squeezed_eye(layout, size_of(*eyes[0]), count);
   const size_t stride = header.channels.size();
   const size_t step =
       layout == Layout::kMultiview ? stride / eyes.size() : static_cast<size_t>(eye_size.width) * stride;

@@ -35,11 +35,6 @@ inline float punctual_falloff(float distance, float range) {
   return inverse_square * clamp(1.0f - share2 * share2, 0.0f, 1.0f);
 }
 
-// Position of a direction in a lat-long picture, both coordinates 0..1.
-inline vec2 direction_to_lat_long(vec3 d) {
-  return vec2(0.5f + atan(d.x, -d.z) * (0.5f / kPi), 0.5f - atan(d.y, sqrt(d.x * d.x + d.z * d.z)) * (1.0f / kPi));
-}
-
 #ifdef __cplusplus
 struct LightSampler : BsdfEvaluator {
 #endif

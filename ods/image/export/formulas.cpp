@@ -26,11 +26,6 @@ std::string print_vector(const std::array<Formula, 3>& v, Language language) {
   return fmt::format("{}, {}, {}", print(v[0], language), print(v[1], language), print(v[2], language));
 }
 
-bool is_empty_somewhere(const CameraFile& file) {
-  const int kind = file.rig.projection.kind;
-  return kind == kFisheye || kind == kFisheyeEquisolid;
-}
-
 // Two eyes that share no picture are rendered one after the other.
 std::string eye_hint(const CameraFile& file, const CameraFormula& formula, const std::string& mark,
                      const std::string& name) {
@@ -48,7 +43,7 @@ struct Shader {
   std::string_view vector;
 };
 
-std::string shader_body(const CameraFormula& formula, Language language, std::string_view declare,
+std::string steps_text(const CameraFormula& formula, Language language, std::string_view declare,
                         std::string_view end) {
   std::string text;
   for (const NamedFormula& step : formula.steps) {
@@ -71,14 +66,14 @@ CameraExport to_shader(const CameraFile& file, const FormulaView& view, const Sh
   text = comment_block("//", "The ray of a stereo 360 picture: " + camera_title(file) + ".", result.warnings);
   text += "// x, y: position in the whole picture, 0..1 from its left and top edge. Metres.\n";
   text += fmt::format("// {}\n", convention);
-  if (is_empty_somewhere(file)) text += "// Where the picture is empty the direction is 0.\n";
+  if (is_fisheye(file.rig.projection.kind)) text += "// Where the picture is empty the direction is 0.\n";
   text += eye_hint(file, formula, "//", "eye");
   text += fmt::format("{} pi = 3.141592653589793;\n", shader.number);
   for (const NamedFormula& parameter : formula.parameters) {
     text += fmt::format("{} {} = {};{}\n", shader.number, parameter.name, print(parameter.value, shader.language),
                         remark(parameter.meaning, "//"));
   }
-  text += fmt::format("\n{} {{\n{}", shader.signature, shader_body(formula, shader.language, "float ", ";"));
+  text += fmt::format("\n{} {{\n{}", shader.signature, steps_text(formula, shader.language, "float ", ";"));
   text += fmt::format("  location = {}({});\n", shader.vector, print_vector(formula.location, shader.language));
   text += fmt::format("  direction = {}({});\n}}\n", shader.vector, print_vector(formula.direction, shader.language));
   return result;
@@ -106,7 +101,7 @@ CameraExport to_povray(const CameraFile& file) {
       "// shall look the same. Lengths are metres.\n";
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Render with +W{} +H{}.\n", size.width, size.height);
-  if (is_empty_somewhere(file)) {
+  if (is_fisheye(file.rig.projection.kind)) {
     text += "// Where the picture is empty the direction is 0; not checked what POV-Ray makes of it.\n";
   }
   text += eye_hint(file, formula, "//", "odsEye");
@@ -173,10 +168,10 @@ CameraExport to_osl(const CameraFile& file) {
       "  point raster = camera_shader_raster_position();\n"
       "  float x = raster[0];\n"
       "  float y = raster[1];\n";
-  text += shader_body(formula, Language::kOsl, "float ", ";");
+  text += steps_text(formula, Language::kOsl, "float ", ";");
   text += fmt::format("  position = point({});\n", print_vector(formula.location, Language::kOsl));
   text += fmt::format("  direction = vector({});\n", print_vector(formula.direction, Language::kOsl));
-  if (is_empty_somewhere(file)) text += "  throughput = color(seen, seen, seen);\n";
+  if (is_fisheye(file.rig.projection.kind)) text += "  throughput = color(seen, seen, seen);\n";
   text += "}\n";
   return result;
 }
@@ -198,9 +193,7 @@ CameraExport to_python(const CameraFile& file) {
                         remark(parameter.meaning, "#"));
   }
   text += "\n\ndef ods_camera_ray(x, y):\n";
-  for (const NamedFormula& step : formula.steps) {
-    text += fmt::format("    {} = {}\n", step.name, print(step.value, Language::kPython));
-  }
+  text += steps_text(formula, Language::kPython, "  ", "");
   text += fmt::format("    location = ({})\n    direction = ({})\n    return location, direction\n",
                       print_vector(formula.location, Language::kPython),
                       print_vector(formula.direction, Language::kPython));

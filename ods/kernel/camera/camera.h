@@ -5,9 +5,8 @@
 // Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. As CameraRig's defaults
 // have it, it is that model exactly; the rest is what other systems add to it:
 //
-//   a ray of heading F, with R at its right hand, starts at   merge * (side * ipd/2 * R + neck * F)
-//   and looks along the projection's direction d, or, toed in on a distance C, along   C * d - merge * side * ipd/2 *
-//   R.
+//   a ray of heading F, with R at its right hand, starts at   E + merge * neck * F   with E = merge * side * ipd/2 * R
+//   and looks along the projection's direction d, or, toed in on a distance C, along   C * d - E.
 //
 // Image positions may lie outside 0..1 (ods/kernel/camera/projection.h): lat-long wraps, and runs on over the pole,
 // where the formula itself continues into the picture of the other eye half a turn away, as a wide pixel filter needs.
@@ -23,8 +22,7 @@ const int kMono = 2;
 
 const int kParallel = 0;
 const int kToeIn = 1;  // both eyes' rays of one direction meet at the distance
-const int kShift =
-    2;  // the eyes' pictures are turned against each other so that a point at the distance has no parallax
+const int kShift = 2;  // the eyes' pictures are turned against each other: no parallax at the distance
 
 struct Camera {
   vec3 center;  // of the viewing circle
@@ -62,9 +60,9 @@ float merge_map_texel(Camera camera, int i);
 #endif
 
 inline float merge_map_at(Camera camera, vec3 direction) {
-  float x = (0.5f + atan(direction.x, -direction.z) * (0.5f / kPi)) * float(camera.map_width) - 0.5f;
-  float level = sqrt(direction.x * direction.x + direction.z * direction.z);
-  float y = (0.5f - atan(direction.y, level) * (1.0f / kPi)) * float(camera.map_height) - 0.5f;
+  vec2 uv = direction_to_lat_long(direction);
+  float x = uv.x * float(camera.map_width) - 0.5f;
+  float y = uv.y * float(camera.map_height) - 0.5f;
   int x0 = int(floor(x));
   int y0 = int(floor(y));
   int left = x0 < 0 ? camera.map_width - 1 : x0;

@@ -24,6 +24,20 @@ const int kCube1x6 = 7;           // the faces of kCube6x1 in a column
 const int kEac = 8;               // equi-angular cube, 3x2 as players of 360 video have it
 const int kProjectionCount = 9;
 
+// Headings and heights run evenly from edge to edge.
+inline bool has_range(int kind) {
+  return kind == kLatLong || kind == kCylinder;
+}
+
+inline bool is_fisheye(int kind) {
+  return kind == kFisheye || kind == kFisheyeEquisolid;
+}
+
+// Can be pointed, and has an angle of view.
+inline bool has_lens(int kind) {
+  return is_fisheye(kind) || kind == kPerspective;
+}
+
 struct Projection {
   int kind;
   vec2 center;      // kLatLong, kCylinder: theta and phi of the picture's middle, radians; kCylinder: tan(phi)
@@ -69,15 +83,16 @@ inline Look look_at_angles(float theta, float phi) {
   return look;
 }
 
-// An angle moved by whole turns into the picture's reach where that is possible.
-inline float wrapped(float turns) {
-  return turns - floor(turns);
+// Position of a direction in a lat-long picture, both coordinates 0..1.
+inline vec2 direction_to_lat_long(vec3 d) {
+  return vec2(0.5f + atan(d.x, -d.z) * (0.5f / kPi), 0.5f - atan(d.y, sqrt(d.x * d.x + d.z * d.z)) * (1.0f / kPi));
 }
 
-// u of a heading. Pictures of a full turn wrap.
+// u of a heading, moved by whole turns to the picture's side of the sphere.
 inline float place_heading(Projection projection, vec3 direction) {
   float off = atan(direction.x, -direction.z) - projection.center.x;
-  off = (wrapped(off * (0.5f / kPi) + 0.5f) - 0.5f) * (2.0f * kPi);
+  float turns = off * (0.5f / kPi) + 0.5f;
+  off = (turns - floor(turns) - 0.5f) * (2.0f * kPi);
   return 0.5f + off / projection.span.x;
 }
 
@@ -251,7 +266,7 @@ inline Look look_of(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kLatLong) return lat_long_look(projection, uv);
   if (projection.kind == kCylinder) return cylinder_look(projection, uv);
   if (projection.kind == kPerspective) return perspective_look(projection, uv);
-  if (projection.kind == kFisheye || projection.kind == kFisheyeEquisolid) return fisheye_look(projection, home, uv);
+  if (is_fisheye(projection.kind)) return fisheye_look(projection, home, uv);
   return cube_look(projection.kind, home, uv);
 }
 
@@ -260,7 +275,7 @@ inline ImagePlace place_of(Projection projection, vec3 direction) {
   if (projection.kind == kLatLong) return lat_long_place(projection, direction);
   if (projection.kind == kCylinder) return cylinder_place(projection, direction);
   if (projection.kind == kPerspective) return perspective_place(projection, direction);
-  if (projection.kind == kFisheye || projection.kind == kFisheyeEquisolid) return fisheye_place(projection, direction);
+  if (is_fisheye(projection.kind)) return fisheye_place(projection, direction);
   return cube_place(projection.kind, direction);
 }
 
