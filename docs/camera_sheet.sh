@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Makes docs/images/projections.jpg, layouts.jpg and merges.jpg. Needs build/release/ods and oiiotool.
+# Makes docs/images/projections.jpg, layouts.jpg, merges.jpg and testcard.jpg. Needs build/release/ods and oiiotool.
 set -eu
 cd "$(dirname "$0")/.."
 ods=build/release/ods
@@ -48,3 +48,11 @@ for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 gau
   tile "$merge" --layout anaglyph --projection fisheye --look 0,-90 --ipd 0.4 --merge "$merge" --width 320
 done
 sheet 4x2 merges.jpg
+
+# What one sees ahead and straight up, of each eye.
+for look in 0,0 0,90; do
+  for eye in left right; do
+    "$ods" testcard --quiet -o "$parts/tile-$look-$eye.png" --eyes $eye --projection perspective --fov 84 --look $look --width 560 > /dev/null
+  done
+done
+sheet 2x2 testcard.jpg

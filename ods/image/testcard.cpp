@@ -89,7 +89,7 @@ static void add_sharpness(View& view, float y) {
     view.letter(fmt::format("{} PX", pixels), x, y - 4.2f, 7.0f, 2.4f);
     x += 8.5f;
   }
-  view.add(CardPattern::kStar, 15.0f, y, 15.0f, 15.0f);
+  view.add(CardPattern::kStar, 15.0f, y - 0.5f, 13.0f, 13.0f);
 }
 
 // Nearer than 0.6 m is hard to fuse ahead of the viewer, nearer than 3.5 m straight up and down: the rules of the page
