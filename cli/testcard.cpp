@@ -56,6 +56,7 @@ void testcard(int argc, char** argv) {
   const ods::CameraRig rig = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
+  ods::check_output(job.output, job.save, eyes, eye);
   const std::string layout(eyes.size() == 2 ? ods::layout_name(job.save.layout) : ods::eye_name(eyes[0]));
   const ods::Testcard card = make_testcard(rig, eye,
                                            {fmt::format("{} {}", projection_name(rig.projection), layout),

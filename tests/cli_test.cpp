@@ -28,7 +28,7 @@ constexpr bool kSanitized = false;
 
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
-                            "compare --help", "sizes --help", "scenes --help"}) {
+                            "compare --help", "sizes --help", "scenes --help", "testcard --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
@@ -358,6 +358,19 @@ TEST_F(Cli, PointsAreProjectedAndComeBack) {
                             "project --from-pixel left,99999,2,1", "project --from-pixel up,1,2,3"}) {
     EXPECT_EQ(run(words), 2) << words;
     expect_one_error();
+  }
+}
+
+TEST_F(Cli, ATestcardTakesEveryForm) {
+  const std::string card = folder.path("card");
+  EXPECT_EQ(run("testcard --layout multiview --width 64 --sidecar -o " + card + ".exr"), 0) << err;
+  EXPECT_EQ(out, card + ".exr\n" + card + ".camera.json\n");
+  EXPECT_EQ(run("testcard --size tb-quick-test-512 -o " + card + ".png"), 0) << err;
+  EXPECT_EQ(run("compare --max-error 0 " + card + ".png " + card + ".png"), 0) << err;
+  for (const auto& [words, code] : std::vector<std::pair<std::string, int>>{
+           {"", 2}, {" --projection cube-3x2 --width 100 -o " + card + "_.png", 2}, {" -o " + card + ".xyz", 4}}) {
+    EXPECT_EQ(run("testcard" + words), code);
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
   }
 }
 
