@@ -62,14 +62,11 @@ void testcard(int argc, char** argv) {
                                            {fmt::format("{} {}", projection_name(rig.projection), layout),
                                             fmt::format("{} x {} an eye", eye.width, eye.height),
                                             fmt::format("{:g} mm between the eyes", 1000.0f * rig.ipd)});
-  ods::Picture picture;
-  for (int each : eyes) {
-    ods::Image image(eye.width, eye.height, 3);
-    const size_t stride = static_cast<size_t>(eye.width) * 3;
-    for (int y = 0; y < eye.height; y++) fill_testcard_row(card, each, y, {image.at(0, y), stride});
-    picture.eyes.push_back({each, std::move(image), {}, {}, {}});
-  }
-  for (const std::string& file : save_picture(picture, rig, job.save, job.output)) std::cout << file << std::endl;
+  ods::PictureRows rows{eye, eyes, {{{"R", "G", "B"}}}, {}, {}};
+  rows.fill = [&](int index, int y, std::span<float> row) {
+    fill_testcard_row(card, eyes[static_cast<size_t>(index)], y, row);
+  };
+  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) std::cout << file << std::endl;
 }
 
 }  // namespace
