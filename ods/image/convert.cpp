@@ -329,7 +329,8 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   conversion.rows.eye = target.eye;
   conversion.rows.eyes = target.eyes;
   for (const LayerPixels& layer : picture.eyes[0].layers) {
-    conversion.rows.layers.push_back({layer.channels, layer.rule, layer.sample});
+    const Sample sample = layer.sample == Sample::kFloat ? Sample::kFloat : Sample::kHalf;
+    conversion.rows.layers.push_back({layer.channels, layer.rule, sample});
   }
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
   const bool adds_alpha = colour.back() != "A" && sees_more(picture, target);

@@ -9,12 +9,11 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "ods/image/save.h"
 #include "ods/image/stored_picture.h"
 
 namespace ods {
@@ -24,21 +23,6 @@ struct ConvertTarget {
   Extent eye;
   std::vector<int> eyes{kLeft, kRight};  // as EyeImage has them
   int mono_from = kLeft;                 // the eye of a stereo picture that a mono one is made of
-};
-
-struct RowLayer {
-  std::vector<std::string> channels;
-  LayerRule rule = LayerRule::kLight;
-  Sample sample = Sample::kHalf;
-};
-
-// Some rows at a time, from any thread.
-struct PictureRows {
-  Extent eye;
-  std::vector<int> eyes;
-  std::vector<RowLayer> layers;
-  // Row y of the eye of an index: all channels of all layers, pixel by pixel, linear light multiplied by alpha.
-  std::function<void(int index, int y, std::span<float> row)> fill;
 };
 
 struct Conversion {

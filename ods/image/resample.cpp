@@ -200,19 +200,6 @@ static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
   return read_numbers<Floats>;
 }
 
-static ptrdiff_t bytes_of(Sample sample) {
-  switch (sample) {
-    case Sample::kUint8:
-      return 1;
-    case Sample::kUint16:
-    case Sample::kHalf:
-      return 2;
-    case Sample::kFloat:
-      break;
-  }
-  return 4;
-}
-
 // --- layers --------------------------------------------------------------------------------------------------------
 
 Resampler::Resampler(const Source& source) : source_(source) {
@@ -225,7 +212,7 @@ Resampler::Resampler(const Source& source) : source_(source) {
     for (int first = 0; first < all; first += 4) {
       const int count = std::min(all - first, 4);
       const Group group{adder_of(layer.sample, count, alpha), reader_of(layer.sample), i,
-                        first * bytes_of(layer.sample),       channels_ + first,       count};
+                        first * static_cast<ptrdiff_t>(bytes_of(layer.sample)), channels_ + first, count};
       (layer.rule == LayerRule::kNearest ? nearest_ : mixed_).push_back(group);
     }
     channels_ += all;
