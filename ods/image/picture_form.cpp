@@ -107,12 +107,24 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path) {
 
 // --- the whole -------------------------------------------------------------------------------------------------------
 
-static std::optional<CameraFile> find_sidecar(const std::string& path, const KnownForm& known,
+// A sidecar may be that of another picture of this name: picture.exr and picture.png share one.
+static bool belongs_to(const CameraFile& sidecar, const FileInfo& info) {
+  const int count = static_cast<int>(sidecar.eyes.size());
+  if (count == 2 && sidecar.layout == Layout::kMultiview && !has_channel(info, "right.R")) return false;
+  if (sidecar.eye.width == 0) return true;
+  const Extent size = packed_size(sidecar.layout, squeezed_eye(sidecar.layout, sidecar.eye, count), count);
+  return size.width == info.width && size.height == info.height;
+}
+
+static std::optional<CameraFile> find_sidecar(const FileInfo& info, const std::string& path, const KnownForm& known,
                                               std::vector<std::string>& warnings) {
   const std::string beside = sidecar_path(path);
   std::error_code ignored;
   if (known.camera || !std::filesystem::exists(beside, ignored)) return std::nullopt;
-  return load_camera(beside, warnings);
+  std::optional<CameraFile> sidecar = load_camera(beside, warnings);
+  if (belongs_to(*sidecar, info)) return sidecar;
+  warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
+  return std::nullopt;
 }
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const KnownForm& known,
@@ -163,7 +175,7 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, s
 
 PictureForm find_form(const FileInfo& info, const std::string& path, const KnownForm& known) {
   PictureForm form;
-  const std::optional<CameraFile> sidecar = find_sidecar(path, known, form.guesses);
+  const std::optional<CameraFile> sidecar = find_sidecar(info, path, known, form.guesses);
   form.layout = find_layout(info, path, known, sidecar);
   form.eye = find_eye(info, sidecar);
   const Layout layout = form.layout.layout.value_or(Layout::kSeparate);
