@@ -85,7 +85,9 @@ struct Mapping {
   std::vector<int> from;  // index in the source of each
 
   Place find(int index, vec2 home, vec2 uv) const;
-  vec2 uv_of(float x, float y) const { return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)}; }
+  vec2 uv_of(float x, float y) const {
+    return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)};
+  }
   Cell cell_at(int x, int y) const {
     return cell_of(camera.projection, size, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   }
@@ -117,8 +119,8 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // --- pixels --------------------------------------------------------------------------------------------------------
 
-// A stretch of a row in which places follow a parabola, known at its ends and in its middle. Then no pixel needs its own
-// trigonometry.
+// A stretch of a row in which places follow a parabola, known at its ends and in its middle. Then no pixel needs its
+// own trigonometry.
 constexpr int kStretch = 16;
 struct Stretch {
   int eye;
@@ -149,6 +151,7 @@ class Converter {
   void sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
   bool stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const;
+  bool is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const;
   void put(const Place& place, const float* sums, int x, std::span<float> row) const;
 
   Mapping mapping_;
@@ -207,7 +210,8 @@ Footprint Converter::find_footprint(int index, const Cell& cell, int x, int y, c
     }
     return vec2(0.0f);
   };
-  return {neighbour({1.0f, 0.0f}, 2 * x > cell.left + cell.right), neighbour({0.0f, 1.0f}, 2 * y > cell.top + cell.bottom)};
+  return {neighbour({1.0f, 0.0f}, 2 * x > cell.left + cell.right),
+          neighbour({0.0f, 1.0f}, 2 * y > cell.top + cell.bottom)};
 }
 
 bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const {
@@ -217,6 +221,16 @@ bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>
     return at.x >= static_cast<float>(cell.left) && at.x < static_cast<float>(cell.right) &&
            at.y >= static_cast<float>(cell.top) && at.y < static_cast<float>(cell.bottom);
   });
+}
+
+// Where the filter's far points lie is as its footprint has it.
+bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const {
+  if (!stays_in_cell(place, points)) return false;
+  for (const FilterPoint& point : {points.front(), points.back()}) {
+    const Place there = mapping_.find(index, home, home + point.pixels * mapping_.uv_of(1.0f, 1.0f));
+    if (!there.seen || there.eye != place.eye || length(there.at - place.at - point.texels) > 0.1f) return false;
+  }
+  return true;
 }
 
 void Converter::sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const {
@@ -261,7 +275,8 @@ void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, in
     const float t = static_cast<float>(i) * per_pixel;
     const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
     const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * per_pixel;
-    const vec2 dy = t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
+    const vec2 dy =
+        t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
     filter_points({dx, dy}, points);
     std::fill(sums.begin(), sums.end(), 0.0f);
     if (points.size() == 1 || stays_in_cell(place, points)) {
@@ -280,7 +295,11 @@ bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<
   std::vector<FilterPoint> points;
   filter_points(find_footprint(index, cell, x, y, place), points);
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
-  points.size() == 1 ? sum_near(place, points, sums.data()) : sum_exactly(index, home, points, sums.data());
+  if (points.size() == 1 || is_flat(index, home, place, points)) {
+    sum_near(place, points, sums.data());
+  } else {
+    sum_exactly(index, home, points, sums.data());
+  }
   put(place, sums.data(), x, row);
   return true;
 }
