@@ -13,10 +13,14 @@
 
 // --layout LAYOUT, by the names and aliases of ods/image/layout.h. `text` says what it is for.
 void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
-void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text);
+void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
+                       const std::string& name = "--layout");
 
-// --size, --width, --height, --eyes, --layout, --sidecar. Of the picture only its size and eyes are touched. --size
-// sets the others at once; options take effect in the order in which they were added, so that those go before it.
+// --size NAME: width, height, layout and mono at once. Options take effect in the order in which they were added, so
+// that those added after it go before it.
+void add_size_option(Options& options, ods::RenderOptions& picture, ods::Layout& layout);
+
+// It, --width, --height, --eyes, --layout, --sidecar. Of the picture only its size and eyes are touched.
 void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save);
 
 // What nobody gave: a width of whole faces, the layout that players expect of the projection.
