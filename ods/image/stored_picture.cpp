@@ -382,6 +382,10 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.layout_because = form.layout.because;
   picture.rig = form.camera;
   picture.guesses = std::move(form.guesses);
+  const auto parts = info.numbers.find("oiio:subimages");
+  if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
+    picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
+  }
   picture.size = eye_size(picture, info, path);
   std::vector<Source> sources = sources_of(readers, path, picture.layout, options.only_light);
   keep_common(sources, picture.guesses);
