@@ -10,15 +10,12 @@
 #include <optional>
 
 #include "ods/base/scratch.h"
+#include "ods/image/reproject.h"
 #include "ods/image/resample.h"
 
 namespace ods {
 
 // --- what can become what ------------------------------------------------------------------------------------------
-
-static bool is_stereo(const CameraRig& rig, const std::vector<int>& eyes) {
-  return rig.ipd > 0.0f && eyes[0] != kMono;
-}
 
 static std::vector<int> eyes_of(const StoredPicture& picture) {
   std::vector<int> eyes;
@@ -34,29 +31,31 @@ static bool is_tilted(const CameraRig& from, const CameraRig& to) {
   return length(axis_in_world(make_camera(from)) - axis_in_world(make_camera(to))) > 1e-4f;
 }
 
-std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
+// The target's eyes stand elsewhere than the picture's. A mono target takes an eye as it is.
+static bool sees_around(const StoredPicture& picture, const ConvertTarget& target) {
+  if (target.eyes[0] == kMono) return false;
   const CameraRig &from = picture.rig, &to = target.rig;
+  return picture.eyes[0].eye == kMono || from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
+         !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map;
+}
+
+std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
   const std::vector<int> eyes = eyes_of(picture);
-  if (from.mirrored != to.mirrored) return "a mirrored picture stays mirrored";
+  const bool from_mono = eyes[0] == kMono;
+  if (picture.rig.mirrored != target.rig.mirrored) return "a mirrored picture stays mirrored";
   if (target.eyes[0] == kMono) return "";
-  if (eyes[0] == kMono) {
-    return "the picture is of one eye in the middle, and has no depth from which two could be made";
-  }
   for (const int eye : target.eyes) {
-    if (std::find(eyes.begin(), eyes.end(), eye) == eyes.end()) {
+    if (!from_mono && std::find(eyes.begin(), eyes.end(), eye) == eyes.end()) {
       return fmt::format("the picture has no {} eye", eye_name(eye));
     }
   }
-  if (!is_stereo(from, eyes) && !is_stereo(to, target.eyes)) return "";
-  if (is_tilted(from, to)) {
+  if (!from_mono && is_tilted(picture.rig, target.rig)) {
     return "a stereo picture turns about its viewing circle's axis only (yaw): pitched or rolled, its eyes would need "
            "lines of sight that nobody has seen; a mono one can be tilted";
   }
-  if (from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
-      !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map) {
-    return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it";
-  }
-  return "";
+  if (!sees_around(picture, target) || depth_layer(picture)) return "";
+  if (from_mono) return "the picture is of one eye in the middle, and has no depth from which two could be made";
+  return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it";
 }
 
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection) {
@@ -86,6 +85,9 @@ struct Mapping {
   std::vector<int> from;  // index in the source of each
 
   Place find(int index, vec2 home, vec2 uv) const;
+  Ray ray_of(int index, vec2 home, vec2 uv) const {
+    return camera_ray(camera, eyes[static_cast<size_t>(index)], home, uv, vec2(0.0f));
+  }
   vec2 uv_of(float x, float y) const {
     return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)};
   }
@@ -100,7 +102,7 @@ struct Mapping {
 // uv may lie outside the home's cell: the target's own filter reaches there.
 Place Mapping::find(int index, vec2 home, vec2 uv) const {
   const size_t i = static_cast<size_t>(index);
-  const Ray ray = camera_ray(camera, eyes[i], home, uv, vec2(0.0f));
+  const Ray ray = ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
   int eye = from[i];
   if (camera.projection.kind == kLatLong && eyes[i] != kMono && source.picture->eyes.size() == 2) {
@@ -137,6 +139,11 @@ class Converter {
       : mapping_(make_mapping(picture, target)), resampler_(mapping_.source), adds_alpha_(adds_alpha) {
     colours_ = static_cast<int>(picture.eyes[0].layers[0].channels.size());
     channels_ = resampler_.channels() + (adds_alpha ? 1 : 0);
+    if (!sees_around(picture, target)) return;
+    reprojection_ = make_reprojection(mapping_.source);
+    for (size_t i = 0; i < reprojection_->layer; i++) {
+      depth_channel_ += static_cast<int>(picture.eyes[0].layers[i].channels.size());
+    }
   }
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
@@ -149,6 +156,8 @@ class Converter {
   Footprint find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const;
   void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
   bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
+  bool fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
+  Meeting3d meet(int index, vec2 home, vec2 uv) const;
   void sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
   bool stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const;
@@ -157,9 +166,11 @@ class Converter {
 
   Mapping mapping_;
   Resampler resampler_;
+  std::optional<Reprojection> reprojection_;
   bool adds_alpha_;
   int colours_;
   int channels_;
+  int depth_channel_ = 0;
 };
 
 bool same_cell(const Cell& a, const Cell& b) {
@@ -305,13 +316,47 @@ bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<
   return true;
 }
 
+Meeting3d Converter::meet(int index, vec2 home, vec2 uv) const {
+  const Ray ray = mapping_.ray_of(index, home, uv);
+  if (ray.direction == vec3(0.0f)) return {};
+  return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
+}
+
+// The footprint is that of the line of sight alone: parallax changes it by little, but where things end.
+bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
+  const vec2 home = mapping_.home_of(x, y), pixel = mapping_.uv_of(1.0f, 1.0f);
+  const Meeting3d met = meet(index, home, home);
+  if (!met.place.seen) return false;
+  const Place unmoved = mapping_.find(index, home, home);
+  std::vector<FilterPoint> points;
+  filter_points(unmoved.seen ? find_footprint(index, cell, x, y, unmoved) : Footprint(), points);
+  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
+  float weight = 0.0f;
+  for (const FilterPoint& point : points) {
+    const Meeting3d there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
+    if (!there.place.seen) continue;
+    resampler_.add(there.place, point.weight, sums.data());
+    weight += point.weight;
+  }
+  if (weight <= 0.0f) return false;
+  for (float& sum : sums) sum /= weight;
+  put(met.place, sums.data(), x, row);
+  const int depth = x * channels_ + depth_channel_ + (adds_alpha_ ? 1 : 0);
+  row[static_cast<size_t>(depth)] = met.depth;
+  return true;
+}
+
 int Converter::fill(int index, int y, std::span<float> row) const {
   std::fill(row.begin(), row.end(), 0.0f);
   int empty = 0;
   for (int x = 0; x < mapping_.size.width;) {
     const Cell cell = mapping_.cell_at(x, y);
     const int count = std::min(kStretch, cell.right - x);
-    if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, count)) {
+    if (reprojection_) {
+      for (int i = 0; i < count; i++) {
+        if (mapping_.wants(x + i, y) && !fill_moved_pixel(index, cell, x + i, y, row)) empty++;
+      }
+    } else if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, count)) {
       fill_stretch(index, *stretch, x, y, count, row);
     } else {
       for (int i = 0; i < count; i++) {
@@ -348,7 +393,8 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
     conversion.rows.layers.push_back({layer.channels, layer.rule, sample});
   }
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
-  const bool adds_alpha = colour.back() != "A" && sees_more(picture, target);
+  conversion.sees_around = sees_around(picture, target);
+  const bool adds_alpha = colour.back() != "A" && (conversion.sees_around || sees_more(picture, target));
   if (adds_alpha) colour.push_back("A");
   const auto converter = std::make_shared<const Converter>(picture, target, adds_alpha);
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
