@@ -72,8 +72,8 @@ CompareReport compare(const CompareJob& job) {
   a = ods::load_eyes(job.a, job.layout);
   b = ods::load_eyes(job.b, job.layout);
   if (a.projection != b.projection) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("'{}' is {} and '{}' is {}", job.a, a.projection, job.b, b.projection));
+    note(fmt::format("'{}' is taken for {}, '{}' for {}: pixels are compared as they lie", job.a, a.projection, job.b,
+                     b.projection));
   }
   report.in_code_values = !a.is_float && !b.is_float;
   if (a.is_float != b.is_float) {

@@ -18,7 +18,7 @@ const char* eye_word(const CompareReport& report, size_t eye) {
 }
 
 bool is_lat_long(const CompareReport& report) {
-  return report.files[0].projection == "lat-long";
+  return report.files[0].projection == "lat-long" && report.files[1].projection == "lat-long";
 }
 
 std::string layout_word(const ods::LoadedEyes& file) {
