@@ -14,7 +14,6 @@
 #include "cli/console.h"
 #include "cli/convert_job.h"
 #include "cli/interrupt.h"
-#include "ods/base/scratch.h"
 
 namespace {
 
@@ -53,7 +52,6 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   ods::Conversion conversion = ods::convert(job.picture, job.target);
   count_rows(conversion.rows, lines, start);
-  if (job.picture.memory) conversion.rows.band_done = [&] { job.picture.memory->release(); };
   const auto files = ods::save_picture(conversion.rows, &job.target.rig, job.save, job.output);
   lines.clear();
   for (const std::string& file : files) std::cout << file << std::endl;

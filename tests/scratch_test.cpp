@@ -46,7 +46,7 @@ TEST(Scratch, KeepsWhatIsWrittenWhereverItLies) {
 
 TEST(Scratch, WithoutAFolderAllIsMemory) {
   EXPECT_FALSE(Scratch(4096, "", 0).on_disk());
-  EXPECT_NE(Scratch(0, "").data(), nullptr);
+  EXPECT_NE(Scratch(0, "", 0).data(), nullptr);
 }
 
 TEST(Scratch, ReleasedBytesAreNoLongerInMemory) {
@@ -77,7 +77,7 @@ TEST(Scratch, AFullDiskIsAnErrorBeforeTheFirstByte) {
 TEST(Scratch, SaysWhyNot) {
   const TemporaryFolder folder;
   EXPECT_THROW(Scratch(10, folder.path("absent"), 0), Error);
-  EXPECT_THROW(Scratch(SIZE_MAX / 4, ""), Error);
+  EXPECT_THROW(Scratch(SIZE_MAX / 4, "", 0), Error);
 }
 
 }  // namespace

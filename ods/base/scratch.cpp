@@ -48,7 +48,7 @@ static void* map_file(const std::string& folder, size_t size) {
 }
 
 static void* map_memory(size_t size) {
-  check_memory(size, "the picture", "convert it on a larger machine");
+  check_memory(size, "the picture", "use a machine with more, or a smaller picture");
   void* map = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (map == MAP_FAILED) {
     throw Error(ErrorKind::kMemory,

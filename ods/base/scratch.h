@@ -11,12 +11,10 @@ namespace ods {
 
 class Scratch {
  public:
-  static constexpr size_t kInMemory = size_t{512} << 20;
-
-  // Zeros. More than `most_in_memory` bytes lie in `folder`, which no other process sees and nothing is left of; with no
-  // folder all is memory. Throws Error(kOutput) where the disk has not the room, Error(kMemory) where the memory has
+  // Zeros. More than `most_in_memory` bytes lie in `folder`, which no other process sees and nothing is left of; with
+  // no folder all is memory. Throws Error(kOutput) where the disk has not the room, Error(kMemory) where the memory has
   // not.
-  Scratch(size_t size, const std::string& folder, size_t most_in_memory = kInMemory);
+  Scratch(size_t size, const std::string& folder, size_t most_in_memory);
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   ~Scratch();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ods/base/scratch.h"
 #include "ods/image/reproject.h"
 #include "ods/image/resample.h"
 
@@ -404,6 +405,7 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
     *empty += converter->fill(index, y, row);
   };
+  if (picture.memory) conversion.rows.band_done = [memory = picture.memory] { memory->release(); };
   return conversion;
 }
 

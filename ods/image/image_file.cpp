@@ -239,10 +239,12 @@ static FileInfo info_of(const OIIO::ImageSpec& spec) {
   for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
     const std::string name = attribute.name().string();
     if (attribute.type() == OIIO::TypeString) info.text[name] = attribute.get_string();
-    const int count = static_cast<int>(attribute.type().basevalues());
+    const size_t count = attribute.type().basevalues();  // get_float_indexed() knows no vectors
+    const float* floats = static_cast<const float*>(attribute.data());
+    const int* ints = static_cast<const int*>(attribute.data());
     const auto base = attribute.type().basetype;
-    if ((base != OIIO::TypeDesc::FLOAT && base != OIIO::TypeDesc::INT) || count > 16) continue;
-    for (int i = 0; i < count; i++) info.numbers[name].push_back(attribute.get_float_indexed(i));
+    if (base == OIIO::TypeDesc::FLOAT) info.numbers[name].assign(floats, floats + count);
+    if (base == OIIO::TypeDesc::INT) info.numbers[name].assign(ints, ints + count);
   }
   return info;
 }

@@ -110,7 +110,7 @@ static std::optional<Plane> find_light(View& channels) {
   return std::nullopt;
 }
 
-// In the order of the file.
+// Channels in the order of the file, layers in that of their names: it is the same for both views.
 static std::vector<Plane> other_planes(const View& channels, const RowReader& reader) {
   const FileInfo& info = reader.info();
   std::map<size_t, std::string> ordered;
@@ -125,6 +125,8 @@ static std::vector<Plane> other_planes(const View& channels, const RowReader& re
     planes.back().channels.push_back(name);
     planes.back().from.push_back(number);
   }
+  std::stable_sort(planes.begin(), planes.end(),
+                   [](const Plane& a, const Plane& b) { return a.channels[0] < b.channels[0]; });
   return planes;
 }
 
@@ -348,7 +350,7 @@ static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const
 }
 
 static std::shared_ptr<Scratch> make_room(std::vector<Source>& sources, const FileInfo& info,
-                                          const std::string& folder) {
+                                          const OpenOptions& options) {
   std::vector<Plane*> planes;
   std::vector<size_t> starts{0};
   for (Source& source : sources) {
@@ -357,7 +359,7 @@ static std::shared_ptr<Scratch> make_room(std::vector<Source>& sources, const Fi
       starts.push_back(starts.back() + plane_size(plane, info));
     }
   }
-  auto memory = std::make_shared<Scratch>(starts.back(), folder);
+  auto memory = std::make_shared<Scratch>(starts.back(), options.scratch_folder, options.most_in_memory);
   for (size_t i = 0; i < planes.size(); i++) planes[i]->to = memory->data() + starts[i];
   return memory;
 }
@@ -380,10 +382,14 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.layout_because = form.layout.because;
   picture.rig = form.camera;
   picture.guesses = std::move(form.guesses);
+  const auto parts = info.numbers.find("oiio:subimages");
+  if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
+    picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
+  }
   picture.size = eye_size(picture, info, path);
   std::vector<Source> sources = sources_of(readers, path, picture.layout, options.only_light);
   keep_common(sources, picture.guesses);
-  picture.memory = make_room(sources, info, options.scratch_folder);
+  picture.memory = make_room(sources, info, options);
   for (RowReader& reader : readers) read_file(reader, sources, *picture.memory);
   picture.memory->release();
   picture.eyes = make_eyes(sources, picture.layout, picture.size, form.eye);

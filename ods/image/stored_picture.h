@@ -50,7 +50,8 @@ struct StoredPicture {
 struct OpenOptions {
   KnownForm form;
   bool only_light = false;     // no layers but the colour
-  std::string scratch_folder;  // for what takes more than Scratch::kInMemory; empty: all of it is memory
+  std::string scratch_folder;  // where pixels lie that take more than `most_in_memory` bytes; empty: all is memory
+  size_t most_in_memory = size_t{512} << 20;
 };
 
 // Colour is R, G, B and perhaps A, grey made three; where it has no bare names, the layer that ends in Combined. The

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How long conversions take, over a yardstick that is measured in the same run: reading and writing the same files with
+// OpenImageIO alone, and its own resizing. Wall clock, and CPU seconds for machines that have other work. The pictures
+// have gradients, edges and grain, so that they take about as long to pack as photographs.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+#include <benchmark/benchmark.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "ods/base/error.h"
+#include "ods/image/convert.h"
+
+namespace {
+
+using namespace ods;
+namespace fs = std::filesystem;
+
+// A folder that goes with the process, beside where it runs: temporary folders may be memory.
+class Folder {
+ public:
+  Folder() { path_ = mkdtemp(name_); }
+  ~Folder() { fs::remove_all(path_); }
+  std::string path(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  char name_[32] = "ods-convert-bench-XXXXXX";
+  std::string path_;
+};
+
+struct Seconds {
+  double wall = 0.0;
+  double cpu = 0.0;
+};
+
+double cpu_seconds() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+Seconds seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds();
+  work();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), cpu_seconds() - cpu};
+}
+
+void say(benchmark::State& state, const Seconds& ours, const Seconds& theirs) {
+  state.counters["ours_s"] = ours.wall;
+  state.counters["theirs_s"] = theirs.wall;
+  state.counters["ratio"] = ours.wall / theirs.wall;
+  state.counters["cpu_ratio"] = ours.cpu / theirs.cpu;
+}
+
+void forget_peak() {
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+double peak_megabytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    std::istringstream words(line);
+    std::string word;
+    double kilobytes = 0.0;
+    if (words >> word >> kilobytes && word == "VmHWM:") return kilobytes / 1024.0;
+  }
+  return 0.0;
+}
+
+float grain(int x, int y) {
+  uint32_t n = static_cast<uint32_t>(x) * 374761393u + static_cast<uint32_t>(y) * 668265263u;
+  n = (n ^ n >> 13) * 1274126177u;
+  return static_cast<float>(n >> 16 & 255u) / 255.0f - 0.5f;
+}
+
+void make_picture(const std::string& path, const std::vector<int>& eyes, Extent eye) {
+  PictureRows rows;
+  rows.eye = eye;
+  rows.eyes = eyes;
+  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}};
+  rows.fill = [eye](int index, int y, std::span<float> row) {
+    const float v = static_cast<float>(y) / static_cast<float>(eye.height);
+    for (int x = 0; x < eye.width; x++) {
+      const float u = static_cast<float>(x) / static_cast<float>(eye.width);
+      const bool tile = (x / 97 + y / 61 + index) % 5 == 0;
+      for (int c = 0; c < 3; c++) {
+        const float wave = 0.5f + 0.4f * std::sin(20.0f * u + 9.0f * v * static_cast<float>(c + 1));
+        const float value = (tile ? 0.3f : 1.0f) * wave + 0.01f * grain(x, y);
+        row[static_cast<size_t>(3 * x + c)] = std::max(value, 0.0f);
+      }
+    }
+  };
+  SaveOptions options;
+  options.tone = ToneCurve::kLinear;
+  const CameraRig rig;
+  save_picture(rows, &rig, options, path);
+}
+
+// What `ods convert` does: the whole way from file to file.
+void convert_file(const std::string& from, const std::string& to, const ProjectionSetting& projection,
+                  std::optional<Extent> eye, const std::string& scratch_folder) {
+  OpenOptions open;
+  open.scratch_folder = scratch_folder;
+  const StoredPicture picture = open_picture(from, open);
+  ConvertTarget target;
+  target.rig = picture.rig;
+  target.rig.projection = projection;
+  target.eye = eye.value_or(fitting_extent(picture, projection));
+  target.eyes.clear();
+  for (const StoredEye& each : picture.eyes) target.eyes.push_back(each.eye);
+  const std::string fault = conversion_fault(picture, target);
+  if (!fault.empty()) throw Error(ErrorKind::kInput, fault);
+  const Conversion conversion = convert(picture, target);
+  SaveOptions save;
+  save.tone = ToneCurve::kLinear;
+  save_picture(conversion.rows, &target.rig, save, to);
+}
+
+struct Pixels {
+  OIIO::ImageSpec spec;
+  std::vector<char> bytes;
+};
+
+Pixels read_bare(const std::string& path) {
+  const auto input = OIIO::ImageInput::open(path);
+  Pixels pixels{input->spec(), std::vector<char>(input->spec().image_bytes(true))};
+  input->read_image(0, 0, 0, pixels.spec.nchannels, OIIO::TypeDesc(), pixels.bytes.data());
+  return pixels;
+}
+
+void write_bare(const std::string& path, const Pixels& pixels) {
+  const auto output = OIIO::ImageOutput::create(path);
+  output->open(path, pixels.spec);
+  output->write_image(pixels.spec.format, pixels.bytes.data());
+  output->close();
+}
+
+// 8192x8192 top-bottom lat-long to 3x2 cubes of the same sharpness. Target: a ratio of 2 or less.
+void cubes(benchmark::State& state, const std::string& extension) {
+  const Folder folder;
+  const std::string from = folder.path("from." + extension), to = folder.path("to." + extension);
+  make_picture(from, {kLeft, kRight}, {8192, 4096});
+  const ProjectionSetting projection = find_projection("cube-3x2")->setting;
+  for (auto _ : state) {
+    forget_peak();
+    const Seconds ours = seconds_of([&] { convert_file(from, to, projection, {}, folder.path()); });
+    state.counters["peak_MB"] = peak_megabytes();
+    const Pixels written = read_bare(to);
+    const Seconds bare = seconds_of([&] {
+      benchmark::DoNotOptimize(read_bare(from));
+      write_bare(folder.path("bare." + extension), written);
+    });
+    say(state, ours, bare);
+    state.counters["width"] = written.spec.width;
+  }
+}
+
+// Mono 8192x4096 to 4096x2048, against a lanczos resize of the whole picture. Target: below 1.
+void halved(benchmark::State& state, const std::string& extension) {
+  const Folder folder;
+  const std::string from = folder.path("from." + extension);
+  make_picture(from, {kMono}, {8192, 4096});
+  const ProjectionSetting projection = find_projection("lat-long")->setting;
+  for (auto _ : state) {
+    const std::string to = folder.path("to." + extension);
+    const Seconds ours = seconds_of([&] { convert_file(from, to, projection, Extent{4096, 2048}, folder.path()); });
+    const Seconds theirs = seconds_of([&] {
+      OIIO::ImageBuf whole(from);
+      whole.read(0, 0, true);
+      const OIIO::ImageBuf small = OIIO::ImageBufAlgo::resize(whole, "lanczos3", 0.0f, OIIO::ROI(0, 4096, 0, 2048));
+      small.write(folder.path("theirs." + extension));
+    });
+    say(state, ours, theirs);
+  }
+}
+
+// The largest picture that is read: 16384x16384, both eyes, to cubes. Target: below 2000 MB.
+void largest(benchmark::State& state, const std::string& extension) {
+  const Folder folder;
+  const std::string from = folder.path("from." + extension);
+  make_picture(from, {kLeft, kRight}, {16384, 8192});
+  for (auto _ : state) {
+    forget_peak();
+    const double before = peak_megabytes();
+    const Seconds ours = seconds_of([&] {
+      convert_file(from, folder.path("to." + extension), find_projection("cube-3x2")->setting, {}, folder.path());
+    });
+    state.counters["ours_s"] = ours.wall;
+    state.counters["before_MB"] = before;
+    state.counters["peak_MB"] = peak_megabytes();
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using Figure = void (*)(benchmark::State&, const std::string&);
+  const std::pair<const char*, Figure> figures[] = {{"cubes", cubes}, {"halved", halved}, {"largest", largest}};
+  for (const auto& [name, figure] : figures) {
+    for (const char* extension : {"png", "exr"}) {
+      const auto run = [figure = figure, extension](benchmark::State& state) { figure(state, extension); };
+      benchmark::RegisterBenchmark((std::string(name) + "/" + extension).c_str(), run)
+          ->Iterations(1)
+          ->Unit(benchmark::kSecond);
+    }
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
