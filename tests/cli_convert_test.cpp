@@ -72,12 +72,12 @@ TEST_F(CliConvert, EyesOfTheirOwn) {
   ASSERT_EQ(convert(room, "eye_%V.png"), 0) << err;
   EXPECT_TRUE(std::filesystem::exists(folder.path("eye_right.png")));
   ASSERT_EQ(convert(folder.path("eye_%V.png"), "both.png", "-q"), 0) << err;
-  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from perspective"), 2);
+  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from perspective --from-layout separate"), 2);
   EXPECT_NE(err.find("depth"), std::string::npos) << err;
 }
 
 TEST_F(CliConvert, MovesTheEyes) {
-  const std::string room = make("room.exr");
+  const std::string room = make("room.exr", "--ipd 0.5");
   ASSERT_EQ(convert(room, "moved.exr", "--ipd 0.05 --merge linear,40,80"), 0) << err;
   EXPECT_NE(err.find("% of the pixels are empty"), std::string::npos) << err;
   EXPECT_FLOAT_EQ(open("moved.exr").rig.ipd, 0.05f);
