@@ -72,7 +72,7 @@ TEST_F(CliConvert, EyesOfTheirOwn) {
   ASSERT_EQ(convert(room, "eye_%V.png"), 0) << err;
   EXPECT_TRUE(std::filesystem::exists(folder.path("eye_right.png")));
   ASSERT_EQ(convert(folder.path("eye_%V.png"), "both.png", "-q"), 0) << err;
-  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from perspective --from-layout separate"), 2);
+  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from perspective"), 2);
   EXPECT_NE(err.find("depth"), std::string::npos) << err;
 }
 

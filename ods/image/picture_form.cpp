@@ -78,14 +78,18 @@ static std::vector<const NamedProjection*> shapes() {
           find_projection("cube-1x6")};
 }
 
-static LayoutGuess layout_of_shape(Extent file, const NamedProjection* named) {
-  for (const NamedProjection* shape : named != nullptr ? std::vector{named} : shapes()) {
-    if (has_shape(shape->setting, file)) return {{}, fmt::format("it has the shape of one eye, {}", shape->name)};
+static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSetting>& known) {
+  std::vector<ProjectionSetting> settings;
+  if (known) settings.push_back(*known);
+  for (const NamedProjection* shape : shapes()) {
+    if (!known) settings.push_back(shape->setting);
+  }
+  for (const ProjectionSetting& setting : settings) {
+    const std::string_view name = projection_name(setting);
+    if (has_shape(setting, file)) return {{}, fmt::format("it has the shape of one eye, {}", name)};
     for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
       const std::optional<Extent> eye = unpacked_size(layout, file);
-      if (eye && has_shape(shape->setting, *eye)) {
-        return {layout, fmt::format("it has the shape of two eyes, {}", shape->name)};
-      }
+      if (eye && has_shape(setting, *eye)) return {layout, fmt::format("it has the shape of two eyes, {}", name)};
     }
   }
   return {{}, "nothing says otherwise"};
@@ -95,14 +99,17 @@ static bool has_channel(const FileInfo& info, const std::string& name) {
   return std::find(info.channels.begin(), info.channels.end(), name) != info.channels.end();
 }
 
-LayoutGuess guess_layout(const FileInfo& info, const std::string& path) {
+LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
+                         const std::optional<ProjectionSetting>& projection) {
   const auto said = info.text.find("ods:layout");
   if (said != info.text.end()) return {layout_of(said->second), "the file says so", true};
   if (has_channel(info, "right.R") || has_channel(info, "left.R"))
     return {Layout::kMultiview, "it has two views", true};
   const NameWords words = read_name(path);
   if (!words.layout_word.empty()) return {words.layout, fmt::format("its name ends in {}", words.layout_word)};
-  return layout_of_shape({info.width, info.height}, words.projection);
+  if (projection) return layout_of_shape({info.width, info.height}, projection);
+  if (words.projection != nullptr) return layout_of_shape({info.width, info.height}, words.projection->setting);
+  return layout_of_shape({info.width, info.height}, {});
 }
 
 // --- the whole -------------------------------------------------------------------------------------------------------
@@ -135,7 +142,7 @@ static LayoutGuess find_layout(const FileInfo& info, const std::string& path, co
     if (sidecar->eyes.size() == 1) return {{}, "its sidecar says so", true};
     return {sidecar->layout, "its sidecar says so", true};
   }
-  return guess_layout(info, path);
+  return guess_layout(info, path, known.projection);
 }
 
 static int find_eye(const FileInfo& info, const std::optional<CameraFile>& sidecar) {

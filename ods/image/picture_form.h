@@ -24,8 +24,9 @@ struct LayoutGuess {
 
 // From what the file says (ods:layout, or the channels of two views), else its name, else its shape: that of a whole
 // sphere in lat-long, cube-3x2, cube-6x1 or cube-1x6, or of what its name says; one eye, two stacked or two beside each
-// other.
-LayoutGuess guess_layout(const FileInfo& info, const std::string& path);
+// other. `projection`: what is known of it.
+LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
+                         const std::optional<ProjectionSetting>& projection = {});
 
 // What the caller knows goes before all that the file says.
 struct KnownForm {
