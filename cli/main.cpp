@@ -31,6 +31,7 @@ constexpr Command kCommands[] = {
     {"camera", "say a camera in the words of another renderer", "ods_camera"},
     {"project", "tell where world points fall in each eye", "ods_project"},
     {"compare", "measure how far one picture is from another", "ods_compare"},
+    {"lint", "find what is wrong with a stereo 360 picture", "ods_lint"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
     {"sizes", "list the sizes that have names", "ods_sizes"},
 };

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/lint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/image/lint/checks.h"
+
+namespace ods {
+
+// --- names ---------------------------------------------------------------------------------------------------------
+
+struct FaultNames {
+  std::string_view name;
+  std::string_view title;
+  Severity severity;
+};
+
+static FaultNames names_of(Fault fault) {
+  switch (fault) {
+    case Fault::kEyesSwapped:
+      return {"eyes-swapped", "the eyes are swapped", Severity::kFault};
+    case Fault::kRightOnTop:
+      return {"right-on-top", "the right eye is on top", Severity::kFault};
+    case Fault::kOneEyeTwice:
+      return {"one-eye-twice", "both eyes see the same picture", Severity::kFault};
+    case Fault::kMonoAsStereo:
+      return {"mono-as-stereo", "one picture is taken for two eyes", Severity::kFault};
+    case Fault::kLayoutMisread:
+      return {"layout-misread", "the eyes lie otherwise in the file", Severity::kFault};
+    case Fault::kMirroredCircle:
+      return {"mirrored-circle", "the eyes' circle is mirrored", Severity::kFault};
+    case Fault::kTwoCameras:
+      return {"two-cameras", "two fixed cameras in place of a circle", Severity::kFault};
+    case Fault::kNoPoleMerge:
+      return {"no-pole-merge", "full stereo at a pole", Severity::kWarning};
+    case Fault::kRaggedSeam:
+      return {"ragged-seam", "the seam shows", Severity::kFault};
+    case Fault::kWrongAspect:
+      return {"wrong-aspect", "the shape does not fit", Severity::kFault};
+    case Fault::kMetadata:
+      return {"metadata", "its words do not fit its pixels", Severity::kFault};
+    case Fault::kFilmLevels:
+      break;
+  }
+  return {"film-levels", "too large for films", Severity::kInformation};
+}
+
+std::string_view fault_name(Fault fault) {
+  return names_of(fault).name;
+}
+
+std::string_view fault_title(Fault fault) {
+  return names_of(fault).title;
+}
+
+Severity severity_of(Fault fault) {
+  return names_of(fault).severity;
+}
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::kFault:
+      return "fault";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kInformation:
+      break;
+  }
+  return "information";
+}
+
+bool has_finding(const LintReport& report, Severity severity, double certainty) {
+  return std::any_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
+    return severity_of(finding.fault) <= severity && finding.certainty >= certainty;
+  });
+}
+
+// --- what is looked at ---------------------------------------------------------------------------------------------
+
+// Packed eyes are taken apart here, so that the file can be cut in other ways too.
+static void load(Subject& subject, std::optional<Layout> layout) {
+  const std::string& path = subject.path;
+  subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
+  const LayoutGuess guess = layout ? LayoutGuess{layout, "as asked"} : guess_layout(subject.info, path);
+  const Layout read = guess.layout.value_or(Layout::kSeparate);
+  if (names_eye(path) || read == Layout::kMultiview || is_anaglyph(read)) {
+    subject.loaded = load_eyes(path, layout);
+    return;
+  }
+  subject.loaded = load_eyes(path, Layout::kSeparate);
+  subject.packed = std::move(subject.loaded.eyes[0]);
+  subject.loaded.guess = guess;
+  const Extent size{subject.packed.width, subject.packed.height};
+  if (!unpacked_size(read, size)) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
+                                               path, size.width, size.height, layout_name(read)));
+  }
+  subject.loaded.eyes = unpack(read, subject.packed);
+}
+
+static void load_sidecar(Subject& subject, LintReport& report) {
+  const std::string path = sidecar_path(subject.path);
+  if (!std::filesystem::exists(path)) return;
+  std::vector<std::string> warnings;
+  try {
+    subject.sidecar = load_camera(path, warnings);
+  } catch (const Error& error) {
+    report.findings.push_back({Fault::kMetadata, 1.0, error.what(), "write the sidecar again, or remove it"});
+  }
+}
+
+static void find_projection(Subject& subject, const LintOptions& options) {
+  const std::string stem = std::filesystem::path(subject.path).stem().native();
+  const NamedProjection* named = find_projection(subject.loaded.projection);
+  if (named != nullptr) subject.projection = named->setting;
+  if (stem.ends_with("_180") || stem.ends_with("_vr180")) subject.projection = find_projection("vr180")->setting;
+  if (subject.sidecar) subject.projection = subject.sidecar->rig.projection;
+  if (options.projection) subject.projection = *options.projection;
+}
+
+// A pair whose rays meet at a distance has no parallax there.
+static void find_convergence(Subject& subject) {
+  if (subject.sidecar) {
+    const CameraRig& rig = subject.sidecar->rig;
+    const float sine = rig.convergence == kParallel ? 0.0f : 0.5f * rig.ipd / rig.convergence_distance;
+    subject.convergence = 2.0f * std::asin(std::clamp(sine, 0.0f, 1.0f));
+  } else if (subject.info.text.contains("ods:version") && !subject.info.text.contains("ods:convergence")) {
+    subject.convergence = 0.0f;
+  }
+}
+
+static void describe(const Subject& subject, LintReport& report) {
+  const Image& eye = subject.loaded.eyes[0];
+  report.file = {subject.info.width, subject.info.height};
+  report.eye = {eye.width, eye.height};
+  report.eye_count = static_cast<int>(subject.loaded.eyes.size());
+  if (report.eye_count > 1) report.layout = subject.loaded.guess.layout;
+  report.because = subject.loaded.guess.because;
+  report.projection = projection_name(subject.projection);
+  int64_t not_finite = 0;
+  for (const Image& each : subject.loaded.eyes) {
+    not_finite +=
+        std::count_if(each.pixels.begin(), each.pixels.end(), [](float value) { return !std::isfinite(value); });
+  }
+  if (not_finite > 0) report.not_judged.push_back(fmt::format("{} values that are NaN or infinite", not_finite));
+}
+
+// --- the checks ----------------------------------------------------------------------------------------------------
+
+constexpr int kLeastWidth = 64, kLeastHeight = 32;  // of an eye
+
+LintReport lint(const std::string& path, const LintOptions& options) {
+  Subject subject;
+  LintReport report;
+  subject.path = path;
+  load(subject, options.layout);
+  load_sidecar(subject, report);
+  find_projection(subject, options);
+  find_convergence(subject);
+  describe(subject, report);
+  if (report.eye.width < kLeastWidth || report.eye.height < kLeastHeight) {
+    report.not_judged.push_back(
+        fmt::format("its pixels: an eye of {}x{} is too small", report.eye.width, report.eye.height));
+    return report;
+  }
+  if (check_layout(subject, report)) {
+    check_metadata(subject, report);
+    check_form(subject, report);
+    check_seam(subject, report);
+    if (report.eye_count > 1) {
+      check_parallax(subject, report);
+      check_poles(subject, report);
+    }
+  } else {
+    report.not_judged.push_back("everything else: first the layout must be right");
+  }
+  std::stable_sort(report.findings.begin(), report.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.certainty > b.certainty; });
+  return report;
+}
+
+}  // namespace ods

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checks of lint(), each in a file of its own. Each adds to the report what it finds, and what it could not judge.
+#pragma once
+#include "ods/image/camera_file.h"
+#include "ods/image/image_file.h"
+#include "ods/image/lint.h"
+#include "ods/image/load_eyes.h"
+
+namespace ods {
+
+struct Subject {
+  std::string path;
+  FileInfo info;  // of the left file of a pair
+  LoadedEyes loaded;
+  Image packed;  // the whole file, where other layouts of it can be tried
+  ProjectionSetting projection;
+  std::optional<CameraFile> sidecar;
+  std::optional<float> convergence;  // the parallax, radians, at which theta_L - theta_R is 0; none: nobody says
+};
+
+// False: these are no two eyes of one place, and no other check of stereo makes sense.
+bool check_layout(const Subject& subject, LintReport& report);
+void check_parallax(const Subject& subject, LintReport& report);
+void check_poles(const Subject& subject, LintReport& report);
+void check_seam(const Subject& subject, LintReport& report);
+void check_form(const Subject& subject, LintReport& report);      // aspect, film levels
+void check_metadata(const Subject& subject, LintReport& report);  // but for the layout, which check_layout() measures
+
+}  // namespace ods
