@@ -124,15 +124,11 @@ static void find_projection(Subject& subject, const LintOptions& options) {
   if (options.projection) subject.projection = *options.projection;
 }
 
-// A pair whose rays meet at a distance has no parallax there.
-static void find_convergence(Subject& subject) {
-  if (subject.sidecar) {
-    const CameraRig& rig = subject.sidecar->rig;
-    const float sine = rig.convergence == kParallel ? 0.0f : 0.5f * rig.ipd / rig.convergence_distance;
-    subject.convergence = 2.0f * std::asin(std::clamp(sine, 0.0f, 1.0f));
-  } else if (subject.info.text.contains("ods:version") && !subject.info.text.contains("ods:convergence")) {
-    subject.convergence = 0.0f;
-  }
+// Our EXR files name a convergence only where it is not parallel.
+static void find_camera(Subject& subject) {
+  const bool parallel = subject.info.text.contains("ods:version") && !subject.info.text.contains("ods:convergence");
+  if (parallel) subject.camera = make_camera({});
+  if (subject.sidecar) subject.camera = make_camera(subject.sidecar->rig);
 }
 
 static void describe(const Subject& subject, LintReport& report) {
@@ -162,7 +158,7 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   load(subject, options.layout);
   load_sidecar(subject, report);
   find_projection(subject, options);
-  find_convergence(subject);
+  find_camera(subject);
   describe(subject, report);
   if (report.eye.width < kLeastWidth || report.eye.height < kLeastHeight) {
     report.not_judged.push_back(

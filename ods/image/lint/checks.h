@@ -17,8 +17,11 @@ struct Subject {
   Image packed;  // the whole file, where other layouts of it can be tried
   ProjectionSetting projection;
   std::optional<CameraFile> sidecar;
-  std::optional<float> convergence;  // the parallax, radians, at which theta_L - theta_R is 0; none: nobody says
+  std::optional<Camera> camera;  // where something says how the eyes converge
 };
+
+// What a parallel pair would have to add to its difference of headings at this elevation; 0 where nobody says.
+double convergence_at(const Subject& subject, double phi);
 
 // False: these are no two eyes of one place, and no other check of stereo makes sense.
 bool check_layout(const Subject& subject, LintReport& report);

@@ -63,12 +63,12 @@ Wave best_wave(const Parallaxes& parallaxes, int waves) {
   return best;
 }
 
-void add_matches(Parallaxes& parallaxes, const Matches& matches, double convergence) {
+void add_matches(Parallaxes& parallaxes, const Matches& matches, const Subject& subject) {
   for (const Match& match : matches.found) {
     Parallax each;
     each.theta = static_cast<double>(match.theta);
     each.phi = static_cast<double>(match.phi);
-    each.angle = static_cast<double>(match.around) + convergence;
+    each.angle = static_cast<double>(match.around) + convergence_at(subject, each.phi);
     each.sign = std::tanh(each.angle / (kPrecision * static_cast<double>(matches.pixel)));
     each.sector = std::clamp(static_cast<int>((each.theta / kPi2 + 0.5) * kSectors), 0, kSectors - 1);
     parallaxes.all.push_back(each);
@@ -83,24 +83,25 @@ void weigh(Parallaxes& parallaxes) {
   for (double each : count) parallaxes.sectors += each / (each + 1.0);
 }
 
-// Whether parallax grows downwards below the horizon, -1..1, each heading by itself: as the ground comes nearer it
-// does, wherever the eyes converge, and falls when they are swapped.
+// Whether parallax, as large as the eye sees it, grows downwards below the horizon, -1..1, each heading by itself: as
+// the ground comes nearer it does, wherever the eyes converge, and falls when they are swapped.
 double growth_downwards(const Parallaxes& parallaxes) {
   struct Sums {
     double weight = 0.0, depth = 0.0, angle = 0.0;
   };
   std::array<Sums, kSectors> sums;
+  const auto arc_of = [](const Parallax& each) { return each.angle * std::cos(each.phi); };
   const auto counts = [](const Parallax& each) { return each.phi < 0.0 && each.phi > -0.9; };
   for (const Parallax& each : parallaxes.all) {
     if (!counts(each)) continue;
     Sums& sector = sums[static_cast<size_t>(each.sector)];
-    sector.weight += 1.0, sector.depth -= each.phi, sector.angle += each.angle;
+    sector.weight += 1.0, sector.depth -= each.phi, sector.angle += arc_of(each);
   }
   double both = 0.0, depths = 0.0, angles = 0.0;
   for (const Parallax& each : parallaxes.all) {
     const Sums& sector = sums[static_cast<size_t>(each.sector)];
     if (!counts(each) || sector.weight < 3.0) continue;
-    const double depth = -each.phi - sector.depth / sector.weight, angle = each.angle - sector.angle / sector.weight;
+    const double depth = -each.phi - sector.depth / sector.weight, angle = arc_of(each) - sector.angle / sector.weight;
     both += depth * angle, depths += depth * depth, angles += angle * angle;
   }
   return depths > 0.0 && angles > 0.0 ? both / std::sqrt(depths * angles) : 0.0;
@@ -113,6 +114,15 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
+
+// Rays that are toed in meet on a sphere: towards the poles they turn about ever smaller circles.
+double convergence_at(const Subject& subject, double phi) {
+  if (!subject.camera || subject.camera->convergence == kParallel) return 0.0;
+  const Camera& camera = *subject.camera;
+  if (camera.convergence == kShift) return 2.0 * static_cast<double>(shift_angle(camera, kRight));
+  const float left = merge_factor(phi < 0.0 ? camera.bottom : camera.top, static_cast<float>(std::abs(phi)));
+  return 2.0 * std::atan(static_cast<double>(0.5f * camera.ipd * left / camera.convergence_distance) / std::cos(phi));
+}
 
 // --- one eye twice -------------------------------------------------------------------------------------------------
 
@@ -178,7 +188,7 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
   double certainty = -upright * enough;
   std::string evidence = fmt::format("the left eye sees {:.0f} % of {} places farther left than the right eye does",
                                      50.0 - 50.0 * upright, parallaxes.all.size());
-  if (!subject.convergence) {
+  if (!subject.camera) {
     const double growth = growth_downwards(parallaxes);
     certainty *= 0.5 - 0.5 * std::tanh(4.0 * growth);
     evidence += growth < 0.0 ? ", the more so the nearer the ground"
@@ -224,7 +234,7 @@ void check_parallax(const Subject& subject, LintReport& report) {
   for (int width : {256, 512, 1024}) {
     const std::vector<View> views = make_views(subject.loaded.eyes, subject.projection, subject.loaded.is_float, width);
     scales.push_back(match_tiles(views[0], views[1], {}));
-    add_matches(parallaxes, scales.back(), static_cast<double>(subject.convergence.value_or(0.0f)));
+    add_matches(parallaxes, scales.back(), subject);
     around = seen_around(views[0]);
     if (views[0].width < width) break;
   }

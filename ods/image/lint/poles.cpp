@@ -26,12 +26,13 @@ struct Band {
   int count = 0;
 };
 
-Band measure(const Matches& matches, bool top, double from, double to, double convergence) {
+Band measure(const Subject& subject, const Matches& matches, bool top, double from, double to) {
   std::vector<double> arcs;
   for (const Match& match : matches.found) {
     const double phi = static_cast<double>(top ? match.phi : -match.phi);
     if (phi < from * kDegree || phi > to * kDegree) continue;
-    arcs.push_back((static_cast<double>(match.around) + convergence) * std::cos(phi) / kDegree);
+    arcs.push_back((static_cast<double>(match.around) + convergence_at(subject, static_cast<double>(match.phi))) *
+                   std::cos(phi) / kDegree);
   }
   if (arcs.empty()) return {};
   const auto middle = arcs.begin() + static_cast<ptrdiff_t>(arcs.size() / 2);
@@ -55,10 +56,9 @@ void check_poles(const Subject& subject, LintReport& report) {
   }
   for (const bool top : {true, false}) {
     const char* name = top ? "top" : "bottom";
-    const double convergence = static_cast<double>(subject.convergence.value_or(0.0f));
     const Matches& matches = regions[top ? 1 : 0];
-    const Band off = measure(matches, top, 60.0, 72.0, convergence);
-    const Band near = measure(matches, top, 77.0, 88.0, convergence);
+    const Band off = measure(subject, matches, top, 60.0, 72.0);
+    const Band near = measure(subject, matches, top, 77.0, 88.0);
     if (off.count < 3 || near.count < 3) {
       report.not_judged.push_back(fmt::format("stereo at the {} pole: not enough detail", name));
       continue;
