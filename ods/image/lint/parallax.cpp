@@ -91,7 +91,7 @@ double growth_downwards(const Parallaxes& parallaxes) {
   };
   std::array<Sums, kSectors> sums;
   const auto arc_of = [](const Parallax& each) { return each.angle * std::cos(each.phi); };
-  const auto counts = [](const Parallax& each) { return each.phi < 0.0 && each.phi > -0.9; };
+  const auto counts = [](const Parallax& each) { return each.phi < 0.0; };
   for (const Parallax& each : parallaxes.all) {
     if (!counts(each)) continue;
     Sums& sector = sums[static_cast<size_t>(each.sector)];
@@ -190,16 +190,16 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
                                      50.0 - 50.0 * upright, parallaxes.all.size());
   if (!subject.camera) {
     const double growth = growth_downwards(parallaxes);
-    certainty *= 0.5 - 0.5 * std::tanh(4.0 * growth);
-    evidence += growth < 0.0 ? ", the more so the nearer the ground"
-                             : ", but the less so the nearer the ground: they may converge close by";
+    // Eyes that converge mid-way have parallax of both signs; close by, only the ground tells.
+    certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - 0.3)));
+    evidence += growth < 0.3 ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
   const Layout layout = subject.loaded.guess.layout.value_or(Layout::kSeparate);
   const bool stacked = layout == Layout::kTopBottom || layout == Layout::kTopBottomHalf;
   const char* cure = layout == Layout::kTopBottom
                          ? "the right eye is on top: exchange the halves, or tell the player bottom-top"
                      : stacked ? "the right eye is on top: exchange the halves"
-                               : "exchange the eyes";
+                               : "exchange the eyes, or tell the player the other order";
   report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, cure});
 }
 
