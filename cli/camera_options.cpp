@@ -90,3 +90,12 @@ CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
   }
   return rig;
 }
+
+ods::CameraRig place_camera(const CameraOptions& camera) {
+  ods::CameraRig rig = camera.rig;
+  rig.position = camera.position.value_or(vec3(0.0f));
+  rig.yaw = camera.yaw.value_or(0.0f);
+  rig.pitch = camera.pitch.value_or(0.0f);
+  rig.roll = camera.roll.value_or(0.0f);
+  return rig;
+}

@@ -38,3 +38,6 @@ void finish_camera_options(CameraOptions& camera, int width, int& height);
 // above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.
 // Pitch and roll of a view point are left out: in a headset the horizon must be level. Throws UsageError.
 ods::CameraRig place_camera(const CameraOptions& camera, const ods::Scene& scene);
+
+// The camera asked for where there is no scene: at the origin, unless something else was given.
+ods::CameraRig place_camera(const CameraOptions& camera);

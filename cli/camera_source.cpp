@@ -38,15 +38,10 @@ void add_camera_source(Options& options, CameraSource& source) {
 }
 
 CameraFile read_camera_source(CameraSource& source) {
-  const CameraOptions& camera = source.camera;
   int height = source.width == source.file.eye.width ? source.file.eye.height : 0;  // its own stays with its width
   finish_camera_options(source.camera, source.width, height);
   CameraFile file = source.file;
-  file.rig = camera.rig;
-  file.rig.position = camera.position.value_or(ods::vec3(0.0f));
-  file.rig.yaw = camera.yaw.value_or(0.0f);
-  file.rig.pitch = camera.pitch.value_or(0.0f);
-  file.rig.roll = camera.roll.value_or(0.0f);
+  file.rig = place_camera(source.camera);
   file.eyes = ods::eye_list(source.eyes);
   file.eye = {source.width, height};
   return file;

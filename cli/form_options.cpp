@@ -59,13 +59,32 @@ const ods::NamedSize& size_by_name(const std::string& name) {
   throw UsageError(fmt::format("there is no size '{}'{} (ods sizes lists them)", name, ods::did_you_mean(name, names)));
 }
 
-void add_size_option(Options& options, ods::RenderOptions& render, Layout& layout) {
+static void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layout) {
   auto set = [&](const std::string& name) {
     const ods::NamedSize& size = size_by_name(name);
-    render.width = size.eye.width;
-    render.height = size.eye.height;
+    picture.width = size.eye.width;
+    picture.height = size.eye.height;
     layout = size.layout.value_or(layout);
-    if (!size.layout) render.eyes = ods::Eyes::kMonoEye;
+    if (!size.layout) picture.eyes = ods::Eyes::kMonoEye;
   };
   options.custom("--size", "NAME", "", set, "width, height, layout and mono at once, by a name of ods sizes");
+}
+
+void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {
+  add_size_option(options, picture, save.layout);
+  options.number("--width", picture.width, 1, 32768, "of one eye in pixels");
+  options.number("--height", picture.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
+  options.choice("--eyes", picture.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
+  add_layout_option(options, save.layout, "how two eyes share the file (vr180: side-by-side)");
+  options.flag("--sidecar", save.sidecar, "write picture.camera.json too, which ods camera reads");
+}
+
+void finish_form_options(const Options& options, const ods::ProjectionSetting& projection, ods::RenderOptions& picture,
+                         ods::SaveOptions& save) {
+  const bool sized = options.given("--size");
+  if (options.given("--width") && !options.given("--height")) picture.height = 0;
+  if (!options.given("--width") && !sized) picture.width -= picture.width % ods::width_step(projection);
+  if (!options.given("--layout") && !sized) {
+    save.layout = ods::projection_name(projection) == "vr180" ? Layout::kSideBySide : Layout::kTopBottom;
+  }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/options.h"
+#include "ods/image/save.h"
 #include "ods/image/sizes.h"
 #include "ods/scene/render_options.h"
 
@@ -14,9 +15,13 @@
 void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
 void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text);
 
-// --size NAME sets the width of an eye and the layout, and mono for sizes of one eye. Options take effect in the order
-// in which they were added, so that those added after it go before it.
-void add_size_option(Options& options, ods::RenderOptions& render, ods::Layout& layout);
+// --size, --width, --height, --eyes, --layout, --sidecar. Of the picture only its size and eyes are touched. --size
+// sets the others at once; options take effect in the order in which they were added, so that those go before it.
+void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save);
+
+// What nobody gave: a width of whole faces, the layout that players expect of the projection.
+void finish_form_options(const Options& options, const ods::ProjectionSetting& projection, ods::RenderOptions& picture,
+                         ods::SaveOptions& save);
 
 // Throws UsageError with a suggestion.
 const ods::NamedSize& size_by_name(const std::string& name);

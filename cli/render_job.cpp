@@ -28,12 +28,7 @@ constexpr const char* kExamples =
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
-  add_size_option(options, job.render, job.save.layout);
-  options.number("--width", job.render.width, 1, 32768, "of one eye in pixels");
-  options.number("--height", job.render.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
-  options.choice("--eyes", job.render.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
-  add_layout_option(options, job.save.layout, "how two eyes share the file (vr180: side-by-side)");
-  options.flag("--sidecar", job.save.sidecar, "write picture.camera.json too, which ods camera reads");
+  add_form_options(options, job.render, job.save);
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
 }
@@ -59,11 +54,6 @@ void add_console_options(Options& options, RenderJob& job) {
   options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
 }
 
-// Players take the front half of the sphere side by side, the whole top-bottom.
-ods::Layout usual_layout(const ods::ProjectionSetting& projection) {
-  return ods::projection_name(projection) == "vr180" ? ods::Layout::kSideBySide : ods::Layout::kTopBottom;
-}
-
 bool keeps_light(const std::string& path) {
   const auto format = ods::format_of_path(path);
   return format && ods::is_scene_referred(*format);
@@ -83,17 +73,12 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   if (!options.parse(argc, argv)) return false;
   console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
-  if (!options.given("--width") && !options.given("--size")) {
-    job.render.width = quality.width - quality.width % ods::width_step(job.camera.rig.projection);
-  }
+  if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (!options.given("--samples")) job.render.samples = quality.samples;
-  if (!options.given("--layout") && !options.given("--size")) {
-    job.save.layout = usual_layout(job.camera.rig.projection);
-  }
+  finish_form_options(options, job.camera.rig.projection, job.render, job.save);
   if (options.given("--exposure") && keeps_light(job.output))
     note("--exposure leaves .exr and .hdr as the scene is lit");
   job.render.layers = ods::keeps_layers(job.output);
-  if (options.given("--width") && !options.given("--height")) job.render.height = 0;
   finish_camera_options(job.camera, job.render.width, job.render.height);
   if (job.progress == ProgressMode::kAuto) {
     job.progress = console.quiet          ? ProgressMode::kNone

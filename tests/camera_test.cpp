@@ -3,53 +3,28 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "ods/image/camera_rig.h"
 #include "ods/kernel/camera/project.h"
+#include "tests/exact_camera.h"
 #include "tests/statistics.h"
 
 namespace ods {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-const double kExactPi = std::numbers::pi;
 const int kModes[] = {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep};
 const int kEyes[] = {kLeft, kRight, kMono};
 
 // The camera once more, in double precision and from the definitions alone.
-double exact_factor(const PoleMergeSetting& merge, double elevation_degrees) {
-  const double start = merge.start, end = merge.end;
-  const double t = std::clamp((elevation_degrees - start) / (end - start), 0.0, 1.0);
-  switch (merge.mode) {
-    case kMergeLinear:
-      return std::pow(1.0 - t, double{merge.exponent});
-    case kMergeCosine:
-      return std::pow(std::max(std::cos(t * kExactPi / 2.0), 0.0), double{merge.exponent});
-    case kMergeSmoothstep:
-      return std::pow(1.0 - t * t * (3.0 - 2.0 * t), double{merge.exponent});
-    default:
-      return 1.0;
-  }
-}
-
-struct ExactRay {
-  dvec3 origin, direction;
-};
-
 ExactRay exact_ray(const CameraRig& rig, const Camera& camera, int eye, dvec2 uv) {
   const double theta = 2.0 * kExactPi * (uv.x - 0.5), phi = kExactPi * (0.5 - uv.y);
-  double degrees = std::abs(phi) * 180.0 / kExactPi;
-  if (degrees > 90.0) degrees = 180.0 - degrees;
+  const double elevation = kExactPi / 2.0 - std::abs(kExactPi / 2.0 - std::abs(phi));  // falls again beyond a pole
   const double side = eye == kLeft ? -0.5 : eye == kRight ? 0.5 : 0.0;
-  const double r = side * double{rig.ipd} * exact_factor(phi < 0.0 ? rig.bottom : rig.top, degrees);
+  const double r = side * double{rig.ipd} * exact_factor(phi < 0.0 ? rig.bottom : rig.top, elevation);
   const dvec3 right(camera.right), up(camera.up), ahead = -dvec3(camera.back);
   return {dvec3(rig.position) + r * (std::cos(theta) * right - std::sin(theta) * ahead),
           std::cos(phi) * (std::sin(theta) * right + std::cos(theta) * ahead) + std::sin(phi) * up};
-}
-
-double angle_between(dvec3 a, dvec3 b) {
-  return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
 PoleMergeSetting random_merge(Dice& dice, int mode) {

@@ -28,7 +28,7 @@ constexpr bool kSanitized = false;
 
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
-                            "compare --help", "sizes --help", "scenes --help"}) {
+                            "compare --help", "sizes --help", "scenes --help", "testcard --help", "lint --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
@@ -359,6 +359,34 @@ TEST_F(Cli, PointsAreProjectedAndComeBack) {
     EXPECT_EQ(run(words), 2) << words;
     expect_one_error();
   }
+}
+
+TEST_F(Cli, ATestcardTakesEveryForm) {
+  const std::string card = folder.path("card");
+  EXPECT_EQ(run("testcard --layout multiview --width 64 --sidecar -o " + card + ".exr"), 0) << err;
+  EXPECT_EQ(out, card + ".exr\n" + card + ".camera.json\n");
+  EXPECT_EQ(run("testcard --size tb-quick-test-512 -o " + card + "_b.png"), 0) << err;
+  EXPECT_EQ(run("compare --max-error 0 " + card + "_b.png " + card + "_b.png"), 0) << err;
+  for (const auto& [words, code] : std::vector<std::pair<std::string, int>>{
+           {"", 2}, {" --projection cube-3x2 --width 100 -o " + card + "_.png", 2}, {" -o " + card + ".xyz", 4}}) {
+    EXPECT_EQ(run("testcard" + words), code);
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  }
+}
+
+TEST_F(Cli, LintTellsByItsExitCode) {
+  const std::string picture = folder.path("axis.png");
+  ASSERT_EQ(run("render axis --width 256 --samples 2 --filter box --merge cosine -o " + picture), 0) << err;
+  EXPECT_EQ(run("lint " + picture), 0) << out << err;
+  EXPECT_TRUE(out.ends_with("no fault found\n")) << out;
+  const std::string swapped = "lint --layout bottom-top " + picture;
+  EXPECT_EQ(run(swapped), 1) << out;
+  EXPECT_NE(out.find("fault eyes-swapped: "), std::string::npos) << out;
+  EXPECT_EQ(run(swapped + " --json"), 1);
+  EXPECT_NE(out.find("\"fault\": \"eyes-swapped\""), std::string::npos) << out;
+  EXPECT_EQ(run(swapped + " --min-certainty 1"), 0) << out;
+  EXPECT_EQ(run("lint " + folder.path("absent.png")), 3);
+  EXPECT_EQ(run("lint"), 2);
 }
 
 }  // namespace

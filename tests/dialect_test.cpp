@@ -9,9 +9,9 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 
+#include "tests/exact_camera.h"
 #include "tests/statistics.h"
 
 namespace ods {
@@ -19,11 +19,6 @@ namespace {
 
 using glm::dvec3;
 using Given = std::map<std::string, std::string>;
-const double kExactPi = std::numbers::pi;
-
-struct ExactRay {
-  dvec3 origin, direction;
-};
 
 // x, y: 0..1 of one eye's picture, from its top left. eye: -1 left, 1 right.
 using Formula = std::function<ExactRay(double x, double y, double eye)>;

@@ -106,13 +106,18 @@ TEST(Path, WallsKeepLightOutFarFromTheOrigin) {
   }
 }
 
-// A panel that shines by itself, 2 m away through water that leaves a tenth of the light after each metre.
-TEST(Path, CameraInsideAMediumSeesThroughIt) {
-  Scene scene;
+Material clear_water() {
   Material water = default_material();
   water.transmission = 1.0f;
   water.thickness = 1.0f;
   water.ior = 1.33f;
+  return water;
+}
+
+// A panel that shines by itself, 2 m away through water that leaves a tenth of the light after each metre.
+TEST(Path, CameraInsideAMediumSeesThroughIt) {
+  Scene scene;
+  Material water = clear_water();
   water.attenuation_color = vec3(0.1f);
   water.attenuation_distance = 1.0f;
   Material panel = default_material();
@@ -130,10 +135,7 @@ TEST(Path, CameraInsideAMediumSeesThroughIt) {
 // A glowing box of thin air hangs in clear water: its walls bend nothing, but are seen.
 TEST(Path, VolumesGlowInsideDenserOnes) {
   Scene scene;
-  Material water = default_material();
-  water.transmission = 1.0f;
-  water.thickness = 1.0f;
-  water.ior = 1.33f;
+  Material water = clear_water();
   Material lamp = water;
   lamp.ior = 1.0f;
   lamp.emission = vec3(2.0f);

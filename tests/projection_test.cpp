@@ -7,21 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "ods/image/camera_rig.h"
 #include "ods/kernel/camera/project.h"
+#include "tests/exact_camera.h"
 #include "tests/statistics.h"
 
 namespace ods {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-const double kExactPi = std::numbers::pi;
-
-double angle_between(dvec3 a, dvec3 b) {
-  return std::atan2(length(cross(a, b)), dot(a, b));
-}
 
 dvec3 at_angles(double theta, double phi) {
   return {std::sin(theta) * std::cos(phi), std::sin(phi), -std::cos(theta) * std::cos(phi)};
@@ -113,10 +108,6 @@ bool in_circle(dvec2 uv) {
   return length(uv - dvec2(0.5)) < 0.4999;
 }
 
-bool has_circle(int kind) {
-  return kind == kFisheye || kind == kFisheyeEquisolid;
-}
-
 TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
   Dice dice(1);
   for (const ProjectionSetting& setting : many_settings(dice)) {
@@ -124,7 +115,7 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
     const Projection projection = make_projection(setting);
     for (int i = 0; i < 10000; i++) {
       const vec2 uv = dice.pair();
-      if (has_circle(setting.kind) && !in_circle(uv)) continue;
+      if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
       const Look look = look_of(projection, uv, uv);
       const dvec3 exact = normalize(exact_direction(setting, uv));
       ASSERT_TRUE(look.seen);
@@ -266,23 +257,6 @@ CameraRig odd_rig(Dice& dice, const ProjectionSetting& setting, int convergence)
   return rig;
 }
 
-struct ExactRay {
-  dvec3 origin, direction;
-};
-
-double exact_factor(const PoleMergeSetting& merge, double phi) {
-  const double start = double{merge.start},
-               t = std::clamp((std::abs(phi) * 180.0 / kExactPi - start) / (double{merge.end} - start), 0.0, 1.0);
-  double left = 1.0 - t;
-  if (merge.mode == kMergeNone) return 1.0;
-  if (merge.mode == kMergePower) return 1.0 - std::pow(t, double{merge.exponent});
-  if (merge.mode == kMergeCosine) left = std::max(std::cos(t * kExactPi / 2.0), 0.0);
-  if (merge.mode == kMergeSmoothstep) left = 1.0 - t * t * (3.0 - 2.0 * t);
-  if (merge.mode == kMergeGaussian) left = (std::exp(-t * t) - 0.36787944117144233) / 0.63212055882855767;
-  if (merge.mode == kMergeTiltBrush) left = 1.0 - std::sin(t / (2.0 * kExactPi));
-  return std::pow(left, double{merge.exponent});
-}
-
 // As ods/kernel/camera/camera.h says it, in world coordinates.
 ExactRay exact_ray(const CameraRig& rig, const Camera& camera, double side, dvec2 uv) {
   const dvec3 d = normalize(exact_direction(rig.projection, uv));
@@ -314,7 +288,7 @@ TEST(Cameras, AgreeWithTheirTwinThroughEveryProjection) {
       const Camera camera = make_camera(rig);
       for (int i = 0; i < 500; i++) {
         const vec2 uv = dice.pair();
-        if (has_circle(setting.kind) && !in_circle(uv)) continue;
+        if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
         const ExactRay exact = exact_ray(rig, camera, double{eye_side(eye)}, uv);
@@ -337,7 +311,7 @@ TEST(Cameras, FindTheRayThatMeetsAPointThroughEveryProjection) {
       const Camera camera = make_camera(rig);
       for (int i = 0; i < 300; i++) {
         const vec2 uv = dice.pair();
-        if (has_circle(setting.kind) && !in_circle(uv)) continue;
+        if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
         const vec3 a = rig.axis ? vec3(0, 1, 0) : camera.up;

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string>
 
-#include "ods/scene/builtin/stroke_font.h"
 #include "shape_checks.h"
 
 namespace ods {

@@ -80,11 +80,6 @@ CameraExport export_camera(const CameraFile& file, CameraTarget target) {
 
 // --- what the writers share ------------------------------------------------------------------------------------------
 
-bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b) {
-  const bool none = a.mode == kMergeNone && b.mode == kMergeNone;
-  return none || (a.mode == b.mode && a.start == b.start && a.end == b.end && a.exponent == b.exponent);
-}
-
 bool is_plain_cosine(const PoleMergeSetting& merge) {
   return merge.mode == kMergeCosine && merge.end == 90.0f && merge.exponent == 1.0f;
 }

@@ -252,9 +252,7 @@ class Writer {
 
   Formula merge() {
     const PoleMergeSetting &top = rig_.top, &bottom = rig_.bottom;
-    const bool equal = top.mode == bottom.mode && top.start == bottom.start && top.end == bottom.end &&
-                       top.exponent == bottom.exponent;
-    if (equal) return step("merge", merge_of_pole(top, ""));
+    if (same_merge(top, bottom)) return step("merge", merge_of_pole(top, ""));
     const Formula above = merge_of_pole(top, "top_");
     return step("merge", select(phi_, merge_of_pole(bottom, "bottom_"), above));
   }

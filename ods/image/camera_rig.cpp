@@ -37,6 +37,11 @@ std::optional<int> merge_of(std::string_view name) {
   return std::nullopt;
 }
 
+bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b) {
+  const bool none = a.mode == kMergeNone && b.mode == kMergeNone;
+  return none || (a.mode == b.mode && a.start == b.start && a.end == b.end && a.exponent == b.exponent);
+}
+
 std::string_view convergence_name(int convergence) {
   switch (convergence) {
     case kParallel:

@@ -30,6 +30,7 @@ inline constexpr int kMerges[] = {kMergeNone,     kMergeLinear, kMergeCosine,   
                                   kMergeGaussian, kMergePower,  kMergeTiltBrush, kMergeMap};
 std::string_view merge_name(int mode);
 std::optional<int> merge_of(std::string_view name);
+bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b);  // numbers of kMergeNone do not count
 
 // kParallel .. <-> parallel, toe-in, shift.
 inline constexpr int kConvergences[] = {kParallel, kToeIn, kShift};

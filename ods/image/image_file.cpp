@@ -6,9 +6,14 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -57,6 +62,20 @@ static std::string one_line(std::string text) {
   return text;
 }
 
+static OIIO::TypeDesc type_of(Sample sample) {
+  switch (sample) {
+    case Sample::kUint8:
+      return OIIO::TypeDesc::UINT8;
+    case Sample::kUint16:
+      return OIIO::TypeDesc::UINT16;
+    case Sample::kHalf:
+      return OIIO::TypeDesc::HALF;
+    case Sample::kFloat:
+      return OIIO::TypeDesc::FLOAT;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
 // --- reading -------------------------------------------------------------------------------------------------------
 
 static Error cannot_read(const std::string& name, const std::string& why) {
@@ -83,96 +102,93 @@ static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std:
   }
 }
 
-struct Reader {
-  std::vector<std::byte> png;  // where it is one
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
-  std::unique_ptr<OIIO::ImageInput> input;
-  OIIO::ImageSpec spec;
+// What OpenImageIO reads of a PNG.
+class PngSource final : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit PngSource(FileParts parts) : IOProxy("", Read), parts_(std::move(parts)) {}
+  const char* proxytype() const override { return "ods"; }
+  size_t size() const override { return parts_.size(); }
+  bool seek(int64_t offset) override { return m_pos = offset, true; }
+  size_t read(void* to, size_t size) override {
+    const size_t done = pread(to, size, m_pos);
+    m_pos += static_cast<int64_t>(done);
+    return done;
+  }
+  size_t pread(void* to, size_t size, int64_t offset) override {
+    return parts_.read(static_cast<size_t>(offset), to, size);
+  }
+
+ private:
+  FileParts parts_;
 };
 
-static Reader open_reader(std::span<const std::byte> file, const std::string& name) {
+struct Reader {
+  std::unique_ptr<OIIO::Filesystem::IOProxy> source;  // where OpenImageIO does not open the file itself
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+  FileFormat format;
+};
+
+// `start` is that of the file.
+static Reader create_reader(std::span<const std::byte> start, const std::string& name) {
   set_up_openimageio();
-  const std::optional<FileFormat> format = format_of_bytes(file);
+  const std::optional<FileFormat> format = format_of_bytes(start);
   if (!format) throw cannot_read(name, unknown_format());
   Reader reader;
+  reader.format = *format;
   reader.input = OIIO::ImageInput::create(plugin_name(*format));
   if (!reader.input) throw cannot_read(name, fmt::format("OpenImageIO here has no {} reader", plugin_name(*format)));
-  std::span<const std::byte> content = file;
-  if (*format == FileFormat::kPng) {
-    std::optional<std::vector<std::byte>> png = essential_png(file);
-    if (!png) throw cannot_read(name, "the PNG is cut short or damaged");
-    reader.png = std::move(*png);
-    content = reader.png;
-  }
-  reader.memory =
-      std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(content.data()), content.size());
-  reader.input->set_ioproxy(reader.memory.get());
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  if (!reader.input->open(name, reader.spec, config)) throw cannot_read(name, one_line(reader.input->geterror()));
-  check_size(reader.spec, file.size(), name);
   return reader;
 }
 
-// The first four channels at most, in the order of the file (for EXR that is R, G, B, A before all others).
-template <typename T>
-static std::vector<T> read_channels(Reader& reader, int count, const std::string& name) {
-  const OIIO::ImageSpec& spec = reader.spec;
-  std::vector<T> values(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
-                        static_cast<size_t>(count));
-  if (!reader.input->read_image(0, 0, 0, count, OIIO::BaseTypeFromC<T>::value, values.data())) {
-    throw cannot_read(name, one_line(reader.input->geterror()));
-  }
-  return values;
+static std::unique_ptr<PngSource> open_png(size_t size, const ByteReader& bytes, const std::string& name) {
+  std::optional<std::vector<FileRange>> parts = essential_png(size, bytes);
+  if (!parts) throw cannot_read(name, "the PNG is cut short or damaged");
+  return std::make_unique<PngSource>(FileParts(bytes, std::move(*parts)));
 }
 
-// The bytes of a file that starts as an image does.
-static std::vector<unsigned char> read_image_bytes(const std::string& path) {
+static void open(Reader& reader, size_t file_size, const std::string& name, bool keep_alpha) {
+  if (reader.source) reader.input->set_ioproxy(reader.source.get());
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", keep_alpha ? 1 : 0);
+  if (!reader.input->open(name, reader.spec, config)) throw cannot_read(name, one_line(reader.input->geterror()));
+  check_size(reader.spec, file_size, name);
+}
+
+static Reader open_reader(const std::string& path, bool keep_alpha = true) {
   const std::vector<unsigned char> start = read_start(path, 16);
-  if (!format_of_bytes(std::as_bytes(std::span(start)))) throw cannot_read(path, unknown_format());
-  return read_file(path, kMaxFileBytes);
+  const size_t size = file_size(path);
+  Reader reader = create_reader(std::as_bytes(std::span(start)), path);
+  if (reader.format == FileFormat::kPng) {
+    const auto file = std::make_shared<OIIO::Filesystem::IOFile>(path, OIIO::Filesystem::IOProxy::Read);
+    const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
+      return file->pread(to, count, static_cast<int64_t>(offset)) == count;
+    };
+    reader.source = open_png(size, bytes, path);
+  }
+  open(reader, size, path, keep_alpha);
+  return reader;
 }
 
-Image read_image(const std::string& path) {
-  const std::vector<unsigned char> file = read_image_bytes(path);
-  Reader reader = open_reader(std::as_bytes(std::span(file)), path);
-  const int count = reader.spec.nchannels < 3 ? 1 : 3;
-  Image image(reader.spec.width, reader.spec.height, 3);
-  std::vector<float> values = read_channels<float>(reader, count, path);
-  if (count == 3) {
-    image.pixels = std::move(values);
+static Reader open_memory(std::span<const std::byte> file, const std::string& name) {
+  Reader reader = create_reader(file, name);
+  if (reader.format == FileFormat::kPng) {
+    const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
+      if (offset > file.size() || count > file.size() - offset) return false;
+      std::memcpy(to, file.data() + offset, count);
+      return true;
+    };
+    reader.source = open_png(file.size(), bytes, name);
   } else {
-    for (size_t i = 0; i < image.pixels.size(); i++) image.pixels[i] = values[i / 3];
+    reader.source = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(file.data()), file.size());
   }
-  if (!reader.spec.format.is_floating_point()) {
-    for (float& value : image.pixels) value = srgb_decode(value);
-  }
-  return image;
+  open(reader, file.size(), name, true);
+  return reader;
 }
 
-FileInfo read_info(const std::string& path) {
-  const std::vector<unsigned char> file = read_image_bytes(path);
-  const Reader reader = open_reader(std::as_bytes(std::span(file)), path);
-  FileInfo info;
-  info.width = reader.spec.width;
-  info.height = reader.spec.height;
-  info.is_float = reader.spec.format.is_floating_point();
-  info.channels = reader.spec.channelnames;
-  for (const OIIO::ParamValue& attribute : reader.spec.extra_attribs) {
-    if (attribute.type() == OIIO::TypeString) info.text[attribute.name().string()] = attribute.get_string();
-  }
-  return info;
-}
-
-Image read_channels(const std::string& path, const std::vector<std::string>& names) {
-  const std::vector<unsigned char> file = read_image_bytes(path);
-  Reader reader = open_reader(std::as_bytes(std::span(file)), path);
-  std::vector<int> indices;
-  for (const std::string& name : names) {
-    indices.push_back(reader.spec.channelindex(name));
-    if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
-  }
-  const int count = static_cast<int>(names.size());
+// Channels of a file, by their numbers and in their order, as floats: integers decoded from sRGB.
+static Image read_linear(Reader& reader, const std::vector<int>& indices, const std::string& path) {
+  const int count = static_cast<int>(indices.size());
   Image image(reader.spec.width, reader.spec.height, count);
   // At once where they are neighbours, as decoding one decodes all.
   bool neighbours = true;
@@ -192,10 +208,69 @@ Image read_channels(const std::string& path, const std::vector<std::string>& nam
   return image;
 }
 
+Image read_image(const std::string& path) {
+  Reader reader = open_reader(path);
+  return read_linear(reader, reader.spec.nchannels < 3 ? std::vector{0, 0, 0} : std::vector{0, 1, 2}, path);
+}
+
+// In a file of floats whole numbers are as large as floats, and become such.
+static Sample sample_of(const OIIO::TypeDesc& type, bool is_float) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8:
+      return Sample::kUint8;
+    case OIIO::TypeDesc::HALF:
+      return Sample::kHalf;
+    case OIIO::TypeDesc::UINT16:
+      return Sample::kUint16;
+    default:
+      return is_float ? Sample::kFloat : Sample::kUint16;
+  }
+}
+
+static FileInfo info_of(const OIIO::ImageSpec& spec) {
+  FileInfo info;
+  info.width = spec.width;
+  info.height = spec.height;
+  info.channels = spec.channelnames;
+  for (int c = 0; c < spec.nchannels; c++) {
+    info.is_float = info.is_float || spec.channelformat(c).is_floating_point();
+  }
+  for (int c = 0; c < spec.nchannels; c++) info.samples.push_back(sample_of(spec.channelformat(c), info.is_float));
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    const std::string name = attribute.name().string();
+    if (attribute.type() == OIIO::TypeString) info.text[name] = attribute.get_string();
+    const size_t count = attribute.type().basevalues();  // get_float_indexed() knows no vectors
+    const float* floats = static_cast<const float*>(attribute.data());
+    const int* ints = static_cast<const int*>(attribute.data());
+    const auto base = attribute.type().basetype;
+    if (base == OIIO::TypeDesc::FLOAT) info.numbers[name].assign(floats, floats + count);
+    if (base == OIIO::TypeDesc::INT) info.numbers[name].assign(ints, ints + count);
+  }
+  return info;
+}
+
+FileInfo read_info(const std::string& path) {
+  return info_of(open_reader(path).spec);
+}
+
+Image read_channels(const std::string& path, const std::vector<std::string>& names) {
+  Reader reader = open_reader(path);
+  std::vector<int> indices;
+  for (const std::string& name : names) {
+    indices.push_back(reader.spec.channelindex(name));
+    if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
+  }
+  return read_linear(reader, indices, path);
+}
+
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name) {
-  Reader reader = open_reader(file, name);
+  Reader reader = open_memory(file, name);
   const int count = std::min(reader.spec.nchannels, 4);
-  const std::vector<uint8_t> values = read_channels<uint8_t>(reader, count, name);
+  std::vector<uint8_t> values(static_cast<size_t>(reader.spec.width) * static_cast<size_t>(reader.spec.height) *
+                              static_cast<size_t>(count));
+  if (!reader.input->read_image(0, 0, 0, count, OIIO::TypeDesc::UINT8, values.data())) {
+    throw cannot_read(name, one_line(reader.input->geterror()));
+  }
   CodeImage image;
   image.width = reader.spec.width;
   image.height = reader.spec.height;
@@ -211,21 +286,90 @@ CodeImage decode_image(std::span<const std::byte> file, const std::string& name)
   return image;
 }
 
-// --- writing -------------------------------------------------------------------------------------------------------
+// --- reading by rows -----------------------------------------------------------------------------------------------
 
-static OIIO::TypeDesc type_of(Sample sample) {
-  switch (sample) {
-    case Sample::kUint8:
-      return OIIO::TypeDesc::UINT8;
-    case Sample::kUint16:
-      return OIIO::TypeDesc::UINT16;
-    case Sample::kHalf:
-      return OIIO::TypeDesc::HALF;
-    case Sample::kFloat:
-      return OIIO::TypeDesc::FLOAT;
-  }
-  return OIIO::TypeDesc::FLOAT;
+struct RowReader::State {
+  std::string path;
+  Reader reader;
+  FileInfo info;
+  OIIO::TypeDesc type;      // of all samples; UNKNOWN: as info.samples has them
+  float multiplied = 0.0f;  // integers that OpenImageIO hands out multiplied by alpha to this power; 0: not
+};
+
+static bool says_unassociated(const OIIO::ImageSpec& spec) {
+  return spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
 }
+
+RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}}) {
+  State& state = *state_;
+  state.info = info_of(state.reader.spec);
+  if (state.info.is_float && says_unassociated(state.reader.spec)) state.reader = open_reader(path, false);
+  const OIIO::ImageSpec& spec = state.reader.spec;
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height) {
+    throw cannot_read(path, "its data window is not its whole picture; crop or fill it first");
+  }
+  bool as_they_are = true;
+  for (int c = 0; c < spec.nchannels; c++) {
+    const OIIO::TypeDesc type = spec.channelformat(c);
+    const bool whole = state.info.is_float && type == OIIO::TypeDesc::UINT32;
+    as_they_are = as_they_are && (whole || type == type_of(state.info.samples[static_cast<size_t>(c)]));
+  }
+  state.type = as_they_are ? OIIO::TypeDesc() : type_of(state.info.is_float ? Sample::kFloat : Sample::kUint16);
+  if (!as_they_are) {
+    for (Sample& sample : state.info.samples) sample = state.info.is_float ? Sample::kFloat : Sample::kUint16;
+  }
+  // OpenImageIO multiplies WebP whatever it is asked, with a curve of its own.
+  if (!state.info.is_float && spec.alpha_channel >= 0 && !says_unassociated(spec)) {
+    state.multiplied = state.reader.format == FileFormat::kWebp ? 1.0f / 2.2f : 1.0f;
+  }
+}
+
+RowReader::RowReader(RowReader&&) noexcept = default;
+RowReader::~RowReader() = default;
+
+const FileInfo& RowReader::info() const {
+  return state_->info;
+}
+
+bool RowReader::is_whole_number(size_t channel) const {
+  return state_->info.is_float &&
+         state_->reader.spec.channelformat(static_cast<int>(channel)) == OIIO::TypeDesc::UINT32;
+}
+
+int RowReader::band_rows() const {
+  const OIIO::ImageSpec& spec = state_->reader.spec;
+  const int kBand = 64;
+  const int together = spec.tile_height > 0 ? spec.tile_height : 1;
+  return (kBand + together - 1) / together * together;
+}
+
+void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
+  State& state = *state_;
+  OIIO::ImageInput& input = *state.reader.input;
+  const OIIO::ImageSpec& spec = state.reader.spec;
+  const int count = static_cast<int>(channels), top = spec.y + begin, bottom = spec.y + end;
+  const bool read = spec.tile_width > 0 ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, 0, 1, 0,
+                                                           count, state.type, to)
+                                        : input.read_scanlines(0, 0, top, bottom, 0, 0, count, state.type, to);
+  if (!read) throw cannot_read(state.path, one_line(input.geterror()));
+  const std::vector<Sample>& samples = state.info.samples;
+  size_t stride = 0;
+  for (size_t c = 0; c < channels; c++) stride += bytes_of(samples[c]);
+  const size_t size = static_cast<size_t>(end - begin) * static_cast<size_t>(spec.width) * stride;
+  if (state.multiplied != 0.0f && spec.alpha_channel < count) {
+    divide_by_alpha(samples[0], {to, size}, channels, static_cast<size_t>(spec.alpha_channel), state.multiplied);
+  }
+  size_t offset = 0;
+  for (size_t c = 0; c < channels; offset += bytes_of(samples[c]), c++) {
+    if (!is_whole_number(c) || state.type != OIIO::TypeDesc()) continue;
+    const unsigned bad = whole_numbers_to_floats({to + offset, size - offset}, stride);
+    const std::string& name = state.info.channels[c];
+    if (bad > 0) throw cannot_read(state.path, fmt::format("channel '{}' has the number {}, and no float", name, bad));
+  }
+}
+
+// --- writing -------------------------------------------------------------------------------------------------------
 
 static void set_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
   const std::string& name = attribute.name;
@@ -244,10 +388,6 @@ static void set_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
   }
 }
 
-static bool is_gpano(const Attribute& attribute) {
-  return attribute.name.starts_with("GPano:");
-}
-
 static OIIO::ImageSpec make_spec(const FileHeader& header) {
   OIIO::ImageSpec spec(header.width, header.height, static_cast<int>(header.channels.size()),
                        type_of(header.channels.front().sample));
@@ -256,23 +396,12 @@ static OIIO::ImageSpec make_spec(const FileHeader& header) {
     spec.channelnames.push_back(channel.name);
     spec.channelformats.push_back(type_of(channel.sample));
   }
+  const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
+  spec.alpha_channel = alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
   for (const Attribute& attribute : header.attributes) {
     if (header.format != FileFormat::kPng || !is_gpano(attribute)) set_attribute(spec, attribute);
   }
   return spec;
-}
-
-static std::string png_xmp_chunk(const FileHeader& header) {
-  std::vector<XmpProperty> properties;
-  for (const Attribute& attribute : header.attributes) {
-    if (!is_gpano(attribute)) continue;
-    std::string text;
-    if (const int* i = std::get_if<int>(&attribute.value)) text = fmt::format("{}", *i);
-    if (const float* f = std::get_if<float>(&attribute.value)) text = fmt::format("{}", *f);
-    if (const std::string* s = std::get_if<std::string>(&attribute.value)) text = *s;
-    properties.emplace_back(attribute.name, text);
-  }
-  return properties.empty() ? std::string() : xmp_chunk(gpano_packet(properties));
 }
 
 // Where encoders write. It never reports a failure, because libjpeg would end the process; the stream remembers it for
@@ -308,19 +437,34 @@ class Sink final : public OIIO::Filesystem::IOProxy {
 };
 
 // Rows go out in bands: enough for OpenEXR to compress on all cores, few enough that no second picture is in memory.
-static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, const RowSource& rows) {
+// The next band is made meanwhile, as most formats are compressed on one core.
+static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, const RowSource& rows,
+                       const std::function<void()>& band_done) {
   const int kBand = 64;
   const size_t row_size = static_cast<size_t>(header.width) * header.channels.size();
-  std::vector<float> band(row_size * static_cast<size_t>(std::min(kBand, header.height)));
-  for (int begin = 0; begin < header.height; begin += kBand) {
+  std::vector<float> made, written(row_size * static_cast<size_t>(std::min(kBand, header.height)));
+  made.resize(written.size());
+  const auto make = [&](int begin) {
+    tbb::parallel_for(begin, std::min(begin + kBand, header.height), [&](int y) {
+      rows(y, {&made[static_cast<size_t>(y - begin) * row_size], row_size});
+    });
+    if (band_done) band_done();
+  };
+  make(0);
+  bool good = true;
+  for (int begin = 0; begin < header.height && good; begin += kBand) {
     const int end = std::min(begin + kBand, header.height);
-    for (int y = begin; y < end; y++) rows(y, {&band[static_cast<size_t>(y - begin) * row_size], row_size});
-    if (!output.write_scanlines(begin, end, 0, OIIO::TypeDesc::FLOAT, band.data())) return false;
+    std::swap(made, written);
+    tbb::task_group next;
+    if (end < header.height) next.run([&] { make(end); });
+    good = output.write_scanlines(begin, end, 0, OIIO::TypeDesc::FLOAT, written.data());
+    next.wait();
   }
-  return true;
+  return good;
 }
 
-void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows) {
+void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
+                 const std::function<void()>& band_done) {
   assert(header.width > 0 && header.height > 0 && !header.channels.empty());
   set_up_openimageio();
   const char* plugin = plugin_name(header.format);
@@ -330,10 +474,11 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(plugin);
   if (!output) throw failed(fmt::format("OpenImageIO here has no {} writer", plugin));
 
-  Sink sink(file.stream(), header.format == FileFormat::kPng ? png_xmp_chunk(header) : std::string());
+  Sink sink(file.stream(), header.format == FileFormat::kPng ? gpano_chunk(header.attributes) : std::string());
   // libtiff goes back and reads what it wrote, which OpenImageIO does not hand through.
   if (header.format != FileFormat::kTiff) output->set_ioproxy(&sink);
-  const bool written = output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows);
+  const bool written =
+      output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows, band_done);
   const bool closed = output->close();
   // A full disk says so itself; what the format's library made of it is of no help. libtiff wrote through a stream of
   // its own, so ours asks the disk for a little more.

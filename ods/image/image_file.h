@@ -7,14 +7,16 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "ods/base/atomic_file.h"
+#include "ods/image/attribute.h"
 #include "ods/image/file_format.h"
 #include "ods/image/picture.h"
+#include "ods/image/sample.h"
 
 namespace ods {
 
@@ -34,13 +36,41 @@ Image read_image(const std::string& path);
 struct FileInfo {
   int width = 0;
   int height = 0;
-  bool is_float = false;                    // light as it is; else code values of a display
-  std::vector<std::string> channels;        // R, G, B, A first
-  std::map<std::string, std::string> text;  // attributes that are words, by OpenImageIO's names
+  bool is_float = false;                              // light as it is; else code values of a display
+  std::vector<std::string> channels;                  // R, G, B, A first
+  std::vector<Sample> samples;                        // of every channel, as RowReader gives them
+  std::map<std::string, std::string> text;            // attributes that are words, by OpenImageIO's names
+  std::map<std::string, std::vector<float>> numbers;  // and those that are numbers
 };
 
 // Throws Error(kInput).
 FileInfo read_info(const std::string& path);
+
+// A file that is read in bands from the top, so that it is never in memory as a whole (but WebP, progressive JPEG and
+// interlaced PNG, whose decoders know no other way). In a file of integers colours are code values that are not
+// multiplied by alpha, in a file of floats they are light that is. Whole numbers in a file of floats (ids, 32 bits)
+// become floats.
+class RowReader {
+ public:
+  // Throws Error(kInput): as read_image(), and an EXR whose data window is not its whole picture.
+  explicit RowReader(const std::string& path);
+  RowReader(RowReader&&) noexcept;
+  ~RowReader();
+
+  const FileInfo& info() const;
+  bool is_whole_number(size_t channel) const;
+
+  // Bands are `band_rows()` high, but for the last: what the file packs together.
+  int band_rows() const;
+
+  // The first `channels` channels of rows begin..end, one sample behind the other. Throws Error(kInput), also for a
+  // whole number above 2^24, which no float can hold.
+  void read(int begin, int end, size_t channels, std::byte* to);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 // Some channels of a file, by their names and in their order. Integers are decoded from sRGB as above.
 // Throws Error(kInput), also where there is no such channel.
@@ -57,16 +87,9 @@ struct CodeImage {
 // A file in memory. `name` stands for it in messages. Throws Error(kInput).
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name);
 
-enum class Sample { kUint8, kUint16, kHalf, kFloat };
-
 struct Channel {
   std::string name;  // R, G, B; others only in EXR
   Sample sample = Sample::kUint8;
-};
-
-struct Attribute {
-  std::string name;
-  std::variant<int, float, std::string, std::vector<float>, std::vector<std::string>> value;
 };
 
 struct FileHeader {
@@ -78,9 +101,12 @@ struct FileHeader {
 };
 
 // Fills row y with width * channels floats: 0..1 of the code range for integers, the value itself otherwise.
+// Called by several threads at once, every row once.
 using RowSource = std::function<void(int y, std::span<float> row)>;
 
-// Writes a whole image into a file that is not committed yet. Throws Error(kOutput).
-void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows);
+// Writes a whole image into a file that is not committed yet. Rows are made while those before them are compressed;
+// between two bands of them `band_done` is called, where there is one. Throws Error(kOutput), and what `rows` throws.
+void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
+                 const std::function<void()>& band_done = {});
 
 }  // namespace ods

@@ -10,6 +10,7 @@
 
 #include "ods/base/error.h"
 #include "ods/image/lint/checks.h"
+#include "ods/image/load_eyes.h"
 
 namespace ods {
 
@@ -84,63 +85,48 @@ bool has_finding(const LintReport& report, Severity severity, double certainty) 
 // --- what is looked at ---------------------------------------------------------------------------------------------
 
 // Packed eyes are taken apart here, so that the file can be cut in other ways too.
-static void load(Subject& subject, std::optional<Layout> layout) {
+static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
   subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
-  const LayoutGuess guess = layout ? LayoutGuess{layout, "as asked"} : guess_layout(subject.info, path);
-  const Layout read = guess.layout.value_or(Layout::kSeparate);
-  if (names_eye(path) || read == Layout::kMultiview || is_anaglyph(read)) {
-    subject.loaded = load_eyes(path, layout);
+  KnownForm known;
+  known.layout = options.layout;
+  known.projection = options.projection;
+  subject.form = find_form(subject.info, path, known);
+  if (names_eye(path) || subject.layout() == Layout::kMultiview) {
+    subject.eyes = load_eyes(path, options.layout).eyes;
     return;
   }
-  subject.loaded = load_eyes(path, Layout::kSeparate);
-  subject.packed = std::move(subject.loaded.eyes[0]);
-  subject.loaded.guess = guess;
+  subject.packed = read_image(path);
   const Extent size{subject.packed.width, subject.packed.height};
-  if (!unpacked_size(read, size)) {
+  if (!unpacked_size(subject.layout(), size)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
-                                               path, size.width, size.height, layout_name(read)));
+                                               path, size.width, size.height, layout_name(subject.layout())));
   }
-  subject.loaded.eyes = unpack(read, subject.packed);
+  subject.eyes = unpack(subject.layout(), subject.packed);
 }
 
-static void load_sidecar(Subject& subject, LintReport& report) {
+static void load_sidecar(Subject& subject) {
   const std::string path = sidecar_path(subject.path);
-  if (!std::filesystem::exists(path)) return;
   std::vector<std::string> warnings;
-  try {
-    subject.sidecar = load_camera(path, warnings);
-  } catch (const Error& error) {
-    report.findings.push_back({Fault::kMetadata, 1.0, error.what(), "write the sidecar again, or remove it"});
-  }
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) subject.sidecar = load_camera(path, warnings);
 }
 
-static void find_projection(Subject& subject, const LintOptions& options) {
-  const std::string stem = std::filesystem::path(subject.path).stem().native();
-  const NamedProjection* named = find_projection(subject.loaded.projection);
-  if (named != nullptr) subject.projection = named->setting;
-  if (stem.ends_with("_180") || stem.ends_with("_vr180")) subject.projection = find_projection("vr180")->setting;
-  if (subject.sidecar) subject.projection = subject.sidecar->rig.projection;
-  if (options.projection) subject.projection = *options.projection;
-}
-
-// Our EXR files name a convergence only where it is not parallel.
 static void find_camera(Subject& subject) {
-  const bool parallel = subject.info.text.contains("ods:version") && !subject.info.text.contains("ods:convergence");
-  if (parallel) subject.camera = make_camera({});
-  if (subject.sidecar) subject.camera = make_camera(subject.sidecar->rig);
+  const bool is_said = subject.sidecar || subject.info.text.contains("ods:projection");
+  if (is_said) subject.camera = make_camera(subject.form.camera);
 }
 
 static void describe(const Subject& subject, LintReport& report) {
-  const Image& eye = subject.loaded.eyes[0];
+  const Image& eye = subject.eyes[0];
   report.file = {subject.info.width, subject.info.height};
   report.eye = {eye.width, eye.height};
-  report.eye_count = static_cast<int>(subject.loaded.eyes.size());
-  if (report.eye_count > 1) report.layout = subject.loaded.guess.layout;
-  report.because = subject.loaded.guess.because;
-  report.projection = projection_name(subject.projection);
+  report.eye_count = static_cast<int>(subject.eyes.size());
+  if (report.eye_count > 1) report.layout = subject.form.layout.layout;
+  report.because = subject.form.layout.because;
+  report.projection = projection_name(subject.projection());
   int64_t not_finite = 0;
-  for (const Image& each : subject.loaded.eyes) {
+  for (const Image& each : subject.eyes) {
     not_finite +=
         std::count_if(each.pixels.begin(), each.pixels.end(), [](float value) { return !std::isfinite(value); });
   }
@@ -155,9 +141,8 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   Subject subject;
   LintReport report;
   subject.path = path;
-  load(subject, options.layout);
-  load_sidecar(subject, report);
-  find_projection(subject, options);
+  load(subject, options);
+  load_sidecar(subject);
   find_camera(subject);
   describe(subject, report);
   if (report.eye.width < kLeastWidth || report.eye.height < kLeastHeight) {

@@ -28,6 +28,13 @@ struct Image {
   const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
 };
 
+// How the values of a layer may be put together where a picture is reduced or enlarged.
+enum class LayerRule {
+  kLight,    // colour: averaged in linear light, alpha multiplied in
+  kMean,     // numbers that may be averaged as they are: normals, albedo
+  kNearest,  // never averaged: depth, ids, cryptomatte, variance
+};
+
 // Depth of a ray that met nothing.
 inline constexpr float kFarDepth = 1e10f;
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -32,15 +33,28 @@ static std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string gpano_packet(const std::vector<XmpProperty>& properties) {
-  std::string attributes;
-  for (const auto& [name, value] : properties) attributes += fmt::format(" {}=\"{}\"", name, escaped(value));
+static std::string text_of(const Attribute& attribute) {
+  if (const int* i = std::get_if<int>(&attribute.value)) return fmt::format("{}", *i);
+  if (const float* f = std::get_if<float>(&attribute.value)) return fmt::format("{}", *f);
+  const std::string* s = std::get_if<std::string>(&attribute.value);
+  return s ? *s : std::string();
+}
+
+bool is_gpano(const Attribute& attribute) {
+  return attribute.name.starts_with("GPano:");
+}
+
+static std::string gpano_packet(const std::vector<Attribute>& attributes) {
+  std::string properties;
+  for (const Attribute& attribute : attributes) {
+    if (is_gpano(attribute)) properties += fmt::format(" {}=\"{}\"", attribute.name, escaped(text_of(attribute)));
+  }
   return fmt::format(
       "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
       "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
       "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\"{}/>"
       "</rdf:RDF></x:xmpmeta>\n<?xpacket end=\"r\"?>",
-      attributes);
+      properties);
 }
 
 static std::string big_endian(uint32_t value) {
@@ -60,17 +74,19 @@ static constexpr std::array<uint32_t, 256> kCrcTable = [] {
   return table;
 }();
 
-static uint32_t crc32(std::string_view bytes) {
-  uint32_t crc = 0xffffffffu;
+constexpr uint32_t kCrcStart = 0xffffffffu;
+
+static uint32_t add_to_crc(uint32_t crc, std::string_view bytes) {
   for (char c : bytes) crc = crc >> 8 ^ kCrcTable[(crc ^ static_cast<unsigned char>(c)) & 0xffu];
-  return ~crc;
+  return crc;
 }
 
-std::string xmp_chunk(const std::string& packet) {
+std::string gpano_chunk(const std::vector<Attribute>& attributes) {
+  if (std::none_of(attributes.begin(), attributes.end(), is_gpano)) return {};
   // Keyword, then: not compressed, method 0, no language, no translated keyword.
-  const std::string body = std::string("XML:com.adobe.xmp\0\0\0\0\0"sv) + packet;
+  const std::string body = std::string("XML:com.adobe.xmp\0\0\0\0\0"sv) + gpano_packet(attributes);
   const std::string typed = "iTXt" + body;
-  return big_endian(static_cast<uint32_t>(body.size())) + typed + big_endian(crc32(typed));
+  return big_endian(static_cast<uint32_t>(body.size())) + typed + big_endian(~add_to_crc(kCrcStart, typed));
 }
 
 static uint32_t read_big_endian(std::string_view bytes, size_t at) {
@@ -81,32 +97,74 @@ static uint32_t read_big_endian(std::string_view bytes, size_t at) {
 
 static bool has_sane_size(std::string_view header) {
   const uint32_t kLongest = 1000000;  // of libpng
-  if (header.size() != 13) return false;
   const uint32_t width = read_big_endian(header, 0), height = read_big_endian(header, 4);
   return width > 0 && width <= kLongest && height > 0 && height <= kLongest;
 }
 
-std::optional<std::vector<std::byte>> essential_png(std::span<const std::byte> file) {
-  const size_t kSignature = 8, kFrame = 12;  // length, type and CRC around a chunk's data
-  const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
-  if (bytes.size() < kSignature) return std::nullopt;
-  std::vector<std::byte> result(file.begin(), file.begin() + kSignature);
+// A chunk of a file: four bytes of length, four of type, the data, four of CRC.
+struct Chunk {
+  std::string type;
+  size_t offset = 0;
+  size_t length = 0;
+};
+
+static bool is_whole(const Chunk& chunk, const ByteReader& read) {
+  const size_t kPiece = size_t{1} << 18;
+  uint32_t crc = add_to_crc(kCrcStart, chunk.type);
+  std::string piece;
+  for (size_t done = 0; done < chunk.length; done += piece.size()) {
+    piece.resize(std::min(kPiece, chunk.length - done));
+    if (!read(chunk.offset + 8 + done, piece.data(), piece.size())) return false;
+    crc = add_to_crc(crc, piece);
+  }
+  std::string stored(4, '\0');
+  return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && read_big_endian(stored, 0) == ~crc;
+}
+
+std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read) {
+  const size_t kSignature = 8, kFrame = 12, kHeader = 13;
+  std::vector<FileRange> parts{{0, kSignature}};
   bool has_pixels = false;
-  for (size_t at = kSignature; bytes.size() - at >= kFrame;) {
-    const size_t length = read_big_endian(bytes, at);
-    if (length > bytes.size() - at - kFrame) return std::nullopt;
-    const std::string_view type = bytes.substr(at + 4, 4);
-    if (at == kSignature && !(type == "IHDR" && has_sane_size(bytes.substr(at + 8, length)))) return std::nullopt;
+  for (size_t at = kSignature; at + kFrame <= file_size;) {
+    std::string start(8, '\0');
+    if (!read(at, start.data(), start.size())) return std::nullopt;
+    const Chunk chunk{start.substr(4), at, read_big_endian(start, 0)};
+    if (chunk.length > file_size - at - kFrame) return std::nullopt;
+    if (at == kSignature) {
+      std::string header(kHeader, '\0');
+      if (chunk.type != "IHDR" || chunk.length != kHeader) return std::nullopt;
+      if (!read(at + 8, header.data(), kHeader) || !has_sane_size(header)) return std::nullopt;
+    }
+    const std::string& type = chunk.type;
     has_pixels = has_pixels || type == "IDAT";
     if (type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND") {
-      if (crc32(bytes.substr(at + 4, length + 4)) != read_big_endian(bytes, at + 8 + length)) return std::nullopt;
-      const auto chunk = file.subspan(at, length + kFrame);
-      result.insert(result.end(), chunk.begin(), chunk.end());
+      if (!is_whole(chunk, read)) return std::nullopt;
+      if (parts.back().offset + parts.back().size != at) parts.push_back({at, 0});
+      parts.back().size += chunk.length + kFrame;
     }
-    if (type == "IEND") return has_pixels ? std::optional(result) : std::nullopt;
-    at += length + kFrame;
+    at += chunk.length + kFrame;
+    if (type == "IEND") return has_pixels ? std::optional(parts) : std::nullopt;
   }
   return std::nullopt;
+}
+
+FileParts::FileParts(ByteReader file, std::vector<FileRange> parts) : file_(std::move(file)), parts_(std::move(parts)) {
+  for (const FileRange& part : parts_) {
+    starts_.push_back(size_);
+    size_ += part.size;
+  }
+}
+
+size_t FileParts::read(size_t offset, void* to, size_t size) const {
+  size_t done = 0;
+  while (done < size && offset + done < size_) {
+    const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset + done);
+    const size_t i = static_cast<size_t>(next - starts_.begin()) - 1;
+    const size_t skip = offset + done - starts_[i], count = std::min(size - done, parts_[i].size - skip);
+    if (!file_(parts_[i].offset + skip, static_cast<char*>(to) + done, count)) break;
+    done += count;
+  }
+  return done;
 }
 
 }  // namespace ods

@@ -121,6 +121,25 @@ int natural_height(const ProjectionSetting& setting, int width) {
   return std::max(1, static_cast<int>(std::lround(width / aspect)));
 }
 
+double pixels_per_radian(const ProjectionSetting& setting, double width) {
+  const double fov = glm::radians(static_cast<double>(setting.fov));
+  switch (setting.kind) {
+    case kLatLong:
+    case kCylinder:
+      return width / glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
+    case kFisheye:
+      return width / fov;
+    case kFisheyeEquisolid:
+      return width / (4.0 * std::sin(fov / 4.0));
+    case kPerspective:
+      return width / (2.0 * std::tan(fov / 2.0));
+    case kEac:
+      return width / 3.0 * (2.0 / static_cast<double>(kPi));
+    default:
+      return width / cube_columns(setting.kind) / 2.0;
+  }
+}
+
 int width_step(const ProjectionSetting& setting) {
   return setting.kind >= kCube3x2 ? cube_columns(setting.kind) : 1;
 }

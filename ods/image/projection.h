@@ -45,6 +45,9 @@ std::string projection_fault(const ProjectionSetting& setting);
 // The height that gives a picture of this width its true shape; at least 1.
 int natural_height(const ProjectionSetting& setting, int width);
 
+// How many pixels of a picture of this width see a radian in its middle, from left to right.
+double pixels_per_radian(const ProjectionSetting& setting, double width);
+
 // Cubes need whole faces: the number that the width of one eye must divide by, 1 for all others.
 int width_step(const ProjectionSetting& setting);
 

@@ -14,10 +14,9 @@
 #include "ods/image/anaglyph.h"
 #include "ods/image/camera_file.h"
 #include "ods/image/image_file.h"
+#include "ods/image/metadata.h"
 
 namespace ods {
-
-using EyeList = std::vector<const EyeImage*>;
 
 // --- what will be written ------------------------------------------------------------------------------------------
 
@@ -75,55 +74,8 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 
 // --- what stands in the header -------------------------------------------------------------------------------------
 
-static void add_merge(std::vector<Attribute>& attributes, const std::string& name, const PoleMergeSetting& merge) {
-  attributes.push_back({name, std::string(merge_name(merge.mode))});
-  if (merge.mode == kMergeNone) return;
-  attributes.push_back({name + "Start", merge.start});
-  attributes.push_back({name + "End", merge.end});
-  attributes.push_back({name + "Exponent", merge.exponent});
-}
-
-static void add_projection(std::vector<Attribute>& attributes, const ProjectionSetting& projection) {
-  const auto pair = [&](const char* name, float a, float b) { attributes.push_back({name, std::vector<float>{a, b}}); };
-  attributes.push_back({"ods:projection", std::string(projection_name(projection))});
-  if (has_range(projection.kind) && !is_full_lat_long(projection)) {
-    pair("ods:longitude", projection.longitude.x, projection.longitude.y);
-    pair("ods:latitude", projection.latitude.x, projection.latitude.y);
-  }
-  if (has_lens(projection.kind)) {
-    attributes.push_back({"ods:fov", projection.fov});
-    pair("ods:look", projection.pan, projection.tilt);
-  }
-}
-
-// What few cameras have is named only where it is.
-static void add_extras(std::vector<Attribute>& attributes, const CameraRig& rig) {
-  if (rig.convergence != kParallel) {
-    attributes.push_back({"ods:convergence", std::string(convergence_name(rig.convergence))});
-    attributes.push_back({"ods:convergenceDistance", rig.convergence_distance});
-  }
-  if (rig.neck != 0.0f) attributes.push_back({"ods:neck", rig.neck});
-  if (rig.axis) attributes.push_back({"ods:axis", std::vector<float>{rig.axis->x, rig.axis->y, rig.axis->z}});
-  if (rig.lens_radius > 0.0f) {
-    attributes.push_back({"ods:lens", std::vector<float>{rig.lens_radius, rig.focus_distance}});
-  }
-  if (rig.mirrored) attributes.push_back({"ods:mirrored", 1});
-}
-
-static void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig) {
-  add_projection(attributes, rig.projection);
-  attributes.push_back({"ods:depthType", std::string("ray")});
-  attributes.push_back({"ods:ipd", rig.ipd});
-  attributes.push_back({"ods:position", std::vector<float>{rig.position.x, rig.position.y, rig.position.z}});
-  attributes.push_back({"ods:yaw", rig.yaw});
-  attributes.push_back({"ods:pitch", rig.pitch});
-  attributes.push_back({"ods:roll", rig.roll});
-  add_merge(attributes, "ods:poleMergeTop", rig.top);
-  add_merge(attributes, "ods:poleMergeBottom", rig.bottom);
-  add_extras(attributes, rig);
-}
-
-static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, Layout layout, const EyeList& eyes) {
+static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, Layout layout,
+                    const std::vector<int>& eyes) {
   const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
   text("compression", "zip");
   // OpenImageIO would write the time of day, and the same picture would not be the same bytes.
@@ -139,162 +91,170 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, La
     text("textureformat", "LatLong Environment");
     attributes.push_back({"openexr:levelmode", 0});
   }
-  if (eyes.size() == 1 && eyes[0]->eye != kMono) text("view", eye_name(eyes[0]->eye));
+  if (eyes.size() == 1 && eyes[0] != kMono) text("view", eye_name(eyes[0]));
   text("ods:version", ODS_VERSION);
-  text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]->eye));
+  text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]));
   if (rig != nullptr) add_camera(attributes, *rig);
-}
-
-// Google, "Photo Sphere XMP Metadata". Heading 0..360, pitch -90..90, roll -180..180; our -Z is its north.
-static void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent size) {
-  float yaw = rig.yaw, pitch = std::remainder(rig.pitch, 360.0f), roll = rig.roll;
-  if (std::abs(pitch) > 90.0f) {  // looking over the pole: the same pose from the other side
-    pitch = std::copysign(180.0f, pitch) - pitch;
-    yaw += 180.0f;
-    roll += 180.0f;
-  }
-  const float heading = std::remainder(yaw, 360.0f);
-  attributes.push_back({"GPano:ProjectionType", std::string("equirectangular")});
-  attributes.push_back({"GPano:UsePanoramaViewer", std::string("True")});
-  const vec2 longitude = rig.projection.longitude, latitude = rig.projection.latitude;
-  const float per_degree_x = static_cast<float>(size.width) / (longitude.y - longitude.x);
-  const float per_degree_y = static_cast<float>(size.height) / (latitude.y - latitude.x);
-  const auto pixels = [](float count) { return static_cast<int>(std::lround(count)); };
-  attributes.push_back({"GPano:CroppedAreaImageWidthPixels", size.width});
-  attributes.push_back({"GPano:CroppedAreaImageHeightPixels", size.height});
-  attributes.push_back({"GPano:FullPanoWidthPixels", pixels(360.0f * per_degree_x)});
-  attributes.push_back({"GPano:FullPanoHeightPixels", pixels(180.0f * per_degree_y)});
-  attributes.push_back({"GPano:CroppedAreaLeftPixels", pixels((longitude.x + 180.0f) * per_degree_x)});
-  attributes.push_back({"GPano:CroppedAreaTopPixels", pixels((90.0f - latitude.y) * per_degree_y)});
-  attributes.push_back({"GPano:PoseHeadingDegrees", heading < 0.0f ? heading + 360.0f : heading});
-  attributes.push_back({"GPano:PosePitchDegrees", pitch});
-  attributes.push_back({"GPano:PoseRollDegrees", std::remainder(roll, 360.0f)});
-  attributes.push_back({"GPano:StitchingSoftware", std::string("Omnistereo " ODS_VERSION)});
-}
-
-// GPano knows lat-long, whole or a part that does not cross the seam.
-static bool fits_gpano(const ProjectionSetting& projection) {
-  return projection.kind == kLatLong && projection.longitude.x >= -180.0f && projection.longitude.y <= 180.0f;
 }
 
 static bool carries_gpano(FileFormat format) {
   return format == FileFormat::kPng || format == FileFormat::kJpeg || format == FileFormat::kTiff;
 }
 
+// The view stands before the last word, unless it is the default one and the word stands alone.
+static std::string channel_name(const std::string& channel, std::string_view view, bool is_default) {
+  const size_t point = channel.rfind('.');
+  const size_t last = point == std::string::npos ? 0 : point + 1;
+  if (view.empty() || (is_default && last == 0)) return channel;
+  return fmt::format("{}{}.{}", channel.substr(0, last), view, channel.substr(last));
+}
+
+static void add_exr_channels(std::vector<Channel>& channels, const std::vector<RowLayer>& layers, std::string_view view,
+                             bool is_default) {
+  for (const RowLayer& layer : layers) {
+    for (const std::string& channel : layer.channels) {
+      channels.push_back({channel_name(channel, view, is_default), layer.sample});
+    }
+  }
+}
+
+static bool has_alpha(const PictureRows& picture) {
+  return picture.layers[0].channels.size() == 4;
+}
+
+static bool keeps_alpha(FileFormat format, Layout layout) {
+  return format != FileFormat::kJpeg && format != FileFormat::kHdr && !is_anaglyph(layout);
+}
+
 // --- the pixels ----------------------------------------------------------------------------------------------------
 
-struct Layer {
-  const Image EyeImage::*image;
-  std::string_view name;
-  std::string_view channels;
-  bool wide;  // always 32 bits
-};
-static const Layer kLayers[] = {{&EyeImage::radiance, "", "RGB", false},
-                                {&EyeImage::depth, "", "Z", true},
-                                {&EyeImage::normal, "N", "XYZ", false},
-                                {&EyeImage::albedo, "albedo", "RGB", false}};
-
-static std::string channel_name(const Layer& layer, char channel, std::string_view view, bool default_view) {
-  std::string name;
-  if (!layer.name.empty()) name += fmt::format("{}.", layer.name);
-  if (!view.empty() && !(default_view && layer.name.empty())) name += fmt::format("{}.", view);
-  return name + channel;
-}
-
-static void add_exr_channels(std::vector<Channel>& channels, const EyeImage& eye, std::string_view view,
-                             bool default_view) {
-  for (const Layer& layer : kLayers) {
-    if ((eye.*layer.image).pixels.empty()) continue;
-    for (char channel : layer.channels) {
-      const Sample sample = layer.wide ? Sample::kFloat : Sample::kHalf;
-      channels.push_back({channel_name(layer, channel, view, default_view), sample});
-    }
-  }
-}
-
 static float finite(float value, float lowest, float highest) {
-  return std::isnan(value) ? 0.0f : std::clamp(value, lowest, highest);
+  if (std::isnan(value)) return 0.0f;
+  return std::clamp(value, lowest, highest);
 }
 
-// Where the rows of a file come from: every fill function below writes one row of one eye, squeezed, from its first
-// row y on.
-struct Rows {
-  Extent squeeze;
-  std::vector<float> scratch;
+// One file of some eyes of a picture.
+struct File {
+  const PictureRows& picture;
+  std::vector<int> indices;  // of its eyes
+  FileFormat format;
+  Layout layout;
+  const SaveOptions& options;
+  size_t channels;  // of all layers
+  Extent squeeze;   // so many pixels of the eye become one
 
-  // The mean of the pixels that become one; of depth, the one layer of one channel, the nearest: no mean is anywhere.
-  const float* read(const Image& image, int y) {
-    if (squeeze.width * squeeze.height == 1) return image.at(0, y);
-    const float share = 1.0f / static_cast<float>(squeeze.width * squeeze.height);
-    scratch.clear();
-    for (int x = 0; x < image.width; x += squeeze.width) {
-      for (int c = 0; c < image.channels; c++) {
-        float sum = 0.0f, nearest = std::numeric_limits<float>::max();
-        for (int i = 0; i < squeeze.width * squeeze.height; i++) {
-          const float value = image.at(x + i % squeeze.width, y + i / squeeze.width)[c];
-          sum += value * share;
-          nearest = std::min(nearest, value);
-        }
-        scratch.push_back(image.channels == 1 ? nearest : sum);
-      }
-    }
-    return scratch.data();
+  std::vector<int> eyes() const {
+    std::vector<int> which;
+    for (int index : indices) which.push_back(picture.eyes[static_cast<size_t>(index)]);
+    return which;
   }
 };
+
+static size_t count_channels(const std::vector<RowLayer>& layers) {
+  size_t count = 0;
+  for (const RowLayer& layer : layers) count += layer.channels.size();
+  return count;
+}
+
+// `pixels` are those that become one, a row of the eye apart, `first` the layer's first channel.
+static void squeeze_layer(const RowLayer& layer, const std::vector<const float*>& pixels, size_t first, float* out) {
+  const size_t count = layer.channels.size();
+  if (layer.rule == LayerRule::kNearest) {
+    const float* nearest = pixels[0] + first;
+    for (const float* pixel : pixels) {
+      if (pixel[first] < *nearest) nearest = pixel + first;
+    }
+    std::copy(nearest, nearest + count, out);
+    return;
+  }
+  const float share = 1.0f / static_cast<float>(pixels.size());
+  for (size_t c = 0; c < count; c++) {
+    float sum = 0.0f;
+    for (const float* pixel : pixels) sum += pixel[first + c] * share;
+    out[c] = sum;
+  }
+}
+
+// Row y of an eye as the file has it: squeezed.
+static std::vector<float> read_row(const File& file, int index, int y) {
+  const Extent eye = file.picture.eye, squeeze = file.squeeze;
+  const size_t length = static_cast<size_t>(eye.width) * file.channels;
+  std::vector<float> rows(length * static_cast<size_t>(squeeze.height));
+  for (int i = 0; i < squeeze.height; i++) {
+    file.picture.fill(index, y * squeeze.height + i, {&rows[static_cast<size_t>(i) * length], length});
+  }
+  if (squeeze.width * squeeze.height == 1) return rows;
+  std::vector<float> squeezed(length / static_cast<size_t>(squeeze.width));
+  std::vector<const float*> pixels(static_cast<size_t>(squeeze.width * squeeze.height));
+  for (size_t x = 0; x < squeezed.size() / file.channels; x++) {
+    for (size_t i = 0; i < pixels.size(); i++) {
+      const size_t column = x * static_cast<size_t>(squeeze.width) + i % static_cast<size_t>(squeeze.width);
+      pixels[i] = &rows[i / static_cast<size_t>(squeeze.width) * length + column * file.channels];
+    }
+    size_t first = x * file.channels, channel = 0;
+    for (const RowLayer& layer : file.picture.layers) {
+      squeeze_layer(layer, pixels, channel, &squeezed[first + channel]);
+      channel += layer.channels.size();
+    }
+  }
+  return squeezed;
+}
 
 // All layers; `stride` floats from pixel to pixel.
-static void fill_exr_row(const EyeImage& eye, int y, Rows& rows, float* out, size_t stride) {
-  for (const Layer& layer : kLayers) {
-    const Image& image = eye.*layer.image;
-    if (image.pixels.empty()) continue;
-    const float limit = layer.wide ? std::numeric_limits<float>::max() : 65504.0f;
-    const float* in = rows.read(image, y);
-    for (int x = 0; x < image.width / rows.squeeze.width; x++) {
-      for (int c = 0; c < image.channels; c++)
-        out[static_cast<size_t>(x) * stride + static_cast<size_t>(c)] = finite(*in++, -limit, limit);
+static void put_exr_row(const File& file, const std::vector<float>& row, float* out, size_t stride) {
+  for (size_t at = 0; at < row.size(); at += file.channels, out += stride) {
+    size_t c = 0;
+    for (const RowLayer& layer : file.picture.layers) {
+      const float limit = layer.sample == Sample::kFloat ? std::numeric_limits<float>::max() : 65504.0f;
+      for (size_t end = c + layer.channels.size(); c < end; c++) out[c] = finite(row[at + c], -limit, limit);
     }
-    out += image.channels;
   }
 }
 
-static void fill_hdr_row(const EyeImage& eye, int y, Rows& rows, float* out) {
+static void put_hdr_row(const File& file, const std::vector<float>& row, float* out) {
   const float kLimit = 1e38f;  // the shared exponent of RGBE ends before that of a float
-  const float* in = rows.read(eye.radiance, y);
-  for (int i = 0; i < 3 * eye.radiance.width / rows.squeeze.width; i++) out[i] = finite(in[i], 0.0f, kLimit);
+  for (size_t at = 0; at < row.size(); at += file.channels) {
+    for (size_t c = 0; c < 3; c++) *out++ = finite(row[at + c], 0.0f, kLimit);
+  }
 }
 
-static float* put_encoded(vec3 shown, float* out) {
-  for (int c = 0; c < 3; c++) *out++ = srgb_encode(shown[c]);
+static vec3 shown(const File& file, const float* light, float alpha) {
+  return tone_map(vec3(light[0], light[1], light[2]) / alpha, file.options.exposure, file.options.tone);
+}
+
+static float* put_encoded(vec3 color, float* out) {
+  for (int c = 0; c < 3; c++) *out++ = srgb_encode(color[c]);
   return out;
 }
 
-static void fill_display_row(const EyeImage& eye, int y, Rows& rows, const SaveOptions& options, float* out) {
-  const float* in = rows.read(eye.radiance, y);
-  for (int x = 0; x < eye.radiance.width / rows.squeeze.width; x++, in += 3) {
-    out = put_encoded(tone_map(vec3(in[0], in[1], in[2]), options.exposure, options.tone), out);
+static void put_display_row(const File& file, const std::vector<float>& row, float* out) {
+  const bool keeps = has_alpha(file.picture) && keeps_alpha(file.format, file.layout);
+  for (size_t at = 0; at < row.size(); at += file.channels) {
+    const float alpha = keeps ? finite(row[at + 3], 0.0f, 1.0f) : 1.0f;
+    out = put_encoded(shown(file, &row[at], alpha > 0.0f ? alpha : 1.0f), out);
+    if (keeps) *out++ = alpha;
   }
 }
 
-static void fill_anaglyph_row(const EyeList& eyes, int y, const SaveOptions& options, float* out) {
-  const auto shown = [&](const EyeImage* eye, int x) {
-    const float* in = eye->radiance.at(x, y);
-    return tone_map(vec3(in[0], in[1], in[2]), options.exposure, options.tone);
-  };
-  for (int x = 0; x < eyes[0]->radiance.width; x++) {
-    out = put_encoded(anaglyph_color(options.layout, shown(eyes[0], x), shown(eyes[1], x)), out);
+static void put_anaglyph_row(const File& file, int y, float* out) {
+  const std::vector<float> left = read_row(file, file.indices[0], y), right = read_row(file, file.indices[1], y);
+  for (size_t at = 0; at < left.size(); at += file.channels) {
+    const vec3 color = anaglyph_color(file.layout, shown(file, &left[at], 1.0f), shown(file, &right[at], 1.0f));
+    out = put_encoded(color, out);
   }
 }
 
 // --- one file ------------------------------------------------------------------------------------------------------
 
-static Extent size_of(const EyeImage& eye) {
-  return {eye.radiance.width, eye.radiance.height};
+static Extent stored_eye(const File& file) {
+  return squeezed_eye(file.layout, file.picture.eye, static_cast<int>(file.indices.size()));
 }
 
-static FileHeader make_header(FileFormat format, Layout layout, const EyeList& eyes, const CameraRig* rig,
-                              const SaveOptions& options) {
+static FileHeader make_header(const File& file, const CameraRig* rig) {
+  const FileFormat format = file.format;
+  const std::vector<int> eyes = file.eyes();
   const int count = static_cast<int>(eyes.size());
-  const Extent size = packed_size(layout, squeezed_eye(layout, size_of(*eyes[0]), count), count);
+  const Extent size = packed_size(file.layout, stored_eye(file), count);
   FileHeader header;
   header.format = format;
   header.width = size.width;
@@ -308,12 +268,10 @@ static FileHeader make_header(FileFormat format, Layout layout, const EyeList& e
   Sample sample = Sample::kUint8;
   switch (format) {
     case FileFormat::kExr:
-      add_exr(header.attributes, rig, layout, eyes);
-      if (layout != Layout::kMultiview) add_exr_channels(header.channels, *eyes[0], "", true);
-      if (layout == Layout::kMultiview) {
-        for (const EyeImage* eye : eyes) {
-          add_exr_channels(header.channels, *eye, eye_name(eye->eye), eye == eyes[0]);
-        }
+      add_exr(header.attributes, rig, file.layout, eyes);
+      if (file.layout != Layout::kMultiview) add_exr_channels(header.channels, file.picture.layers, "", true);
+      if (file.layout == Layout::kMultiview) {
+        for (int eye : eyes) add_exr_channels(header.channels, file.picture.layers, eye_name(eye), eye == eyes[0]);
       }
       return header;
     case FileFormat::kHdr:
@@ -323,7 +281,7 @@ static FileHeader make_header(FileFormat format, Layout layout, const EyeList& e
       header.attributes.push_back({"jpeg:subsampling", std::string("4:4:4")});
       [[fallthrough]];
     case FileFormat::kWebp:
-      header.attributes.push_back({"CompressionQuality", options.jpeg_quality});
+      header.attributes.push_back({"CompressionQuality", file.options.jpeg_quality});
       break;
     case FileFormat::kTiff:
       header.attributes.push_back({"compression", std::string("zip")});
@@ -332,76 +290,114 @@ static FileHeader make_header(FileFormat format, Layout layout, const EyeList& e
       break;
   }
   header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
+  if (!has_alpha(file.picture) || !keeps_alpha(format, file.layout)) return header;
+  header.channels.push_back({"A", sample});
+  header.attributes.push_back({"oiio:UnassociatedAlpha", 1});
   return header;
 }
 
-static void write_file(AtomicFile& file, FileFormat format, Layout layout, const EyeList& eyes, const CameraRig* rig,
-                       const SaveOptions& options) {
-  const FileHeader header = make_header(format, layout, eyes, rig, options);
-  const int count = static_cast<int>(eyes.size());
-  Rows rows{squeeze_of(layout, count), {}};
-  const Extent eye_size = squeezed_eye(layout, size_of(*eyes[0]), count);
+static void write_file(AtomicFile& out, const File& file, const CameraRig* rig) {
+  const FileHeader header = make_header(file, rig);
+  const int count = static_cast<int>(file.indices.size());
+  const Extent eye = stored_eye(file);
   const size_t stride = header.channels.size();
-  const size_t step =
-      layout == Layout::kMultiview ? stride / eyes.size() : static_cast<size_t>(eye_size.width) * stride;
-  write_image(file, header, [&](int y, std::span<float> row) {
-    if (is_anaglyph(layout)) return fill_anaglyph_row(eyes, y, options, row.data());
-    float* out = row.data();
-    for (const EyeRow& part : packed_row(layout, eye_size, count, y)) {
-      const EyeImage& eye = *eyes[static_cast<size_t>(part.index)];
-      const int first = part.y * rows.squeeze.height;
-      if (format == FileFormat::kExr) {
-        fill_exr_row(eye, first, rows, out, stride);
-      } else if (format == FileFormat::kHdr) {
-        fill_hdr_row(eye, first, rows, out);
+  const size_t step = file.layout == Layout::kMultiview ? file.channels : static_cast<size_t>(eye.width) * stride;
+  const auto fill = [&](int y, std::span<float> row) {
+    if (is_anaglyph(file.layout)) return put_anaglyph_row(file, y, row.data());
+    float* to = row.data();
+    for (const EyeRow& part : packed_row(file.layout, eye, count, y)) {
+      const std::vector<float> made = read_row(file, file.indices[static_cast<size_t>(part.index)], part.y);
+      if (file.format == FileFormat::kExr) {
+        put_exr_row(file, made, to, stride);
+      } else if (file.format == FileFormat::kHdr) {
+        put_hdr_row(file, made, to);
       } else {
-        fill_display_row(eye, first, rows, options, out);
+        put_display_row(file, made, to);
       }
-      out += step;
+      to += step;
     }
-  });
+  };
+  write_image(out, header, fill, file.picture.band_done);
 }
 
-static std::vector<std::string> save_all(const Picture& picture, const CameraRig* rig, const SaveOptions& options,
-                                         const std::string& path) {
+std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
+                                      const std::string& path) {
   assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
   const FileFormat format = format_for(path);
-  EyeList eyes;
-  std::vector<int> which;
-  for (const EyeImage& eye : picture.eyes) {
-    eyes.push_back(&eye);
-    which.push_back(eye.eye);
-  }
-  check_layout(path, format, options, which, size_of(picture.eyes[0]));
-
+  check_layout(path, format, options, picture.eyes, picture.eye);
   const Layout layout = layout_for(path, options);
   std::list<AtomicFile> files;
   std::vector<std::string> names;
-  const auto write = [&](const std::string& name, const EyeList& some) {
-    write_file(files.emplace_back(name), format, layout, some, rig, options);
+  const auto write = [&](const std::string& name, const std::vector<int>& indices) {
+    const Extent squeeze = squeeze_of(layout, static_cast<int>(indices.size()));
+    const File file{picture, indices, format, layout, options, count_channels(picture.layers), squeeze};
+    write_file(files.emplace_back(name), file, rig);
     names.push_back(name);
   };
+  std::vector<int> all;
+  for (int i = 0; i < static_cast<int>(picture.eyes.size()); i++) all.push_back(i);
   if (names_eye(path)) {
-    for (const EyeImage* eye : eyes) write(path_for_eye(path, eye->eye), {eye});
+    for (int i : all) write(path_for_eye(path, picture.eyes[static_cast<size_t>(i)]), {i});
   } else {
-    write(path, eyes);
+    write(path, all);
   }
   if (options.sidecar && rig) {
     names.push_back(sidecar_path(path));
-    const std::string text = write_camera({*rig, size_of(picture.eyes[0]), layout, which});
+    const std::string text = write_camera({*rig, picture.eye, layout, picture.eyes});
     std::fwrite(text.data(), 1, text.size(), files.emplace_back(names.back()).stream());
   }
   commit_all(files);
   return names;
 }
 
+// --- a picture in memory -------------------------------------------------------------------------------------------
+
+struct ImageLayer {
+  const Image EyeImage::*image;
+  RowLayer layer;
+};
+
+static const std::vector<ImageLayer>& image_layers() {
+  static const std::vector<ImageLayer> layers = {
+      {&EyeImage::radiance, {{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}},
+      {&EyeImage::depth, {{"Z"}, LayerRule::kNearest, Sample::kFloat}},
+      {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, Sample::kHalf}},
+      {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, Sample::kHalf}},
+  };
+  return layers;
+}
+
+static PictureRows rows_of(const Picture& picture, bool all_layers) {
+  PictureRows rows;
+  rows.eye = {picture.eyes[0].radiance.width, picture.eyes[0].radiance.height};
+  std::vector<const Image EyeImage::*> images;
+  for (const ImageLayer& each : image_layers()) {
+    if ((picture.eyes[0].*each.image).pixels.empty() || !(all_layers || images.empty())) continue;
+    images.push_back(each.image);
+    rows.layers.push_back(each.layer);
+  }
+  for (const EyeImage& eye : picture.eyes) rows.eyes.push_back(eye.eye);
+  rows.fill = [&picture, images, stride = count_channels(rows.layers)](int index, int y, std::span<float> row) {
+    float* out = row.data();
+    for (const Image EyeImage::*image : images) {
+      const Image& from = picture.eyes[static_cast<size_t>(index)].*image;
+      const float* in = from.at(0, y);
+      for (int x = 0; x < from.width; x++, in += from.channels) {
+        std::copy(in, in + from.channels, out + static_cast<size_t>(x) * stride);
+      }
+      out += from.channels;
+    }
+  };
+  return rows;
+}
+
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path) {
-  return save_all(picture, &rig, options, path);
+  return save_picture(rows_of(picture, keeps_layers(path)), &rig, options, path);
 }
 
 std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path) {
-  return save_all(picture, nullptr, options, path);
+  return save_picture(rows_of(picture, keeps_layers(path)), nullptr, options, path);
 }
 
 }  // namespace ods

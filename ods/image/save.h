@@ -9,23 +9,26 @@
 // or infinity (it becomes the largest number of the format).
 //
 // exr holds 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and
-// albedo.R G B, and says how it was taken: chromaticities, ods:version, ods:projection, ods:layout, ods:ipd,
-// ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom (with Start, End, Exponent), ods:depthType,
-// and of what differs from the plain camera ods:longitude, ods:latitude, ods:fov, ods:look, ods:convergence (with
-// Distance), ods:neck, ods:axis, ods:lens (radius, focus), ods:mirrored;
-// a file of one eye also envmap and view. Multi-view follows "Storing Multi-View Images in OpenEXR Files", single part:
-// `left` is the default view with R G B Z bare, and the view stands before the last word elsewhere: right.R, N.left.X,
-// albedo.right.G.
+// albedo.R G B, or whatever layers a picture made by rows has. It says how it was taken: chromaticities, ods:version,
+// ods:layout, ods:depthType and the camera (ods/image/metadata.h); a file of one eye also envmap and view. Multi-view
+// follows "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with R G B Z bare, and
+// the view stands before the last word elsewhere: right.R, N.left.X, albedo.right.G.
+//
+// Alpha goes into png, tif and webp with colours not multiplied by it, into exr with colours that are; jpg, hdr and
+// anaglyphs have the picture before black.
 //
 // A file of one eye that can carry GPano (png, jpg, tif) does; a stereo one does not, because GPano knows no stereo and
 // viewers would wrap both eyes around one sphere.
 #pragma once
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "ods/image/camera_rig.h"
 #include "ods/image/layout.h"
 #include "ods/image/picture.h"
+#include "ods/image/sample.h"
 #include "ods/image/tone.h"
 
 namespace ods {
@@ -54,5 +57,27 @@ std::vector<std::string> save_picture(const Picture& picture, const CameraRig& r
 
 // The same of a picture whose camera is not known: the file says nothing of one.
 std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path);
+
+// A picture whose rows are made while it is written, so that it is never in memory as a whole.
+struct RowLayer {
+  std::vector<std::string> channels;  // without a view: R, G, B, perhaps A; Z; N.X, N.Y, N.Z
+  LayerRule rule = LayerRule::kLight;
+  Sample sample = Sample::kHalf;  // in an exr; kHalf or kFloat
+};
+
+struct PictureRows {
+  Extent eye;
+  std::vector<int> eyes;         // as EyeImage has them
+  std::vector<RowLayer> layers;  // the first is the colour, RGB or RGBA; formats without layers take only it
+  // Row y of one eye (of the vector above): all channels of all layers, pixel by pixel; linear light, multiplied by its
+  // alpha. Called by several threads at once; of anaglyphs, pairs and squeezed eyes not in the order of the rows.
+  std::function<void(int index, int y, std::span<float> row)> fill;
+  std::function<void()> band_done;  // called between some rows, to give memory back; may be empty
+};
+
+// The same of such a picture. No rig: the file says nothing of one. Squeezed eyes take of a kNearest layer, of the
+// pixels that become one, that whose first channel is least. Throws Error(kOutput), and what `fill` throws.
+std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
+                                      const std::string& path);
 
 }  // namespace ods

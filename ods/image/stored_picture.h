@@ -14,16 +14,11 @@
 #include "ods/image/camera_rig.h"
 #include "ods/image/image_file.h"
 #include "ods/image/layout.h"
+#include "ods/image/picture_form.h"
 
 namespace ods {
 
 class Scratch;
-
-enum class LayerRule {
-  kLight,    // colour: averaged in linear light, alpha multiplied in
-  kMean,     // numbers that may be averaged as they are: normals, albedo
-  kNearest,  // never averaged: depth, ids, cryptomatte
-};
 
 // Some channels of one eye. Pixels lie pixel_stride bytes apart, rows row_stride: eyes that share an image are views
 // into it.
@@ -43,12 +38,33 @@ struct StoredEye {
 
 struct StoredPicture {
   Extent size;                  // of every eye as it is stored; squeezed eyes stay squeezed
-  std::vector<StoredEye> eyes;  // one, or left and right
+  std::vector<StoredEye> eyes;  // one, or left and right; of the same layers
   bool is_float = false;        // the file holds light; else what a display shows
   Layout layout = Layout::kSeparate;
+  std::string layout_because;        // how that is known: "its name ends in _TB"
   CameraRig rig;                     // how it was taken, as far as is known: projection, ipd, merge, convergence, pose
-  std::vector<std::string> guesses;  // what the file did not say, to be said to people: "top-bottom, as it is square"
+  std::vector<std::string> guesses;  // what the file did not say, to be said to people: "top-bottom: ..."
   std::shared_ptr<Scratch> memory;   // where the pixels lie
 };
+
+struct OpenOptions {
+  KnownForm form;
+  bool only_light = false;     // no layers but the colour
+  std::string scratch_folder;  // where pixels lie that take more than `most_in_memory` bytes; empty: all is memory
+  size_t most_in_memory = size_t{512} << 20;
+};
+
+// Colour is R, G, B and perhaps A, grey made three; where it has no bare names, the layer that ends in Combined. The
+// colours of kUint8 and kUint16 are code values that are not multiplied by alpha: who decodes them multiplies. Those of
+// kHalf and kFloat are light that is.
+//
+// Of other channels, in EXR, those with one name before the last point are a layer. Its rule goes by name: kNearest are
+// Z, depth, ids and materials, whole numbers, cryptomatte and variance (of which the nearest pixel's is an upper bound
+// for a filtered one's, and a mean would be neither); all others kMean. In a file of two views, layers that only one of
+// them has are left out, and a guess says so. Whole numbers are floats here, exact up to 2^24.
+//
+// Throws Error(kInput): a file that cannot be read or has no colour, an anaglyph, a size that the layout or the
+// projection cannot have, eyes of two sizes, whole numbers above 2^24; Error(kOutput), Error(kMemory) as Scratch.
+StoredPicture open_picture(const std::string& path, const OpenOptions& options = {});
 
 }  // namespace ods

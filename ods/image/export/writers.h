@@ -23,7 +23,6 @@ struct Abilities {
 // to the caller. None of these systems knows another axis, a turned picture, a mirrored world or our lens.
 std::vector<std::string> lacking(const CameraFile& file, const Abilities& abilities);
 
-bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b);
 bool is_plain_cosine(const PoleMergeSetting& merge);   // exponent 1, up to the pole
 std::string one_merge(const PoleMergeSetting& merge);  // "cosine from 60 to 90 degrees"
 std::string merge_text(const CameraRig& rig);          // of both poles

@@ -6,18 +6,21 @@
 #include "ods/image/camera_file.h"
 #include "ods/image/image_file.h"
 #include "ods/image/lint.h"
-#include "ods/image/load_eyes.h"
+#include "ods/image/picture_form.h"
 
 namespace ods {
 
 struct Subject {
   std::string path;
   FileInfo info;  // of the left file of a pair
-  LoadedEyes loaded;
-  Image packed;  // the whole file, where other layouts of it can be tried
-  ProjectionSetting projection;
+  PictureForm form;
+  std::vector<Image> eyes;  // linear light, as stored
+  Image packed;             // the whole file, where it can be cut in other ways
   std::optional<CameraFile> sidecar;
   std::optional<Camera> camera;  // where something says how the eyes converge
+
+  Layout layout() const { return form.layout.layout.value_or(Layout::kSeparate); }
+  const ProjectionSetting& projection() const { return form.camera.projection; }
 };
 
 // What a parallel pair would have to add to its difference of headings at this elevation; 0 where nobody says.

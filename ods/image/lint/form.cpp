@@ -14,11 +14,11 @@ namespace ods {
 constexpr double kFilmRate = 30.0;  // pictures a second
 
 static void check_aspect(const Subject& subject, LintReport& report) {
-  if (subject.projection.kind == kPerspective) return;  // any shape is one
-  const Layout layout = subject.loaded.guess.layout.value_or(Layout::kSeparate);
+  if (subject.projection().kind == kPerspective) return;  // any shape is one
+  const Layout layout = subject.layout();
   const Extent squeeze = squeeze_of(layout, report.eye_count);
   const int width = report.eye.width * squeeze.width, height = report.eye.height * squeeze.height;
-  const int natural = natural_height(subject.projection, width);
+  const int natural = natural_height(subject.projection(), width);
   // Rounding moves an edge by a pixel, squeezing by another.
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
   if (off == 0.0) return;

@@ -27,7 +27,7 @@ struct Cut {
 Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes) {
   Cut cut;
   cut.layout = layout;
-  const std::vector<View> views = make_views(eyes, subject.projection, subject.loaded.is_float, kCoarse);
+  const std::vector<View> views = make_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
   Search search;
   search.correlation = 0.7f;
   search.down = 0.04f;
@@ -48,7 +48,7 @@ std::string matching(const Cut& cut) {
 std::string cut_name(const Subject& subject, Layout layout) {
   const Extent eye = *unpacked_size(layout, {subject.packed.width, subject.packed.height});
   const double aspect = static_cast<double>(eye.width) / eye.height;
-  const double natural = 1000.0 / natural_height(subject.projection, 1000);
+  const double natural = 1000.0 / natural_height(subject.projection(), 1000);
   if (layout == Layout::kTopBottom && aspect > 1.5 * natural) return "top-bottom-half";
   if (layout == Layout::kSideBySide && aspect < 0.75 * natural) return "side-by-side-half";
   return std::string(layout_name(layout));
@@ -57,7 +57,7 @@ std::string cut_name(const Subject& subject, Layout layout) {
 // The layouts that a file may have in truth, other than the one it was read in.
 std::vector<Cut> other_cuts(const Subject& subject) {
   std::vector<Cut> cuts;
-  const std::optional<Layout> read = subject.loaded.guess.layout;
+  const std::optional<Layout> read = subject.form.layout.layout;
   const Extent size{subject.packed.width, subject.packed.height};
   for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
     if (subject.packed.pixels.empty() || !unpacked_size(layout, size)) continue;
@@ -75,14 +75,16 @@ std::vector<Cut> other_cuts(const Subject& subject) {
 void add_misread(const Subject& subject, const Cut& cut, double certainty, const std::string& evidence,
                  LintReport& report) {
   const std::string truth = cut_name(subject, cut.layout);
-  const std::string& because = subject.loaded.guess.because;
-  const bool in_file = because.starts_with("the file");
+  const std::string& because = subject.form.layout.because;
+  const bool in_sidecar = because.starts_with("its sidecar");
   const bool in_name = because.starts_with("its name");
-  const std::string cure = in_file   ? fmt::format("correct what the file says to {}", truth)
-                           : in_name ? fmt::format("rename the file: it is {}", truth)
-                                     : fmt::format("read it as {} (--layout {})", truth, truth);
+  const bool said = in_sidecar || in_name || because.starts_with("the file");
+  const std::string cure = in_name      ? fmt::format("rename the file: it is {}", truth)
+                           : in_sidecar ? fmt::format("correct the sidecar: it is {}", truth)
+                           : said       ? fmt::format("correct what the file says: it is {}", truth)
+                                        : fmt::format("read it as {} (--layout {})", truth, truth);
   report.findings.push_back(
-      {in_file || in_name ? Fault::kMetadata : Fault::kLayoutMisread, certainty, evidence + ", " + because, cure});
+      {said ? Fault::kMetadata : Fault::kLayoutMisread, certainty, evidence + ", " + because, cure});
 }
 
 }  // namespace
@@ -101,9 +103,9 @@ static bool check_one_eye(const Subject& subject, LintReport& report) {
 }
 
 bool check_layout(const Subject& subject, LintReport& report) {
-  if (subject.loaded.eyes.size() == 1) return check_one_eye(subject, report);
-  const Layout layout = subject.loaded.guess.layout.value_or(Layout::kSeparate);
-  const Cut read = try_cut(subject, layout, subject.loaded.eyes);
+  if (subject.eyes.size() == 1) return check_one_eye(subject, report);
+  const Layout layout = subject.layout();
+  const Cut read = try_cut(subject, layout, subject.eyes);
   if (read.matches.tiles < kEnoughTiles) {
     report.not_judged.push_back("whether these are two eyes of one place: not enough detail");
     return true;
@@ -127,7 +129,7 @@ bool check_layout(const Subject& subject, LintReport& report) {
   if (misread < 0.5 && alone >= 0.1) {
     report.findings.push_back({Fault::kMonoAsStereo, alone,
                                fmt::format("what is said to be two eyes ({}) shows two places: {}",
-                                           subject.loaded.guess.because, matching(read)),
+                                           subject.form.layout.because, matching(read)),
                                "it is one picture: give it the shape of one eye (lat-long: twice as wide as high) and "
                                "show it as mono"});
   }

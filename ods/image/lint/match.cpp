@@ -26,35 +26,79 @@ struct Found {
   double correlation = -1.0;
 };
 
+// A view that goes on beyond its edges, and sums over any rectangle of it.
+class Sums {
+ public:
+  explicit Sums(const View& view) : width_(3 * view.width), row_(static_cast<size_t>(width_) + 1) {
+    const size_t rows = static_cast<size_t>(view.height);
+    values.resize(rows * static_cast<size_t>(width_));
+    table_.resize((rows + 1) * row_);
+    for (int y = 0; y < view.height; y++) {
+      Sum line;
+      for (int x = 0; x < width_; x++) {
+        const float value = *view.at(x % view.width, y);
+        const bool seen = !std::isnan(value);
+        values[index(x, y)] = seen ? value : 0.0f;
+        if (seen) line.value += static_cast<double>(value), line.square += static_cast<double>(value * value);
+        line.unseen += seen ? 0 : 1;
+        table_[entry(x + 1, y + 1)] = plus(line, table_[entry(x + 1, y)]);
+      }
+    }
+  }
+
+  struct Sum {
+    double value = 0.0;
+    double square = 0.0;
+    int unseen = 0;
+  };
+
+  // x from one turn left of the picture to one right of it.
+  Sum over(int x, int y, int columns, int rows) const {
+    const Sum &a = table_[entry(x, y)], &b = table_[entry(x + columns, y)], &c = table_[entry(x, y + rows)],
+              &d = table_[entry(x + columns, y + rows)];
+    return {d.value - b.value - c.value + a.value, d.square - b.square - c.square + a.square,
+            d.unseen - b.unseen - c.unseen + a.unseen};
+  }
+
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+  }
+  std::vector<float> values;
+
+ private:
+  size_t entry(int x, int y) const { return static_cast<size_t>(y) * row_ + static_cast<size_t>(x); }
+  static Sum plus(const Sum& a, const Sum& b) { return {a.value + b.value, a.square + b.square, a.unseen + b.unseen}; }
+
+  int width_;
+  size_t row_;
+  std::vector<Sum> table_;
+};
+
 class Matcher {
  public:
-  Matcher(const View& from, const View& to, int reach_x, int reach_y)
-      : from_(from), to_(to), reach_x_(reach_x), reach_y_(reach_y) {}
+  Matcher(const View& from, const Sums& from_sums, const Sums& to_sums, int reach_x, int reach_y)
+      : view_(from), from_(from_sums), to_(to_sums), reach_x_(reach_x), reach_y_(reach_y) {}
 
   // False where there is no detail or no picture.
   bool take(const Tile& tile) {
     tile_ = tile;
+    const double n = count();
+    const Sums::Sum sum = from_.over(turned(tile.x), tile.y, tile.columns, tile.rows);
+    const double square = sum.square - sum.value * sum.value / n;
+    if (sum.unseen > 0 || square < kDetail * kDetail * n) return false;
+    const float mean = static_cast<float>(sum.value / n), scale = static_cast<float>(1.0 / std::sqrt(square));
     pattern_.clear();
-    double sum = 0.0;
-    for_each(from_, tile.x, tile.y, [&](float value) {
-      pattern_.push_back(value);
-      sum += static_cast<double>(value);
-    });
-    const double mean = sum / static_cast<double>(pattern_.size());
-    double square = 0.0;
-    for (float& value : pattern_) {
-      value -= static_cast<float>(mean);
-      square += static_cast<double>(value * value);
+    for (int y = 0; y < tile.rows; y++) {
+      const float* row = &from_.values[from_.index(turned(tile.x), tile.y + y)];
+      for (int x = 0; x < tile.columns; x++) pattern_.push_back((row[x] - mean) * scale);
     }
-    if (!(square >= kDetail * kDetail * static_cast<double>(pattern_.size()))) return false;
-    for (float& value : pattern_) value /= static_cast<float>(std::sqrt(square));
     return true;
   }
 
   std::optional<Found> find() {
     profile_.assign(static_cast<size_t>(2 * reach_x_ + 1), Found{});
     for (int y = -reach_y_; y <= reach_y_; y++) {
-      if (tile_.y + y < 0 || tile_.y + y + tile_.rows > to_.height) continue;
+      if (tile_.y + y < 0 || tile_.y + y + tile_.rows > view_.height) continue;
       for (int x = -reach_x_; x <= reach_x_; x++) {
         const double correlation = correlate(tile_.x + x, tile_.y + y);
         Found& best = profile_[static_cast<size_t>(x + reach_x_)];
@@ -71,30 +115,29 @@ class Matcher {
   }
 
  private:
-  template <class Function>
-  void for_each(const View& view, int x0, int y0, Function function) const {
-    for (int y = y0; y < y0 + tile_.rows; y++) {
-      const float* row = view.at(0, y);
-      int x = (x0 % view.width + view.width) % view.width;
-      for (int i = 0; i < tile_.columns; i++) {
-        function(row[x]);
-        if (++x == view.width) x = 0;
-      }
-    }
-  }
+  double count() const { return static_cast<double>(tile_.columns) * tile_.rows; }
+
+  // A turn to the right, where the sums have columns on both sides.
+  int turned(int x) const { return x + view_.width; }
 
   // -1 where the other picture is not, or is flat.
   double correlate(int x, int y) const {
-    float sum = 0.0f, square = 0.0f, product = 0.0f;
+    const Sums::Sum sum = to_.over(turned(x), y, tile_.columns, tile_.rows);
+    const double spread = sum.square - sum.value * sum.value / count();
+    if (sum.unseen > 0 || spread < 0.25 * kDetail * kDetail * count()) return -1.0;
+    float product = 0.0f;
     const float* pattern = pattern_.data();
-    for_each(to_, x, y, [&](float value) {
-      sum += value;
-      square += value * value;
-      product += *pattern++ * value;
-    });
-    const double n = static_cast<double>(pattern_.size());
-    const double spread = static_cast<double>(square) - static_cast<double>(sum) * static_cast<double>(sum) / n;
-    return spread > 0.25 * kDetail * kDetail * n ? static_cast<double>(product) / std::sqrt(spread) : -1.0;
+    for (int j = 0; j < tile_.rows; j++, pattern += tile_.columns) {
+      const float* row = &to_.values[to_.index(turned(x), y + j)];
+      float lanes[4] = {};  // additions that do not wait for each other
+      int i = 0;
+      for (; i + 4 <= tile_.columns; i += 4) {
+        for (int lane = 0; lane < 4; lane++) lanes[lane] += pattern[i + lane] * row[i + lane];
+      }
+      for (; i < tile_.columns; i++) lanes[0] += pattern[i] * row[i];
+      product += (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+    }
+    return static_cast<double>(product) / std::sqrt(spread);
   }
 
   bool is_ambiguous(const Found& best) const {
@@ -112,12 +155,13 @@ class Matcher {
 
   double peak_down(const Found& best) const {
     const int x = tile_.x + static_cast<int>(best.x), y = tile_.y + static_cast<int>(best.y);
-    if (y < 1 || y + tile_.rows + 1 > to_.height) return 0.0;
+    if (y < 1 || y + tile_.rows + 1 > view_.height) return 0.0;
     return peak(correlate(x, y - 1), best.correlation, correlate(x, y + 1));
   }
 
-  const View& from_;
-  const View& to_;
+  const View& view_;
+  const Sums& from_;
+  const Sums& to_;
   int reach_x_, reach_y_;
   Tile tile_{};
   std::vector<float> pattern_;
@@ -131,7 +175,8 @@ Matches match_tiles(const View& left, const View& right, const Search& search) {
   matches.pixel = static_cast<float>(2.0 * std::numbers::pi / left.width);
   const int reach_x = std::min(static_cast<int>(std::ceil(search.around / matches.pixel)), left.width / 2 - 1);
   const int reach_y = static_cast<int>(std::ceil(search.down / matches.pixel));
-  Matcher there(left, right, reach_x, reach_y), back(right, left, reach_x, reach_y);
+  const Sums left_sums(left), right_sums(right);
+  Matcher there(left, left_sums, right_sums, reach_x, reach_y), back(right, right_sums, left_sums, reach_x, reach_y);
   for (int y = 0; y + search.rows <= left.height; y += search.step) {
     const float phi = matches.pixel * (0.5f * static_cast<float>(left.height - search.rows) - static_cast<float>(y));
     if (phi < search.lowest || phi > search.highest) continue;
@@ -142,7 +187,8 @@ Matches match_tiles(const View& left, const View& right, const Search& search) {
       const std::optional<Found> found = there.find();
       if (!found || found->correlation < static_cast<double>(search.correlation)) continue;
       const int moved_x = static_cast<int>(std::lround(found->x)), moved_y = static_cast<int>(std::lround(found->y));
-      if (!back.take({x + moved_x, y + moved_y, columns, search.rows})) continue;
+      const int home = (x + moved_x + left.width) % left.width;
+      if (!back.take({home, y + moved_y, columns, search.rows})) continue;
       const std::optional<Found> again = back.find();
       if (!again || std::abs(again->x + found->x) > 1.0 || std::abs(again->y + found->y) > 1.0) continue;
       const float middle = static_cast<float>(x) + 0.5f * static_cast<float>(columns - left.width);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Words against words and numbers: what the file, its name and its sidecar say of a picture whose layout is known.
+#include "ods/image/metadata.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -21,12 +23,9 @@ static std::string_view read_as(const LintReport& report) {
 // GPano describes one sphere, and viewers would wrap the whole file around it.
 static void check_gpano(const Subject& subject, LintReport& report) {
   if (report.eye_count < 2 || names_eye(subject.path)) return;
-  for (const auto& [name, value] : subject.info.text) {
-    if (!name.starts_with("GPano:")) continue;
-    add(report, 1.0, fmt::format("a stereo file says {} = {}, and GPano knows no stereo", name, value),
-        "remove GPano from it (exiftool -XMP-GPano:all= FILE): players would wrap both eyes around one sphere");
-    return;
-  }
+  if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
+  add(report, 1.0, "a stereo file carries GPano, which knows no stereo: viewers wrap both eyes around one sphere",
+      "remove GPano from it (exiftool -XMP-GPano:all= FILE)");
 }
 
 static void check_name(const Subject& subject, LintReport& report) {
@@ -40,7 +39,7 @@ static void check_name(const Subject& subject, LintReport& report) {
       *named.layout != Layout::kBottomTop && *named.layout != Layout::kCrossEyed) {
     return;  // the same halves by a looser word
   }
-  add(report, 0.9, fmt::format("{}, but it is {} as {}", named.because, read_as(report), subject.loaded.guess.because),
+  add(report, 0.9, fmt::format("{}, but it is {} as {}", named.because, read_as(report), subject.form.layout.because),
       "rename it: players go by the name");
 }
 

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kSectors = 16;
 constexpr double kPrecision = 0.25;  // of a match, pixels of its view
+constexpr double kGrounded = 0.2;    // growth_downwards() that no chance makes
 constexpr double kPi2 = 2.0 * std::numbers::pi;
 
 struct Parallax {
@@ -157,9 +158,10 @@ Stillness stillness_of(const Matches& matches) {
 
 // At all scales: noise that is the same in both eyes stands still too, but only where it is not averaged away.
 static bool check_twice(const Subject& subject, const std::vector<Matches>& scales, LintReport& report) {
-  const std::vector<Image>& eyes = subject.loaded.eyes;
+  const std::vector<Image>& eyes = subject.eyes;
   const char* cure = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
-  if (eyes[0].pixels == eyes[1].pixels) {
+  const int detailed = scales.back().tiles;
+  if (detailed > 0 && eyes[0].pixels == eyes[1].pixels) {
     report.findings.push_back({Fault::kOneEyeTwice, 1.0, "every pixel is the same in both eyes", cure});
     return true;
   }
@@ -191,10 +193,10 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
   if (!subject.camera) {
     const double growth = growth_downwards(parallaxes);
     // Eyes that converge mid-way have parallax of both signs; close by, only the ground tells.
-    certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - 0.3)));
-    evidence += growth < 0.3 ? "" : ", but the less so the nearer the ground: they may converge close by";
+    certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
+    evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
-  const Layout layout = subject.loaded.guess.layout.value_or(Layout::kSeparate);
+  const Layout layout = subject.layout();
   const bool stacked = layout == Layout::kTopBottom || layout == Layout::kTopBottomHalf;
   const char* cure = layout == Layout::kTopBottom
                          ? "the right eye is on top: exchange the halves, or tell the player bottom-top"
@@ -232,7 +234,7 @@ void check_parallax(const Subject& subject, LintReport& report) {
   std::vector<Matches> scales;
   double around = 0.0;
   for (int width : {256, 512, 1024}) {
-    const std::vector<View> views = make_views(subject.loaded.eyes, subject.projection, subject.loaded.is_float, width);
+    const std::vector<View> views = make_views(subject.eyes, subject.projection(), subject.info.is_float, width);
     scales.push_back(match_tiles(views[0], views[1], {}));
     add_matches(parallaxes, scales.back(), subject);
     around = seen_around(views[0]);

@@ -80,7 +80,7 @@ void check_break(const std::vector<Image>& eyes, LintReport& report) {
   const Columns score = measure(eyes);
   const double seam = score.back();
   const double most = *std::max_element(score.begin() + 2 * kWide, score.end() - 1 - 2 * kWide);
-  const double certainty = std::clamp(0.3 + 10.0 * (seam - most), 0.0, 1.0);
+  const double certainty = std::clamp(0.3 + 10.0 * (seam - most), 0.0, 1.0) * std::clamp(5.0 * (seam - 0.5), 0.0, 1.0);
   if (certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kRaggedSeam, certainty,
@@ -110,14 +110,14 @@ void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
 }  // namespace
 
 void check_seam(const Subject& subject, LintReport& report) {
-  const bool closes =
-      has_range(subject.projection.kind) && subject.projection.longitude.y - subject.projection.longitude.x > 359.9f;
+  const bool closes = has_range(subject.projection().kind) &&
+                      subject.projection().longitude.y - subject.projection().longitude.x > 359.9f;
   if (!closes) {
     report.not_judged.push_back("the seam at 0/360 degrees: this projection has none");
     return;
   }
-  check_break(subject.loaded.eyes, report);
-  check_doubled(subject.loaded.eyes, report);
+  check_break(subject.eyes, report);
+  check_doubled(subject.eyes, report);
 }
 
 }  // namespace ods

@@ -35,7 +35,7 @@ static float exposure_of(const std::vector<Image>& eyes) {
       count++;
     }
   }
-  return count > 0 ? static_cast<float>(0.18 / std::exp(sum / static_cast<double>(count))) : 1.0f;
+  return count > 0 ? static_cast<float>(0.25 / std::exp(sum / static_cast<double>(count))) : 1.0f;
 }
 
 namespace {
@@ -76,12 +76,11 @@ class Sampler {
 
 }  // namespace
 
-static float mean_grey(const Image& eye, const std::vector<size_t>& places, bool is_float, float exposure) {
+static float mean_grey(const Image& eye, const std::vector<size_t>& places, float exposure) {
   float sum = 0.0f;
   for (size_t place : places) {
-    float light = luminance(&eye.pixels[3 * place]) * exposure;
-    if (is_float) light = light / (1.0f + std::max(light, 0.0f));
-    sum += std::isinf(light) ? std::numeric_limits<float>::quiet_NaN() : light;
+    const float light = luminance(&eye.pixels[3 * place]) * exposure;
+    sum += std::isinf(light) ? std::numeric_limits<float>::quiet_NaN() : std::min(light, 1.0f);
   }
   return srgb_encode(sum / static_cast<float>(places.size()));  // of no place: NaN
 }
@@ -97,7 +96,7 @@ std::vector<View> make_views(const std::vector<Image>& eyes, const ProjectionSet
   for (int y = 0; y < width / 2; y++) {
     for (int x = 0; x < width; x++) {
       const std::vector<size_t>& places = sampler.at(x, y);
-      for (size_t i = 0; i < eyes.size(); i++) *views[i].at(x, y) = mean_grey(eyes[i], places, is_float, exposure);
+      for (size_t i = 0; i < eyes.size(); i++) *views[i].at(x, y) = mean_grey(eyes[i], places, exposure);
     }
   }
   return views;

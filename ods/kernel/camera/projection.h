@@ -239,12 +239,18 @@ inline Look cube_look(int kind, vec2 home, vec2 uv) {
   return look_along(face.middle + face.right * s + face.top * t);
 }
 
-inline ImagePlace cube_place(int kind, vec3 direction) {
-  int columns = cube_columns(kind);
+// The cell whose face a direction meets.
+inline int cube_cell_toward(int kind, vec3 direction) {
   int best = 0;
   for (int cell = 1; cell < 6; cell++) {
     if (dot(direction, cube_cell(kind, cell).middle) > dot(direction, cube_cell(kind, best).middle)) best = cell;
   }
+  return best;
+}
+
+inline ImagePlace cube_place(int kind, vec3 direction) {
+  int columns = cube_columns(kind);
+  int best = cube_cell_toward(kind, direction);
   CubeFace face = cube_cell(kind, best);
   float ahead = dot(direction, face.middle);
   float s = clamp(dot(direction, face.right) / ahead, -1.0f, 1.0f);

@@ -9,7 +9,6 @@
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builtin/builder.h"
 #include "ods/scene/builtin/makers.h"
-#include "ods/scene/builtin/stroke_font.h"
 
 namespace ods {
 

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <utility>
 
+#include "ods/image/stroke_font.h"
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -290,6 +291,21 @@ Shape make_surface(int columns, int rows, vec2 size, const std::function<vec3(fl
     }
   }
   add_grid_triangles(shape, 0, static_cast<uint>(columns), static_cast<uint>(rows));
+  return shape;
+}
+
+Shape make_text(const std::string& text, float height, float stroke) {
+  const float unit = (height - stroke) / 6.0f;
+  Shape shape;
+  for (const Stroke& line : text_strokes(text)) {
+    const vec2 from = unit * line.from, to = unit * line.to;
+    const vec2 along = normalize(to - from);
+    glm::mat4 turn(1.0f);
+    turn[0] = vec4(along, 0.0f, 0.0f);
+    turn[1] = vec4(-along.y, along.x, 0.0f, 0.0f);
+    turn[3] = vec4(0.5f * (from + to), 0.0f, 1.0f);
+    append(shape, transformed(make_box(vec3(glm::distance(from, to) + stroke, stroke, stroke)), turn));
+  }
   return shape;
 }
 

@@ -9,6 +9,7 @@
 // origin unless said otherwise. "Closed" means that every edge belongs to exactly two triangles.
 #pragma once
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "ods/scene/scene.h"
@@ -71,6 +72,9 @@ Shape make_prism(const std::vector<vec2>& polygon, float depth);
 // Any surface position(s, t), s and t in 0..1, of columns by rows quads; it faces cross(d/ds, d/dt).
 // Texture coordinates are (s * size.x, (1 - t) * size.y).
 Shape make_surface(int columns, int rows, vec2 size, const std::function<vec3(float s, float t)>& position);
+
+// One line of text (ods/image/stroke_font.h) made of bars, centred, read from +Z, `height` tall, strokes `stroke` thick.
+Shape make_text(const std::string& text, float height, float stroke);
 
 // Two surfaces that meet in a seam at |x| = size.x / 2 and |z| = size.z / 2, as a filled cushion does. Closed.
 Shape make_cushion(vec3 size, int columns);

@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/scene/builtin/stroke_font.h"
-
-#include <cmath>
-#include <sstream>
+#include "ods/image/stroke_font.h"
 
 namespace ods {
 
@@ -52,6 +49,8 @@ static const Glyph kGlyphs[] = {
     {'+', "0343 2125"},
     {'-', "0343"},
     {'.', "2021"},
+    {':', "2122 2425"},
+    {'/', "0046"},
 };
 
 static const char* glyph(char letter) {
@@ -61,31 +60,22 @@ static const char* glyph(char letter) {
   return "";
 }
 
-static vec2 point(const std::string& line, size_t i) {
-  return {float(line[i] - '0'), float(line[i + 1] - '0')};
+static vec2 point(std::string_view line, size_t i) {
+  return {static_cast<float>(line[i] - '0'), static_cast<float>(line[i + 1] - '0')};
 }
 
-Shape make_text(const std::string& text, float height, float stroke) {
-  const float unit = (height - stroke) / 6.0f, advance = 6.0f * unit;
-  const float left = -0.5f * (advance * float(text.size()) - 2.0f * unit);
-  Shape shape;
+std::vector<Stroke> text_strokes(std::string_view text) {
+  const float left = -0.5f * (6.0f * static_cast<float>(text.size()) - 2.0f);
+  std::vector<Stroke> strokes;
   for (size_t c = 0; c < text.size(); c++) {
-    std::istringstream lines(glyph(text[c]));
-    std::string line;
-    while (lines >> line) {
-      for (size_t i = 0; i + 3 < line.size(); i += 2) {
-        const vec2 from = unit * point(line, i), to = unit * point(line, i + 2);
-        const vec2 along = normalize(to - from), middle = 0.5f * (from + to);
-        const vec2 at = middle + vec2(left + advance * float(c), -3.0f * unit);
-        glm::mat4 turn(1.0f);
-        turn[0] = vec4(along, 0.0f, 0.0f);
-        turn[1] = vec4(-along.y, along.x, 0.0f, 0.0f);
-        turn[3] = vec4(at, 0.0f, 1.0f);
-        append(shape, transformed(make_box(vec3(glm::distance(from, to) + stroke, stroke, stroke)), turn));
-      }
+    const vec2 corner(left + 6.0f * static_cast<float>(c), -3.0f);
+    const std::string_view line = glyph(text[c]);
+    for (size_t i = 0; i + 3 < line.size(); i += 2) {
+      if (line[i + 2] == ' ') i += 3;  // the next polyline
+      strokes.push_back({corner + point(line, i), corner + point(line, i + 2)});
     }
   }
-  return shape;
+  return strokes;
 }
 
 }  // namespace ods

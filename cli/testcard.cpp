@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods testcard: a picture that judges players.
+#include "ods/image/testcard.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "cli/camera_options.h"
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "cli/interrupt.h"
+#include "ods/image/save.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods testcard -o card.png\n"
+    "  ods testcard -o card_180.jpg --projection vr180 --width 2880\n"
+    "  ods testcard -o card.png --size quest-1-4096 --merge cosine,60,90";
+
+constexpr const char* kSummary =
+    "Makes a picture that shows in one look what a player does with stereo 360: each eye reads its own name, the\n"
+    "plates stand at the metres they say, rings are round, and every direction has its degrees.";
+
+struct TestcardJob {
+  std::string output;
+  ods::RenderOptions picture;
+  ods::SaveOptions save;
+  CameraOptions camera;
+};
+
+bool read_options(TestcardJob& job, int argc, char** argv) {
+  Options options("testcard", kSummary, kExamples);
+  options.group("Picture");
+  options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  job.picture.width = 4096;
+  add_form_options(options, job.picture, job.save);
+  add_sceneless_camera_options(options, job.camera);
+  options.group("Console");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  if (!options.parse(argc, argv)) return false;
+  if (job.output.empty()) throw UsageError("where to? -o card.png");
+  finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
+  finish_camera_options(job.camera, job.picture.width, job.picture.height);
+  job.save.tone = ods::ToneCurve::kLinear;  // the codes of the greys are what they say
+  return true;
+}
+
+void testcard(int argc, char** argv) {
+  TestcardJob job;
+  if (!read_options(job, argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  const ods::CameraRig rig = place_camera(job.camera);
+  const ods::Extent eye{job.picture.width, job.picture.height};
+  const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
+  ods::check_output(job.output, job.save, eyes, eye);
+  const std::string layout(eyes.size() == 2 ? ods::layout_name(job.save.layout) : ods::eye_name(eyes[0]));
+  const ods::Testcard card = make_testcard(rig, eye,
+                                           {fmt::format("{} {}", projection_name(rig.projection), layout),
+                                            fmt::format("{} x {} an eye", eye.width, eye.height),
+                                            fmt::format("{:g} mm between the eyes", 1000.0f * rig.ipd)});
+  ods::PictureRows rows{eye, eyes, {{{"R", "G", "B"}}}, {}, {}};
+  rows.fill = [&](int index, int y, std::span<float> row) {
+    fill_testcard_row(card, eyes[static_cast<size_t>(index)], y, row);
+  };
+  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) std::cout << file << std::endl;
+}
+
+}  // namespace
+
+extern "C" int ods_testcard(int argc, char** argv) {
+  return run_command([=] { testcard(argc, argv); });
+}

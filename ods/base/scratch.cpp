@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/scratch.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "ods/base/error.h"
+#include "ods/base/memory.h"
+
+namespace ods {
+
+static Error no_room(const std::string& folder, size_t size, int code) {
+  return Error(ErrorKind::kOutput, fmt::format("cannot keep {} of pixels in '{}': {}; write to another disk",
+                                               bytes_text(size), folder, std::strerror(code)));
+}
+
+// Not every file system makes files without a name.
+static int open_unlinked(const std::string& folder) {
+  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (file >= 0) return file;
+  std::string name = folder + "/.ods-scratch-XXXXXX";
+  const int named = mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) unlink(name.c_str());
+  return named;
+}
+
+// Every block is there before it is mapped: on a full disk a write to the mapping would end the process.
+static void* map_file(const std::string& folder, size_t size) {
+  const int file = open_unlinked(folder);
+  if (file < 0) throw no_room(folder, size, errno);
+  int code = posix_fallocate(file, 0, static_cast<off_t>(size));
+  void* map = MAP_FAILED;
+  if (code == 0) {
+    map = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (map == MAP_FAILED) code = errno;
+  }
+  close(file);
+  if (map == MAP_FAILED) throw no_room(folder, size, code);
+  return map;
+}
+
+static void* map_memory(size_t size) {
+  check_memory(size, "the picture", "convert it on a larger machine");
+  void* map = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (map == MAP_FAILED) {
+    throw Error(ErrorKind::kMemory,
+                fmt::format("the picture needs {} of memory: {}", bytes_text(size), std::strerror(errno)));
+  }
+  return map;
+}
+
+Scratch::Scratch(size_t size, const std::string& folder, size_t most_in_memory)
+    : size_(std::max<size_t>(size, 1)), on_disk_(size > most_in_memory && !folder.empty()) {
+  data_ = static_cast<std::byte*>(on_disk_ ? map_file(folder, size_) : map_memory(size_));
+}
+
+Scratch::~Scratch() {
+  munmap(data_, size_);
+}
+
+void Scratch::release() const {
+  if (on_disk_) madvise(data_, size_, MADV_DONTNEED);
+}
+
+}  // namespace ods

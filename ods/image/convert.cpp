@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/convert.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "ods/image/resample.h"
+
+namespace ods {
+
+// --- what can become what ------------------------------------------------------------------------------------------
+
+static bool is_stereo(const CameraRig& rig, const std::vector<int>& eyes) {
+  return rig.ipd > 0.0f && eyes[0] != kMono;
+}
+
+static std::vector<int> eyes_of(const StoredPicture& picture) {
+  std::vector<int> eyes;
+  for (const StoredEye& eye : picture.eyes) eyes.push_back(eye.eye);
+  return eyes;
+}
+
+static vec3 axis_in_world(const Camera& camera) {
+  return camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
+}
+
+static bool is_tilted(const CameraRig& from, const CameraRig& to) {
+  return length(axis_in_world(make_camera(from)) - axis_in_world(make_camera(to))) > 1e-4f;
+}
+
+std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
+  const CameraRig &from = picture.rig, &to = target.rig;
+  const std::vector<int> eyes = eyes_of(picture);
+  if (from.mirrored != to.mirrored) return "a mirrored picture stays mirrored";
+  if (target.eyes[0] == kMono) return "";
+  if (eyes[0] == kMono) {
+    return "the picture is of one eye in the middle, and has no depth from which two could be made";
+  }
+  for (const int eye : target.eyes) {
+    if (std::find(eyes.begin(), eyes.end(), eye) == eyes.end()) {
+      return fmt::format("the picture has no {} eye", eye_name(eye));
+    }
+  }
+  if (!is_stereo(from, eyes) && !is_stereo(to, target.eyes)) return "";
+  if (is_tilted(from, to)) {
+    return "a stereo picture turns about its viewing circle's axis only (yaw): pitched or rolled, its eyes would need "
+           "lines of sight that nobody has seen; a mono one can be tilted";
+  }
+  if (from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
+      !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map) {
+    return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it";
+  }
+  return "";
+}
+
+Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection) {
+  const ProjectionSetting& own = picture.rig.projection;
+  const double natural = natural_height(own, picture.size.width);
+  const double stretch = std::max(1.0, picture.size.height / natural);  // of eyes that are squeezed from the sides
+  const double width = stretch * pixels_per_radian(own, picture.size.width) / pixels_per_radian(projection, 1.0);
+  const int step = width_step(projection) == 1 ? 4 : 2 * width_step(projection);
+  Extent extent;
+  extent.width = std::max(1, static_cast<int>(std::lround(width / step))) * step;
+  extent.height = natural_height(projection, extent.width);
+  extent.height += extent.height % 2;
+  return extent;
+}
+
+// --- where a pixel lies in the source ------------------------------------------------------------------------------
+
+namespace {
+
+// The pixels that are made, seen from the source's.
+struct Mapping {
+  CameraRig rig;  // the camera reads its merge map
+  Source source;
+  Camera camera;  // of the target, the centre at 0
+  Extent size;
+  std::vector<int> eyes;
+  std::vector<int> from;  // index in the source of each
+
+  Place find(int index, vec2 home, vec2 uv) const;
+  vec2 uv_of(float x, float y) const {
+    return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)};
+  }
+  Cell cell_at(int x, int y) const {
+    return cell_of(camera.projection, size, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+  }
+  vec2 home_of(int x, int y) const { return uv_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); }
+  // The target has something there, if the source does.
+  bool wants(int x, int y) const { return look_of(camera.projection, home_of(x, y), home_of(x, y)).seen; }
+};
+
+// uv may lie outside the home's cell: the target's own filter reaches there.
+Place Mapping::find(int index, vec2 home, vec2 uv) const {
+  const size_t i = static_cast<size_t>(index);
+  const Ray ray = camera_ray(camera, eyes[i], home, uv, vec2(0.0f));
+  if (ray.direction == vec3(0.0f)) return {};
+  int eye = from[i];
+  if (camera.projection.kind == kLatLong && eyes[i] != kMono && source.picture->eyes.size() == 2) {
+    const float phi = camera.projection.center.y + (0.5f - uv.y) * camera.projection.span.y;
+    if (abs(phi) > 0.5f * kPi && camera.ipd > 0.0f && is_apart_at_pole(camera, phi > 0.0f)) eye = 1 - eye;
+  }
+  return place_of_line(source, eye, ray.direction);
+}
+
+Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) {
+  Mapping mapping{target.rig, make_source(picture), make_camera(target.rig), target.eye, target.eyes, {}};
+  mapping.camera.center = vec3(0.0f);
+  mapping.camera.lens_radius = 0.0f;
+  for (const int eye : target.eyes) mapping.from.push_back(eye_index(picture, eye == kMono ? target.mono_from : eye));
+  return mapping;
+}
+
+// --- pixels --------------------------------------------------------------------------------------------------------
+
+// A stretch of a row in which places follow a parabola, known at its ends and in its middle. Then no pixel needs its
+// own trigonometry.
+constexpr int kStretch = 16;
+struct Stretch {
+  int eye;
+  vec2 start;
+  vec2 step;     // to the middle
+  vec2 bend;     // by how much the next step differs
+  vec2 down[3];  // a pixel below each of the three
+};
+
+class Converter {
+ public:
+  Converter(const StoredPicture& picture, const ConvertTarget& target, bool adds_alpha)
+      : mapping_(make_mapping(picture, target)), resampler_(mapping_.source), adds_alpha_(adds_alpha) {
+    colours_ = static_cast<int>(picture.eyes[0].layers[0].channels.size());
+    channels_ = resampler_.channels() + (adds_alpha ? 1 : 0);
+  }
+  Converter(const Converter&) = delete;
+  Converter& operator=(const Converter&) = delete;
+
+  // The number of empty pixels.
+  int fill(int index, int y, std::span<float> row) const;
+
+ private:
+  std::optional<Stretch> find_stretch(int index, const Cell& cell, int x, int y, int count) const;
+  Footprint find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const;
+  void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
+  bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
+  void sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const;
+  void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
+  bool stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const;
+  bool is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const;
+  void put(const Place& place, const float* sums, int x, std::span<float> row) const;
+
+  Mapping mapping_;
+  Resampler resampler_;
+  bool adds_alpha_;
+  int colours_;
+  int channels_;
+};
+
+bool same_cell(const Cell& a, const Cell& b) {
+  return a.left == b.left && a.top == b.top;
+}
+
+std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int x, int y, int count) const {
+  const int middle = x + count / 2;
+  const vec2 home = mapping_.home_of(middle, y);
+  if (!mapping_.wants(x, y) || !mapping_.wants(x + count - 1, y)) return {};
+  // Away from the nearer edge of the cell: over a pole begins another picture.
+  const int down = 2 * y < cell.top + cell.bottom ? 1 : -1;
+  Place at[3], below[3];
+  Cell first;
+  for (int i = 0; i < 3; i++) {
+    const float px = static_cast<float>(x + i * kStretch / 2) + 0.5f, py = static_cast<float>(y) + 0.5f;
+    at[i] = mapping_.find(index, home, mapping_.uv_of(px, py));
+    below[i] = mapping_.find(index, home, mapping_.uv_of(px, py + static_cast<float>(down)));
+    if (!at[i].seen || !below[i].seen || at[i].eye != at[0].eye || below[i].eye != at[0].eye) return {};
+    const Cell here = cell_of(mapping_.source.camera.projection, mapping_.source.picture->size, at[i].at);
+    if (i == 0) first = here;
+    if (!same_cell(here, first)) return {};
+  }
+  Stretch stretch{at[0].eye, at[0].at, at[1].at - at[0].at, at[2].at - 2.0f * at[1].at + at[0].at, {}};
+  for (int i = 0; i < 3; i++) stretch.down[i] = (below[i].at - at[i].at) * static_cast<float>(down);
+  const float texels = length(stretch.step) * (2.0f / kStretch);  // per pixel
+  const float turn = length(stretch.down[1] - stretch.down[0]) + length(stretch.down[2] - stretch.down[1]);
+  if (length(stretch.bend) > 0.5f + 0.1f * texels || turn > 0.25f + 0.25f * length(stretch.down[1])) return {};
+  return stretch;
+}
+
+// From the neighbours that lie in the same cell, on the side away from the target's edge first; else from nearer by.
+Footprint Converter::find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const {
+  const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+  const vec2 home = mapping_.uv_of(middle.x, middle.y);
+  const Projection& projection = mapping_.source.camera.projection;
+  const Extent size = mapping_.source.picture->size;
+  const Cell own = cell_of(projection, size, place.at);
+  const bool round = projection.kind == kLatLong || projection.kind == kCylinder;
+  const float turn = static_cast<float>(size.width) * 2.0f * kPi / projection.span.x;
+  const auto neighbour = [&](vec2 way, bool away) {
+    for (const float step : {away ? -1.0f : 1.0f, away ? 1.0f : -1.0f, 0.1f, -0.1f}) {
+      const vec2 at = middle + way * step;
+      const Place there = mapping_.find(index, home, mapping_.uv_of(at.x, at.y));
+      if (!there.seen || there.eye != place.eye || !same_cell(own, cell_of(projection, size, there.at))) continue;
+      vec2 move = there.at - place.at;
+      if (round) move.x -= turn * std::round(move.x / turn);
+      return move / step;
+    }
+    return vec2(0.0f);
+  };
+  return {neighbour({1.0f, 0.0f}, 2 * x > cell.left + cell.right),
+          neighbour({0.0f, 1.0f}, 2 * y > cell.top + cell.bottom)};
+}
+
+bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const {
+  const Cell cell = cell_of(mapping_.source.camera.projection, mapping_.source.picture->size, place.at);
+  return std::all_of(points.begin(), points.end(), [&](const FilterPoint& point) {
+    const vec2 at = place.at + point.texels;
+    return at.x >= static_cast<float>(cell.left) && at.x < static_cast<float>(cell.right) &&
+           at.y >= static_cast<float>(cell.top) && at.y < static_cast<float>(cell.bottom);
+  });
+}
+
+// Where the filter's far points lie is as its footprint has it.
+bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const {
+  if (!stays_in_cell(place, points)) return false;
+  for (const FilterPoint& point : {points.front(), points.back()}) {
+    const Place there = mapping_.find(index, home, home + point.pixels * mapping_.uv_of(1.0f, 1.0f));
+    if (!there.seen || there.eye != place.eye || length(there.at - place.at - point.texels) > 0.1f) return false;
+  }
+  return true;
+}
+
+void Converter::sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const {
+  for (const FilterPoint& point : points) {
+    resampler_.add({place.eye, place.at + point.texels, true}, point.weight, sums);
+  }
+}
+
+// The rest of the pixel's weight where the source ends within it.
+void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const {
+  float weight = 0.0f;
+  const vec2 pixel = mapping_.uv_of(1.0f, 1.0f);
+  for (const FilterPoint& point : points) {
+    const Place place = mapping_.find(index, home, home + point.pixels * pixel);
+    if (!place.seen) continue;
+    resampler_.add(place, point.weight, sums);
+    weight += point.weight;
+  }
+  if (weight <= 0.0f || weight > 0.9999f) return;
+  for (int c = 0; c < resampler_.channels(); c++) sums[c] /= weight;
+}
+
+void Converter::put(const Place& place, const float* sums, int x, std::span<float> row) const {
+  float* out = row.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
+  if (!adds_alpha_) {
+    std::copy(sums, sums + channels_, out);
+    resampler_.set_nearest(place, out);
+    return;
+  }
+  std::vector<float> all(sums, sums + resampler_.channels());
+  resampler_.set_nearest(place, all.data());
+  std::copy(all.begin(), all.begin() + colours_, out);
+  out[colours_] = 1.0f;
+  std::copy(all.begin() + colours_, all.end(), out + colours_ + 1);
+}
+
+void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const {
+  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
+  std::vector<FilterPoint> points;
+  const float per_pixel = 2.0f / kStretch;
+  for (int i = 0; i < count; i++) {
+    const float t = static_cast<float>(i) * per_pixel;
+    const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
+    const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * per_pixel;
+    const vec2 dy =
+        t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
+    filter_points({dx, dy}, points);
+    std::fill(sums.begin(), sums.end(), 0.0f);
+    if (points.size() == 1 || stays_in_cell(place, points)) {
+      sum_near(place, points, sums.data());
+    } else {
+      sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
+    }
+    put(place, sums.data(), x + i, row);
+  }
+}
+
+bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
+  const vec2 home = mapping_.home_of(x, y);
+  const Place place = mapping_.find(index, home, home);
+  if (!place.seen) return false;
+  std::vector<FilterPoint> points;
+  filter_points(find_footprint(index, cell, x, y, place), points);
+  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
+  if (points.size() == 1 || is_flat(index, home, place, points)) {
+    sum_near(place, points, sums.data());
+  } else {
+    sum_exactly(index, home, points, sums.data());
+  }
+  put(place, sums.data(), x, row);
+  return true;
+}
+
+int Converter::fill(int index, int y, std::span<float> row) const {
+  std::fill(row.begin(), row.end(), 0.0f);
+  int empty = 0;
+  for (int x = 0; x < mapping_.size.width;) {
+    const Cell cell = mapping_.cell_at(x, y);
+    const int count = std::min(kStretch, cell.right - x);
+    if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, count)) {
+      fill_stretch(index, *stretch, x, y, count, row);
+    } else {
+      for (int i = 0; i < count; i++) {
+        if (mapping_.wants(x + i, y) && !fill_pixel(index, cell, x + i, y, row)) empty++;
+      }
+    }
+    x += count;
+  }
+  return empty;
+}
+
+}  // namespace
+
+// --- rows ----------------------------------------------------------------------------------------------------------
+
+// Whether the target has pixels where the source has none, by a look at some of them.
+static bool sees_more(const StoredPicture& picture, const ConvertTarget& target) {
+  const Mapping mapping = make_mapping(picture, target);
+  const int kLooks = 128;
+  for (int i = 0; i < kLooks * kLooks; i++) {
+    const vec2 uv((static_cast<float>(i % kLooks) + 0.5f) / kLooks, (static_cast<float>(i / kLooks) + 0.5f) / kLooks);
+    if (look_of(mapping.camera.projection, uv, uv).seen && !mapping.find(0, uv, uv).seen) return true;
+  }
+  return false;
+}
+
+Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
+  assert(conversion_fault(picture, target).empty());
+  Conversion conversion;
+  conversion.rows.eye = target.eye;
+  conversion.rows.eyes = target.eyes;
+  for (const LayerPixels& layer : picture.eyes[0].layers) {
+    const Sample sample = layer.sample == Sample::kFloat ? Sample::kFloat : Sample::kHalf;
+    conversion.rows.layers.push_back({layer.channels, layer.rule, sample});
+  }
+  std::vector<std::string>& colour = conversion.rows.layers[0].channels;
+  const bool adds_alpha = colour.back() != "A" && sees_more(picture, target);
+  if (adds_alpha) colour.push_back("A");
+  const auto converter = std::make_shared<const Converter>(picture, target, adds_alpha);
+  conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
+    *empty += converter->fill(index, y, row);
+  };
+  return conversion;
+}
+
+}  // namespace ods

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What form a picture file has: which layout, which projection, which camera. From what the caller knows, else from
+// what stands beside it (NAME.camera.json), in it (ods:*, GPano, envmap, the channels of two views) or in its name,
+// else from its shape. Names end in words with _ or . before them: those of layout_of() (_TB, _LR, _SBS, _OU ...),
+// mono, 180, vr180, 360 and the names of projections, in capitals or not, with numbers behind them.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/image/camera_rig.h"
+#include "ods/image/image_file.h"
+#include "ods/image/layout.h"
+
+namespace ods {
+
+struct LayoutGuess {
+  std::optional<Layout> layout;  // none: the file is one eye
+  std::string because;           // "its name ends in _TB", to be said to people
+  bool is_certain = false;       // it says so itself, and nothing was guessed
+};
+
+// From what the file says (ods:layout, or the channels of two views), else its name, else its shape: that of a whole
+// sphere in lat-long, cube-3x2, cube-6x1 or cube-1x6, or of what its name says; one eye, two stacked or two beside each
+// other.
+LayoutGuess guess_layout(const FileInfo& info, const std::string& path);
+
+// What the caller knows goes before all that the file says.
+struct KnownForm {
+  std::optional<Layout> layout;
+  std::optional<CameraRig> camera;
+  std::optional<ProjectionSetting> projection;  // of the camera, too
+};
+
+struct PictureForm {
+  LayoutGuess layout;
+  int eye = kMono;  // which, of one
+  CameraRig camera;
+  std::vector<std::string> guesses;  // "top-bottom: its name ends in _TB", to be said to people
+};
+
+// %V or %v in the path stands for two files, of which `info` is the left one's. Throws Error(kInput): a sidecar that is
+// none, an anaglyph.
+PictureForm find_form(const FileInfo& info, const std::string& path, const KnownForm& known);
+
+}  // namespace ods

@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/resample.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+
+#include "ods/image/tone.h"
+
+namespace ods {
+
+// --- the filter ----------------------------------------------------------------------------------------------------
+
+// Below this the picture is only interpolated: half a texel's hundredth of blur would cost its sharpness for nothing.
+static const float kLeastRadius = 0.15f;
+static const int kMostPoints = 65;  // along one axis
+
+struct Tent {
+  int count = 1;
+  float offset = 0.0f;  // of the first point
+  float step = 0.0f;
+  float share = 1.0f;  // of a point's weight
+  float radius = 0.0f;
+
+  float at(int i) const { return offset + step * static_cast<float>(i); }
+  float weight(int i) const {
+    const float t = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(count) - 1.0f;
+    return (1.0f - std::abs(t)) * share;
+  }
+};
+
+// Points whose variance is the tent's own, radius^2 / 6.
+static Tent make_tent(float variance_of_6) {
+  Tent tent;
+  const float radius = std::sqrt(std::max(variance_of_6, 0.0f));
+  if (radius < kLeastRadius) return tent;
+  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * radius)), kMostPoints);
+  float sum = 0.0f, squares = 0.0f;
+  for (int i = 0; i < tent.count; i++) {
+    const float t = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(tent.count) - 1.0f;
+    sum += 1.0f - std::abs(t);
+    squares += (1.0f - std::abs(t)) * t * t;
+  }
+  const float scale = radius * std::sqrt(sum / (6.0f * squares));
+  tent.share = 1.0f / sum;
+  tent.step = 2.0f * scale / static_cast<float>(tent.count);
+  tent.offset = 0.5f * tent.step - scale;
+  return tent;
+}
+
+void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points) {
+  const vec2 dx = footprint.dx, dy = footprint.dy;
+  // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, and s^2 along them.
+  const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  const float middle = 0.5f * (xx + yy), half = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
+  const float large = middle + half, small = middle - half;
+  points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
+  const Tent along = make_tent(large - 1.0f), across = make_tent(small - 1.0f);
+  if (along.count == 1 || !std::isfinite(large)) return;
+  vec2 axis = xx >= yy ? vec2(large - yy, xy) : vec2(xy, large - xx);
+  axis = length(axis) > 0.0f ? normalize(axis) : vec2(1.0f, 0.0f);
+  const vec2 other(-axis.y, axis.x);
+  const auto back = [&](vec2 v, float square) { return vec2(dot(dx, v), dot(dy, v)) / square; };
+  const vec2 pixels_along = back(axis, large), pixels_across = small > 0.5f ? back(other, small) : vec2(0.0f);
+  points.clear();
+  for (int j = 0; j < across.count; j++) {
+    for (int i = 0; i < along.count; i++) {
+      const float t = along.at(i), u = across.at(j);
+      points.push_back(
+          {axis * t + other * u, pixels_along * t + pixels_across * u, along.weight(i) * across.weight(j)});
+    }
+  }
+}
+
+// --- texels --------------------------------------------------------------------------------------------------------
+
+template <class T>
+static std::vector<float> make_table(float (*decode)(T)) {
+  std::vector<float> table;
+  for (int i = 0; i <= std::numeric_limits<T>::max(); i++) table.push_back(decode(static_cast<T>(i)));
+  return table;
+}
+
+static float finite(float value) {
+  if (std::isnan(value)) return 0.0f;
+  return std::clamp(value, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max());
+}
+
+// Samples of a file to light and to numbers.
+template <class T>
+struct Codes {
+  using Type = T;
+  static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
+  static float light(T code) {
+    static const std::vector<float> kTable =
+        make_table<T>([](T c) { return srgb_decode(static_cast<float>(c) / std::numeric_limits<T>::max()); });
+    return kTable[code];
+  }
+  static float number(T code) { return static_cast<float>(code) / std::numeric_limits<T>::max(); }
+};
+
+struct Halves {
+  using Type = uint16_t;
+  static constexpr bool kIsAssociated = true;
+  static float light(uint16_t bits) {
+    static const std::vector<float> kTable = make_table<uint16_t>([](uint16_t b) {
+      const float value = glm::unpackHalf1x16(b);
+      return std::isnan(value) ? 0.0f : std::clamp(value, -65504.0f, 65504.0f);
+    });
+    return kTable[bits];
+  }
+  static float number(uint16_t bits) { return light(bits); }
+};
+
+struct Floats {
+  using Type = float;
+  static constexpr bool kIsAssociated = true;
+  static float light(float value) { return finite(value); }
+  static float number(float value) { return finite(value); }
+};
+
+template <class Samples>
+static typename Samples::Type sample_at(const std::byte* texel, int channel) {
+  typename Samples::Type sample;
+  std::memcpy(&sample, texel + static_cast<size_t>(channel) * sizeof sample, sizeof sample);
+  return sample;
+}
+
+// The last of the channels is alpha where kAlpha says so.
+template <class Samples, int kCount, bool kAlpha>
+static void read_light(const std::byte* texel, float* out) {
+  const int colours = kAlpha ? kCount - 1 : kCount;
+  for (int c = 0; c < colours; c++) out[c] = Samples::light(sample_at<Samples>(texel, c));
+  if (!kAlpha) return;
+  out[colours] = Samples::number(sample_at<Samples>(texel, colours));
+  for (int c = 0; c < colours && !Samples::kIsAssociated; c++) out[c] *= out[colours];
+}
+
+template <class Samples, int kCount, bool kAlpha>
+static void add_texels(const std::byte* const* texels, const float* weights, float weight, float* sums) {
+  float values[16][4] = {};
+  for (int i = 0; i < 16; i++) read_light<Samples, kCount, kAlpha>(texels[i], values[i]);
+  float sum[4] = {}, low[4], high[4];
+  for (int c = 0; c < 4; c++) low[c] = high[c] = values[0][c];
+  for (int i = 0; i < 16; i++) {
+    for (int c = 0; c < 4; c++) {
+      sum[c] += weights[i] * values[i][c];
+      low[c] = std::min(low[c], values[i][c]);
+      high[c] = std::max(high[c], values[i][c]);
+    }
+  }
+  for (int c = 0; c < kCount; c++) sums[c] += weight * std::min(std::max(sum[c], low[c]), high[c]);
+}
+
+template <class Samples>
+static void read_numbers(const std::byte* texel, int count, float* out) {
+  for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
+}
+
+using AddTexels = void (*)(const std::byte* const*, const float*, float, float*);
+
+template <class Samples>
+static AddTexels adder(int count, bool alpha) {
+  if (alpha) return count == 4 ? add_texels<Samples, 4, true> : add_texels<Samples, 2, true>;
+  if (count == 1) return add_texels<Samples, 1, false>;
+  if (count == 2) return add_texels<Samples, 2, false>;
+  return count == 3 ? add_texels<Samples, 3, false> : add_texels<Samples, 4, false>;
+}
+
+static AddTexels adder_of(Sample sample, int count, bool alpha) {
+  switch (sample) {
+    case Sample::kUint8:
+      return adder<Codes<uint8_t>>(count, alpha);
+    case Sample::kUint16:
+      return adder<Codes<uint16_t>>(count, alpha);
+    case Sample::kHalf:
+      return adder<Halves>(count, alpha);
+    case Sample::kFloat:
+      break;
+  }
+  return adder<Floats>(count, alpha);
+}
+
+static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
+  switch (sample) {
+    case Sample::kUint8:
+      return read_numbers<Codes<uint8_t>>;
+    case Sample::kUint16:
+      return read_numbers<Codes<uint16_t>>;
+    case Sample::kHalf:
+      return read_numbers<Halves>;
+    case Sample::kFloat:
+      break;
+  }
+  return read_numbers<Floats>;
+}
+
+// --- layers --------------------------------------------------------------------------------------------------------
+
+Resampler::Resampler(const Source& source) : source_(source) {
+  const std::vector<LayerPixels>& layers = source.picture->eyes[0].layers;
+  for (size_t i = 0; i < layers.size(); i++) {
+    const LayerPixels& layer = layers[i];
+    const int all = static_cast<int>(layer.channels.size());
+    // Alpha belongs to the colours before it.
+    const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
+    for (int first = 0; first < all; first += 4) {
+      const int count = std::min(all - first, 4);
+      const Group group{adder_of(layer.sample, count, alpha),
+                        reader_of(layer.sample),
+                        i,
+                        first * static_cast<ptrdiff_t>(bytes_of(layer.sample)),
+                        channels_ + first,
+                        count};
+      (layer.rule == LayerRule::kNearest ? nearest_ : mixed_).push_back(group);
+    }
+    channels_ += all;
+  }
+}
+
+static const std::byte* address(const LayerPixels& layer, int x, int y) {
+  return layer.first + y * layer.row_stride + x * layer.pixel_stride;
+}
+
+// Catmull-Rom, for the texels at -1, 0, 1 and 2.
+static void cubic_weights(float t, float* w) {
+  w[0] = t * (-0.5f + t * (1.0f - 0.5f * t));
+  w[1] = 1.0f + t * t * (-2.5f + 1.5f * t);
+  w[2] = t * (0.5f + t * (2.0f - 1.5f * t));
+  w[3] = t * t * (-0.5f + 0.5f * t);
+}
+
+struct Position {
+  int texel;
+  float beyond;  // its middle
+};
+
+// A place this near to the middle of a texel is meant to be there: angles and their way back leave that much.
+static Position split(float at) {
+  const float kTolerance = 1.0f / 256.0f;
+  const float from = at - 0.5f, whole = std::floor(from), beyond = from - whole;
+  if (beyond < kTolerance) return {static_cast<int>(whole), 0.0f};
+  if (beyond > 1.0f - kTolerance) return {static_cast<int>(whole) + 1, 0.0f};
+  return {static_cast<int>(whole), beyond};
+}
+
+void Resampler::add(const Place& place, float weight, float* sums) const {
+  const Position x = split(place.at.x), y = split(place.at.y);
+  const Cell cell = cell_of(source_.camera.projection, source_.picture->size, place.at);
+  float wx[4], wy[4], weights[16];
+  cubic_weights(x.beyond, wx);
+  cubic_weights(y.beyond, wy);
+  for (int i = 0; i < 16; i++) weights[i] = wx[i % 4] * wy[i / 4];
+  const int left = x.texel - 1, top = y.texel - 1;
+  const bool inside = has_texel(source_, cell, left, top) && has_texel(source_, cell, left + 3, top) &&
+                      has_texel(source_, cell, left, top + 3) && has_texel(source_, cell, left + 3, top + 3);
+  Texel around[16];
+  for (int i = 0; i < 16 && !inside; i++) {
+    around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
+  }
+  const std::byte* texels[16];
+  for (const Group& group : mixed_) {
+    if (inside) {
+      const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(place.eye)].layers[group.layer];
+      const std::byte* first = address(layer, left, top) + group.offset;
+      for (int i = 0; i < 16; i++) texels[i] = first + (i / 4) * layer.row_stride + (i % 4) * layer.pixel_stride;
+    } else {
+      for (int i = 0; i < 16; i++) {
+        const Texel& t = around[i];
+        const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(t.eye)].layers[group.layer];
+        texels[i] = address(layer, t.x, t.y) + group.offset;
+      }
+    }
+    group.add(texels, weights, weight, sums + group.first);
+  }
+}
+
+void Resampler::set_nearest(const Place& place, float* out) const {
+  const Extent size = source_.picture->size;
+  const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
+  const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
+  for (const Group& group : nearest_) {
+    const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(place.eye)].layers[group.layer];
+    group.read(address(layer, x, y) + group.offset, group.count, out + group.first);
+  }
+}
+
+}  // namespace ods

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/scratch.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "ods/base/error.h"
+#include "tests/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+// Of this process, in bytes.
+size_t resident() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    std::istringstream words(line);
+    std::string word;
+    size_t kilobytes = 0;
+    if (words >> word >> kilobytes && word == "VmRSS:") return kilobytes * 1024;
+  }
+  return 0;
+}
+
+std::byte pattern(size_t i) {
+  return static_cast<std::byte>(i * 7 + i / 4096);
+}
+
+TEST(Scratch, KeepsWhatIsWrittenWhereverItLies) {
+  const TemporaryFolder folder;
+  const size_t size = 100001;
+  for (size_t most : {size_t{0}, size}) {
+    const Scratch scratch(size, folder.path(""), most);
+    EXPECT_EQ(scratch.on_disk(), most == 0);
+    EXPECT_EQ(scratch.size(), size);
+    EXPECT_EQ(scratch.data()[size - 1], std::byte{0});
+    for (size_t i = 0; i < size; i++) scratch.data()[i] = pattern(i);
+    scratch.release();
+    for (size_t i = 0; i < size; i++) ASSERT_EQ(scratch.data()[i], pattern(i));
+    EXPECT_TRUE(folder.names().empty()) << "no other process sees it";
+  }
+}
+
+TEST(Scratch, WithoutAFolderAllIsMemory) {
+  EXPECT_FALSE(Scratch(4096, "", 0).on_disk());
+  EXPECT_NE(Scratch(0, "", 0).data(), nullptr);
+}
+
+TEST(Scratch, ReleasedBytesAreNoLongerInMemory) {
+  const TemporaryFolder folder;
+  const size_t size = size_t{64} << 20;
+  const Scratch scratch(size, folder.path(""), 0);
+  const size_t before = resident();
+  for (size_t i = 0; i < size; i += 4096) scratch.data()[i] = pattern(i);
+  EXPECT_GT(resident(), before + size / 2);
+  scratch.release();
+  EXPECT_LT(resident(), before + size / 4);
+  EXPECT_EQ(scratch.data()[size - 4096], pattern(size - 4096));
+}
+
+TEST(Scratch, AFullDiskIsAnErrorBeforeTheFirstByte) {
+  const TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: a small tmpfs can only be mounted by root with CAP_SYS_ADMIN";
+  try {
+    const Scratch scratch(1 << 20, disk.folder().path(""), 0);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kOutput);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  EXPECT_TRUE(disk.folder().names().empty());
+}
+
+TEST(Scratch, SaysWhyNot) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(Scratch(10, folder.path("absent"), 0), Error);
+  EXPECT_THROW(Scratch(SIZE_MAX / 4, "", 0), Error);
+}
+
+}  // namespace
+}  // namespace ods
