@@ -376,7 +376,7 @@ TEST_F(Cli, ATestcardTakesEveryForm) {
 
 TEST_F(Cli, LintTellsByItsExitCode) {
   const std::string picture = folder.path("axis.png");
-  ASSERT_EQ(run("render axis --width 256 --samples 2 --filter box --merge cosine -o " + picture), 0) << err;
+  ASSERT_EQ(run("render axis --width 512 --samples 4 --filter box -o " + picture), 0) << err;
   EXPECT_EQ(run("lint " + picture), 0) << out << err;
   EXPECT_TRUE(out.ends_with("no fault found\n")) << out;
   const std::string swapped = "lint --layout bottom-top " + picture;

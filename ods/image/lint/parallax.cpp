@@ -149,8 +149,11 @@ Stillness stillness_of(const Matches& matches) {
   const double count = static_cast<double>(still.count);
   double balance = 0.0;
   for (double angle : angles) balance += std::tanh(angle / (still.spread + 1e-3)) / count;
-  still.certainty =
-      count / (count + 10.0) * std::max(0.0, 1.0 - still.spread / 0.4) * std::max(0.0, 1.0 - 2.0 * std::abs(balance));
+  // A few things that do move, as on a test card, are enough.
+  double moving = 0.0;
+  for (double deviation : deviations) moving += deviation > std::max(1.0, 6.0 * still.spread) ? 1.0 / count : 0.0;
+  still.certainty = count / (count + 10.0) * std::max(0.0, 1.0 - still.spread / 0.4) *
+                    std::max(0.0, 1.0 - 2.0 * std::abs(balance)) * std::max(0.0, 1.0 - 8.0 * moving);
   return still;
 }
 
