@@ -149,11 +149,16 @@ Stillness stillness_of(const Matches& matches) {
   const double count = static_cast<double>(still.count);
   double balance = 0.0;
   for (double angle : angles) balance += std::tanh(angle / (still.spread + 1e-3)) / count;
-  // A few things that do move, as on a test card, are enough.
-  double moving = 0.0;
-  for (double deviation : deviations) moving += deviation > std::max(1.0, 6.0 * still.spread) ? 1.0 / count : 0.0;
+  // A few things that do move, as on a test card, are enough, if they move in one sense as no mismatches do.
+  double moving = 0.0, sense = 0.0;
+  for (double angle : angles) {
+    if (std::abs(angle - still.middle) < std::max(0.5, 6.0 * still.spread)) continue;
+    moving += 1.0;
+    sense += angle > still.middle ? 1.0 : -1.0;
+  }
+  const double alive = std::abs(sense) / (6.0 * std::sqrt(moving + 1.0));
   still.certainty = count / (count + 10.0) * std::max(0.0, 1.0 - still.spread / 0.4) *
-                    std::max(0.0, 1.0 - 2.0 * std::abs(balance)) * std::max(0.0, 1.0 - 8.0 * moving);
+                    std::max(0.0, 1.0 - 2.0 * std::abs(balance)) * std::max(0.0, 1.0 - alive);
   return still;
 }
 
