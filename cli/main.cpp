@@ -32,6 +32,7 @@ constexpr Command kCommands[] = {
     {"camera", "say a camera in the words of another renderer", "ods_camera"},
     {"project", "tell where world points fall in each eye", "ods_project"},
     {"compare", "measure how far one picture is from another", "ods_compare"},
+    {"lint", "find what is wrong with a stereo 360 picture", "ods_lint"},
     {"testcard", "make a picture that judges players", "ods_testcard"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
     {"sizes", "list the sizes that have names", "ods_sizes"},

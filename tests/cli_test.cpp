@@ -27,8 +27,9 @@ constexpr bool kSanitized = false;
 #endif
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
-                            "compare --help", "convert --help", "sizes --help", "scenes --help", "testcard --help"}) {
+  for (const char* words :
+       {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help", "compare --help",
+        "convert --help", "lint --help", "sizes --help", "scenes --help", "testcard --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
@@ -372,6 +373,21 @@ TEST_F(Cli, ATestcardTakesEveryForm) {
     EXPECT_EQ(run("testcard" + words), code);
     EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
   }
+}
+
+TEST_F(Cli, LintTellsByItsExitCode) {
+  const std::string picture = folder.path("axis.png");
+  ASSERT_EQ(run("render axis --width 512 --samples 4 --filter box -o " + picture), 0) << err;
+  EXPECT_EQ(run("lint " + picture), 0) << out << err;
+  EXPECT_TRUE(out.ends_with("no fault found\n")) << out;
+  const std::string swapped = "lint --layout bottom-top " + picture;
+  EXPECT_EQ(run(swapped), 1) << out;
+  EXPECT_NE(out.find("fault eyes-swapped: "), std::string::npos) << out;
+  EXPECT_EQ(run(swapped + " --json"), 1);
+  EXPECT_NE(out.find("\"fault\": \"eyes-swapped\""), std::string::npos) << out;
+  EXPECT_EQ(run(swapped + " --min-certainty 1"), 0) << out;
+  EXPECT_EQ(run("lint " + folder.path("absent.png")), 3);
+  EXPECT_EQ(run("lint"), 2);
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods lint: what is wrong with a stereo 360 picture.
+#include "ods/image/lint.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "cli/interrupt.h"
+#include "cli/projection_options.h"
+
+using ods::Finding, ods::LintReport, ods::Severity;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods lint picture.png\n"
+    "  ods lint eye_%V.exr --json\n"
+    "  ods lint film_frame.jpg --layout side-by-side --projection vr180 || echo do not ship it";
+
+constexpr const char* kSummary =
+    "Looks for what is wrong with a stereo 360 picture: swapped eyes, one eye twice, a wrong layout, a mirrored "
+    "viewing\n"
+    "circle, two fixed cameras, a ragged seam, no pole merge, a wrong shape, words that do not fit the pixels. Says "
+    "of\n"
+    "each how sure it is (0 to 1), what it measured and what cures it. docs/lint.md explains them. Exit code 1: a "
+    "fault\n"
+    "was found; warnings and information alone are 0.";
+
+struct LintJob {
+  std::string path;
+  ods::LintOptions lint;
+  ods::ProjectionSetting projection;
+  float min_certainty = 0.5f;
+  bool json = false;
+};
+
+bool read_options(LintJob& job, int argc, char** argv) {
+  Options options("lint", kSummary, kExamples);
+  options.argument("PICTURE", job.path, "a picture file; %V in its name: a file per eye");
+  add_layout_option(
+      options, job.lint.layout,
+      "where what the file says, its name (_TB, _LR, ...) and its shape do not tell; separate is one eye");
+  options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "what is less sure than this is not told");
+  add_projection_options(options, job.projection);
+  options.group("Console");
+  options.flag("--json", job.json, "for programs");
+  if (!options.parse(argc, argv)) return false;
+  const std::string fault = ods::projection_fault(job.projection);
+  if (!fault.empty()) throw UsageError(fault);
+  if (options.given("--projection") || options.given("--face") || options.given("--range")) {
+    job.lint.projection = job.projection;
+  }
+  return true;
+}
+
+std::string layout_word(const LintReport& report) {
+  return std::string(report.layout ? ods::layout_name(*report.layout) : report.eye_count > 1 ? "separate" : "one eye");
+}
+
+bool is_told(const LintJob& job, const Finding& finding) {
+  return finding.certainty >= static_cast<double>(job.min_certainty);
+}
+
+void print_text(const LintJob& job, const LintReport& report) {
+  fmt::print("{}: {}x{}, {} ({}), {}, an eye {}x{}\n", job.path, report.file.width, report.file.height,
+             layout_word(report), report.because, report.projection, report.eye.width, report.eye.height);
+  int faults = 0;
+  for (const Finding& finding : report.findings) {
+    if (!is_told(job, finding)) continue;
+    const Severity severity = severity_of(finding.fault);
+    if (severity == Severity::kFault) faults++;
+    fmt::print("{} {}: {}, certainty {:.2f}: {}. Cure: {}.\n", severity_name(severity), fault_name(finding.fault),
+               fault_title(finding.fault), finding.certainty, finding.evidence, finding.cure);
+  }
+  for (const std::string& text : report.not_judged) fmt::print("not judged: {}\n", text);
+  fmt::print("{}\n", faults == 0 ? "no fault found" : fmt::format("{} fault{} found", faults, faults == 1 ? "" : "s"));
+}
+
+void print_json(const LintJob& job, const LintReport& report) {
+  Json json = {{"path", job.path},
+               {"file", {report.file.width, report.file.height}},
+               {"eye", {report.eye.width, report.eye.height}},
+               {"eyes", report.eye_count},
+               {"layout", layout_word(report)},
+               {"because", report.because},
+               {"projection", report.projection},
+               {"findings", Json::array()},
+               {"not_judged", report.not_judged}};
+  for (const Finding& finding : report.findings) {
+    if (!is_told(job, finding)) continue;
+    json["findings"].push_back({{"fault", fault_name(finding.fault)},
+                                {"severity", severity_name(severity_of(finding.fault))},
+                                {"title", fault_title(finding.fault)},
+                                {"certainty", finding.certainty},
+                                {"evidence", finding.evidence},
+                                {"cure", finding.cure}});
+  }
+  // A file's name may be no UTF-8.
+  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+void run(int argc, char** argv) {
+  LintJob job;
+  if (!read_options(job, argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  const LintReport report = ods::lint(job.path, job.lint);
+  job.json ? print_json(job, report) : print_text(job, report);
+  if (has_finding(report, Severity::kFault, static_cast<double>(job.min_certainty))) {
+    throw std::runtime_error("a fault was found");
+  }
+}
+
+}  // namespace
+
+extern "C" int ods_lint(int argc, char** argv) {
+  return run_command([=] { run(argc, argv); });
+}

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/lint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/image/lint/checks.h"
+#include "ods/image/load_eyes.h"
+
+namespace ods {
+
+// --- names ---------------------------------------------------------------------------------------------------------
+
+struct FaultNames {
+  std::string_view name;
+  std::string_view title;
+  Severity severity;
+};
+
+static FaultNames names_of(Fault fault) {
+  switch (fault) {
+    case Fault::kEyesSwapped:
+      return {"eyes-swapped", "the eyes are swapped", Severity::kFault};
+    case Fault::kRightOnTop:
+      return {"right-on-top", "the right eye is on top", Severity::kFault};
+    case Fault::kOneEyeTwice:
+      return {"one-eye-twice", "both eyes see the same picture", Severity::kFault};
+    case Fault::kMonoAsStereo:
+      return {"mono-as-stereo", "one picture is taken for two eyes", Severity::kFault};
+    case Fault::kLayoutMisread:
+      return {"layout-misread", "the eyes lie otherwise in the file", Severity::kFault};
+    case Fault::kMirroredCircle:
+      return {"mirrored-circle", "the eyes' circle is mirrored", Severity::kFault};
+    case Fault::kTwoCameras:
+      return {"two-cameras", "two fixed cameras in place of a circle", Severity::kFault};
+    case Fault::kNoPoleMerge:
+      return {"no-pole-merge", "full stereo at a pole", Severity::kWarning};
+    case Fault::kRaggedSeam:
+      return {"ragged-seam", "the seam shows", Severity::kFault};
+    case Fault::kWrongAspect:
+      return {"wrong-aspect", "the shape does not fit", Severity::kFault};
+    case Fault::kMetadata:
+      return {"metadata", "its words do not fit its pixels", Severity::kFault};
+    case Fault::kFilmLevels:
+      break;
+  }
+  return {"film-levels", "too large for films", Severity::kInformation};
+}
+
+std::string_view fault_name(Fault fault) {
+  return names_of(fault).name;
+}
+
+std::string_view fault_title(Fault fault) {
+  return names_of(fault).title;
+}
+
+Severity severity_of(Fault fault) {
+  return names_of(fault).severity;
+}
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::kFault:
+      return "fault";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kInformation:
+      break;
+  }
+  return "information";
+}
+
+bool has_finding(const LintReport& report, Severity severity, double certainty) {
+  return std::any_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
+    return severity_of(finding.fault) <= severity && finding.certainty >= certainty;
+  });
+}
+
+// --- what is looked at ---------------------------------------------------------------------------------------------
+
+// Packed eyes are taken apart here, so that the file can be cut in other ways too.
+static void load(Subject& subject, const LintOptions& options) {
+  const std::string& path = subject.path;
+  subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
+  KnownForm known;
+  known.layout = options.layout;
+  known.projection = options.projection;
+  subject.form = find_form(subject.info, path, known);
+  if (names_eye(path) || subject.layout() == Layout::kMultiview) {
+    subject.eyes = load_eyes(path, options.layout).eyes;
+    return;
+  }
+  subject.packed = read_image(path);
+  const Extent size{subject.packed.width, subject.packed.height};
+  if (!unpacked_size(subject.layout(), size)) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
+                                               path, size.width, size.height, layout_name(subject.layout())));
+  }
+  subject.eyes = unpack(subject.layout(), subject.packed);
+}
+
+static void load_sidecar(Subject& subject) {
+  const std::string path = sidecar_path(subject.path);
+  std::vector<std::string> warnings;
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) subject.sidecar = load_camera(path, warnings);
+}
+
+static void find_camera(Subject& subject) {
+  const bool is_said = subject.sidecar || subject.info.text.contains("ods:projection");
+  if (is_said) subject.camera = make_camera(subject.form.camera);
+}
+
+static void describe(const Subject& subject, LintReport& report) {
+  const Image& eye = subject.eyes[0];
+  report.file = {subject.info.width, subject.info.height};
+  report.eye = {eye.width, eye.height};
+  report.eye_count = static_cast<int>(subject.eyes.size());
+  if (report.eye_count > 1) report.layout = subject.form.layout.layout;
+  report.because = subject.form.layout.because;
+  report.projection = projection_name(subject.projection());
+  int64_t not_finite = 0;
+  for (const Image& each : subject.eyes) {
+    not_finite +=
+        std::count_if(each.pixels.begin(), each.pixels.end(), [](float value) { return !std::isfinite(value); });
+  }
+  if (not_finite > 0) report.not_judged.push_back(fmt::format("{} values that are NaN or infinite", not_finite));
+}
+
+// --- the checks ----------------------------------------------------------------------------------------------------
+
+constexpr int kLeastWidth = 64, kLeastHeight = 32;  // of an eye
+
+LintReport lint(const std::string& path, const LintOptions& options) {
+  Subject subject;
+  LintReport report;
+  subject.path = path;
+  load(subject, options);
+  load_sidecar(subject);
+  find_camera(subject);
+  describe(subject, report);
+  if (report.eye.width < kLeastWidth || report.eye.height < kLeastHeight) {
+    report.not_judged.push_back(
+        fmt::format("its pixels: an eye of {}x{} is too small", report.eye.width, report.eye.height));
+    return report;
+  }
+  if (check_layout(subject, report)) {
+    check_metadata(subject, report);
+    check_form(subject, report);
+    check_seam(subject, report);
+    if (report.eye_count > 1) {
+      check_parallax(subject, report);
+      check_poles(subject, report);
+    }
+  } else {
+    report.not_judged.push_back("everything else: first the layout must be right");
+  }
+  std::stable_sort(report.findings.begin(), report.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.certainty > b.certainty; });
+  return report;
+}
+
+}  // namespace ods

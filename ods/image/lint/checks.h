@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checks of lint(), each in a file of its own. Each adds to the report what it finds, and what it could not judge.
+#pragma once
+#include "ods/image/camera_file.h"
+#include "ods/image/image_file.h"
+#include "ods/image/lint.h"
+#include "ods/image/picture_form.h"
+
+namespace ods {
+
+struct Subject {
+  std::string path;
+  FileInfo info;  // of the left file of a pair
+  PictureForm form;
+  std::vector<Image> eyes;  // linear light, as stored
+  Image packed;             // the whole file, where it can be cut in other ways
+  std::optional<CameraFile> sidecar;
+  std::optional<Camera> camera;  // where something says how the eyes converge
+
+  Layout layout() const { return form.layout.layout.value_or(Layout::kSeparate); }
+  const ProjectionSetting& projection() const { return form.camera.projection; }
+};
+
+// What a parallel pair would have to add to its difference of headings at this elevation; 0 where nobody says.
+double convergence_at(const Subject& subject, double phi);
+
+// False: these are no two eyes of one place, and no other check of stereo makes sense.
+bool check_layout(const Subject& subject, LintReport& report);
+void check_parallax(const Subject& subject, LintReport& report);
+void check_poles(const Subject& subject, LintReport& report);
+void check_seam(const Subject& subject, LintReport& report);
+void check_form(const Subject& subject, LintReport& report);      // aspect, film levels
+void check_metadata(const Subject& subject, LintReport& report);  // but for the layout, which check_layout() measures
+
+}  // namespace ods
