@@ -94,6 +94,9 @@ struct Mapping {
   Cell cell_at(int x, int y) const {
     return cell_of(camera.projection, size, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   }
+  Cell source_cell(const Place& place) const {
+    return cell_of(source.camera.projection, source.picture->size, place.at);
+  }
   vec2 home_of(int x, int y) const { return uv_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); }
   // The target has something there, if the source does.
   bool wants(int x, int y) const { return look_of(camera.projection, home_of(x, y), home_of(x, y)).seen; }
@@ -122,11 +125,14 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // --- pixels --------------------------------------------------------------------------------------------------------
 
-// A stretch of a row in which places follow a parabola, known at its ends and in its middle. Then no pixel needs its
-// own trigonometry.
-constexpr int kStretch = 16;
+// A stretch of a row in which places follow a parabola to a hundredth of a texel, known at its ends and in its middle.
+// Then no pixel needs its own trigonometry.
+constexpr int kLongStretch = 16;
+constexpr int kShortStretch = 8;
 struct Stretch {
+  int pixels;
   int eye;
+  Cell cell;  // of the source
   vec2 start;
   vec2 step;     // to the middle
   vec2 bend;     // by how much the next step differs
@@ -152,15 +158,17 @@ class Converter {
   int fill(int index, int y, std::span<float> row) const;
 
  private:
-  std::optional<Stretch> find_stretch(int index, const Cell& cell, int x, int y, int count) const;
+  std::optional<Stretch> find_stretch(int index, const Cell& cell, int x, int y, int pixels) const;
+  int fill_pixels(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const;
+  int fill_some(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const;
   Footprint find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const;
   void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
   bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
   bool fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
   Meeting3d meet(int index, vec2 home, vec2 uv) const;
-  void sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const;
+  void sum_near(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
-  bool stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const;
+  bool stays_in_cell(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points) const;
   bool is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const;
   void put(const Place& place, const float* sums, int x, std::span<float> row) const;
 
@@ -177,7 +185,8 @@ bool same_cell(const Cell& a, const Cell& b) {
   return a.left == b.left && a.top == b.top;
 }
 
-std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int x, int y, int count) const {
+std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int x, int y, int pixels) const {
+  const int count = std::min(pixels, cell.right - x);
   const int middle = x + count / 2;
   const vec2 home = mapping_.home_of(middle, y);
   if (!mapping_.wants(x, y) || !mapping_.wants(x + count - 1, y)) return {};
@@ -186,19 +195,19 @@ std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int 
   Place at[3], below[3];
   Cell first;
   for (int i = 0; i < 3; i++) {
-    const float px = static_cast<float>(x + i * kStretch / 2) + 0.5f, py = static_cast<float>(y) + 0.5f;
+    const float px = static_cast<float>(x + i * pixels / 2) + 0.5f, py = static_cast<float>(y) + 0.5f;
     at[i] = mapping_.find(index, home, mapping_.uv_of(px, py));
     below[i] = mapping_.find(index, home, mapping_.uv_of(px, py + static_cast<float>(down)));
     if (!at[i].seen || !below[i].seen || at[i].eye != at[0].eye || below[i].eye != at[0].eye) return {};
-    const Cell here = cell_of(mapping_.source.camera.projection, mapping_.source.picture->size, at[i].at);
+    const Cell here = mapping_.source_cell(at[i]);
     if (i == 0) first = here;
     if (!same_cell(here, first)) return {};
   }
-  Stretch stretch{at[0].eye, at[0].at, at[1].at - at[0].at, at[2].at - 2.0f * at[1].at + at[0].at, {}};
+  Stretch stretch{pixels, at[0].eye, first, at[0].at, at[1].at - at[0].at, at[2].at - 2.0f * at[1].at + at[0].at, {}};
   for (int i = 0; i < 3; i++) stretch.down[i] = (below[i].at - at[i].at) * static_cast<float>(down);
-  const float texels = length(stretch.step) * (2.0f / kStretch);  // per pixel
+  const float texels = length(stretch.step) * 2.0f / static_cast<float>(pixels);  // per pixel
   const float turn = length(stretch.down[1] - stretch.down[0]) + length(stretch.down[2] - stretch.down[1]);
-  if (length(stretch.bend) > 0.5f + 0.1f * texels || turn > 0.25f + 0.25f * length(stretch.down[1])) return {};
+  if (length(stretch.bend) > 1.0f + 0.1f * texels || turn > 0.25f + 0.25f * length(stretch.down[1])) return {};
   return stretch;
 }
 
@@ -226,8 +235,7 @@ Footprint Converter::find_footprint(int index, const Cell& cell, int x, int y, c
           neighbour({0.0f, 1.0f}, 2 * y > cell.top + cell.bottom)};
 }
 
-bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const {
-  const Cell cell = cell_of(mapping_.source.camera.projection, mapping_.source.picture->size, place.at);
+bool Converter::stays_in_cell(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points) const {
   return std::all_of(points.begin(), points.end(), [&](const FilterPoint& point) {
     const vec2 at = place.at + point.texels;
     return at.x >= static_cast<float>(cell.left) && at.x < static_cast<float>(cell.right) &&
@@ -237,7 +245,7 @@ bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>
 
 // Where the filter's far points lie is as its footprint has it.
 bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const {
-  if (!stays_in_cell(place, points)) return false;
+  if (!stays_in_cell(place, mapping_.source_cell(place), points)) return false;
   for (const FilterPoint& point : {points.front(), points.back()}) {
     const Place there = mapping_.find(index, home, home + point.pixels * mapping_.uv_of(1.0f, 1.0f));
     if (!there.seen || there.eye != place.eye || length(there.at - place.at - point.texels) > 0.1f) return false;
@@ -245,9 +253,10 @@ bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vec
   return true;
 }
 
-void Converter::sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const {
+void Converter::sum_near(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points,
+                         float* sums) const {
   for (const FilterPoint& point : points) {
-    resampler_.add({place.eye, place.at + point.texels, true}, point.weight, sums);
+    resampler_.add({place.eye, place.at + point.texels, true}, cell, point.weight, sums);
   }
 }
 
@@ -258,7 +267,7 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
   for (const FilterPoint& point : points) {
     const Place place = mapping_.find(index, home, home + point.pixels * pixel);
     if (!place.seen) continue;
-    resampler_.add(place, point.weight, sums);
+    resampler_.add(place, mapping_.source_cell(place), point.weight, sums);
     weight += point.weight;
   }
   if (weight <= 0.0f || weight > 0.9999f) return;
@@ -282,7 +291,7 @@ void Converter::put(const Place& place, const float* sums, int x, std::span<floa
 void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const {
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
   std::vector<FilterPoint> points;
-  const float per_pixel = 2.0f / kStretch;
+  const float per_pixel = 2.0f / static_cast<float>(stretch.pixels);
   for (int i = 0; i < count; i++) {
     const float t = static_cast<float>(i) * per_pixel;
     const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
@@ -291,8 +300,8 @@ void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, in
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
     filter_points({dx, dy}, points);
     std::fill(sums.begin(), sums.end(), 0.0f);
-    if (points.size() == 1 || stays_in_cell(place, points)) {
-      sum_near(place, points, sums.data());
+    if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
+      sum_near(place, stretch.cell, points, sums.data());
     } else {
       sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
     }
@@ -308,7 +317,7 @@ bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<
   filter_points(find_footprint(index, cell, x, y, place), points);
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
   if (points.size() == 1 || is_flat(index, home, place, points)) {
-    sum_near(place, points, sums.data());
+    sum_near(place, mapping_.source_cell(place), points, sums.data());
   } else {
     sum_exactly(index, home, points, sums.data());
   }
@@ -335,7 +344,7 @@ bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std:
   for (const FilterPoint& point : points) {
     const Meeting3d there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
     if (!there.place.seen) continue;
-    resampler_.add(there.place, point.weight, sums.data());
+    resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, sums.data());
     weight += point.weight;
   }
   if (weight <= 0.0f) return false;
@@ -346,23 +355,37 @@ bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std:
   return true;
 }
 
+// The number of empty ones, each by itself.
+int Converter::fill_pixels(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const {
+  int empty = 0;
+  for (int i = x; i < x + count; i++) {
+    if (!mapping_.wants(i, y)) continue;
+    const bool filled = reprojection_ ? fill_moved_pixel(index, cell, i, y, row) : fill_pixel(index, cell, i, y, row);
+    empty += filled ? 0 : 1;
+  }
+  return empty;
+}
+
+// The same of up to a stretch of pixels of one cell.
+int Converter::fill_some(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const {
+  const int pixels = count > kShortStretch ? kLongStretch : kShortStretch;
+  if (reprojection_) return fill_pixels(index, cell, x, y, count, row);
+  if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, pixels)) {
+    fill_stretch(index, *stretch, x, y, count, row);
+    return 0;
+  }
+  if (pixels == kShortStretch) return fill_pixels(index, cell, x, y, count, row);
+  return fill_some(index, cell, x, y, kShortStretch, row) +
+         fill_some(index, cell, x + kShortStretch, y, count - kShortStretch, row);
+}
+
 int Converter::fill(int index, int y, std::span<float> row) const {
   std::fill(row.begin(), row.end(), 0.0f);
   int empty = 0;
   for (int x = 0; x < mapping_.size.width;) {
     const Cell cell = mapping_.cell_at(x, y);
-    const int count = std::min(kStretch, cell.right - x);
-    if (reprojection_) {
-      for (int i = 0; i < count; i++) {
-        if (mapping_.wants(x + i, y) && !fill_moved_pixel(index, cell, x + i, y, row)) empty++;
-      }
-    } else if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, count)) {
-      fill_stretch(index, *stretch, x, y, count, row);
-    } else {
-      for (int i = 0; i < count; i++) {
-        if (mapping_.wants(x + i, y) && !fill_pixel(index, cell, x + i, y, row)) empty++;
-      }
-    }
+    const int count = std::min(kLongStretch, cell.right - x);
+    empty += fill_some(index, cell, x, y, count, row);
     x += count;
   }
   return empty;

@@ -58,9 +58,10 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
   const vec2 dx = footprint.dx, dy = footprint.dy;
   // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, and s^2 along them.
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
+  if (xx + yy <= 1.0f) return;
   const float middle = 0.5f * (xx + yy), half = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
   const float large = middle + half, small = middle - half;
-  points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
   const Tent along = make_tent(large - 1.0f), across = make_tent(small - 1.0f);
   if (along.count == 1 || !std::isfinite(large)) return;
   vec2 axis = xx >= yy ? vec2(large - yy, xy) : vec2(xy, large - xx);
@@ -92,36 +93,39 @@ static float finite(float value) {
   return std::clamp(value, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max());
 }
 
-// Samples of a file to light and to numbers.
+// Samples of a file to light and to numbers. Whoever reads many asks for the table once.
 template <class T>
 struct Codes {
   using Type = T;
   static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
-  static float light(T code) {
+  static const float* table() {
     static const std::vector<float> kTable =
         make_table<T>([](T c) { return srgb_decode(static_cast<float>(c) / std::numeric_limits<T>::max()); });
-    return kTable[code];
+    return kTable.data();
   }
+  static float light(const float* table, T code) { return table[code]; }
   static float number(T code) { return static_cast<float>(code) / std::numeric_limits<T>::max(); }
 };
 
 struct Halves {
   using Type = uint16_t;
   static constexpr bool kIsAssociated = true;
-  static float light(uint16_t bits) {
+  static const float* table() {
     static const std::vector<float> kTable = make_table<uint16_t>([](uint16_t b) {
       const float value = glm::unpackHalf1x16(b);
       return std::isnan(value) ? 0.0f : std::clamp(value, -65504.0f, 65504.0f);
     });
-    return kTable[bits];
+    return kTable.data();
   }
-  static float number(uint16_t bits) { return light(bits); }
+  static float light(const float* table, uint16_t bits) { return table[bits]; }
+  static float number(uint16_t bits) { return table()[bits]; }
 };
 
 struct Floats {
   using Type = float;
   static constexpr bool kIsAssociated = true;
-  static float light(float value) { return finite(value); }
+  static const float* table() { return nullptr; }
+  static float light(const float*, float value) { return finite(value); }
   static float number(float value) { return finite(value); }
 };
 
@@ -132,30 +136,43 @@ static typename Samples::Type sample_at(const std::byte* texel, int channel) {
   return sample;
 }
 
+// A register of the processor, which compilers do not find by themselves here. Both g++ and clang know it so.
+using Four = float __attribute__((vector_size(16)));
+
 // The last of the channels is alpha where kAlpha says so.
 template <class Samples, int kCount, bool kAlpha>
-static void read_light(const std::byte* texel, float* out) {
-  const int colours = kAlpha ? kCount - 1 : kCount;
-  for (int c = 0; c < colours; c++) out[c] = Samples::light(sample_at<Samples>(texel, c));
-  if (!kAlpha) return;
-  out[colours] = Samples::number(sample_at<Samples>(texel, colours));
-  for (int c = 0; c < colours && !Samples::kIsAssociated; c++) out[c] *= out[colours];
+static Four read_light(const float* table, const std::byte* texel) {
+  const auto at = [&](int c) {
+    if (c >= kCount) return 0.0f;
+    const typename Samples::Type sample = sample_at<Samples>(texel, c < kCount ? c : 0);
+    return kAlpha && c == kCount - 1 ? Samples::number(sample) : Samples::light(table, sample);
+  };
+  const Four value{at(0), at(1), at(2), at(3)};
+  if (!kAlpha || Samples::kIsAssociated) return value;
+  const float alpha = value[kCount - 1];
+  Four share{alpha, alpha, alpha, alpha};
+  share[kCount - 1] = 1.0f;
+  return value * share;
 }
 
 template <class Samples, int kCount, bool kAlpha>
-static void add_texels(const std::byte* const* texels, const float* weights, float weight, float* sums) {
-  float values[16][4] = {};
-  for (int i = 0; i < 16; i++) read_light<Samples, kCount, kAlpha>(texels[i], values[i]);
-  float sum[4] = {}, low[4], high[4];
-  for (int c = 0; c < 4; c++) low[c] = high[c] = values[0][c];
-  for (int i = 0; i < 16; i++) {
-    for (int c = 0; c < 4; c++) {
-      sum[c] += weights[i] * values[i][c];
-      low[c] = std::min(low[c], values[i][c]);
-      high[c] = std::max(high[c], values[i][c]);
+static void add_texels(const std::byte* const* texels, const float* across, const float* down, float weight,
+                       float* sums) {
+  const float* table = Samples::table();
+  Four low = read_light<Samples, kCount, kAlpha>(table, texels[0]), high = low, sum{};
+  for (int y = 0; y < 4; y++) {
+    Four row{};
+    for (int x = 0; x < 4; x++) {
+      const Four value = read_light<Samples, kCount, kAlpha>(table, texels[4 * y + x]);
+      row += value * across[x];
+      low = value < low ? value : low;
+      high = value > high ? value : high;
     }
+    sum += row * down[y];
   }
-  for (int c = 0; c < kCount; c++) sums[c] += weight * std::min(std::max(sum[c], low[c]), high[c]);
+  sum = sum > low ? sum : low;  // NaN too, of numbers near the largest
+  sum = sum < high ? sum : high;
+  for (int c = 0; c < kCount; c++) sums[c] += weight * sum[c];
 }
 
 template <class Samples>
@@ -163,7 +180,7 @@ static void read_numbers(const std::byte* texel, int count, float* out) {
   for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
 }
 
-using AddTexels = void (*)(const std::byte* const*, const float*, float, float*);
+using AddTexels = void (*)(const std::byte* const*, const float*, const float*, float, float*);
 
 template <class Samples>
 static AddTexels adder(int count, bool alpha) {
@@ -250,16 +267,21 @@ static Position split(float at) {
   return {static_cast<int>(whole), beyond};
 }
 
-void Resampler::add(const Place& place, float weight, float* sums) const {
+// Whether 4x4 texels are all of a cell's. A fisheye's circle has them if it has their corners.
+static bool has_all(const Source& source, const Cell& cell, int left, int top) {
+  if (left < cell.left || left + 3 >= cell.right || top < cell.top || top + 3 >= cell.bottom) return false;
+  if (!is_fisheye(source.camera.projection.kind)) return true;
+  return has_texel(source, cell, left, top) && has_texel(source, cell, left + 3, top) &&
+         has_texel(source, cell, left, top + 3) && has_texel(source, cell, left + 3, top + 3);
+}
+
+void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
   const Position x = split(place.at.x), y = split(place.at.y);
-  const Cell cell = cell_of(source_.camera.projection, source_.picture->size, place.at);
-  float wx[4], wy[4], weights[16];
-  cubic_weights(x.beyond, wx);
-  cubic_weights(y.beyond, wy);
-  for (int i = 0; i < 16; i++) weights[i] = wx[i % 4] * wy[i / 4];
+  float across[4], down[4];
+  cubic_weights(x.beyond, across);
+  cubic_weights(y.beyond, down);
   const int left = x.texel - 1, top = y.texel - 1;
-  const bool inside = has_texel(source_, cell, left, top) && has_texel(source_, cell, left + 3, top) &&
-                      has_texel(source_, cell, left, top + 3) && has_texel(source_, cell, left + 3, top + 3);
+  const bool inside = has_all(source_, cell, left, top);
   Texel around[16];
   for (int i = 0; i < 16 && !inside; i++) {
     around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
@@ -277,7 +299,7 @@ void Resampler::add(const Place& place, float weight, float* sums) const {
         texels[i] = address(layer, t.x, t.y) + group.offset;
       }
     }
-    group.add(texels, weights, weight, sums + group.first);
+    group.add(texels, across, down, weight, sums + group.first);
   }
 }
 

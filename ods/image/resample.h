@@ -40,15 +40,16 @@ class Resampler {
 
   int channels() const { return channels_; }
 
-  // Adds what a place shows, by its weight. Layers that must not be averaged are left alone.
-  void add(const Place& place, float weight, float* sums) const;
+  // Adds what a place of a cell shows, by its weight. Layers that must not be averaged are left alone.
+  void add(const Place& place, const Cell& cell, float weight, float* sums) const;
 
   // Sets those layers, to the texel of the place.
   void set_nearest(const Place& place, float* out) const;
 
  private:
-  // Adds 16 texels of up to 4 channels under weights.
-  using AddTexels = void (*)(const std::byte* const* texels, const float* weights, float weight, float* sums);
+  // Adds 4x4 texels of up to 4 channels, interpolated by the weights of columns and rows.
+  using AddTexels = void (*)(const std::byte* const* texels, const float* across, const float* down, float weight,
+                             float* sums);
   using ReadTexel = void (*)(const std::byte* texel, int count, float* out);
 
   struct Group {
