@@ -131,7 +131,7 @@ void add_dialect_option(Options& options, CameraOptions& camera) {
       "below change what it sets");
 }
 
-void add_eye_options(Options& options, CameraOptions& camera) {
+void add_circle_options(Options& options, CameraOptions& camera) {
   CameraRig& rig = camera.rig;
   options.group("Eyes");
   options.number("--ipd", rig.ipd, 0.0f, 1e4f, "distance between the eyes, metres");
@@ -152,6 +152,11 @@ void add_eye_options(Options& options, CameraOptions& camera) {
       "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, rig); },
       "parallel; toe-in: rays meet at the distance; shift: the pictures are turned against each other for it");
   options.number("--neck", rig.neck, -10.0f, 10.0f, "metres that the eyes stand before the neck's axis");
+}
+
+void add_eye_options(Options& options, CameraOptions& camera) {
+  CameraRig& rig = camera.rig;
+  add_circle_options(options, camera);
   options.custom(
       "--axis", "AXIS", "camera", [&](const std::string& text) { parse_axis(text, rig); },
       "what the viewing circle lies square to: the camera's up, the world's, or X,Y,Z");

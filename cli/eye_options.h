@@ -6,6 +6,8 @@
 #include "cli/camera_options.h"
 
 void add_dialect_option(Options& options, CameraOptions& camera);
+// What makes up the viewing circle: distance, merges, convergence, neck. Then the rest too.
+void add_circle_options(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);
 
 // Reads the picture that --merge-map names. Throws UsageError and ods::Error.

@@ -12,7 +12,8 @@
 
 // --layout LAYOUT, by the names and aliases of ods/image/layout.h. `text` says what it is for.
 void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
-void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text);
+void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
+                       const std::string& name = "--layout");
 
 // --size NAME sets the width of an eye and the layout, and mono for sizes of one eye. Options take effect in the order
 // in which they were added, so that those added after it go before it.

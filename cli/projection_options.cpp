@@ -21,17 +21,6 @@ struct Face {
 constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"back", 180.0f, 0.0f},
                            {"left", -90.0f, 0.0f}, {"up", 0.0f, 90.0f},    {"down", 0.0f, -90.0f}};
 
-void parse_projection(const std::string& name, ProjectionSetting& projection) {
-  const NamedProjection* named = ods::find_projection(name);
-  if (!named) {
-    std::vector<std::string> names;
-    for (const NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
-    throw UsageError(fmt::format("--projection is one of {}, not '{}'{}", fmt::join(names, ", "), name,
-                                 ods::did_you_mean(name, names)));
-  }
-  projection = named->setting;
-}
-
 // An option that a projection has no use for would otherwise be lost without a word.
 void expect(bool useful, const char* option, const char* owners, const ProjectionSetting& projection) {
   if (useful) return;
@@ -81,14 +70,24 @@ void parse_face(const std::string& name, ProjectionSetting& projection) {
 
 }  // namespace
 
-void add_projection_options(Options& options, ProjectionSetting& projection) {
+ProjectionSetting projection_by_name(const std::string& option, const std::string& name) {
+  if (const NamedProjection* named = ods::find_projection(name)) return named->setting;
+  std::vector<std::string> names;
+  for (const NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
+  throw UsageError(
+      fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
+}
+
+void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& name) {
   options.group("Projection");
   std::string names;
   for (const NamedProjection& each : ods::named_projections()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
   }
+  const std::string option = name.empty() ? "--projection" : name;
   options.custom(
-      "--projection", "NAME", "lat-long", [&](const std::string& text) { parse_projection(text, projection); },
+      name.empty() ? option : fmt::format("{},--projection", name), "NAME", name.empty() ? "lat-long" : "",
+      [&projection, option](const std::string& text) { projection = projection_by_name(option, text); },
       "of each eye's picture: " + names);
   options.custom(
       "--face", "NAME", "", [&](const std::string& text) { parse_face(text, projection); },

@@ -28,7 +28,7 @@ constexpr bool kSanitized = false;
 
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
-                            "compare --help", "sizes --help", "scenes --help"}) {
+                            "compare --help", "convert --help", "sizes --help", "scenes --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;

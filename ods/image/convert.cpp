@@ -9,16 +9,12 @@
 #include <cmath>
 #include <optional>
 
-#include "ods/base/scratch.h"
+#include "ods/image/reproject.h"
 #include "ods/image/resample.h"
 
 namespace ods {
 
 // --- what can become what ------------------------------------------------------------------------------------------
-
-static bool is_stereo(const CameraRig& rig, const std::vector<int>& eyes) {
-  return rig.ipd > 0.0f && eyes[0] != kMono;
-}
 
 static std::vector<int> eyes_of(const StoredPicture& picture) {
   std::vector<int> eyes;
@@ -39,29 +35,31 @@ static bool is_tilted(const CameraRig& from, const CameraRig& to) {
   return length(axis_in_world(make_camera(from)) - axis_in_world(make_camera(to))) > 1e-4f;
 }
 
-std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
+// The target's eyes stand elsewhere than the picture's. A mono target takes an eye as it is.
+static bool sees_around(const StoredPicture& picture, const ConvertTarget& target) {
+  if (target.eyes[0] == kMono) return false;
   const CameraRig &from = picture.rig, &to = target.rig;
+  return picture.eyes[0].eye == kMono || from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
+         !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map;
+}
+
+std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
   const std::vector<int> eyes = eyes_of(picture);
-  if (from.mirrored != to.mirrored) return "a mirrored picture stays mirrored";
+  const bool from_mono = eyes[0] == kMono;
+  if (picture.rig.mirrored != target.rig.mirrored) return "a mirrored picture stays mirrored";
   if (target.eyes[0] == kMono) return "";
-  if (eyes[0] == kMono) {
-    return "the picture is of one eye in the middle, and has no depth from which two could be made";
-  }
   for (const int eye : target.eyes) {
-    if (std::find(eyes.begin(), eyes.end(), eye) == eyes.end()) {
+    if (!from_mono && std::find(eyes.begin(), eyes.end(), eye) == eyes.end()) {
       return fmt::format("the picture has no {} eye", eye_name(eye));
     }
   }
-  if (!is_stereo(from, eyes) && !is_stereo(to, target.eyes)) return "";
-  if (is_tilted(from, to)) {
+  if (!from_mono && is_tilted(picture.rig, target.rig)) {
     return "a stereo picture turns about its viewing circle's axis only (yaw): pitched or rolled, its eyes would need "
            "lines of sight that nobody has seen; a mono one can be tilted";
   }
-  if (from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
-      !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map) {
-    return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it";
-  }
-  return "";
+  if (!sees_around(picture, target) || depth_layer(picture)) return "";
+  if (from_mono) return "the picture is of one eye in the middle, and has no depth from which two could be made";
+  return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it";
 }
 
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection) {
@@ -91,7 +89,12 @@ struct Mapping {
   std::vector<int> from;  // index in the source of each
 
   Place find(int index, vec2 home, vec2 uv) const;
-  vec2 uv_of(float x, float y) const { return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)}; }
+  Ray ray_of(int index, vec2 home, vec2 uv) const {
+    return camera_ray(camera, eyes[static_cast<size_t>(index)], home, uv, vec2(0.0f));
+  }
+  vec2 uv_of(float x, float y) const {
+    return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)};
+  }
   Cell cell_at(int x, int y) const {
     return cell_of(camera.projection, size, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   }
@@ -103,7 +106,7 @@ struct Mapping {
 // uv may lie outside the home's cell: the target's own filter reaches there.
 Place Mapping::find(int index, vec2 home, vec2 uv) const {
   const size_t i = static_cast<size_t>(index);
-  const Ray ray = camera_ray(camera, eyes[i], home, uv, vec2(0.0f));
+  const Ray ray = ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
   int eye = from[i];
   if (camera.projection.kind == kLatLong && eyes[i] != kMono && source.picture->eyes.size() == 2) {
@@ -123,8 +126,8 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // --- pixels --------------------------------------------------------------------------------------------------------
 
-// A stretch of a row in which places follow a parabola, known at its ends and in its middle. Then no pixel needs its own
-// trigonometry.
+// A stretch of a row in which places follow a parabola, known at its ends and in its middle. Then no pixel needs its
+// own trigonometry.
 constexpr int kStretch = 16;
 struct Stretch {
   int eye;
@@ -140,6 +143,11 @@ class Converter {
       : mapping_(make_mapping(picture, target)), resampler_(mapping_.source), adds_alpha_(adds_alpha) {
     colours_ = static_cast<int>(picture.eyes[0].layers[0].channels.size());
     channels_ = resampler_.channels() + (adds_alpha ? 1 : 0);
+    if (!sees_around(picture, target)) return;
+    reprojection_ = make_reprojection(mapping_.source);
+    for (size_t i = 0; i < reprojection_->layer; i++) {
+      depth_channel_ += static_cast<int>(picture.eyes[0].layers[i].channels.size());
+    }
   }
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
@@ -152,16 +160,21 @@ class Converter {
   Footprint find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const;
   void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
   bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
+  bool fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
+  Meeting3d meet(int index, vec2 home, vec2 uv) const;
   void sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
   bool stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const;
+  bool is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const;
   void put(const Place& place, const float* sums, int x, std::span<float> row) const;
 
   Mapping mapping_;
   Resampler resampler_;
+  std::optional<Reprojection> reprojection_;
   bool adds_alpha_;
   int colours_;
   int channels_;
+  int depth_channel_ = 0;
 };
 
 bool same_cell(const Cell& a, const Cell& b) {
@@ -213,7 +226,8 @@ Footprint Converter::find_footprint(int index, const Cell& cell, int x, int y, c
     }
     return vec2(0.0f);
   };
-  return {neighbour({1.0f, 0.0f}, 2 * x > cell.left + cell.right), neighbour({0.0f, 1.0f}, 2 * y > cell.top + cell.bottom)};
+  return {neighbour({1.0f, 0.0f}, 2 * x > cell.left + cell.right),
+          neighbour({0.0f, 1.0f}, 2 * y > cell.top + cell.bottom)};
 }
 
 bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>& points) const {
@@ -223,6 +237,16 @@ bool Converter::stays_in_cell(const Place& place, const std::vector<FilterPoint>
     return at.x >= static_cast<float>(cell.left) && at.x < static_cast<float>(cell.right) &&
            at.y >= static_cast<float>(cell.top) && at.y < static_cast<float>(cell.bottom);
   });
+}
+
+// Where the filter's far points lie is as its footprint has it.
+bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const {
+  if (!stays_in_cell(place, points)) return false;
+  for (const FilterPoint& point : {points.front(), points.back()}) {
+    const Place there = mapping_.find(index, home, home + point.pixels * mapping_.uv_of(1.0f, 1.0f));
+    if (!there.seen || there.eye != place.eye || length(there.at - place.at - point.texels) > 0.1f) return false;
+  }
+  return true;
 }
 
 void Converter::sum_near(const Place& place, const std::vector<FilterPoint>& points, float* sums) const {
@@ -267,7 +291,8 @@ void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, in
     const float t = static_cast<float>(i) * per_pixel;
     const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
     const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * per_pixel;
-    const vec2 dy = t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
+    const vec2 dy =
+        t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
     filter_points({dx, dy}, points);
     std::fill(sums.begin(), sums.end(), 0.0f);
     if (points.size() == 1 || stays_in_cell(place, points)) {
@@ -286,8 +311,42 @@ bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<
   std::vector<FilterPoint> points;
   filter_points(find_footprint(index, cell, x, y, place), points);
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
-  points.size() == 1 ? sum_near(place, points, sums.data()) : sum_exactly(index, home, points, sums.data());
+  if (points.size() == 1 || is_flat(index, home, place, points)) {
+    sum_near(place, points, sums.data());
+  } else {
+    sum_exactly(index, home, points, sums.data());
+  }
   put(place, sums.data(), x, row);
+  return true;
+}
+
+Meeting3d Converter::meet(int index, vec2 home, vec2 uv) const {
+  const Ray ray = mapping_.ray_of(index, home, uv);
+  if (ray.direction == vec3(0.0f)) return {};
+  return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
+}
+
+// The footprint is that of the line of sight alone: parallax changes it by little, but where things end.
+bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
+  const vec2 home = mapping_.home_of(x, y), pixel = mapping_.uv_of(1.0f, 1.0f);
+  const Meeting3d met = meet(index, home, home);
+  if (!met.place.seen) return false;
+  const Place unmoved = mapping_.find(index, home, home);
+  std::vector<FilterPoint> points;
+  filter_points(unmoved.seen ? find_footprint(index, cell, x, y, unmoved) : Footprint(), points);
+  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
+  float weight = 0.0f;
+  for (const FilterPoint& point : points) {
+    const Meeting3d there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
+    if (!there.place.seen) continue;
+    resampler_.add(there.place, point.weight, sums.data());
+    weight += point.weight;
+  }
+  if (weight <= 0.0f) return false;
+  for (float& sum : sums) sum /= weight;
+  put(met.place, sums.data(), x, row);
+  const int depth = x * channels_ + depth_channel_ + (adds_alpha_ ? 1 : 0);
+  row[static_cast<size_t>(depth)] = met.depth;
   return true;
 }
 
@@ -297,7 +356,11 @@ int Converter::fill(int index, int y, std::span<float> row) const {
   for (int x = 0; x < mapping_.size.width;) {
     const Cell cell = mapping_.cell_at(x, y);
     const int count = std::min(kStretch, cell.right - x);
-    if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, count)) {
+    if (reprojection_) {
+      for (int i = 0; i < count; i++) {
+        if (mapping_.wants(x + i, y) && !fill_moved_pixel(index, cell, x + i, y, row)) empty++;
+      }
+    } else if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, count)) {
       fill_stretch(index, *stretch, x, y, count, row);
     } else {
       for (int i = 0; i < count; i++) {
@@ -334,13 +397,13 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
     conversion.rows.layers.push_back({layer.channels, layer.rule, sample});
   }
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
-  const bool adds_alpha = colour.back() != "A" && sees_more(picture, target);
+  conversion.sees_around = sees_around(picture, target);
+  const bool adds_alpha = colour.back() != "A" && (conversion.sees_around || sees_more(picture, target));
   if (adds_alpha) colour.push_back("A");
   const auto converter = std::make_shared<const Converter>(picture, target, adds_alpha);
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
     *empty += converter->fill(index, y, row);
   };
-  if (picture.memory) conversion.rows.band_done = [memory = picture.memory] { memory->release(); };
   return conversion;
 }
 

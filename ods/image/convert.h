@@ -27,6 +27,7 @@ struct ConvertTarget {
 
 struct Conversion {
   PictureRows rows;
+  bool sees_around = false;  // the eyes stand elsewhere than the picture's
   // Pixels filled so far which the picture had nothing for; all their channels are 0.
   std::shared_ptr<std::atomic<int64_t>> empty = std::make_shared<std::atomic<int64_t>>(0);
 };

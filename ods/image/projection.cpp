@@ -80,7 +80,8 @@ std::string projection_fault(const ProjectionSetting& setting) {
                                       : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
     }
   }
-  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= 360.0f)) return "a fisheye sees 1 to 360 degrees";
+  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= 360.0f))
+    return "a fisheye sees 1 to 360 degrees";
   if (setting.kind == kPerspective) {
     if (!(setting.fov >= 1.0f && setting.fov <= 170.0f)) return "a flat window shows 1 to 170 degrees";
     if (!(setting.aspect > 0.01f && setting.aspect < 100.0f)) return "a window's sides differ by at most 100 to 1";
@@ -167,8 +168,8 @@ Projection make_projection(const ProjectionSetting& setting) {
   projection.angle = glm::radians(setting.fov);
   const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
   projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
-  const auto [right, up, back] = attitude(glm::radians(static_cast<double>(setting.pan)),
-                                          glm::radians(static_cast<double>(setting.tilt)), 0.0);
+  const auto [right, up, back] =
+      attitude(glm::radians(static_cast<double>(setting.pan)), glm::radians(static_cast<double>(setting.tilt)), 0.0);
   projection.lens_right = vec3(right);
   projection.lens_up = vec3(up);
   projection.lens_back = vec3(back);

@@ -51,7 +51,8 @@ double pixels_per_radian(const ProjectionSetting& setting, double width);
 // Cubes need whole faces: the number that the width of one eye must divide by, 1 for all others.
 int width_step(const ProjectionSetting& setting);
 
-// Right, up and back of what looks along -Z and is rolled clockwise, then pitched up, then turned to the right. Radians.
+// Right, up and back of what looks along -Z and is rolled clockwise, then pitched up, then turned to the right.
+// Radians.
 std::array<glm::dvec3, 3> attitude(double yaw, double pitch, double roll);
 
 // Precondition: projection_fault() is empty.

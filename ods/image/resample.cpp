@@ -72,7 +72,8 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
   for (int j = 0; j < across.count; j++) {
     for (int i = 0; i < along.count; i++) {
       const float t = along.at(i), u = across.at(j);
-      points.push_back({axis * t + other * u, pixels_along * t + pixels_across * u, along.weight(i) * across.weight(j)});
+      points.push_back(
+          {axis * t + other * u, pixels_along * t + pixels_across * u, along.weight(i) * across.weight(j)});
     }
   }
 }
@@ -211,8 +212,12 @@ Resampler::Resampler(const Source& source) : source_(source) {
     const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
     for (int first = 0; first < all; first += 4) {
       const int count = std::min(all - first, 4);
-      const Group group{adder_of(layer.sample, count, alpha), reader_of(layer.sample), i,
-                        first * static_cast<ptrdiff_t>(bytes_of(layer.sample)), channels_ + first, count};
+      const Group group{adder_of(layer.sample, count, alpha),
+                        reader_of(layer.sample),
+                        i,
+                        first * static_cast<ptrdiff_t>(bytes_of(layer.sample)),
+                        channels_ + first,
+                        count};
       (layer.rule == LayerRule::kNearest ? nearest_ : mixed_).push_back(group);
     }
     channels_ += all;

@@ -6,8 +6,8 @@
 // A pixel that covers s texels along an axis of its footprint is the mean of the picture under a tent of variance
 // (s^2 - 1) / 6: together with what the texels have averaged already, that of a tent as wide as the pixel's distance to
 // its neighbours on either side. The tent is summed over points not more than half a texel or so apart. Between texels
-// the picture is interpolated by Catmull and Rom's cubic, kept within the range of its 4x4 texels. So a pixel that covers
-// one texel or less is interpolated only, and one in the middle of a texel is that texel, bit for bit.
+// the picture is interpolated by Catmull and Rom's cubic, kept within the range of its 4x4 texels. So a pixel that
+// covers one texel or less is interpolated only, and one in the middle of a texel is that texel, bit for bit.
 #pragma once
 #include <array>
 #include <memory>

@@ -139,7 +139,8 @@ static Texel nearest_of_edge(const Source& source, int eye, const Cell& cell, in
 Texel texel_of(const Source& source, int eye, const Cell& cell, int x, int y) {
   if (has_texel(source, cell, x, y)) return {eye, x, y};
   const Camera& camera = source.camera;
-  const vec2 home = 0.5f * (middle_of(source, cell.left, cell.top) + middle_of(source, cell.right - 1, cell.bottom - 1));
+  const vec2 home =
+      0.5f * (middle_of(source, cell.left, cell.top) + middle_of(source, cell.right - 1, cell.bottom - 1));
   const vec2 uv = middle_of(source, x, y);
   const Look look = look_of(camera.projection, home, uv);
   vec3 direction = look.direction;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a stored picture has its pixels: which texel a line of sight meets, and which lies beside another across a seam,
-// a pole, an edge of a face. Never a neighbour in the file by accident.
+// Where a stored picture has its pixels: which texel a line of sight meets, and which lies beside another across a
+// seam, a pole, an edge of a face. Never a neighbour in the file by accident.
 //
 // A line of sight is known by its direction alone: pictures with one viewing circle and one merge have the same lines,
-// and differ in where they put them. Toe-in on a distance C also shrinks the circle, to cos(atan(r / (C cos phi))) of it:
-// by a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. That is left out. Above atan(C / r) toe-in has no lines;
-// its last ones stand in.
+// and differ in where they put them. Toe-in on a distance C also shrinks the circle, to cos(atan(r / (C cos phi))) of
+// it: by a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. That is left out. Above atan(C / r) toe-in has no
+// lines; its last ones stand in.
 #pragma once
 #include "ods/image/stored_picture.h"
 
@@ -25,8 +25,8 @@ Source make_source(const StoredPicture& picture);
 
 // A place in the picture.
 struct Place {
-  int eye = 0;       // index in StoredPicture::eyes
-  vec2 at{0.0f};     // pixels from the left and top edge: the middle of the first texel is 0.5
+  int eye = 0;        // index in StoredPicture::eyes
+  vec2 at{0.0f};      // pixels from the left and top edge: the middle of the first texel is 0.5
   bool seen = false;  // false: the picture has nothing there
 };
 

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods convert: a picture becomes another.
+#include "ods/image/convert.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <iostream>
+#include <mutex>
+
+#include "cli/console.h"
+#include "cli/convert_job.h"
+#include "cli/interrupt.h"
+#include "ods/base/scratch.h"
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Tells the lines how many rows are made.
+void count_rows(ods::PictureRows& rows, ProgressLines& lines, std::chrono::steady_clock::time_point start) {
+  const double all = static_cast<double>(rows.eyes.size()) * rows.eye.height;
+  const auto done = std::make_shared<std::atomic<int>>(0);
+  const auto speaks = std::make_shared<std::mutex>();
+  rows.fill = [=, &lines, fill = rows.fill](int index, int y, std::span<float> row) {
+    fill(index, y, row);
+    const int count = ++*done;
+    if (!speaks->try_lock()) return;
+    const std::lock_guard<std::mutex> lock(*speaks, std::adopt_lock);
+    lines.report(std::min(count / all, 1.0), seconds_since(start));
+  };
+}
+
+void say_what_is_missing(const ods::Conversion& conversion) {
+  const ods::PictureRows& rows = conversion.rows;
+  const double all = 1.0 * rows.eye.width * rows.eye.height * static_cast<double>(rows.eyes.size());
+  const double share = static_cast<double>(*conversion.empty) / all;
+  if (share == 0.0) return;
+  note(fmt::format("{:.3g} % of the pixels are empty: {}", 100.0 * share,
+                   conversion.sees_around ? "what the eyes see there now was hidden, or outside the picture"
+                                          : "the picture does not reach there"));
+}
+
+void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
+  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye);
+  const std::string fault = ods::conversion_fault(job.picture, job.target);
+  if (!fault.empty()) throw UsageError(fault);
+  const auto start = std::chrono::steady_clock::now();
+  ods::Conversion conversion = ods::convert(job.picture, job.target);
+  count_rows(conversion.rows, lines, start);
+  if (job.picture.memory) conversion.rows.band_done = [&] { job.picture.memory->release(); };
+  const auto files = ods::save_picture(conversion.rows, &job.target.rig, job.save, job.output);
+  lines.clear();
+  for (const std::string& file : files) std::cout << file << std::endl;
+  say_what_is_missing(conversion);
+  const ods::Extent eye = job.target.eye;
+  note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.rig.projection), eye.width,
+                   eye.height, duration_text(seconds_since(start))));
+}
+
+void convert(int argc, char** argv) {
+  ConvertJob job;
+  if (!read_convert_job(job, argc, argv)) return;
+  if (job.progress == ProgressMode::kAuto) {
+    job.progress = console.quiet          ? ProgressMode::kNone
+                   : stderr_is_terminal() ? ProgressMode::kBar
+                                          : ProgressMode::kPlain;
+  }
+  end_on_interrupts(interrupted_line(job.progress));
+  std::optional<tbb::global_control> limit;
+  if (job.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, job.threads);
+  ProgressLines lines(job.progress, progress_is_for_farm(job.progress) ? std::cout : std::cerr);
+  try {
+    convert_to_file(job, lines);
+  } catch (const std::exception& error) {
+    lines.fail(error.what());
+    throw;
+  }
+}
+
+}  // namespace
+
+extern "C" int ods_convert(int argc, char** argv) {
+  return run_command([=] { convert(argc, argv); });
+}

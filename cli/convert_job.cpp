@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/convert_job.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/console.h"
+#include "cli/eye_options.h"
+#include "cli/form_options.h"
+#include "cli/projection_options.h"
+#include "ods/image/camera_file.h"
+
+using ods::CameraRig, ods::Eyes, ods::Layout;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods convert picture.png -o cubes.png --to cube-3x2\n"
+    "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --layout side-by-side --width 4096\n"
+    "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
+    "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90";
+
+constexpr const char* kSummary =
+    "Makes another of a stereo 360 picture: of another projection, layout, size, convergence, of other eyes; with a\n"
+    "depth layer (.exr of ods render) of eyes at another distance or merged otherwise, too. What is not given stays "
+    "as\n"
+    "it is in the picture.";
+
+// What the command line says, on top of the picture's own camera.
+struct Wishes {
+  ods::RenderOptions size;  // width, height and eyes of it
+  std::optional<Layout> layout;
+  CameraOptions camera;
+  bool mono = false;
+};
+
+struct Given {
+  bool size, eyes, tone, exposure;
+};
+
+void add_input_options(Options& options, ConvertJob& job) {
+  options.argument("IN", job.input, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  options.group("Picture that there is, where it and its name do not tell");
+  options.custom(
+      "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
+      "its projection");
+  add_layout_option(options, job.known.layout, "its layout; separate is one eye", "--from-layout");
+  options.custom(
+      "--from-camera", "FILE", "",
+      [&](const std::string& path) {
+        std::vector<std::string> warnings;
+        job.known.camera = ods::load_camera(path, warnings).rig;
+        for (const std::string& warning : warnings) note(warning);
+      },
+      "its camera: a sidecar (ods render --sidecar)");
+}
+
+void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
+  options.group("Picture that is made");
+  options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  add_size_option(options, wishes.size, layout_of_size);
+  options.number("--width", wishes.size.width, 0, 32768, "of one eye in pixels; 0: as sharp as the picture");
+  options.number("--height", wishes.size.height, 0, 32768, "0: as its projection's shape has it");
+  options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
+  options.flag("--mono", wishes.mono, "one eye for both, the left one or that of --eyes");
+  add_layout_option(options, wishes.layout, "how two eyes share the file");
+  options.flag("--sidecar", job.save.sidecar, "write picture.camera.json too, which ods camera reads");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+                 "tone curve, of .hdr and .exr to the others");
+}
+
+void add_camera(Options& options, CameraOptions& camera) {
+  add_projection_options(options, camera.rig.projection, "--to");
+  options.group("Turn");
+  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right of where the picture looks");
+  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; of mono pictures");
+  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; of mono pictures");
+  add_circle_options(options, camera);
+}
+
+// What is written into `wishes` stands on what is there.
+bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv) {
+  Options options("convert", kSummary, kExamples);
+  Layout layout_of_size = Layout::kTopBottom;
+  wishes.size.width = 0;
+  add_input_options(options, job);
+  add_output_options(options, job, wishes, layout_of_size);
+  add_camera(options, wishes.camera);
+  options.group("Console");
+  options.number("--threads", job.threads, 0, 1024, "0: all processors");
+  options.choice("--progress", job.progress, kProgressModes, progress_mode_name,
+                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
+  if (!options.parse(argc, argv)) return false;
+  given = {wishes.size.width > 0, options.given("--eyes") || options.given("--size"), options.given("--tone"),
+           options.given("--exposure")};
+  if (options.given("--width") && !options.given("--height")) wishes.size.height = 0;
+  if (options.given("--height") && !given.size) throw UsageError("--height goes with --width");
+  if (options.given("--size") && !wishes.layout) wishes.layout = layout_of_size;
+  return true;
+}
+
+// Turned from where the picture looks.
+void turn(CameraRig& rig, const CameraOptions& by) {
+  const float yaw = by.yaw.value_or(0.0f), pitch = by.pitch.value_or(0.0f), roll = by.roll.value_or(0.0f);
+  if (rig.pitch == 0.0f && rig.roll == 0.0f) {
+    rig.yaw += yaw, rig.pitch = pitch, rig.roll = roll;
+    return;
+  }
+  const auto frame = [](float y, float p, float r) {
+    return ods::attitude(glm::radians(double{y}), glm::radians(double{p}), glm::radians(double{r}));
+  };
+  const auto [right, up, back] = frame(rig.yaw, rig.pitch, rig.roll);
+  const auto turned = frame(yaw, pitch, roll);
+  const auto placed = [&](glm::dvec3 v) { return v.x * right + v.y * up + v.z * back; };
+  const ods::ViewAngles angles = ods::view_angles(-placed(turned[2]), placed(turned[1]));
+  rig.yaw = angles.yaw, rig.pitch = angles.pitch, rig.roll = angles.roll;
+}
+
+std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
+  if (wishes.mono || wishes.size.eyes == Eyes::kMonoEye) return {ods::kMono};
+  if (given) return ods::eye_list(wishes.size.eyes);
+  std::vector<int> eyes;
+  for (const ods::StoredEye& eye : job.picture.eyes) eyes.push_back(eye.eye);
+  return eyes;
+}
+
+bool keeps_light(const std::string& path) {
+  const auto format = ods::format_of_path(path);
+  return format && ods::is_scene_referred(*format);
+}
+
+// The picture's own, where the new file can have it.
+Layout same_layout(const ConvertJob& job) {
+  const Layout own = job.picture.layout;
+  const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(job.output));
+  return unfit ? Layout::kTopBottom : own;
+}
+
+}  // namespace
+
+bool read_convert_job(ConvertJob& job, int argc, char** argv) {
+  Given given{};
+  Wishes first;
+  if (!parse(job, first, given, argc, argv)) return false;
+  console.json = job.progress == ProgressMode::kJson;
+  if (job.output.empty()) throw UsageError("where to? -o picture.png");
+  ods::OpenOptions open;
+  open.form = job.known;
+  open.scratch_folder = std::filesystem::path(job.output).parent_path().string();
+  if (open.scratch_folder.empty()) open.scratch_folder = ".";
+  job.picture = ods::open_picture(job.input, open);
+  for (const std::string& guess : job.picture.guesses) note(fmt::format("{}: {}", job.input, guess));
+
+  Wishes wishes;
+  wishes.camera.rig = job.picture.rig;
+  parse(job, wishes, given, argc, argv);
+  finish_eye_options(wishes.camera);
+  CameraRig& rig = job.target.rig = wishes.camera.rig;
+  turn(rig, wishes.camera);
+  job.target.eyes = wished_eyes(job, wishes, given.eyes);
+  if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
+  job.save.layout = wishes.layout.value_or(same_layout(job));
+  if (!given.tone && !job.picture.is_float) job.save.tone = ods::ToneCurve::kLinear;
+  if (given.exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
+
+  ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, rig.projection);
+  if (given.size) eye = {wishes.size.width, wishes.size.height};
+  finish_projection(rig.projection, eye.width, eye.height);
+  return true;
+}

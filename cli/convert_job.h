@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods convert is asked to do.
+#pragma once
+#include <string>
+
+#include "cli/camera_options.h"
+#include "cli/progress.h"
+#include "ods/image/convert.h"
+#include "ods/scene/render_options.h"
+
+struct ConvertJob {
+  std::string input;
+  std::string output;
+  ods::KnownForm known;  // of the input
+  ods::StoredPicture picture;
+  ods::ConvertTarget target;
+  ods::SaveOptions save;
+  int threads = 0;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+// Opens the input too: what is not given stays as it is there. False when help was asked for. Throws UsageError and
+// ods::Error.
+bool read_convert_job(ConvertJob& job, int argc, char** argv);

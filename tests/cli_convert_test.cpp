@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods convert as its user meets it.
+#include <gtest/gtest.h>
+
+#include "ods/image/stored_picture.h"
+#include "tests/cli_runner.h"
+
+namespace {
+
+class CliConvert : public Cli {
+ protected:
+  // A stereo picture of the room, 64x32 an eye.
+  std::string make(const std::string& name, const std::string& words = "") {
+    const std::string path = folder.path(name);
+    EXPECT_EQ(run("render room -q --width 64 --samples 1 --threads 2 -o " + path + " " + words), 0) << err;
+    return path;
+  }
+  int convert(const std::string& from, const std::string& to, const std::string& words = "") {
+    return run("convert " + from + " -o " + folder.path(to) + " " + words);
+  }
+  ods::StoredPicture open(const std::string& name) { return ods::open_picture(folder.path(name)); }
+};
+
+TEST_F(CliConvert, EveryProjectionAndBack) {
+  const std::string room = make("room.exr");
+  for (const ods::NamedProjection& named : ods::named_projections()) {
+    const std::string name(named.name);
+    ASSERT_EQ(convert(room, name + ".exr", "--to " + name), 0) << err;
+    const ods::StoredPicture made = open(name + ".exr");
+    EXPECT_EQ(ods::projection_name(made.rig.projection), name);
+    EXPECT_EQ(made.eyes.size(), 2u);
+    EXPECT_EQ(made.eyes[0].layers.size(), 4u) << name;  // light, Z, N, albedo
+    EXPECT_EQ(convert(folder.path(name + ".exr"), "back.png", "-q --to lat-long --width 32"), 0) << err;
+    EXPECT_EQ(err, "");
+  }
+}
+
+TEST_F(CliConvert, WhatIsNotGivenStays) {
+  const std::string room = make("room.exr", "--layout bottom-top --yaw 30 --merge cosine,50,80 --ipd 0.07");
+  ASSERT_EQ(convert(room, "cubes.exr", "--to cube-6x1 --yaw 15 --sidecar"), 0) << err;
+  EXPECT_NE(out.find("cubes.camera.json"), std::string::npos) << out;
+  const ods::StoredPicture made = open("cubes.exr");
+  EXPECT_EQ(made.layout, ods::Layout::kBottomTop);
+  EXPECT_FLOAT_EQ(made.rig.yaw, 45.0f);
+  EXPECT_FLOAT_EQ(made.rig.ipd, 0.07f);
+  EXPECT_EQ(made.rig.top.mode, ods::kMergeCosine);
+  EXPECT_EQ(made.size.width, 6 * 20);
+  EXPECT_NE(err.find("cube-6x1 120x20"), std::string::npos) << err;
+}
+
+TEST_F(CliConvert, ToItselfIsTheSamePicture) {
+  const std::string room = make("room.png");
+  ASSERT_EQ(convert(room, "same.png", "-q"), 0) << err;
+  EXPECT_EQ(run("compare " + room + " " + folder.path("same.png") + " --max-error 0"), 0) << err << out;
+  ASSERT_EQ(convert(room, "wide.png", "-q --layout side-by-side"), 0) << err;
+  EXPECT_EQ(run("compare " + room + " " + folder.path("wide.png") + " --max-error 0"), 0) << err << out;
+}
+
+TEST_F(CliConvert, GuessesAreSaid) {
+  const std::string room = make("room_TB.png");
+  ASSERT_EQ(convert(room, "a.png"), 0);
+  EXPECT_NE(err.find("_TB"), std::string::npos) << err;
+  ASSERT_EQ(convert(room, "a.png", "--from lat-long --from-layout top-bottom"), 0);
+  EXPECT_EQ(err.find("_TB"), std::string::npos) << err;
+}
+
+TEST_F(CliConvert, EyesOfTheirOwn) {
+  const std::string room = make("room.exr");
+  ASSERT_EQ(convert(room, "mono.png", "--mono --eyes right --pitch 20 --to perspective --fov 60 --width 20"), 0) << err;
+  ASSERT_EQ(convert(room, "eye_%V.png"), 0) << err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("eye_right.png")));
+  ASSERT_EQ(convert(folder.path("eye_%V.png"), "both.png", "-q"), 0) << err;
+  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from perspective"), 2);
+  EXPECT_NE(err.find("depth"), std::string::npos) << err;
+}
+
+TEST_F(CliConvert, MovesTheEyes) {
+  const std::string room = make("room.exr");
+  ASSERT_EQ(convert(room, "moved.exr", "--ipd 0.05 --merge linear,40,80"), 0) << err;
+  EXPECT_NE(err.find("% of the pixels are empty"), std::string::npos) << err;
+  EXPECT_FLOAT_EQ(open("moved.exr").rig.ipd, 0.05f);
+}
+
+TEST_F(CliConvert, RefusalsSayWhy) {
+  const std::string room = make("room.png");
+  const std::vector<std::vector<std::string>> cases = {
+      {"--pitch 5", "yaw"},
+      {"--ipd 0.1", ".exr"},
+      {"--to latlong", "did you mean 'lat-long'?"},
+      {"--to cube-3x2 --width 100", "multiple of 3"},
+      {"--to lat-long --fov 40", "--fov is for"},
+      {"--height 40", "--width"},
+      {"--from-layout tob", "--from-layout"},
+  };
+  for (const auto& one : cases) {
+    EXPECT_EQ(convert(room, "no.png", one[0]), 2) << one[0];
+    EXPECT_NE(err.find(one[1]), std::string::npos) << one[0] << ": " << err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("no.png")));
+  }
+  EXPECT_EQ(run("convert " + room), 2);
+  EXPECT_EQ(convert(folder.path("absent.png"), "no.png"), 3);
+  EXPECT_EQ(convert(room, "no.bmp"), 4);
+}
+
+}  // namespace
