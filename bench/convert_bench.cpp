@@ -19,6 +19,7 @@
 #include <sstream>
 
 #include "ods/base/error.h"
+#include "ods/base/scratch.h"
 #include "ods/image/convert.h"
 
 namespace {
@@ -123,7 +124,8 @@ void convert_file(const std::string& from, const std::string& to, const Projecti
   for (const StoredEye& each : picture.eyes) target.eyes.push_back(each.eye);
   const std::string fault = conversion_fault(picture, target);
   if (!fault.empty()) throw Error(ErrorKind::kInput, fault);
-  const Conversion conversion = convert(picture, target);
+  Conversion conversion = convert(picture, target);
+  conversion.rows.band_done = [&] { picture.memory->release(); };
   SaveOptions save;
   save.tone = ToneCurve::kLinear;
   save_picture(conversion.rows, &target.rig, save, to);
