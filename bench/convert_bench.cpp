@@ -125,7 +125,6 @@ void convert_file(const std::string& from, const std::string& to, const Projecti
   const std::string fault = conversion_fault(picture, target);
   if (!fault.empty()) throw Error(ErrorKind::kInput, fault);
   Conversion conversion = convert(picture, target);
-  conversion.rows.band_done = [&] { picture.memory->release(); };
   SaveOptions save;
   save.tone = ToneCurve::kLinear;
   save_picture(conversion.rows, &target.rig, save, to);

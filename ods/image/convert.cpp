@@ -423,6 +423,7 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
     *empty += converter->fill(index, y, row);
   };
+  if (picture.memory) conversion.rows.band_done = [memory = picture.memory] { memory->release(); };
   return conversion;
 }
 
