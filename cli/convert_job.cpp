@@ -51,7 +51,9 @@ void add_input_options(Options& options, ConvertJob& job) {
       "--from-camera", "FILE", "",
       [&](const std::string& path) {
         std::vector<std::string> warnings;
-        job.known.camera = ods::load_camera(path, warnings).rig;
+        const ods::CameraFile file = ods::load_camera(path, warnings);
+        job.known.camera = file.rig;
+        if (!job.known.layout) job.known.layout = file.eyes.size() == 2 ? file.layout : Layout::kSeparate;
         for (const std::string& warning : warnings) note(warning);
       },
       "its camera: a sidecar (ods render --sidecar)");
@@ -134,6 +136,14 @@ bool keeps_light(const std::string& path) {
   return format && ods::is_scene_referred(*format);
 }
 
+// Where the output will lie, or what there is of the way to it.
+std::string folder_of(const std::string& output) {
+  std::filesystem::path folder = std::filesystem::path(output).parent_path();
+  std::error_code ignored;
+  while (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) folder = folder.parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
 // The picture's own, where the new file can have it.
 Layout same_layout(const ConvertJob& job) {
   const Layout own = job.picture.layout;
@@ -146,13 +156,18 @@ Layout same_layout(const ConvertJob& job) {
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   Given given{};
   Wishes first;
-  if (!parse(job, first, given, argc, argv)) return false;
+  try {
+    if (!parse(job, first, given, argc, argv)) return false;
+  } catch (const UsageError&) {
+    if (job.input.empty() || job.output.empty()) throw;  // else judged again, knowing what there is
+  }
   console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
+  ods::check_output(job.output, {}, {ods::kLeft, ods::kRight},
+                    {2, 2});  // before the picture is opened, which takes time
   ods::OpenOptions open;
   open.form = job.known;
-  open.scratch_folder = std::filesystem::path(job.output).parent_path().string();
-  if (open.scratch_folder.empty()) open.scratch_folder = ".";
+  open.scratch_folder = folder_of(job.output);
   job.picture = ods::open_picture(job.input, open);
   for (const std::string& guess : job.picture.guesses) note(fmt::format("{}: {}", job.input, guess));
 

@@ -4,6 +4,8 @@
 // ods convert as its user meets it.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "ods/image/stored_picture.h"
 #include "tests/cli_runner.h"
 
@@ -48,6 +50,20 @@ TEST_F(CliConvert, WhatIsNotGivenStays) {
   EXPECT_EQ(made.rig.top.mode, ods::kMergeCosine);
   EXPECT_EQ(made.size.width, 6 * 20);
   EXPECT_NE(err.find("cube-6x1 120x20"), std::string::npos) << err;
+}
+
+TEST_F(CliConvert, OptionsAreJudgedByThePicture) {
+  const std::string window = make("window.exr", "--projection perspective --fov 90");
+  EXPECT_EQ(convert(window, "narrow.exr", "--fov 60"), 0) << err;
+  EXPECT_EQ(open("narrow.exr").rig.projection.fov, 60.0f);
+  EXPECT_EQ(convert(window, "a.exr", "--range -10,10"), 2);
+  EXPECT_EQ(convert(window, "a.xyz"), 4);
+  EXPECT_EQ(convert(window, "new/folder/a.exr"), 0) << err;
+
+  const std::string half = make("half.png", "--projection vr180 --sidecar");
+  std::filesystem::rename(folder.path("half.camera.json"), folder.path("other.json"));
+  EXPECT_EQ(convert(half, "whole.exr", "--from-camera " + folder.path("other.json")), 0) << err;
+  EXPECT_EQ(open("whole.exr").layout, ods::Layout::kSideBySide);
 }
 
 TEST_F(CliConvert, ToItselfIsTheSamePicture) {

@@ -323,8 +323,6 @@ TEST_F(Lint, SaysThatThereIsNothingToSee) {
 }
 
 TEST_F(Lint, KnowsWhatFilmsAreTooLarge) {
-  const LintReport report = lint(save(Image(8192, 8, 3), "long.png"), {Layout::kSeparate, {}});
-  EXPECT_TRUE(told(report).faults.empty());
   const std::string tall = save(Image(64, 20000, 3), "tall.png");
   const LintReport film = lint(tall, {Layout::kSeparate, {}});
   EXPECT_TRUE(has_finding(film, Severity::kInformation, 1.0)) << told(film).text;

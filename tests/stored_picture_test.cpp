@@ -274,6 +274,9 @@ TEST(OpenPicture, ReadsWhatOthersWrite) {
   });
   EXPECT_EQ(combined.eyes[0].layers[0].channels, (std::vector<std::string>{"R", "G", "B"}));
   EXPECT_EQ(combined.eyes[0].layers[1].rule, LayerRule::kNearest);
+  write("eye_left.png", OIIO::TypeDesc::UINT16, 3, plain);
+  write("eye_right.png", OIIO::TypeDesc::UINT8, 3, plain);
+  EXPECT_THROW(open_picture(folder.path("eye_%V.png")), Error);  // eyes of two kinds of number
 }
 
 TEST(OpenPicture, AlphaComesAsTheFormatOfTheSamplesHasIt) {

@@ -65,7 +65,7 @@ Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& pro
   const double width = stretch * pixels_per_radian(own, picture.size.width) / pixels_per_radian(projection, 1.0);
   const int step = width_step(projection) == 1 ? 4 : 2 * width_step(projection);
   Extent extent;
-  extent.width = std::max(1, static_cast<int>(std::lround(width / step))) * step;
+  extent.width = std::max(1, static_cast<int>(std::lround(std::min(width, double{kMaxSide}) / step))) * step;
   extent.height = natural_height(projection, extent.width);
   extent.height += extent.height % 2;
   return extent;
@@ -145,10 +145,10 @@ class Converter {
       : mapping_(make_mapping(picture, target)), resampler_(mapping_.source), adds_alpha_(adds_alpha) {
     colours_ = static_cast<int>(picture.eyes[0].layers[0].channels.size());
     channels_ = resampler_.channels() + (adds_alpha ? 1 : 0);
-    if (!sees_around(picture, target)) return;
-    reprojection_ = make_reprojection(mapping_.source);
-    for (size_t i = 0; i < reprojection_->layer; i++) {
-      depth_channel_ += static_cast<int>(picture.eyes[0].layers[i].channels.size());
+    if (sees_around(picture, target)) reprojection_ = make_reprojection(mapping_.source);
+    if (const std::optional<size_t> layer = depth_layer(picture)) {
+      depth_channel_ = adds_alpha ? 1 : 0;
+      for (size_t i = 0; i < *layer; i++) depth_channel_ += static_cast<int>(picture.eyes[0].layers[i].channels.size());
     }
   }
   Converter(const Converter&) = delete;
@@ -178,7 +178,7 @@ class Converter {
   bool adds_alpha_;
   int colours_;
   int channels_;
-  int depth_channel_ = 0;
+  int depth_channel_ = -1;  // of a row's pixel; below 0: there is no depth
 };
 
 bool same_cell(const Cell& a, const Cell& b) {
@@ -350,8 +350,7 @@ bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std:
   if (weight <= 0.0f) return false;
   for (float& sum : sums) sum /= weight;
   put(met.place, sums.data(), x, row);
-  const int depth = x * channels_ + depth_channel_ + (adds_alpha_ ? 1 : 0);
-  row[static_cast<size_t>(depth)] = met.depth;
+  row[static_cast<size_t>(x * channels_ + depth_channel_)] = met.depth;
   return true;
 }
 
@@ -381,6 +380,8 @@ int Converter::fill_some(int index, const Cell& cell, int x, int y, int count, s
 
 int Converter::fill(int index, int y, std::span<float> row) const {
   std::fill(row.begin(), row.end(), 0.0f);
+  const size_t first = static_cast<size_t>(depth_channel_), step = static_cast<size_t>(channels_);
+  for (size_t i = first; depth_channel_ >= 0 && i < row.size(); i += step) row[i] = kFarDepth;
   int empty = 0;
   for (int x = 0; x < mapping_.size.width;) {
     const Cell cell = mapping_.cell_at(x, y);

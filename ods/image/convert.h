@@ -28,14 +28,16 @@ struct ConvertTarget {
 struct Conversion {
   PictureRows rows;
   bool sees_around = false;  // the eyes stand elsewhere than the picture's
-  // Pixels filled so far which the picture had nothing for; all their channels are 0.
+  // Pixels filled so far which the picture had nothing for; all their channels are 0, but for depth,
+  // which is kFarDepth.
   std::shared_ptr<std::atomic<int64_t>> empty = std::make_shared<std::atomic<int64_t>>(0);
 };
 
 // Why a picture cannot become another, in words for a message; empty: it can.
 std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target);
 
-// The size of an eye as sharp as the picture, in the middle: an even width, whole faces, the projection's shape.
+// The size of an eye as sharp as the picture, in the middle, but not wider than kMaxSide: an even width, whole faces,
+// the projection's shape.
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection);
 
 // The layers are the picture's, and alpha is added to a colour without it where the target sees more than the picture.

@@ -113,8 +113,7 @@ static void load_sidecar(Subject& subject) {
 }
 
 static void find_camera(Subject& subject) {
-  const bool is_said = subject.sidecar || subject.info.text.contains("ods:projection");
-  if (is_said) subject.camera = make_camera(subject.form.camera);
+  if (subject.form.camera_is_said) subject.camera = make_camera(subject.form.camera);
 }
 
 static void describe(const Subject& subject, LintReport& report) {

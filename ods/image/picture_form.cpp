@@ -196,6 +196,7 @@ PictureForm find_form(const FileInfo& info, const std::string& path, const Known
   std::optional<CameraRig> camera = known.camera;
   if (!camera && sidecar) camera = sidecar->rig;
   if (!camera) camera = camera_in_file(info, path, form.guesses);
+  form.camera_is_said = camera.has_value();
   if (camera) form.camera = *camera;
   if (known.projection) {
     form.camera.projection = *known.projection;

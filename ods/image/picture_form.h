@@ -39,6 +39,7 @@ struct PictureForm {
   LayoutGuess layout;
   int eye = kMono;  // which, of one
   CameraRig camera;
+  bool camera_is_said = false;       // by the caller, the file or its sidecar; else only its projection is a guess
   std::vector<std::string> guesses;  // "top-bottom: its name ends in _TB", to be said to people
 };
 

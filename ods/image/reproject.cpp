@@ -155,8 +155,8 @@ std::optional<Meeting3d> first_meeting(const Reprojection& reprojection, const C
 Meeting3d meet_surface(const Reprojection& reprojection, int eye, const Ray& ray) {
   const Source& source = *reprojection.source;
   // The ray may start nearer to things than the picture's own.
-  const float most = 1.0f / std::max(reprojection.nearest - length(ray.origin) - 0.5f * source.camera.ipd,
-                                     0.25f * reprojection.nearest);
+  const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));
+  const float most = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
   const int count = static_cast<int>(source.picture->eyes.size());
   for (int i = 0; i < count; i++) {
     if (const auto met = first_meeting(reprojection, make_curve(source, (eye + i) % count, ray, most))) return *met;

@@ -133,14 +133,14 @@ static std::vector<Plane> other_planes(const View& channels, const RowReader& re
 // --- the files -------------------------------------------------------------------------------------------------------
 
 // One view of one file.
-struct Source {
+struct FileShare {
   RowReader* reader = nullptr;
   std::vector<Plane> planes;  // the first is the colour
 };
 
-static Source make_source(RowReader& reader, const std::string& path, View channels, bool only_light) {
+static FileShare make_share(RowReader& reader, const std::string& path, View channels, bool only_light) {
   const FileInfo& info = reader.info();
-  Source source{&reader, {}};
+  FileShare share{&reader, {}};
   std::optional<Plane> light = find_light(channels);
   // Files of a display have their colour first, whatever they call it.
   if (!light && !info.is_float && info.channels.size() >= 3) {
@@ -151,10 +151,10 @@ static Source make_source(RowReader& reader, const std::string& path, View chann
   for (size_t c : light->from) {
     if (info.samples[c] != light->sample) throw unreadable(path, "its colours are not of one kind of number");
   }
-  source.planes.push_back(*light);
-  if (only_light || !info.is_float) return source;
-  for (Plane& plane : other_planes(channels, reader)) source.planes.push_back(std::move(plane));
-  return source;
+  share.planes.push_back(*light);
+  if (only_light || !info.is_float) return share;
+  for (Plane& plane : other_planes(channels, reader)) share.planes.push_back(std::move(plane));
+  return share;
 }
 
 static bool same_layer(const Plane& a, const Plane& b) {
@@ -162,18 +162,21 @@ static bool same_layer(const Plane& a, const Plane& b) {
 }
 
 // Both eyes have the same layers.
-static void keep_common(std::vector<Source>& sources, std::vector<std::string>& guesses) {
-  if (sources.size() < 2) return;
-  if (!same_layer(sources[0].planes[0], sources[1].planes[0])) {
-    for (Source& source : sources) {
-      source.planes[0].channels.resize(3);
-      source.planes[0].from.resize(3);
+static void keep_common(std::vector<FileShare>& shares, const std::string& path, std::vector<std::string>& guesses) {
+  if (shares.size() < 2) return;
+  if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
+    for (FileShare& share : shares) {
+      share.planes[0].channels.resize(3);
+      share.planes[0].from.resize(3);
+    }
+    if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
+      throw unreadable(path, "its eyes are not of one kind of number; convert one of them first");
     }
   }
   std::string lost;
   for (int i : {0, 1}) {
-    std::vector<Plane>& planes = sources[static_cast<size_t>(i)].planes;
-    const std::vector<Plane>& others = sources[static_cast<size_t>(1 - i)].planes;
+    std::vector<Plane>& planes = shares[static_cast<size_t>(i)].planes;
+    const std::vector<Plane>& others = shares[static_cast<size_t>(1 - i)].planes;
     const auto alone = [&](const Plane& plane) {
       const bool found =
           std::any_of(others.begin(), others.end(), [&](const Plane& other) { return same_layer(plane, other); });
@@ -185,21 +188,21 @@ static void keep_common(std::vector<Source>& sources, std::vector<std::string>& 
   if (!lost.empty()) guesses.push_back("only one eye has" + lost + ": left out");
 }
 
-static std::vector<Source> sources_of(std::vector<RowReader>& readers, const std::string& path, Layout layout,
-                                      bool only_light) {
-  std::vector<Source> sources;
+static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const std::string& path, Layout layout,
+                                        bool only_light) {
+  std::vector<FileShare> shares;
   if (layout != Layout::kMultiview) {
     for (RowReader& reader : readers) {
-      sources.push_back(make_source(reader, path, channels_of_view(reader.info(), "", true), only_light));
+      shares.push_back(make_share(reader, path, channels_of_view(reader.info(), "", true), only_light));
     }
-    return sources;
+    return shares;
   }
   const FileInfo& info = readers[0].info();
   const View left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
   if (left.contains("R") || right.contains("R")) {
-    sources.push_back(make_source(readers[0], path, channels_of_view(info, "left", !left.contains("R")), only_light));
-    sources.push_back(make_source(readers[0], path, channels_of_view(info, "right", !right.contains("R")), only_light));
-    return sources;
+    shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), only_light));
+    shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), only_light));
+    return shares;
   }
   throw unreadable(path, "it does not hold two views");
 }
@@ -228,11 +231,11 @@ struct Packing {
   size_t stride = 0;
 };
 
-static Packing packing_of(const FileInfo& info, const std::vector<Source>& sources, const RowReader* reader) {
+static Packing packing_of(const FileInfo& info, const std::vector<FileShare>& shares, const RowReader* reader) {
   Packing packing;
-  for (const Source& source : sources) {
-    if (source.reader != reader) continue;
-    for (const Plane& plane : source.planes) {
+  for (const FileShare& share : shares) {
+    if (share.reader != reader) continue;
+    for (const Plane& plane : share.planes) {
       packing.count = std::max(packing.count, 1 + *std::max_element(plane.from.begin(), plane.from.end()));
     }
   }
@@ -257,14 +260,14 @@ static void put_rows(const Plane& plane, const Packing& packing, const std::byte
 }
 
 // Straight to its place where a file is nothing but one layer; by way of a band where it has to be taken apart.
-static void read_file(RowReader& reader, const std::vector<Source>& sources, const Scratch& memory) {
+static void read_file(RowReader& reader, const std::vector<FileShare>& shares, const Scratch& memory) {
   const size_t kOften = size_t{64} << 20;  // bytes between two releases
   const FileInfo& info = reader.info();
-  const Packing packing = packing_of(info, sources, &reader);
+  const Packing packing = packing_of(info, shares, &reader);
   std::vector<const Plane*> planes;
-  for (const Source& source : sources) {
-    if (source.reader != &reader) continue;
-    for (const Plane& plane : source.planes) planes.push_back(&plane);
+  for (const FileShare& share : shares) {
+    if (share.reader != &reader) continue;
+    for (const Plane& plane : share.planes) planes.push_back(&plane);
   }
   std::vector<size_t> all(packing.count);
   std::iota(all.begin(), all.end(), size_t{0});
@@ -307,11 +310,11 @@ static std::vector<EyeView> views_of(Layout layout, Extent eye) {
   return views;
 }
 
-static StoredEye make_eye(int which, const Source& source, const EyeView& view) {
+static StoredEye make_eye(int which, const FileShare& share, const EyeView& view) {
   StoredEye eye;
   eye.eye = which;
-  const ptrdiff_t width = source.reader->info().width;
-  for (const Plane& plane : source.planes) {
+  const ptrdiff_t width = share.reader->info().width;
+  for (const Plane& plane : share.planes) {
     const ptrdiff_t pixel = static_cast<ptrdiff_t>(plane.pixel_size()), row = width * pixel;
     eye.layers.push_back({plane.channels, plane.rule, plane.sample, plane.to + view.y * row + view.x * pixel, pixel,
                           view.row_step * row});
@@ -349,12 +352,12 @@ static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const
   return *size;
 }
 
-static std::shared_ptr<Scratch> make_room(std::vector<Source>& sources, const FileInfo& info,
+static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const FileInfo& info,
                                           const OpenOptions& options) {
   std::vector<Plane*> planes;
   std::vector<size_t> starts{0};
-  for (Source& source : sources) {
-    for (Plane& plane : source.planes) {
+  for (FileShare& share : shares) {
+    for (Plane& plane : share.planes) {
       planes.push_back(&plane);
       starts.push_back(starts.back() + plane_size(plane, info));
     }
@@ -364,12 +367,12 @@ static std::shared_ptr<Scratch> make_room(std::vector<Source>& sources, const Fi
   return memory;
 }
 
-static std::vector<StoredEye> make_eyes(const std::vector<Source>& sources, Layout layout, Extent size, int eye) {
-  if (sources.size() == 2) return {make_eye(kLeft, sources[0], {}), make_eye(kRight, sources[1], {})};
+static std::vector<StoredEye> make_eyes(const std::vector<FileShare>& shares, Layout layout, Extent size, int eye) {
+  if (shares.size() == 2) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[1], {})};
   const Extent file = packed_size(layout, size, 2);
-  if (file.width == size.width && file.height == size.height) return {make_eye(eye, sources[0], {})};
+  if (file.width == size.width && file.height == size.height) return {make_eye(eye, shares[0], {})};
   const std::vector<EyeView> views = views_of(layout, size);
-  return {make_eye(kLeft, sources[0], views[0]), make_eye(kRight, sources[0], views[1])};
+  return {make_eye(kLeft, shares[0], views[0]), make_eye(kRight, shares[0], views[1])};
 }
 
 StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
@@ -387,12 +390,12 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
     picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
   }
   picture.size = eye_size(picture, info, path);
-  std::vector<Source> sources = sources_of(readers, path, picture.layout, options.only_light);
-  keep_common(sources, picture.guesses);
-  picture.memory = make_room(sources, info, options);
-  for (RowReader& reader : readers) read_file(reader, sources, *picture.memory);
+  std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.only_light);
+  keep_common(shares, path, picture.guesses);
+  picture.memory = make_room(shares, info, options);
+  for (RowReader& reader : readers) read_file(reader, shares, *picture.memory);
   picture.memory->release();
-  picture.eyes = make_eyes(sources, picture.layout, picture.size, form.eye);
+  picture.eyes = make_eyes(shares, picture.layout, picture.size, form.eye);
   return picture;
 }
 

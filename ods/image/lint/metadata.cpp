@@ -34,10 +34,12 @@ static void check_name(const Subject& subject, LintReport& report) {
   const LayoutGuess named = guess_layout(no_words, subject.path);
   if (!named.because.starts_with("its name") || names_eye(subject.path) || named.layout == report.layout) return;
   const Extent size = report.file;
-  const std::optional<Extent> other = unpacked_size(*named.layout, size);
-  if (other && report.layout && other->width == report.eye.width && other->height == report.eye.height &&
-      *named.layout != Layout::kBottomTop && *named.layout != Layout::kCrossEyed) {
-    return;  // the same halves by a looser word
+  if (named.layout) {
+    const std::optional<Extent> other = unpacked_size(*named.layout, size);
+    if (other && report.layout && other->width == report.eye.width && other->height == report.eye.height &&
+        *named.layout != Layout::kBottomTop && *named.layout != Layout::kCrossEyed) {
+      return;  // the same halves by a looser word
+    }
   }
   add(report, 0.9, fmt::format("{}, but it is {} as {}", named.because, read_as(report), subject.form.layout.because),
       "rename it: players go by the name");
