@@ -32,21 +32,21 @@ std::string layout_list() {
   return list;
 }
 
-Layout parse_layout(const std::string& word) {
+}  // namespace
+
+Layout layout_by_name(const std::string& word) {
   if (auto layout = ods::layout_of(word)) return *layout;
   throw UsageError(fmt::format("--layout: there is no layout '{}'{} (--help lists them)", word,
                                ods::did_you_mean(word, layout_names())));
 }
 
-}  // namespace
-
 void add_layout_option(Options& options, Layout& layout, const std::string& text) {
-  auto set = [&](const std::string& word) { layout = parse_layout(word); };
+  auto set = [&](const std::string& word) { layout = layout_by_name(word); };
   options.custom("--layout", "LAYOUT", std::string(ods::layout_name(layout)), set, text + ": " + layout_list());
 }
 
 void add_layout_option(Options& options, std::optional<Layout>& layout, const std::string& text) {
-  auto set = [&](const std::string& word) { layout = parse_layout(word); };
+  auto set = [&](const std::string& word) { layout = layout_by_name(word); };
   options.custom("--layout", "LAYOUT", "", set, text + ": " + layout_list());
 }
 

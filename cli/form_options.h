@@ -15,6 +15,9 @@
 void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
 void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text);
 
+// By name or alias. Throws UsageError with a suggestion.
+ods::Layout layout_by_name(const std::string& word);
+
 // --size, --width, --height, --eyes, --layout, --sidecar. Of the picture only its size and eyes are touched. --size
 // sets the others at once; options take effect in the order in which they were added, so that those go before it.
 void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save);
