@@ -101,16 +101,16 @@ void inject(int argc, char** argv) {
   const ods::FilmInfo film = ods::read_film(job.file);
   const ods::VideoTrack& track = choose_track(film, job.track, job.file);
   std::optional<FilmForm> form;
+  std::vector<std::string> guesses;
   if (!job.remove) {
-    std::vector<std::string> guesses;
     form = complete_form(job.form, track, job.file, guesses);
-    for (const std::string& guess : guesses) note(guess);
     form->yaw = static_cast<double>(job.yaw);
     form->pitch = static_cast<double>(job.pitch);
     form->roll = static_cast<double>(job.roll);
     form->source = "Omnistereo";
   }
   const ods::TagResult result = tag_film(job.file, job.output, track.id, form);
+  for (const std::string& guess : guesses) note(guess);
   if (form) say_what_is_written(*form, result, film.container);
   std::cout << job.output << std::endl;
 }

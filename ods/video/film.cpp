@@ -42,16 +42,21 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
 }
 
+// One of the two families, or an Error.
+static bool is_of_matroska(const FileInput& file) {
+  const std::string start = first_bytes(file);
+  if (is_matroska(start)) return true;
+  if (is_mp4(start)) return false;
+  throw unusable(file.path(), "it is no film that is known (mp4, mov, mkv, webm)");
+}
+
 FilmInfo read_film(const std::string& path) {
   const FileInput file(path);
   try {
-    const std::string start = first_bytes(file);
-    if (is_mp4(start)) return read_mp4(file);
-    if (is_matroska(start)) return read_matroska(file);
+    return is_of_matroska(file) ? read_matroska(file) : read_mp4(file);
   } catch (const Broken& broken) {
     throw unusable(path, broken.what());
   }
-  throw unusable(path, "it is no film that is known (mp4, mov, mkv, webm)");
 }
 
 static int64_t pixels(const VideoTrack& track) {
@@ -78,13 +83,13 @@ const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, cons
 TagResult tag_film(const std::string& path, const std::string& to, uint64_t track,
                    const std::optional<FilmForm>& form) {
   const FileInput file(path);
+  const bool matroska = is_of_matroska(file);
   std::error_code ignored;
   // A link goes on leading to the film.
   const std::filesystem::path real = std::filesystem::canonical(to, ignored);
   AtomicFile output(real.empty() ? to : real.native());
   TagResult result;
   try {
-    const bool matroska = is_matroska(first_bytes(file));
     result = matroska ? tag_matroska(file, output, track, form) : tag_mp4(file, output, track, form);
   } catch (const Broken& broken) {
     throw unusable(path, broken.what());

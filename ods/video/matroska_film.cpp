@@ -129,7 +129,7 @@ static Share share_of(const std::optional<FilmForm>& form) {
   return {};
 }
 
-// RFC 9559, 18.10: of stereo films, the size to display is one eye's.
+// RFC 9559, "Multi-planar and 3D Videos": of stereo films, the size to display is one eye's.
 static void fit_display(Element& video, Share before, Share now) {
   const Element* width = find_child(video, kDisplayWidth);
   const Element* height = find_child(video, kDisplayHeight);

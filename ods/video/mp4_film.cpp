@@ -142,7 +142,8 @@ FilmInfo read_mp4(const FileInput& file) {
   Mp4 film = open_mp4(file);
   FilmInfo info;
   info.container = container_of(file, film.boxes);
-  info.is_fragmented = find_child(film.moov, box_type("mvex")) != nullptr;
+  info.is_fragmented = std::any_of(film.boxes.begin(), film.boxes.end(),
+                                   [](const FileBox& box) { return box.type == box_type("moof"); });
   for (Box& track : film.moov.children) {
     if (track.type != box_type("trak")) continue;
     open_box(track, 0);
