@@ -34,7 +34,7 @@ struct InjectJob {
   FilmForm form;
   std::optional<int> track;
   float yaw = 0.0f, pitch = 0.0f, roll = 0.0f;
-  bool is_mono = false, remove = false;
+  bool remove = false;
 };
 
 void parse_projection(const std::string& name, FilmForm& form) {

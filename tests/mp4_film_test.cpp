@@ -224,17 +224,17 @@ TEST_F(Mp4Film, ALinkGoesOnLeadingToTheFilmAndModesStay) {
 // Killed without warning at whatever moment, there is the old film or the new one.
 TEST_F(Mp4Film, KilledItLeavesTheOldFilmOrTheNew) {
   made::Mp4Options options;
-  options.padding = size_t{1} << 20;
+  options.padding = size_t{1} << 18;
   options.chunks = 32;
   const std::string old = made::mp4(options), tagged = tag(old, stacked());
-  for (int i = 0; i < 24; i++) {
+  for (int i = 0; i < 16; i++) {
     folder.write("film.mp4", old);
     const pid_t child = fork();
     if (child == 0) {
       tag_film(folder.path("film.mp4"), folder.path("film.mp4"), 1, stacked());
       _exit(0);
     }
-    usleep(static_cast<useconds_t>(5000 * i));
+    usleep(static_cast<useconds_t>(2000 * i));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const std::string now = folder.read("film.mp4");
