@@ -276,13 +276,16 @@ static void tag_tracks(Matroska& film, uint64_t number, const std::optional<Film
   for (auto& [index, part] : film.opened) {
     for (Element& entry : part.children) {
       if (part.id != kTracks || entry.id != kTrackEntry || child_number(entry, kTrackNumber) != number) continue;
-      if (Element* video = find_child(entry, kVideo)) tag_video(*video, form);
+      Element* video = find_child(entry, kVideo);
+      if (video == nullptr) continue;
+      tag_video(*video, form);
       tagged = &entry;
     }
   }
+  if (tagged == nullptr) throw Broken("its video track does not say what its pictures are like");
   for (auto& [index, part] : film.opened) {
     for (Element& tag : part.children) {
-      if (part.id == kTags && tagged != nullptr && is_about(tag, *tagged)) std::erase_if(tag.children, is_v1_tag);
+      if (part.id == kTags && is_about(tag, *tagged)) std::erase_if(tag.children, is_v1_tag);
     }
     if (part.id != kTags) continue;
     std::erase_if(part.children, [](const Element& e) { return e.id == kTag && find_child(e, kSimpleTag) == nullptr; });

@@ -177,6 +177,7 @@ static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
     tag_entry(entry, form);
     result.has_v2 = form.has_value();
   }
+  if (form && !result.has_v2) throw Broken("its video track does not say what its pictures are like");
   std::erase_if(track.children, is_v1);
   if (form && fits_v1(*form)) {
     Box box;
