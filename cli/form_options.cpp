@@ -32,22 +32,22 @@ std::string layout_list() {
   return list;
 }
 
-Layout parse_layout(const std::string& name, const std::string& word) {
+}  // namespace
+
+Layout layout_by_name(const std::string& name, const std::string& word) {
   if (auto layout = ods::layout_of(word)) return *layout;
   throw UsageError(fmt::format("{}: there is no layout '{}'{} (--help lists them)", name, word,
                                ods::did_you_mean(word, layout_names())));
 }
 
-}  // namespace
-
 void add_layout_option(Options& options, Layout& layout, const std::string& text) {
-  auto set = [&](const std::string& word) { layout = parse_layout("--layout", word); };
+  auto set = [&](const std::string& word) { layout = layout_by_name("--layout", word); };
   options.custom("--layout", "LAYOUT", std::string(ods::layout_name(layout)), set, text + ": " + layout_list());
 }
 
 void add_layout_option(Options& options, std::optional<Layout>& layout, const std::string& text,
                        const std::string& name) {
-  auto set = [&layout, name](const std::string& word) { layout = parse_layout(name, word); };
+  auto set = [&layout, name](const std::string& word) { layout = layout_by_name(name, word); };
   options.custom(name, "LAYOUT", "", set, name == "--layout" ? text + ": " + layout_list() : text);
 }
 

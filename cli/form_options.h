@@ -16,6 +16,9 @@ void add_layout_option(Options& options, ods::Layout& layout, const std::string&
 void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
                        const std::string& name = "--layout");
 
+// By name or alias, as `option` was given it. Throws UsageError with a suggestion.
+ods::Layout layout_by_name(const std::string& option, const std::string& word);
+
 // --size NAME: width, height, layout and mono at once. Options take effect in the order in which they were added, so
 // that those added after it go before it.
 void add_size_option(Options& options, ods::RenderOptions& picture, ods::Layout& layout);

@@ -33,6 +33,8 @@ constexpr Command kCommands[] = {
     {"project", "tell where world points fall in each eye", "ods_project"},
     {"compare", "measure how far one picture is from another", "ods_compare"},
     {"lint", "find what is wrong with a stereo 360 picture", "ods_lint"},
+    {"probe", "tell what a film or picture says, and what players take it for", "ods_probe"},
+    {"inject", "make a film say that it is stereo 360", "ods_inject"},
     {"testcard", "make a picture that judges players", "ods_testcard"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
     {"sizes", "list the sizes that have names", "ods_sizes"},

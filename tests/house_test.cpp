@@ -22,9 +22,10 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"ods/kernel", {}},
     {"ods/base", {"ods/kernel"}},
     {"ods/image", {"ods/kernel", "ods/base"}},
+    {"ods/video", {"ods/kernel", "ods/base", "ods/image"}},
     {"ods/scene", {"ods/kernel", "ods/base", "ods/image"}},
     {"ods/cpu", {"ods/kernel", "ods/base", "ods/image", "ods/scene"}},
-    {"cli", {"ods/kernel", "ods/base", "ods/image", "ods/scene", "ods/cpu"}},
+    {"cli", {"ods/kernel", "ods/base", "ods/image", "ods/video", "ods/scene", "ods/cpu"}},
 };
 
 // Libraries that one .cpp hides from all the others, by how their headers start.

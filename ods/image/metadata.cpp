@@ -198,11 +198,9 @@ bool fits_gpano(const ProjectionSetting& projection) {
   return projection.kind == kLatLong && projection.longitude.x >= -180.0f && projection.longitude.y <= 180.0f;
 }
 
-// GPano:Name="value" or <GPano:Name>value</GPano:Name>.
-static std::string gpano_property(const std::string& xmp, const std::string& name) {
-  const std::string key = "GPano:" + name;
-  for (size_t at = xmp.find(key); at != std::string::npos; at = xmp.find(key, at + 1)) {
-    size_t from = xmp.find_first_not_of(" \t\r\n", at + key.size());
+std::string xmp_property(const std::string& xmp, const std::string& name) {
+  for (size_t at = xmp.find(name); at != std::string::npos; at = xmp.find(name, at + 1)) {
+    size_t from = xmp.find_first_not_of(" \t\r\n", at + name.size());
     if (from == std::string::npos) break;
     if (xmp[from] == '>') return xmp.substr(from + 1, xmp.find('<', from) - from - 1);
     if (xmp[from] != '=') continue;
@@ -211,6 +209,10 @@ static std::string gpano_property(const std::string& xmp, const std::string& nam
     return xmp.substr(from + 1, xmp.find(xmp[from], from + 1) - from - 1);
   }
   return {};
+}
+
+static std::string gpano_property(const std::string& xmp, const std::string& name) {
+  return xmp_property(xmp, "GPano:" + name);
 }
 
 static std::optional<double> gpano_number(const std::string& xmp, const std::string& name) {

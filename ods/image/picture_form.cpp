@@ -31,15 +31,7 @@ static const NamedProjection* projection_word(const std::string& word) {
   return find_projection(word);
 }
 
-struct NameWords {
-  std::optional<Layout> layout;
-  bool is_mono = false;
-  std::string layout_word;  // with the mark before it
-  const NamedProjection* projection = nullptr;
-  std::string projection_word;
-};
-
-static NameWords read_name(const std::string& path) {
+NameWords read_name(const std::string& path) {
   NameWords words;
   std::string name = std::filesystem::path(path).stem().native();
   for (size_t at = name.find_last_of("_. "); at != std::string::npos; at = name.find_last_of("_. ")) {

@@ -16,6 +16,16 @@
 
 namespace ods {
 
+// The words that a file's name ends in.
+struct NameWords {
+  std::optional<Layout> layout;
+  bool is_mono = false;
+  std::string layout_word;  // with the mark before it: "_TB"; empty where there is none
+  const NamedProjection* projection = nullptr;
+  std::string projection_word;  // "_360"
+};
+NameWords read_name(const std::string& path);
+
 struct LayoutGuess {
   std::optional<Layout> layout;  // none: the file is one eye
   std::string because;           // "its name ends in _TB", to be said to people

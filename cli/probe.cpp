@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods probe: what a film or a picture says of itself, and what players will take it for.
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/probe_report.h"
+#include "ods/image/metadata.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods probe film_360_TB.mp4\n"
+    "  ods probe picture.jpg\n"
+    "  ods probe film.mkv --json";
+
+constexpr const char* kSummary =
+    "Tells what a film (mp4, mov, mkv, webm) or a picture says of itself: its tracks, Spherical Video V1 and V2, "
+    "GPano,\n"
+    "the camera; what each kind of player will take it for, and why; and what is wrong with it.";
+
+ProbeReport probe(const std::string& path) {
+  ProbeReport report;
+  report.path = path;
+  if (ods::is_film(path)) {
+    report.film = ods::read_film(path);
+    for (const ods::VideoTrack& track : report.film->video) {
+      report.views.push_back(film_views(*report.film, track, path));
+      report.warnings.push_back(film_warnings(*report.film, track, path));
+    }
+    return report;
+  }
+  const ods::FileInfo info = ods::read_info(path);
+  const ods::PictureForm form = find_form(info, path, {});
+  const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
+  report.picture = PictureReport{info, form, ods::gpano_camera(xmp).has_value()};
+  report.views.push_back(picture_views(info, form, report.picture->has_gpano, path));
+  report.warnings.push_back(picture_warnings(info, form, report.picture->has_gpano, path));
+  return report;
+}
+
+void run(int argc, char** argv) {
+  std::string path;
+  bool json = false;
+  Options options("probe", kSummary, kExamples);
+  options.argument("FILE", path, "a film or a picture");
+  options.group("Console");
+  options.flag("--json", json, "for programs");
+  if (!options.parse(argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  const ProbeReport report = probe(path);
+  json ? print_json(report) : print_text(report);
+}
+
+}  // namespace
+
+extern "C" int ods_probe(int argc, char** argv) {
+  return run_command([=] { run(argc, argv); });
+}

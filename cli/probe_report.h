@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods probe prints.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/video/players.h"
+
+struct PictureReport {
+  ods::FileInfo info;
+  ods::PictureForm form;
+  bool has_gpano = false;
+};
+
+// Of a film or a picture.
+struct ProbeReport {
+  std::string path;
+  std::optional<ods::FilmInfo> film;
+  std::optional<PictureReport> picture;
+  std::vector<std::vector<ods::PlayerView>> views;  // of every video track, or of the picture
+  std::vector<std::vector<std::string>> warnings;   // likewise
+};
+
+void print_text(const ProbeReport& report);
+void print_json(const ProbeReport& report);

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/bytes.h"
+
+namespace ods {
+
+static void check_place(std::string_view bytes, size_t at, size_t count) {
+  if (at > bytes.size() || count > bytes.size() - at) throw Broken("a table in it ends too early");
+}
+
+uint64_t get_number(std::string_view bytes, size_t at, size_t count) {
+  check_place(bytes, at, count);
+  uint64_t value = 0;
+  for (size_t i = 0; i < count; i++) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+static char byte_of(uint64_t value, size_t place) {
+  return static_cast<char>(static_cast<unsigned char>(value >> (8 * place)));
+}
+
+void append_number(std::string& bytes, uint64_t value, size_t count) {
+  for (size_t i = count; i-- > 0;) bytes.push_back(byte_of(value, i));
+}
+
+void set_number(std::string& bytes, size_t at, uint64_t value, size_t count) {
+  check_place(bytes, at, count);
+  if (count < 8 && value >> (8 * count) != 0) throw Broken("a place in it that holds an offset is too small for it");
+  for (size_t i = 0; i < count; i++) bytes[at + i] = byte_of(value, count - 1 - i);
+}
+
+}  // namespace ods

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A film of whatever container: what is in it, what it says of itself, and how to make it say something else.
+// mp4_film.h and matroska_film.h are the containers.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/image/layout.h"
+#include "ods/video/spherical.h"
+
+namespace ods {
+
+enum class Container { kMp4, kMov, kMatroska, kWebm };
+inline constexpr Container kContainers[] = {Container::kMp4, Container::kMov, Container::kMatroska, Container::kWebm};
+std::string_view container_name(Container container);  // mp4, mov, mkv, webm
+
+struct VideoTrack {
+  uint64_t id = 0;
+  std::string codec;           // avc1, hvc1, V_VP9: as the container has it
+  Extent size;                 // of a frame
+  double fps = 0.0;            // 0: unknown
+  std::optional<FilmForm> v1;  // what its Spherical Video V1 says
+  std::optional<FilmForm> v2;  // its V2, which Matroska has as StereoMode and Projection
+};
+
+struct SoundTrack {
+  uint64_t id = 0;
+  std::string codec;
+  std::optional<Ambisonics> ambisonics;
+};
+
+struct FilmInfo {
+  Container container = Container::kMp4;
+  bool is_fragmented = false;
+  std::vector<VideoTrack> video;
+  std::vector<SoundTrack> sound;
+};
+
+// By its first bytes, whatever the name says: mp4, mov, mkv, webm.
+bool is_film(const std::string& path);
+
+// Throws Error(kInput): not such a file, cut short, damaged.
+FilmInfo read_film(const std::string& path);
+
+// The track of that id; without one, that with the largest pictures. Throws Error(kInput), also where two are largest.
+const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, const std::string& path);
+
+struct TagResult {
+  bool has_v1 = false;  // of what was asked for
+  bool has_v2 = false;
+  bool moved = false;  // what lies behind the header was moved, and every offset with it
+};
+
+// Writes the film with another form into `to`, which may be `path` itself: a complete new file takes its place. No
+// form: one that says nothing. Every sample stays bit for bit what it was. Throws Error(kInput), also where the
+// container cannot say such a form; Error(kOutput).
+TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form);
+
+}  // namespace ods

@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/mp4_film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ods/video/box_offsets.h"
+
+namespace ods {
+
+constexpr size_t kVisualEntry = 78;  // bytes of a visual sample entry before its boxes
+
+// --- reading ---------------------------------------------------------------------------------------------------------
+
+struct Mp4 {
+  std::vector<FileBox> boxes;
+  size_t header = 0;  // which of them is moov
+  Box moov;
+};
+
+static Mp4 open_mp4(const FileInput& file) {
+  Mp4 film;
+  film.boxes = scan_boxes(file);
+  const auto is_header = [](const FileBox& box) { return box.type == box_type("moov"); };
+  const auto found = std::find_if(film.boxes.begin(), film.boxes.end(), is_header);
+  if (found == film.boxes.end()) throw Broken("it has no header (moov): its recording was not finished");
+  if (std::find_if(found + 1, film.boxes.end(), is_header) != film.boxes.end()) throw Broken("it has two headers");
+  film.header = static_cast<size_t>(found - film.boxes.begin());
+  film.moov = read_box(file, *found);
+  open_box(film.moov, 0);
+  if (find_child(film.moov, box_type("cmov"))) throw Broken("its header is compressed, as QuickTime once did");
+  return film;
+}
+
+static Box& sample_table(Box& track) {
+  Box& media = open_child(open_child(track, box_type("mdia")), box_type("minf"));
+  return open_child(media, box_type("stbl"));
+}
+
+static BoxType handler_of(Box& track) {
+  const Box* handler = find_child(open_child(track, box_type("mdia")), box_type("hdlr"));
+  return handler == nullptr ? 0 : static_cast<BoxType>(get_number(handler->body, 8, 4));
+}
+
+static bool is_video(Box& track) {
+  return handler_of(track) == box_type("vide");
+}
+
+static uint64_t id_of(const Box& track) {
+  const Box* header = find_child(track, box_type("tkhd"));
+  if (header == nullptr) throw Broken("a track of it has no header");
+  return get_number(header->body, get_number(header->body, 0, 1) == 0 ? 12 : 20, 4);
+}
+
+static double number_at(std::string_view bytes, size_t at) {
+  return static_cast<double>(get_number(bytes, at, 4));
+}
+
+// Samples by the time they take; where fragments hold them all, by the time each takes unless they say otherwise.
+static double rate_of(Box& track, Box& moov) {
+  const Box* header = find_child(open_child(track, box_type("mdia")), box_type("mdhd"));
+  const Box* times = find_child(sample_table(track), box_type("stts"));
+  if (header == nullptr || times == nullptr) return 0.0;
+  const double scale = number_at(header->body, get_number(header->body, 0, 1) == 0 ? 12 : 20);
+  double samples = 0.0, duration = 0.0;
+  const size_t count = std::min<size_t>(get_number(times->body, 4, 4), (times->body.size() - 8) / 8);
+  for (size_t i = 0; i < count; i++) {
+    const double run = number_at(times->body, 8 + 8 * i);
+    samples += run;
+    duration += run * number_at(times->body, 12 + 8 * i);
+  }
+  if (Box* fragments = find_child(moov, box_type("mvex")); fragments != nullptr && duration == 0.0) {
+    open_box(*fragments, 0);
+    for (const Box& defaults : fragments->children) {
+      if (defaults.type != box_type("trex") || get_number(defaults.body, 4, 4) != id_of(track)) continue;
+      samples = 1.0;
+      duration = number_at(defaults.body, 12);
+    }
+  }
+  return duration > 0.0 ? samples * scale / duration : 0.0;
+}
+
+static bool is_v1(const Box& box) {
+  return box.type == box_type("uuid") && box.body.starts_with(kV1Id);
+}
+
+static VideoTrack read_video(Box& track, Box& moov) {
+  VideoTrack video;
+  video.id = id_of(track);
+  for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
+    open_box(entry, kVisualEntry);
+    if (video.codec.empty()) {
+      video.codec = type_text(entry.type);
+      video.size.width = static_cast<int>(get_number(entry.body, 24, 2));
+      video.size.height = static_cast<int>(get_number(entry.body, 26, 2));
+    }
+    if (!video.v2) video.v2 = parse_v2(entry);
+  }
+  for (const Box& box : track.children) {
+    if (is_v1(box) && !video.v1) video.v1 = parse_v1(box.body.substr(kV1Id.size()));
+  }
+  video.fps = rate_of(track, moov);
+  return video;
+}
+
+// Its boxes stand behind a description of three lengths, in QuickTime's reading; what cannot be read says nothing.
+static SoundTrack read_sound(Box& track) {
+  SoundTrack sound;
+  sound.id = id_of(track);
+  for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
+    sound.codec = type_text(entry.type);
+    const uint64_t version = get_number(entry.body, 8, 2);
+    try {
+      open_box(entry, version == 1 ? 44 : version == 2 ? 64 : 28);
+    } catch (const Broken&) {
+      continue;
+    }
+    if (const Box* box = find_child(entry, box_type("SA3D"))) sound.ambisonics = parse_sa3d(box->body);
+  }
+  return sound;
+}
+
+bool is_mp4(std::string_view first_bytes) {
+  if (first_bytes.size() < 8) return false;
+  const auto type = static_cast<BoxType>(get_number(first_bytes, 4, 4));
+  const BoxType kFirst[] = {box_type("ftyp"), box_type("styp"), box_type("moov"), box_type("mdat"),
+                            box_type("free"), box_type("skip"), box_type("wide"), box_type("pnot"),
+                            box_type("uuid"), box_type("sidx"), box_type("moof")};
+  return std::find(std::begin(kFirst), std::end(kFirst), type) != std::end(kFirst);
+}
+
+static Container container_of(const FileInput& file, const std::vector<FileBox>& boxes) {
+  const FileBox& first = boxes.front();
+  if (first.type != box_type("ftyp")) return Container::kMov;  // QuickTime did without
+  if (first.size < first.header + 4) throw Broken("it does not say which kind of mp4 it is");
+  return file.read(first.offset + first.header, 4) == "qt  " ? Container::kMov : Container::kMp4;
+}
+
+FilmInfo read_mp4(const FileInput& file) {
+  Mp4 film = open_mp4(file);
+  FilmInfo info;
+  info.container = container_of(file, film.boxes);
+  info.is_fragmented = std::any_of(film.boxes.begin(), film.boxes.end(),
+                                   [](const FileBox& box) { return box.type == box_type("moof"); });
+  for (Box& track : film.moov.children) {
+    if (track.type != box_type("trak")) continue;
+    open_box(track, 0);
+    if (is_video(track)) info.video.push_back(read_video(track, film.moov));
+    if (handler_of(track) == box_type("soun")) info.sound.push_back(read_sound(track));
+  }
+  return info;
+}
+
+// --- writing ---------------------------------------------------------------------------------------------------------
+
+// What is there of V2 goes, what is new stands behind the codec's own boxes.
+static void tag_entry(Box& entry, const std::optional<FilmForm>& form) {
+  open_box(entry, kVisualEntry);
+  std::vector<Box>& boxes = entry.children;
+  std::erase_if(boxes, [](const Box& box) { return box.type == box_type("st3d") || box.type == box_type("sv3d"); });
+  if (!form) return;
+  auto place = std::find_if(boxes.begin(), boxes.end(), [](const Box& box) {
+    return box.type == box_type("pasp") || box.type == box_type("clap");
+  });
+  if (form->projection && form->projection != FilmProjection::kFlat) place = boxes.insert(place, sv3d_box(*form));
+  boxes.insert(place, st3d_box(*form));
+}
+
+static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
+  TagResult result;
+  if (form && !fits_v2(*form)) {
+    throw Broken(fmt::format("mp4 and mov have no words for {}", form_text(*form)));
+  }
+  for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
+    tag_entry(entry, form);
+    result.has_v2 = form.has_value();
+  }
+  if (form && !result.has_v2) throw Broken("its video track does not say what its pictures are like");
+  std::erase_if(track.children, is_v1);
+  if (form && fits_v1(*form)) {
+    Box box;
+    box.type = box_type("uuid");
+    box.body = std::string(kV1Id) + v1_xml(*form);
+    track.children.push_back(std::move(box));
+    result.has_v1 = true;
+  }
+  return result;
+}
+
+// Offsets into other files are not ours to move.
+static void refuse_other_files(Box& track) {
+  Box& media = open_child(open_child(track, box_type("mdia")), box_type("minf"));
+  Box* information = find_child(media, box_type("dinf"));
+  if (information == nullptr) return;
+  open_box(*information, 0);
+  Box* references = find_child(*information, box_type("dref"));
+  if (references == nullptr) return;
+  open_box(*references, 8);
+  for (const Box& reference : references->children) {
+    if ((get_number(reference.body, 3, 1) & 1) == 0) throw Broken("its samples lie in other files; export it as one");
+  }
+}
+
+struct Plan {
+  Move move;
+  bool uses_free = false;  // the box behind the header
+  uint64_t free = 0;       // bytes of what is left of it
+};
+
+static Plan plan_once(const Mp4& film, uint64_t file_size) {
+  const FileBox& old = film.boxes[film.header];
+  const int64_t growth = static_cast<int64_t>(box_size(film.moov)) - static_cast<int64_t>(old.size);
+  Plan plan;
+  plan.move = {old.offset, old.end(), growth, file_size};
+  if (growth == 0 || film.header + 1 == film.boxes.size()) return plan;
+  const FileBox& next = film.boxes[film.header + 1];
+  const bool is_free = next.type == box_type("free") || next.type == box_type("skip");
+  const int64_t left = static_cast<int64_t>(next.size) - growth;
+  if (is_free && (left == 0 || left >= 8) && left <= 0xffffffff) {
+    plan.move = {old.offset, next.end(), 0, file_size};
+    plan.uses_free = true;
+    plan.free = static_cast<uint64_t>(left);
+  }
+  return plan;
+}
+
+// Moving may make the header longer, and then it has to be done for that length.
+static Plan plan_move(Mp4& film, uint64_t file_size) {
+  for (;;) {
+    const Plan plan = plan_once(film, file_size);
+    bool widened = false;
+    for (Box& track : film.moov.children) {
+      if (track.type == box_type("trak")) widened = widen_offsets(sample_table(track), plan.move) || widened;
+    }
+    if (!widened) return plan;
+  }
+}
+
+static void move_header(Box& moov, const Move& move) {
+  for (Box& box : moov.children) {
+    if (box.type == box_type("meta")) move_item_offsets(box, move);
+    if (box.type != box_type("trak")) continue;
+    refuse_other_files(box);
+    move_offsets(sample_table(box), move);
+    if (Box* meta = find_child(box, box_type("meta"))) move_item_offsets(*meta, move);
+  }
+}
+
+static void write_header(const Mp4& film, const Plan& plan, AtomicFile& to) {
+  std::string bytes;
+  write_box(film.moov, bytes);
+  append(to, bytes);
+  if (plan.free == 0) return;
+  Box filler;
+  filler.type = box_type("free");
+  filler.body.resize(plan.free - 8);
+  bytes.clear();
+  write_box(filler, bytes);
+  append(to, bytes);
+}
+
+TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id, const std::optional<FilmForm>& form) {
+  Mp4 film = open_mp4(file);
+  TagResult result;
+  for (Box& track : film.moov.children) {
+    if (track.type != box_type("trak")) continue;
+    open_box(track, 0);
+    if (is_video(track) && id_of(track) == track_id) result = tag_track(track, form);
+  }
+  const Plan plan = plan_move(film, file.size());
+  move_header(film.moov, plan.move);
+  result.moved = plan.move.growth != 0;
+  for (size_t i = 0; i < film.boxes.size(); i++) {
+    const FileBox& box = film.boxes[i];
+    if (i == film.header) {
+      write_header(film, plan, to);
+      if (plan.uses_free) i++;
+    } else if (result.moved && may_have_offsets(box.type)) {
+      Box moved = read_box(file, box);
+      move_offsets(moved, box, plan.move);
+      std::string bytes;
+      write_box(moved, bytes);
+      append(to, bytes);
+    } else {
+      file.copy(box.offset, box.size, to);
+    }
+  }
+  return result;
+}
+
+}  // namespace ods

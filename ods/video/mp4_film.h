@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Films as ISO base media files: mp4, mov, m4v; whole or in fragments, header before or behind the samples. Sources:
+// ISO/IEC 14496-12; Apple, "QuickTime File Format"; ods/video/spherical.h.
+//
+// What is written into the video track, in place of what was there: V2 as st3d and sv3d in every sample entry, behind
+// the codec's own boxes and before pasp and clap; V1 as the last box of the track, where it can say the form.
+#pragma once
+#include <optional>
+
+#include "ods/video/boxes.h"
+#include "ods/video/film.h"
+
+namespace ods {
+
+bool is_mp4(std::string_view first_bytes);
+
+// Throws Broken, Error(kInput).
+FilmInfo read_mp4(const FileInput& file);
+
+// Throws Broken, Error(kInput), Error(kOutput). The header keeps its place; a `free` box behind it is used up, or
+// grown, before anything is moved.
+TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track, const std::optional<FilmForm>& form);
+
+}  // namespace ods

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods inject and ods probe as their users meet them, and what other programs read in tagged films.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli_runner.h"
+#include "tests/made_films.h"
+
+namespace {
+
+using Json = nlohmann::json;
+
+class FilmCommand : public Cli {
+ protected:
+  std::string make(const std::string& name, const ods::made::Mp4Options& options = {}) {
+    folder.write(name, ods::made::mp4(options));
+    return folder.path(name);
+  }
+
+  Json probe(const std::string& path) {
+    EXPECT_EQ(run("probe --json " + path), 0) << err;
+    return Json::parse(out, nullptr, false);
+  }
+
+  // Nothing but one line, which starts as every error does.
+  void expect_one_line() const {
+    EXPECT_EQ(out, "");
+    EXPECT_TRUE(err.starts_with("ods: error: ")) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  }
+};
+
+TEST_F(FilmCommand, InjectGoesByTheNameAndSaysSo) {
+  const std::string path = make("film_360_TB.mp4");
+  ASSERT_EQ(run("inject " + path), 0) << err;
+  EXPECT_EQ(out, path + "\n");
+  EXPECT_NE(err.find("its name ends in _TB"), std::string::npos) << err;
+  EXPECT_NE(err.find("written as V1 and V2"), std::string::npos) << err;
+  const Json video = probe(path)["film"]["video"][0];
+  EXPECT_EQ(video["v1"]["stereo"], "top-bottom");
+  EXPECT_EQ(video["v2"]["projection"], "lat-long");
+  EXPECT_TRUE(video["warnings"].empty());
+  EXPECT_EQ(video["players"].size(), 4u);
+}
+
+TEST_F(FilmCommand, InjectWritesAnotherFileAndSaysWhatV1CannotHold) {
+  const std::string path = make("film.mp4"), other = folder.path("other.mp4");
+  const std::string before = folder.read("film.mp4");
+  ASSERT_EQ(run("inject " + path + " -o " + other + " --layout LR --projection vr180 --yaw 90"), 0) << err;
+  EXPECT_NE(err.find("V1 cannot say that"), std::string::npos) << err;
+  EXPECT_EQ(folder.read("film.mp4"), before);
+  const Json form = probe(other)["film"]["video"][0]["v2"];
+  EXPECT_EQ(form["stereo"], "side-by-side");
+  EXPECT_EQ(form["bounds"], Json({0, 0, 0x40000000, 0x40000000}));
+  EXPECT_EQ(form["yaw"], 90.0);
+  ASSERT_EQ(run("inject --remove " + other), 0) << err;
+  EXPECT_TRUE(probe(other)["film"]["video"][0]["v2"].is_null());
+}
+
+TEST_F(FilmCommand, ExitCodesSayWhatWasWrong) {
+  const std::string path = make("film.mp4");
+  for (const char* words : {" --projection cube-3x2", " --projection ball", " --layout ball", " --yaw 181",
+                            " --remove --yaw 3", " --track -1"}) {
+    EXPECT_EQ(run("inject " + path + words), 2) << words;
+    expect_one_line();
+  }
+  for (const char* words : {" --track 9", " --layout bottom-top", " --layout anaglyph", " --projection fisheye"}) {
+    EXPECT_EQ(run("inject " + path + words), 3) << words;
+    expect_one_line();
+  }
+  folder.write("text.mp4", "no film at all");
+  for (const char* command : {"inject ", "probe "}) {
+    EXPECT_EQ(run(command + folder.path("text.mp4")), 3);
+    expect_one_line();
+    EXPECT_EQ(run(command + folder.path("absent.mp4")), 3);
+    expect_one_line();
+    EXPECT_EQ(run(command + folder.path("")), 3);
+    expect_one_line();
+  }
+  EXPECT_EQ(run("inject " + path + " -o " + folder.path("")), 4);
+  expect_one_line();
+  EXPECT_EQ(run("inject " + path, 100), 4) << "files of more than 100 bytes are not allowed";
+  expect_one_line();
+  EXPECT_EQ(folder.read("film.mp4"), ods::made::mp4({}));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"film.mp4", "text.mp4"}));
+}
+
+TEST_F(FilmCommand, AFullDiskLeavesTheOldFilm) {
+  ods::TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: this machine lets nobody mount a disk";
+  ods::made::Mp4Options options;
+  options.padding = 50000;
+  const std::string film = ods::made::mp4(options);
+  disk.folder().write("film_360_TB.mp4", film);
+  EXPECT_EQ(run("inject " + disk.folder().path("film_360_TB.mp4")), 4);
+  expect_one_line();
+  EXPECT_EQ(disk.folder().read("film_360_TB.mp4"), film);
+  EXPECT_EQ(disk.folder().names().size(), 1u);
+}
+
+TEST_F(FilmCommand, HugeFilmsNeedLittleMemory) {
+  const std::string path = make("film_360_TB.mp4");
+  // A hole of 1 GiB behind the samples, as a box of its own.
+  std::ofstream(path, std::ios::app | std::ios::binary) << ods::made::number((1 << 30) + 8, 4) << "free";
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) + (1 << 30));
+  ASSERT_EQ(run("probe " + path, RLIM_INFINITY, rlim_t{2} << 30), 0) << err;
+  EXPECT_NE(out.find("avc1"), std::string::npos);
+}
+
+TEST_F(FilmCommand, PicturesAreProbedToo) {
+  ASSERT_EQ(run("render furnace --width 16 --samples 1 -q -o " + folder.path("a_360_TB.png")), 0) << err;
+  const Json picture = probe(folder.path("a_360_TB.png"))["picture"];
+  EXPECT_EQ(picture["layout"], "top-bottom");
+  EXPECT_EQ(picture["projection"], "lat-long");
+  EXPECT_FALSE(picture["gpano"]);
+  ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("mono.jpg")), 0) << err;
+  EXPECT_TRUE(probe(folder.path("mono.jpg"))["picture"]["gpano"]);
+  EXPECT_EQ(run("probe " + folder.path("mono.jpg")), 0);
+  EXPECT_NE(out.find("reads GPano"), std::string::npos) << out;
+}
+
+// --- other programs --------------------------------------------------------------------------------------------------
+
+bool is_installed(const std::string& program) {
+  return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+std::string output_of(const std::string& command) {
+  std::string text;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> bytes{};
+  while (const size_t size = std::fread(bytes.data(), 1, bytes.size(), pipe)) text.append(bytes.data(), size);
+  pclose(pipe);
+  return text;
+}
+
+TEST_F(FilmCommand, ExiftoolReadsWhatWeWrite) {
+  if (!is_installed("exiftool")) GTEST_SKIP() << "skipped: exiftool is not installed";
+  const std::string path = make("film.mp4");
+  ASSERT_EQ(run("inject --layout top-bottom --projection lat-long --yaw 20 " + path), 0) << err;
+  const std::string text = output_of("exiftool -s -n " + path);
+  for (const char* line : {"Stereoscopic3D                  : 1", "MetadataSource                  : Omnistereo",
+                           "PoseYawDegrees                  : 20", "ProjectionType                  : equirectangular",
+                           "StereoMode                      : top-bottom"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+  }
+}
+
+TEST_F(FilmCommand, FfprobeReadsWhatWeWrite) {
+  if (!is_installed("ffprobe")) GTEST_SKIP() << "skipped: ffprobe is not installed";
+  const std::string path = make("film.mp4");
+  ASSERT_EQ(run("inject --layout top-bottom --projection lat-long " + path), 0) << err;
+  const std::string text = output_of("ffprobe -v quiet -show_streams " + path);
+  EXPECT_NE(text.find("type=top and bottom"), std::string::npos) << text;
+  EXPECT_NE(text.find("projection=equirectangular"), std::string::npos) << text;
+}
+
+}  // namespace
