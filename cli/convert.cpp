@@ -5,7 +5,6 @@
 #include "ods/image/convert.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <chrono>
 #include <iostream>
@@ -13,13 +12,9 @@
 
 #include "cli/console.h"
 #include "cli/convert_job.h"
-#include "cli/interrupt.h"
+#include "cli/long_job.h"
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Tells the lines how many rows are made.
 void count_rows(ods::PictureRows& rows, ProgressLines& lines, std::chrono::steady_clock::time_point start) {
@@ -64,21 +59,7 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
 void convert(int argc, char** argv) {
   ConvertJob job;
   if (!read_convert_job(job, argc, argv)) return;
-  if (job.progress == ProgressMode::kAuto) {
-    job.progress = console.quiet          ? ProgressMode::kNone
-                   : stderr_is_terminal() ? ProgressMode::kBar
-                                          : ProgressMode::kPlain;
-  }
-  end_on_interrupts(interrupted_line(job.progress));
-  std::optional<tbb::global_control> limit;
-  if (job.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, job.threads);
-  ProgressLines lines(job.progress, progress_is_for_farm(job.progress) ? std::cout : std::cerr);
-  try {
-    convert_to_file(job, lines);
-  } catch (const std::exception& error) {
-    lines.fail(error.what());
-    throw;
-  }
+  run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { convert_to_file(job, lines); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/console.h"
 #include "cli/eye_options.h"
 #include "cli/form_options.h"
+#include "cli/long_job.h"
 #include "cli/projection_options.h"
 #include "ods/image/camera_file.h"
 
@@ -93,10 +94,7 @@ bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv)
   add_camera(options, wishes.camera);
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "0: all processors");
-  options.choice("--progress", job.progress, kProgressModes, progress_mode_name,
-                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
-  options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
+  add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   given = {wishes.size.width > 0, options.given("--eyes") || options.given("--size"), options.given("--tone"),
            options.given("--exposure")};
@@ -129,11 +127,6 @@ std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool g
   std::vector<int> eyes;
   for (const ods::StoredEye& eye : job.picture.eyes) eyes.push_back(eye.eye);
   return eyes;
-}
-
-bool keeps_light(const std::string& path) {
-  const auto format = ods::format_of_path(path);
-  return format && ods::is_scene_referred(*format);
 }
 
 // Where the output will lie, or what there is of the way to it.

@@ -6,6 +6,7 @@
 
 #include "cli/console.h"
 #include "ods/base/suggest.h"
+#include "ods/image/file_format.h"
 #include "ods/image/sizes.h"
 
 using ods::Layout;
@@ -88,4 +89,9 @@ void finish_form_options(const Options& options, const ods::ProjectionSetting& p
   if (!options.given("--layout") && !sized) {
     save.layout = ods::projection_name(projection) == "vr180" ? Layout::kSideBySide : Layout::kTopBottom;
   }
+}
+
+bool keeps_light(const std::string& path) {
+  const auto format = ods::format_of_path(path);
+  return format && ods::is_scene_referred(*format);
 }

@@ -30,5 +30,8 @@ void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOp
 void finish_form_options(const Options& options, const ods::ProjectionSetting& projection, ods::RenderOptions& picture,
                          ods::SaveOptions& save);
 
+// Whether a file of this name holds the scene's light, which is neither exposed nor toned: exr and hdr.
+bool keeps_light(const std::string& path);
+
 // Throws UsageError with a suggestion.
 const ods::NamedSize& size_by_name(const std::string& name);

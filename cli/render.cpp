@@ -5,21 +5,15 @@
 #include "ods/cpu/render.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <chrono>
 #include <iostream>
-#include <optional>
 
 #include "cli/console.h"
-#include "cli/interrupt.h"
+#include "cli/long_job.h"
 #include "cli/render_job.h"
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 void render_to_file(const RenderJob& job, ProgressLines& lines) {
   ods::check_output(job.output, job.save, ods::eye_list(job.render.eyes), {job.render.width, job.render.height});
@@ -44,16 +38,7 @@ void render_to_file(const RenderJob& job, ProgressLines& lines) {
 void render(int argc, char** argv) {
   RenderJob job;
   if (!read_render_job(job, argc, argv)) return;
-  end_on_interrupts(interrupted_line(job.progress));
-  std::optional<tbb::global_control> limit;
-  if (job.render.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, job.render.threads);
-  ProgressLines lines(job.progress, progress_is_for_farm(job.progress) ? std::cout : std::cerr);
-  try {
-    render_to_file(job, lines);
-  } catch (const std::exception& error) {
-    lines.fail(error.what());
-    throw;
-  }
+  run_long_job(job.progress, job.render.threads, [&](ProgressLines& lines) { render_to_file(job, lines); });
 }
 
 }  // namespace

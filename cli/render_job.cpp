@@ -6,7 +6,7 @@
 
 #include "cli/console.h"
 #include "cli/form_options.h"
-#include "ods/image/file_format.h"
+#include "cli/long_job.h"
 
 namespace {
 
@@ -46,19 +46,6 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
   options.number("--threads", job.render.threads, 0, 1024, "0: all processors");
 }
 
-void add_console_options(Options& options, RenderJob& job) {
-  options.group("Console");
-  options.choice("--progress", job.progress, kProgressModes, progress_mode_name,
-                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
-  options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
-}
-
-bool keeps_light(const std::string& path) {
-  const auto format = ods::format_of_path(path);
-  return format && ods::is_scene_referred(*format);
-}
-
 }  // namespace
 
 bool read_render_job(RenderJob& job, int argc, char** argv) {
@@ -69,7 +56,8 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   add_picture_options(options, job);
   add_camera_options(options, job.camera);
   add_quality_options(options, job, quality);
-  add_console_options(options, job);
+  options.group("Console");
+  add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
@@ -80,10 +68,5 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
     note("--exposure leaves .exr and .hdr as the scene is lit");
   job.render.layers = ods::keeps_layers(job.output);
   finish_camera_options(job.camera, job.render.width, job.render.height);
-  if (job.progress == ProgressMode::kAuto) {
-    job.progress = console.quiet          ? ProgressMode::kNone
-                   : stderr_is_terminal() ? ProgressMode::kBar
-                                          : ProgressMode::kPlain;
-  }
   return true;
 }

@@ -9,6 +9,7 @@
 #include "ods/base/error.h"
 #include "ods/image/anaglyph.h"
 #include "ods/image/save.h"
+#include "tests/saved_pictures.h"
 #include "tests/temporary_folder.h"
 
 namespace ods {
@@ -30,31 +31,6 @@ EyeImage make_eye(int eye) {
     }
   }
   return result;
-}
-
-SaveOptions options_for(Layout layout) {
-  SaveOptions options;
-  options.layout = layout;
-  options.tone = ToneCurve::kLinear;
-  return options;
-}
-
-// How far codecs may be off, in linear light.
-float tolerance(FileFormat format) {
-  switch (format) {
-    case FileFormat::kPng:
-    case FileFormat::kTiff:
-      return 0.004f;
-    case FileFormat::kJpeg:
-      return 0.02f;
-    case FileFormat::kWebp:
-      return 0.06f;
-    case FileFormat::kHdr:
-      return 0.004f;
-    case FileFormat::kExr:
-      return 0.0005f;
-  }
-  return 0.0f;
 }
 
 // Away from the edges, over which lossy codecs mix the eyes. Interleaved ones they always mix.

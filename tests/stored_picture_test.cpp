@@ -16,6 +16,7 @@
 #include "ods/base/scratch.h"
 #include "ods/image/save.h"
 #include "ods/image/tone.h"
+#include "tests/saved_pictures.h"
 #include "tests/temporary_folder.h"
 
 namespace ods {
@@ -64,34 +65,10 @@ float light_at(const StoredPicture& picture, const StoredEye& eye, int x, int y,
   return picture.is_float ? value : srgb_decode(value);
 }
 
-SaveOptions options_for(Layout layout) {
-  SaveOptions options;
-  options.layout = layout;
-  options.tone = ToneCurve::kLinear;
-  return options;
-}
-
 OpenOptions as(std::optional<Layout> layout) {
   OpenOptions options;
   options.form.layout = layout;
   return options;
-}
-
-// Linear light that codecs may be off.
-float tolerance(FileFormat format) {
-  switch (format) {
-    case FileFormat::kPng:
-    case FileFormat::kTiff:
-    case FileFormat::kHdr:
-      return 0.004f;
-    case FileFormat::kJpeg:
-      return 0.02f;
-    case FileFormat::kWebp:
-      return 0.06f;
-    case FileFormat::kExr:
-      return 0.0005f;
-  }
-  return 0.0f;
 }
 
 void expect_eye(const StoredPicture& picture, const StoredEye& eye, FileFormat format) {

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/long_job.h"
+
+#include <tbb/global_control.h>
+
+#include <iostream>
+#include <optional>
+
+#include "cli/console.h"
+#include "cli/interrupt.h"
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void add_progress_options(Options& options, ProgressMode& mode) {
+  options.choice("--progress", mode, kProgressModes, progress_mode_name,
+                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
+}
+
+static ProgressMode resolved(ProgressMode mode) {
+  if (mode != ProgressMode::kAuto) return mode;
+  if (console.quiet) return ProgressMode::kNone;
+  return stderr_is_terminal() ? ProgressMode::kBar : ProgressMode::kPlain;
+}
+
+void run_long_job(ProgressMode mode, int threads, const std::function<void(ProgressLines& lines)>& work) {
+  mode = resolved(mode);
+  end_on_interrupts(interrupted_line(mode));
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  ProgressLines lines(mode, progress_is_for_farm(mode) ? std::cout : std::cerr);
+  try {
+    work(lines);
+  } catch (const std::exception& error) {
+    lines.fail(error.what());
+    throw;
+  }
+}
