@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "cli/console.h"
+#include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "cli/render_job.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 void render_to_file(const RenderJob& job, ProgressLines& lines) {
   ods::check_output(job.output, job.save, ods::eye_list(job.render.eyes), {job.render.width, job.render.height});
+  note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
   ods::Scene scene = open_scene(job.scene);
   add_environment(scene, job.scene);
   ods::CameraRig rig = place_camera(job.camera, scene);

@@ -108,9 +108,9 @@ Place Mapping::find(int index, vec2 home, vec2 uv) const {
   const Ray ray = ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
   int eye = from[i];
-  if (camera.projection.kind == kLatLong && eyes[i] != kMono && source.picture->eyes.size() == 2) {
+  if (camera.projection.kind == kLatLong && eyes[i] != kMono) {
     const float phi = camera.projection.center.y + (0.5f - uv.y) * camera.projection.span.y;
-    if (abs(phi) > 0.5f * kPi && camera.ipd > 0.0f && is_apart_at_pole(camera, phi > 0.0f)) eye = 1 - eye;
+    if (abs(phi) > 0.5f * kPi) eye = eye_over_pole(source, eye, phi > 0.0f);
   }
   return place_of_line(source, eye, ray.direction);
 }
@@ -154,6 +154,8 @@ class Converter {
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
 
+  int64_t no_depth() const { return reprojection_ ? reprojection_->no_depth : 0; }
+
   // The number of empty pixels.
   int fill(int index, int y, std::span<float> row) const;
 
@@ -165,7 +167,7 @@ class Converter {
   void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
   bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
   bool fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
-  Meeting3d meet(int index, vec2 home, vec2 uv) const;
+  SurfaceHit meet(int index, vec2 home, vec2 uv) const;
   void sum_near(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
   bool stays_in_cell(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points) const;
@@ -325,7 +327,7 @@ bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<
   return true;
 }
 
-Meeting3d Converter::meet(int index, vec2 home, vec2 uv) const {
+SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
   const Ray ray = mapping_.ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
   return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
@@ -334,7 +336,7 @@ Meeting3d Converter::meet(int index, vec2 home, vec2 uv) const {
 // The footprint is that of the line of sight alone: parallax changes it by little, but where things end.
 bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
   const vec2 home = mapping_.home_of(x, y), pixel = mapping_.uv_of(1.0f, 1.0f);
-  const Meeting3d met = meet(index, home, home);
+  const SurfaceHit met = meet(index, home, home);
   if (!met.place.seen) return false;
   const Place unmoved = mapping_.find(index, home, home);
   std::vector<FilterPoint> points;
@@ -342,7 +344,7 @@ bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std:
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
   float weight = 0.0f;
   for (const FilterPoint& point : points) {
-    const Meeting3d there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
+    const SurfaceHit there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
     if (!there.place.seen) continue;
     resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, sums.data());
     weight += point.weight;
@@ -421,6 +423,7 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   const bool adds_alpha = colour.back() != "A" && (conversion.sees_around || sees_more(picture, target));
   if (adds_alpha) colour.push_back("A");
   const auto converter = std::make_shared<const Converter>(picture, target, adds_alpha);
+  conversion.no_depth = converter->no_depth();
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
     *empty += converter->fill(index, y, row);
   };

@@ -81,17 +81,15 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
 
 // --- texels --------------------------------------------------------------------------------------------------------
 
-template <class T>
-static std::vector<float> make_table(float (*decode)(T)) {
-  std::vector<float> table;
-  for (int i = 0; i <= std::numeric_limits<T>::max(); i++) table.push_back(decode(static_cast<T>(i)));
-  return table;
+static std::vector<float> light_of_halves() {
+  std::vector<float> light;
+  for (int bits = 0; bits < 1 << 16; bits++) {
+    light.push_back(finite(glm::unpackHalf1x16(static_cast<uint16_t>(bits)), -65504.0f, 65504.0f));
+  }
+  return light;
 }
 
-static float finite(float value) {
-  if (std::isnan(value)) return 0.0f;
-  return std::clamp(value, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max());
-}
+constexpr float kMost = std::numeric_limits<float>::max();
 
 // Samples of a file to light and to numbers. Whoever reads many asks for the table once.
 template <class T>
@@ -99,8 +97,7 @@ struct Codes {
   using Type = T;
   static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
   static const float* table() {
-    static const std::vector<float> kTable =
-        make_table<T>([](T c) { return srgb_decode(static_cast<float>(c) / std::numeric_limits<T>::max()); });
+    static const std::vector<float> kTable = light_of_codes(std::numeric_limits<T>::max());
     return kTable.data();
   }
   static float light(const float* table, T code) { return table[code]; }
@@ -111,10 +108,7 @@ struct Halves {
   using Type = uint16_t;
   static constexpr bool kIsAssociated = true;
   static const float* table() {
-    static const std::vector<float> kTable = make_table<uint16_t>([](uint16_t b) {
-      const float value = glm::unpackHalf1x16(b);
-      return std::isnan(value) ? 0.0f : std::clamp(value, -65504.0f, 65504.0f);
-    });
+    static const std::vector<float> kTable = light_of_halves();
     return kTable.data();
   }
   static float light(const float* table, uint16_t bits) { return table[bits]; }
@@ -125,8 +119,8 @@ struct Floats {
   using Type = float;
   static constexpr bool kIsAssociated = true;
   static const float* table() { return nullptr; }
-  static float light(const float*, float value) { return finite(value); }
-  static float number(float value) { return finite(value); }
+  static float light(const float*, float value) { return finite(value, -kMost, kMost); }
+  static float number(float value) { return finite(value, -kMost, kMost); }
 };
 
 template <class Samples>
