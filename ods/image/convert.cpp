@@ -127,7 +127,7 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // A stretch of a row in which places follow a parabola to a hundredth of a texel, known at its ends and in its middle.
 // Then no pixel needs its own trigonometry.
-constexpr int kLongStretch = 16;
+constexpr int kLongStretch = 32;
 constexpr int kShortStretch = 8;
 struct Stretch {
   int pixels;
@@ -209,7 +209,9 @@ std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int 
   for (int i = 0; i < 3; i++) stretch.down[i] = (below[i].at - at[i].at) * static_cast<float>(down);
   const float texels = length(stretch.step) * 2.0f / static_cast<float>(pixels);  // per pixel
   const float turn = length(stretch.down[1] - stretch.down[0]) + length(stretch.down[2] - stretch.down[1]);
-  if (length(stretch.bend) > 1.0f + 0.1f * texels || turn > 0.25f + 0.25f * length(stretch.down[1])) return {};
+  const float most = pixels == kLongStretch ? 0.25f : 1.0f;
+  if (length(stretch.bend) > most * (1.0f + 0.1f * texels) || turn > most * (0.25f + 0.25f * length(stretch.down[1])))
+    return {};
   return stretch;
 }
 
@@ -300,12 +302,15 @@ void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, in
     const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * per_pixel;
     const vec2 dy =
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
-    filter_points({dx, dy}, points);
     std::fill(sums.begin(), sums.end(), 0.0f);
-    if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
-      sum_near(place, stretch.cell, points, sums.data());
-    } else {
-      sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
+    const std::optional<TexelFilter> filter = texel_filter({dx, dy}, place.at);
+    if (!filter || !resampler_.add(place.eye, *filter, stretch.cell, sums.data())) {
+      filter_points({dx, dy}, points);
+      if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
+        sum_near(place, stretch.cell, points, sums.data());
+      } else {
+        sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
+      }
     }
     put(place, sums.data(), x + i, row);
   }
@@ -369,15 +374,16 @@ int Converter::fill_pixels(int index, const Cell& cell, int x, int y, int count,
 
 // The same of up to a stretch of pixels of one cell.
 int Converter::fill_some(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const {
-  const int pixels = count > kShortStretch ? kLongStretch : kShortStretch;
+  int pixels = kLongStretch;
+  while (pixels > kShortStretch && pixels / 2 >= count) pixels /= 2;
   if (reprojection_) return fill_pixels(index, cell, x, y, count, row);
   if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, pixels)) {
     fill_stretch(index, *stretch, x, y, count, row);
     return 0;
   }
   if (pixels == kShortStretch) return fill_pixels(index, cell, x, y, count, row);
-  return fill_some(index, cell, x, y, kShortStretch, row) +
-         fill_some(index, cell, x + kShortStretch, y, count - kShortStretch, row);
+  const int half = pixels / 2;
+  return fill_some(index, cell, x, y, half, row) + fill_some(index, cell, x + half, y, count - half, row);
 }
 
 int Converter::fill(int index, int y, std::span<float> row) const {
