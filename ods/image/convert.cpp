@@ -142,9 +142,9 @@ struct Stretch {
 class Converter {
  public:
   Converter(const StoredPicture& picture, const ConvertTarget& target, bool adds_alpha)
-      : mapping_(make_mapping(picture, target)), resampler_(mapping_.source), adds_alpha_(adds_alpha) {
-    colours_ = static_cast<int>(picture.eyes[0].layers[0].channels.size());
-    channels_ = resampler_.channels() + (adds_alpha ? 1 : 0);
+      : mapping_(make_mapping(picture, target)),
+        resampler_(mapping_.source, adds_alpha),
+        channels_(resampler_.channels()) {
     if (sees_around(picture, target)) reprojection_ = make_reprojection(mapping_.source);
     if (const std::optional<size_t> layer = depth_layer(picture)) {
       depth_channel_ = adds_alpha ? 1 : 0;
@@ -177,8 +177,6 @@ class Converter {
   Mapping mapping_;
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;
-  bool adds_alpha_;
-  int colours_;
   int channels_;
   int depth_channel_ = -1;  // of a row's pixel; below 0: there is no depth
 };
@@ -280,16 +278,8 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
 
 void Converter::put(const Place& place, const float* sums, int x, std::span<float> row) const {
   float* out = row.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
-  if (!adds_alpha_) {
-    std::copy(sums, sums + channels_, out);
-    resampler_.set_nearest(place, out);
-    return;
-  }
-  std::vector<float> all(sums, sums + resampler_.channels());
-  resampler_.set_nearest(place, all.data());
-  std::copy(all.begin(), all.begin() + colours_, out);
-  out[colours_] = 1.0f;
-  std::copy(all.begin() + colours_, all.end(), out + colours_ + 1);
+  std::copy(sums, sums + channels_, out);
+  resampler_.finish(place, out);
 }
 
 void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const {

@@ -218,7 +218,7 @@ static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
 
 // --- layers --------------------------------------------------------------------------------------------------------
 
-Resampler::Resampler(const Source& source) : source_(source) {
+Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
   const std::vector<LayerPixels>& layers = source.picture->eyes[0].layers;
   for (size_t i = 0; i < layers.size(); i++) {
     const LayerPixels& layer = layers[i];
@@ -237,6 +237,7 @@ Resampler::Resampler(const Source& source) : source_(source) {
       (layer.rule == LayerRule::kNearest ? nearest_ : mixed_).push_back(group);
     }
     channels_ += all;
+    if (i == 0 && adds_alpha) added_alpha_ = channels_++;
   }
 }
 
@@ -350,7 +351,7 @@ bool Resampler::add(int eye, const TexelFilter& filter, const Cell& cell, float*
   return true;
 }
 
-void Resampler::set_nearest(const Place& place, float* out) const {
+void Resampler::finish(const Place& place, float* out) const {
   const Extent size = source_.picture->size;
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
@@ -358,6 +359,7 @@ void Resampler::set_nearest(const Place& place, float* out) const {
     const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(place.eye)].layers[group.layer];
     group.read(address(layer, x, y) + group.offset, group.count, out + group.first);
   }
+  if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
 }
 
 }  // namespace ods

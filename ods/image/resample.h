@@ -48,8 +48,9 @@ std::optional<TexelFilter> texel_filter(const Footprint& footprint, vec2 at);
 // Reads every layer at once; their channels follow each other.
 class Resampler {
  public:
-  // Precondition: every eye of the picture has the same layers.
-  explicit Resampler(const Source& source);
+  // With adds_alpha there is one more channel, behind the colour's, for who sees more than the picture does.
+  // Precondition: every eye of the picture has the same layers; adds_alpha: its colour has no alpha.
+  explicit Resampler(const Source& source, bool adds_alpha = false);
 
   int channels() const { return channels_; }
 
@@ -59,8 +60,8 @@ class Resampler {
   // The same of a pixel with a filter of its own. False, and nothing added: the filter leaves the cell.
   bool add(int eye, const TexelFilter& filter, const Cell& cell, float* sums) const;
 
-  // Sets those layers, to the texel of the place.
-  void set_nearest(const Place& place, float* out) const;
+  // Sets what add() leaves alone: those layers, to the texel of the place, and an alpha that is added to 1.
+  void finish(const Place& place, float* out) const;
 
  private:
   // Texels that lie as in a picture.
@@ -89,6 +90,7 @@ class Resampler {
   std::vector<Group> mixed_;
   std::vector<Group> nearest_;
   int channels_ = 0;
+  int added_alpha_ = -1;  // its channel; below 0: there is none
 };
 
 }  // namespace ods
