@@ -19,6 +19,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
+#include "ods/image/exr_header.h"
 #include "ods/image/jpeg_segments.h"
 #include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
@@ -138,10 +139,13 @@ static Reader create_reader(std::span<const std::byte> start, const std::string&
   return reader;
 }
 
-// libpng comments on damaged files; libjpeg fills what is missing with grey, and only warns.
+// libpng comments on damaged files; libjpeg fills what is missing with grey, and only warns; OpenEXR makes room first.
 static void check_whole(Reader& reader, size_t size, const ByteReader& bytes, const std::string& name) {
   if (reader.format == FileFormat::kJpeg && !is_whole_jpeg(size, bytes)) {
     throw cannot_read(name, "the JPEG is cut short or damaged");
+  }
+  if (reader.format == FileFormat::kExr && !has_room_for_header(size, bytes)) {
+    throw cannot_read(name, "the EXR is cut short or damaged");
   }
   if (reader.format != FileFormat::kPng) return;
   std::optional<std::vector<FileRange>> parts = essential_png(size, bytes);
@@ -159,16 +163,13 @@ static void open(Reader& reader, size_t file_size, const std::string& name, bool
 
 static Reader open_reader(const std::string& path, bool keep_alpha = true) {
   const std::vector<unsigned char> start = read_start(path, 16);
-  const size_t size = file_size(path);
   Reader reader = create_reader(std::as_bytes(std::span(start)), path);
-  if (reader.format == FileFormat::kPng || reader.format == FileFormat::kJpeg) {
-    const auto file = std::make_shared<OIIO::Filesystem::IOFile>(path, OIIO::Filesystem::IOProxy::Read);
-    const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
-      return file->pread(to, count, static_cast<int64_t>(offset)) == count;
-    };
-    check_whole(reader, size, bytes, path);
-  }
-  open(reader, size, path, keep_alpha);
+  const auto file = std::make_shared<OIIO::Filesystem::IOFile>(path, OIIO::Filesystem::IOProxy::Read);
+  const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
+    return file->pread(to, count, static_cast<int64_t>(offset)) == count;
+  };
+  check_whole(reader, file->size(), bytes, path);
+  open(reader, file->size(), path, keep_alpha);
   return reader;
 }
 

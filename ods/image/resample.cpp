@@ -38,8 +38,8 @@ struct Tent {
 // Points whose variance is the tent's own, radius^2 / 6.
 static Tent make_tent(float variance_of_6) {
   Tent tent;
-  const float radius = std::sqrt(std::max(variance_of_6, 0.0f));
-  if (radius < kLeastRadius) return tent;
+  if (variance_of_6 < kLeastRadius * kLeastRadius) return tent;
+  const float radius = std::sqrt(variance_of_6);
   tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * radius)), kMostPoints);
   float sum = 0.0f, squares = 0.0f;
   for (int i = 0; i < tent.count; i++) {
