@@ -91,13 +91,12 @@ void start_clock(TimeOptions& time, ods::Scene& scene) {
                                  ods::did_you_mean(time.animation, names)));
   }
   const double length = ods::length_of(animation);
-  if (!time.duration) time.duration = length > 0.0 ? static_cast<float>(length) : 10.0f;
-  time.move.seconds = static_cast<double>(*time.duration);
+  time.move.seconds = time.duration ? static_cast<double>(*time.duration) : length > 0.0 ? length : 10.0;
 }
 
 std::vector<int> film_frames(const TimeOptions& time) {
   if (!time.frames.empty()) return ods::parse_frames(time.frames);
-  const double count = std::round(static_cast<double>(*time.duration) * static_cast<double>(time.fps));
+  const double count = std::round(time.move.seconds * static_cast<double>(time.fps));
   if (count > 1e6) throw UsageError("the film would have more than a million frames; --frames says which to render");
   std::vector<int> frames(static_cast<size_t>(std::max(count, 1.0)));
   std::iota(frames.begin(), frames.end(), 0);
