@@ -23,7 +23,8 @@ constexpr const char* kExamples =
     "  ods render scene.glb -o picture.exr --width 4096 --samples 256 --env sky.hdr\n"
     "  ods render scene.glb -o picture.jpg --position 0,1.6,0 --yaw 90 --quality draft\n"
     "  ods render scene.glb -o eye_%V.png         eye_left.png and eye_right.png\n"
-    "  ods render scene.glb -o picture.png --merge cosine,60,90";
+    "  ods render scene.glb -o picture.png --merge cosine,60,90\n"
+    "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30";
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
@@ -55,12 +56,14 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   add_light_options(options, job.scene);
   add_picture_options(options, job);
   add_camera_options(options, job.camera);
+  add_time_options(options, job.time);
   add_quality_options(options, job, quality);
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
+  check_time_options(job.time);
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (!options.given("--samples")) job.render.samples = quality.samples;
   finish_form_options(options, job.camera.rig.projection, job.render, job.save);

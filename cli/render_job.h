@@ -8,12 +8,14 @@
 #include "cli/camera_options.h"
 #include "cli/progress.h"
 #include "cli/scene_source.h"
+#include "cli/time_options.h"
 #include "ods/image/save.h"
 #include "ods/scene/render_options.h"
 
 struct RenderJob {
   SceneSource scene;
   CameraOptions camera;
+  TimeOptions time;
   ods::RenderOptions render;
   ods::SaveOptions save;
   std::string output;
