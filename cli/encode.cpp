@@ -33,9 +33,16 @@ struct EncodeJob {
   ods::KnownForm known;
   ods::Development development;
   FilmWishes film;
+  std::optional<ods::Layout> layout;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
+
+ods::Layout film_layout(const std::string& word) {
+  const ods::Layout layout = layout_by_name("--layout", word);
+  if (layout == ods::Layout::kTopBottom || layout == ods::Layout::kSideBySide) return layout;
+  throw UsageError("--layout of a film is top-bottom or side-by-side");
+}
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
   Options options("encode", kSummary, kExamples);
@@ -51,6 +58,11 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "stops; of .hdr and .exr");
   options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
   add_film_options(options, job.film);
+  options.custom(
+      "--fps", "X|N/M", "30", [&](const std::string& text) { job.film.rate = parse_rate(text); }, "frames a second");
+  options.custom(
+      "--layout", "LAYOUT", "", [&](const std::string& word) { job.layout = film_layout(word); },
+      "how both eyes share a frame: top-bottom, or side-by-side, which is usual for vr180");
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "0: all processors");
   add_progress_options(options, job.progress);
@@ -63,11 +75,12 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   encode_options(job.film, {256, 256}, job.threads);  // before the frames are looked at, which takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
-  const ods::FilmPlan plan = ods::plan_film(files, job.known, job.film.layout);
+  const ods::FilmPlan plan = ods::plan_film(files, job.known, job.layout);
   const ods::EncodeOptions options = encode_options(job.film, plan.size, job.threads);
   ods::check_packing(plan, options.packing);
   for (const std::string& each : plan.notes) note(each);
-  say_what_players_need(job.film, plan, options, files.frames.size());
+  say_what_players_need(job.film, plan, options);
+  say_length_of_sound(options, files.frames.size());
   ods::Progress progress;
   progress.report = [&](double done) { lines.report(done, seconds_since(start)); };
   ods::make_film(files, plan, job.development, options, job.film.output, progress);

@@ -36,26 +36,6 @@ void optional_choice(Options& options, const std::string& name, std::optional<T>
   options.custom(name, fmt::format("{}", fmt::join(names, "|")), "", set, text);
 }
 
-// 30, 12.5, 30000/1001; 29.97 and its like mean 30000/1001 and its like, as everybody means.
-ods::FrameRate parse_rate(const std::string& text) {
-  const size_t stroke = text.find('/');
-  const std::vector<float> parts = parse_numbers(text.substr(0, stroke));
-  const std::vector<float> below =
-      stroke == std::string::npos ? std::vector<float>{1.0f} : parse_numbers(text.substr(stroke + 1));
-  const auto thousandths = [](float value) { return std::lround(std::clamp(value, 0.0f, 2e5f) * 1000.0f); };
-  if (parts.size() != 1 || below.size() != 1 || thousandths(parts[0]) < 1 || thousandths(below[0]) < 1) {
-    throw UsageError(fmt::format("--fps is a number or a fraction, as 30, 29.97 or 30000/1001, not '{}'", text));
-  }
-  long count = thousandths(parts[0]), seconds = thousandths(below[0]);
-  for (long whole : {24, 30, 48, 60, 120}) {
-    if (seconds == 1000 && std::abs(count * 1001 - whole * 1000 * 1000) < 1000) count = whole * 1000, seconds = 1001;
-  }
-  const long common = std::gcd(count, seconds);
-  const ods::FrameRate rate{static_cast<int>(count / common), static_cast<int>(seconds / common)};
-  if (rate.value() < 0.1 || rate.value() > 1000.0) throw UsageError("--fps is from 0.1 to 1000");
-  return rate;
-}
-
 std::string encoder_list() {
   std::vector<std::string_view> names;
   for (const ods::EncoderFacts& facts : ods::known_encoders()) names.push_back(facts.name);
@@ -97,7 +77,7 @@ ods::Packing packing_for(const FilmWishes& wishes, Container container, Extent s
   }
   packing.bits = wishes.bits.value_or(packing.bits);
   packing.chroma = wishes.chroma.value_or(packing.chroma);
-  if (wishes.quality) packing.quality = wishes.quality;
+  if (wishes.crf) packing.quality = wishes.crf;
   return packing;
 }
 
@@ -124,10 +104,10 @@ void check_quality(const ods::EncodeOptions& options) {
     if (!options.encoder.empty() && options.encoder != facts.name) continue;
     const bool has_choice = packing.quality || options.bitrate || !options.preset.empty();
     if (facts.worst_quality == 0 && has_choice) {
-      throw UsageError(fmt::format("{} knows no --quality, --bitrate or --preset", codec));
+      throw UsageError(fmt::format("{} knows no --crf, --bitrate or --preset", codec));
     }
     if (packing.quality && *packing.quality > facts.worst_quality) {
-      throw UsageError(fmt::format("--quality of {} is from 0, the best, to {}", codec, facts.worst_quality));
+      throw UsageError(fmt::format("--crf of {} is from 0, the best, to {}", codec, facts.worst_quality));
     }
     return;
   }
@@ -167,45 +147,45 @@ void warn_of_hardware(const ods::Packing& packing) {
   }
 }
 
-void say_sound(const std::string& path, double film, double frame) {
-  if (path.empty()) return;
-  const ods::SoundInfo sound = ods::read_sound_info(path);
-  if (sound.channels == 4) note("the sound is taken as first-order ambisonics (AmbiX: W Y Z X, SN3D)");
-  if (sound.seconds > film + frame) {
-    note(fmt::format("the sound, {:.1f} s, is cut where the pictures end, at {:.1f} s", sound.seconds, film));
-  } else if (sound.seconds > 0.0 && sound.seconds < film - frame) {
-    warn(fmt::format("the sound ends at {:.1f} s, the pictures at {:.1f} s", sound.seconds, film));
-  }
-}
-
 }  // namespace
+
+ods::FrameRate parse_rate(const std::string& text) {
+  const size_t stroke = text.find('/');
+  const std::vector<float> parts = parse_numbers(text.substr(0, stroke));
+  const std::vector<float> below =
+      stroke == std::string::npos ? std::vector<float>{1.0f} : parse_numbers(text.substr(stroke + 1));
+  const auto thousandths = [](float value) { return std::lround(std::clamp(value, 0.0f, 2e5f) * 1000.0f); };
+  if (parts.size() != 1 || below.size() != 1 || thousandths(parts[0]) < 1 || thousandths(below[0]) < 1) {
+    throw UsageError(fmt::format("--fps is a number or a fraction, as 30, 29.97 or 30000/1001, not '{}'", text));
+  }
+  long count = thousandths(parts[0]), seconds = thousandths(below[0]);
+  for (long whole : {24, 30, 48, 60, 120}) {
+    if (seconds == 1000 && std::abs(count * 1001 - whole * 1000 * 1000) < 1000) count = whole * 1000, seconds = 1001;
+  }
+  const long common = std::gcd(count, seconds);
+  const ods::FrameRate rate{static_cast<int>(count / common), static_cast<int>(seconds / common)};
+  if (rate.value() < 0.1 || rate.value() > 1000.0) throw UsageError("--fps is from 0.1 to 1000");
+  return rate;
+}
 
 void add_film_options(Options& options, FilmWishes& wishes) {
   options.group("Film");
   options.text("-o,--output", "FILE", wishes.output, ".mp4 .mov .mkv .webm");
   options.choice("--target", wishes.target, ods::kFilmTargets, ods::film_target_name,
                  "whom it is for; what follows goes before it");
-  optional_choice(options, "--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name, "");
+  optional_choice(options, "--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name,
+                  "by default as the target has it");
   options.custom(
       "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
       "which of those of the codec: " + encoder_list());
   options.text("--preset", "NAME", wishes.preset, "how hard it tries, in the encoder's words");
-  options.number("--quality", wishes.quality, 0, 63, "less is better: 18 of h264, 20 of hevc, 28 of av1, 24 of vp9");
-  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "million bits a second, in place of quality");
+  options.number("--crf", wishes.crf, 0, 63,
+                 "quality, less is better; by default 18 of h264, 20 of hevc, 28 of av1, 24 of vp9");
+  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "million bits a second, in place of --crf");
   options.number("--bits", wishes.bits, 8, 10, "8 or 10");
   optional_choice(options, "--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "what of the colour is kept");
-  options.custom(
-      "--fps", "X|N/M", "30", [&](const std::string& text) { wishes.rate = parse_rate(text); }, "frames a second");
   options.text("--audio", "FILE", wishes.sound,
                "its sound: mono, stereo, or four channels of first-order ambisonics (AmbiX)");
-  options.custom(
-      "--layout", "LAYOUT", "",
-      [&](const std::string& word) {
-        wishes.layout = layout_by_name("--layout", word);
-        if (wishes.layout == ods::Layout::kTopBottom || wishes.layout == ods::Layout::kSideBySide) return;
-        throw UsageError("--layout of a film is top-bottom or side-by-side");
-      },
-      "how both eyes share a frame: top-bottom, or side-by-side, which is usual for vr180");
 }
 
 ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int threads) {
@@ -226,13 +206,22 @@ ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int thr
   return options;
 }
 
-void say_what_players_need(const FilmWishes& wishes, const ods::FilmPlan& plan, const ods::EncodeOptions& options,
-                           size_t frames) {
+void say_what_players_need(const FilmWishes& wishes, const ods::FilmPlan& plan, const ods::EncodeOptions& options) {
   warn_of_level(plan, options);
   warn_of_hardware(options.packing);
   warn_of_names(wishes, plan);
-  const double fps = options.rate.value();
-  say_sound(wishes.sound, static_cast<double>(frames) / fps, 1.0 / fps);
+}
+
+void say_length_of_sound(const ods::EncodeOptions& options, size_t frames) {
+  if (options.sound.empty()) return;
+  const double frame = 1.0 / options.rate.value(), film = static_cast<double>(frames) * frame;
+  const ods::SoundInfo sound = ods::read_sound_info(options.sound);
+  if (sound.channels == 4) note("the sound is taken as first-order ambisonics (AmbiX: W Y Z X, SN3D)");
+  if (sound.seconds > film + frame) {
+    note(fmt::format("the sound, {:.1f} s, is cut where the pictures end, at {:.1f} s", sound.seconds, film));
+  } else if (sound.seconds > 0.0 && sound.seconds < film - frame) {
+    warn(fmt::format("the sound ends at {:.1f} s, the pictures at {:.1f} s", sound.seconds, film));
+  }
 }
 
 std::string film_text(const ods::FilmPlan& plan, const ods::EncodeOptions& options, size_t frames) {

@@ -73,22 +73,15 @@ void tell_speed(const RenderJob& job, const std::vector<Frame>& frames, const st
   note(fmt::format("{} in {}, {:.3g} Msamples/s", what, duration_text(seconds), samples / seconds * 1e-6));
 }
 
-}  // namespace
+using Report = std::function<void(double done)>;
+using Saved = std::function<void(const std::vector<std::string>& files)>;
 
-void render_job(const RenderJob& job, ProgressLines& lines) {
-  check_outputs(job);
-  ods::Scene scene = open_scene(job.scene);
-  add_environment(scene, job.scene);
-  TimeOptions time = job.time;
-  start_clock(time, scene);
-  const std::vector<Frame> frames = choose_frames(job, time);
-  if (frames.empty()) return;
+// Renders the frames and saves each.
+void render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
+                const Report& report, const Saved& saved) {
   ods::set_time(scene, frames.front().time);
   place_camera(job.camera, scene);
-
-  const auto start = std::chrono::steady_clock::now();
   ods::CpuRenderer renderer(scene, job.render.threads);
-  std::vector<std::string> files;
   for (size_t i = 0; i < frames.size(); i++) {
     const Frame& frame = frames[i];
     if (i > 0) renderer.update(ods::set_time(scene, frame.time));
@@ -97,12 +90,50 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
     options.seed = frame.seed;
     ods::Progress progress;
     progress.report = [&](double done) {
-      lines.report((static_cast<double>(i) + done) / static_cast<double>(frames.size()), seconds_since(start));
+      report((static_cast<double>(i) + done) / static_cast<double>(frames.size()));
     };
     const ods::Picture picture = renderer.render(rig, options, progress);
-    lines.clear();
-    files = ods::save_picture(picture, rig, job.save, frame.path);
-    for (const std::string& file : files) std::cout << file << std::endl;
+    saved(ods::save_picture(picture, rig, job.save, frame.path));
   }
-  tell_speed(job, frames, files.front(), seconds_since(start));
+}
+
+ods::Scene open_lit_scene(const RenderJob& job) {
+  check_outputs(job);
+  ods::Scene scene = open_scene(job.scene);
+  add_environment(scene, job.scene);
+  return scene;
+}
+
+}  // namespace
+
+void render_job(const RenderJob& job, ProgressLines& lines) {
+  ods::Scene scene = open_lit_scene(job);
+  TimeOptions time = job.time;
+  start_clock(time, scene);
+  const std::vector<Frame> frames = choose_frames(job, time);
+  if (frames.empty()) return;
+  const auto start = std::chrono::steady_clock::now();
+  std::string first;
+  const auto saved = [&](const std::vector<std::string>& files) {
+    lines.clear();
+    first = files.front();
+    for (const std::string& file : files) std::cout << file << std::endl;
+  };
+  render_all(
+      job, scene, time, frames, [&](double done) { lines.report(done, seconds_since(start)); }, saved);
+  tell_speed(job, frames, first, seconds_since(start));
+}
+
+std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report) {
+  ods::Scene scene = open_lit_scene(job);
+  TimeOptions time = job.time;
+  start_clock(time, scene);
+  const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);
+  if (is_still && time.frames.empty() && !time.duration) {
+    throw UsageError(
+        "nothing moves in it: --duration says how long the film is; --turntable or --fly-to move the camera");
+  }
+  const std::vector<Frame> frames = choose_frames(job, time);
+  if (!frames.empty()) render_all(job, scene, time, frames, report, [](const std::vector<std::string>&) {});
+  return film_frames(time);
 }

@@ -69,7 +69,7 @@ void add_time_options(Options& options, TimeOptions& time) {
 }
 
 bool asks_for_film(const TimeOptions& time) {
-  return !time.frames.empty() || time.duration || ods::moves(time.move);
+  return time.is_film || !time.frames.empty() || time.duration || ods::moves(time.move);
 }
 
 void check_time_options(const TimeOptions& time) {

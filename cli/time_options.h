@@ -26,6 +26,7 @@ struct TimeOptions {
   ods::CameraMove move;
   FilmNoise noise = FilmNoise::kFixed;
   bool skip_existing = false;
+  bool is_film = false;  // whatever else is given
 };
 
 void add_time_options(Options& options, TimeOptions& time);

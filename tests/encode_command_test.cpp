@@ -64,7 +64,7 @@ TEST_F(EncodeCommand, ExitCodesSayWhatWasWrong) {
       {all + "-o " + film + " --encoder h263", 2, "--encoder is one of"},
       {all + "-o " + film + " --encoder libx265 --codec h264", 2, "libx265 does not encode h264"},
       {all + "-o " + film + " --bits 9", 2, "there is no h264 of 9 bits"},
-      {all + "-o " + film + " --quality 60", 2, "from 0, the best, to 51"},
+      {all + "-o " + film + " --crf 60", 2, "from 0, the best, to 51"},
       {all + "-o " + film + " --fps 0", 2, "--fps is a number or a fraction"},
       {all + "-o " + film + " --fps 30/0", 2, "--fps is a number or a fraction"},
       {all + "-o " + film + " --fps nan", 2, "--fps is a number or a fraction"},
