@@ -28,6 +28,8 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "make a stereo 360 picture of a scene", "ods_render"},
     {"convert", "make another of a picture: projection, layout, eyes, size", "ods_convert"},
+    {"film", "make a film of a scene", "ods_film"},
+    {"encode", "make a film of frames", "ods_encode"},
     {"info", "tell what is in a scene", "ods_info"},
     {"camera", "say a camera in the words of another renderer", "ods_camera"},
     {"project", "tell where world points fall in each eye", "ods_project"},
