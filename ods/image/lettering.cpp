@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
-#include <fontconfig/fcfreetype.h>
 #include <pango/pangofc-fontmap.h>
 #include <pango/pangoft2.h>
 
@@ -54,19 +53,16 @@ bool is_font_file(const std::string& font) {
 
 // The name by which a file's first font goes, once fontconfig knows it.
 std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
-  const auto name = [](const char* text) { return reinterpret_cast<const FcChar8*>(text); };
-  int count = 0;
-  FcPattern* pattern = FcFreeTypeQuery(name(path.c_str()), 0, nullptr, &count);
-  if (!pattern || !FcConfigAppFontAddFile(fonts.config, name(path.c_str()))) {
-    if (pattern) FcPatternDestroy(pattern);
+  const auto* name = reinterpret_cast<const FcChar8*>(path.c_str());
+  const bool added = FcConfigAppFontAddFile(fonts.config, name);
+  const FcFontSet* own = added ? FcConfigGetFonts(fonts.config, FcSetApplication) : nullptr;
+  if (!own || own->nfont == 0)
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': it is no font file", path));
-  }
-  PangoFontDescription* description = pango_fc_font_description_from_pattern(pattern, FALSE);
+  PangoFontDescription* description = pango_fc_font_description_from_pattern(own->fonts[0], FALSE);
   char* text = pango_font_description_to_string(description);
   const std::string found = text;
   g_free(text);
   pango_font_description_free(description);
-  FcPatternDestroy(pattern);
   return found;
 }
 

@@ -22,10 +22,10 @@ struct LetteringOptions {
 };
 
 struct Lettering {
-  Image coverage;            // 1 channel, 0..1, just large enough
-  float em = 0.0f;           // pixels: the font's size, about the distance of two lines
-  std::string font;          // the family that is the first choice: another one where there is none of that name
-  int characters_lost = 0;   // no font on this machine has a sign for them
+  Image coverage;           // 1 channel, 0..1, just large enough
+  float em = 0.0f;          // pixels: the font's size, about the distance of two lines
+  std::string font;         // the family that is the first choice: another one where there is none of that name
+  int characters_lost = 0;  // no font on this machine has a sign for them
 };
 
 // Lines are parted by newlines. The font's size is `em` pixels, or less where the picture would have more than 2^26.

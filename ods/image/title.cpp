@@ -33,8 +33,7 @@ Title make_title(const CameraRig& rig, Extent eye, const TitleSetting& setting, 
   title.right = vec3(right), title.up = vec3(up), title.middle = -vec3(back);
   title.pixels = lettering.em / setting.height;
   // The corner, as much as the eye stands beside the middle, and some pixels.
-  const vec2 half =
-      vec2(title.coverage.width, title.coverage.height) * (0.5f / title.pixels / setting.distance);
+  const vec2 half = vec2(title.coverage.width, title.coverage.height) * (0.5f / title.pixels / setting.distance);
   const float across = setting.curved ? half.x : std::atan(half.x);
   const float away = std::hypot(0.5f * rig.ipd, rig.neck) / setting.distance;
   const float step = 4.0f / static_cast<float>(std::max(1.0, pixels_per_radian(rig.projection, eye.width)));
@@ -78,7 +77,8 @@ static std::optional<Spot> meet(const Title& title, const Ray& ray) {
 static float coverage_at(const Image& image, vec2 at) {
   const vec2 from = at - 0.5f, base = floor(from), beyond = from - base;
   const auto texel = [&](float x, float y) {
-    const bool inside = x >= 0.0f && y >= 0.0f && x < static_cast<float>(image.width) && y < static_cast<float>(image.height);
+    const bool inside =
+        x >= 0.0f && y >= 0.0f && x < static_cast<float>(image.width) && y < static_cast<float>(image.height);
     return inside ? *image.at(static_cast<int>(x), static_cast<int>(y)) : 0.0f;
   };
   return mix(mix(texel(base.x, base.y), texel(base.x + 1.0f, base.y), beyond.x),
