@@ -125,14 +125,14 @@ TEST_F(CliConvert, TitlesGoOverFrames) {
   const std::string shots = folder.path("shot_TB.#.png"), made = folder.path("made_TB.#.png");
   ASSERT_EQ(run("over " + titles + " " + shots + " -q -o " + made), 0) << err;
   const auto differs = [&](const std::string& number) {
-    return run("compare " + folder.path("shot_TB." + number + ".png") + " " + folder.path("made_TB." + number + ".png") +
-               " --max-error 0.1") == 1;
+    return run("compare " + folder.path("shot_TB." + number + ".png") + " " +
+               folder.path("made_TB." + number + ".png") + " --max-error 0.1") == 1;
   };
   EXPECT_TRUE(differs("2"));
   EXPECT_FALSE(differs("3")) << out;  // no title there
   EXPECT_EQ(run("over " + titles + " " + shots + " -o " + shots), 2);
   EXPECT_EQ(run("title End -o " + folder.path("title.exr") + " --fade-in 1"), 2);
-  EXPECT_EQ(run("title ' ' -o " + folder.path("title.exr")), 3);
+  EXPECT_EQ(run("title \\n -o " + folder.path("title.exr")), 3);
   EXPECT_EQ(run("title End --at 1,2 -o " + folder.path("title.exr")), 2);
 }
 
