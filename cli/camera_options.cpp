@@ -73,16 +73,25 @@ void finish_camera_options(CameraOptions& camera, int width, int& height) {
   finish_projection(camera.rig.projection, width, height);
 }
 
-CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
-  ViewPoint view = camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
-  bool from_file = !scene.view_points.empty();
-  std::string from = from_file ? "the scene's camera '" + view.name + "'" : view.name;
-  if (camera.position) from = "--position";
+static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
+  return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
+}
+
+CameraRig place_camera_again(const CameraOptions& camera, const Scene& scene) {
+  const ViewPoint view = chosen_view(camera, scene);
   CameraRig rig = camera.rig;
   rig.position = camera.position.value_or(view.position);
   rig.yaw = camera.yaw.value_or(view.yaw);
   rig.pitch = camera.pitch.value_or(0.0f);
   rig.roll = camera.roll.value_or(0.0f);
+  return rig;
+}
+
+CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
+  const ViewPoint view = chosen_view(camera, scene);
+  const CameraRig rig = place_camera_again(camera, scene);
+  std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
+  if (camera.position) from = "--position";
   note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", rig.position.x, rig.position.y, rig.position.z,
                    rig.yaw, from));
   if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {

@@ -39,5 +39,8 @@ void finish_camera_options(CameraOptions& camera, int width, int& height);
 // Pitch and roll of a view point are left out: in a headset the horizon must be level. Throws UsageError.
 ods::CameraRig place_camera(const CameraOptions& camera, const ods::Scene& scene);
 
+// The same without the note: for every frame of a film.
+ods::CameraRig place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
+
 // The camera asked for where there is no scene: at the origin, unless something else was given.
 ods::CameraRig place_camera(const CameraOptions& camera);

@@ -76,9 +76,13 @@ void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layo
 }
 
 void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {
+  add_form_options_but_height(options, picture, save);
+  options.number("--height", picture.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
+}
+
+void add_form_options_but_height(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {
   add_size_option(options, picture, save.layout);
   options.number("--width", picture.width, 1, 32768, "of one eye in pixels");
-  options.number("--height", picture.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
   options.choice("--eyes", picture.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
   add_layout_option(options, save.layout, "how two eyes share the file (vr180: side-by-side)");
   options.flag("--sidecar", save.sidecar, "write picture.camera.json too, which ods camera reads");

@@ -26,6 +26,9 @@ void add_size_option(Options& options, ods::RenderOptions& picture, ods::Layout&
 // It, --width, --height, --eyes, --layout, --sidecar. Of the picture only its size and eyes are touched.
 void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save);
 
+// The same without --height, where that is something else's.
+void add_form_options_but_height(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save);
+
 // What nobody gave: a width of whole faces, the layout that players expect of the projection.
 void finish_form_options(const Options& options, const ods::ProjectionSetting& projection, ods::RenderOptions& picture,
                          ods::SaveOptions& save);

@@ -43,6 +43,7 @@ void print_text(const SceneInfo& info, vec3 position) {
     row("camera", fmt::format("'{}' at {}, yaw {:.4g} pitch {:.4g} roll {:.4g}", view.name, xyz(view.position),
                               view.yaw, view.pitch, view.roll));
   }
+  for (const auto& [name, seconds] : info.animations) row("animation", fmt::format("'{}', {:.4g} s", name, seconds));
   if (info.nearest_surface >= 0.0f) {
     row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
   }
@@ -72,6 +73,7 @@ void print_json(const SceneInfo& info, vec3 position) {
       {"position", to_json(position)},
       {"nearest_surface", nullptr},
       {"cameras", nlohmann::ordered_json::array()},
+      {"animations", nlohmann::ordered_json::array()},
       {"warnings", info.warnings},
   };
   if (info.nearest_surface >= 0.0f) json["nearest_surface"] = info.nearest_surface;
@@ -81,6 +83,9 @@ void print_json(const SceneInfo& info, vec3 position) {
                                {"yaw", view.yaw},
                                {"pitch", view.pitch},
                                {"roll", view.roll}});
+  }
+  for (const auto& [name, seconds] : info.animations) {
+    json["animations"].push_back({{"name", name}, {"seconds", seconds}});
   }
   // A file's names may be no UTF-8.
   std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());

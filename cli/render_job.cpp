@@ -10,12 +10,6 @@
 
 namespace {
 
-// What --quality sets; --width and --samples go before it.
-struct Quality {
-  std::string_view name;
-  int width;
-  int samples;
-};
 constexpr Quality kQualities[] = {{"draft", 1024, 16}, {"preview", 2048, 64}, {"final", 4096, 512}};
 
 constexpr const char* kExamples =
@@ -23,7 +17,8 @@ constexpr const char* kExamples =
     "  ods render scene.glb -o picture.exr --width 4096 --samples 256 --env sky.hdr\n"
     "  ods render scene.glb -o picture.jpg --position 0,1.6,0 --yaw 90 --quality draft\n"
     "  ods render scene.glb -o eye_%V.png         eye_left.png and eye_right.png\n"
-    "  ods render scene.glb -o picture.png --merge cosine,60,90";
+    "  ods render scene.glb -o picture.png --merge cosine,60,90\n"
+    "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30";
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
@@ -33,7 +28,10 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
 }
 
+}  // namespace
+
 void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
+  quality = kQualities[1];
   options.group("Quality");
   std::string sizes;
   for (const Quality& q : kQualities) sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
@@ -46,27 +44,32 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
   options.number("--threads", job.render.threads, 0, 1024, "0: all processors");
 }
 
-}  // namespace
+void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
+  check_time_options(job.time);
+  if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
+  if (!options.given("--samples")) job.render.samples = quality.samples;
+  finish_form_options(options, job.camera.rig.projection, job.render, job.save);
+  finish_camera_options(job.camera, job.render.width, job.render.height);
+}
 
 bool read_render_job(RenderJob& job, int argc, char** argv) {
-  Quality quality = kQualities[1];
+  Quality quality;
   Options options("render", "Makes a stereo 360 picture of a scene.", kExamples);
   add_scene_argument(options, job.scene);
   add_light_options(options, job.scene);
   add_picture_options(options, job);
   add_camera_options(options, job.camera);
+  add_time_options(options, job.time);
   add_quality_options(options, job, quality);
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
-  if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
-  if (!options.given("--samples")) job.render.samples = quality.samples;
-  finish_form_options(options, job.camera.rig.projection, job.render, job.save);
   if (options.given("--exposure") && keeps_light(job.output))
     note("--exposure leaves .exr and .hdr as the scene is lit");
+  note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
   job.render.layers = ods::keeps_layers(job.output);
-  finish_camera_options(job.camera, job.render.width, job.render.height);
+  finish_render_job(options, quality, job);
   return true;
 }

@@ -4,21 +4,35 @@
 // What ods render is asked to do.
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "cli/camera_options.h"
 #include "cli/progress.h"
 #include "cli/scene_source.h"
+#include "cli/time_options.h"
 #include "ods/image/save.h"
 #include "ods/scene/render_options.h"
 
 struct RenderJob {
   SceneSource scene;
   CameraOptions camera;
+  TimeOptions time;
   ods::RenderOptions render;
   ods::SaveOptions save;
   std::string output;
   ProgressMode progress = ProgressMode::kAuto;
 };
+
+// What --quality sets; --width and --samples go before it.
+struct Quality {
+  std::string_view name;
+  int width;
+  int samples;
+};
+
+// Those that ods film has too, in a group of their own, and what is left to do when they were read.
+void add_quality_options(Options& options, RenderJob& job, Quality& quality);
+void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 
 // False when help was asked for. Throws UsageError and ods::Error.
 bool read_render_job(RenderJob& job, int argc, char** argv);

@@ -118,6 +118,24 @@ TEST_F(CliConvert, OverwritesNothingItReads) {
   EXPECT_EQ(folder.read("room.png"), before);
 }
 
+TEST_F(CliConvert, TitlesGoOverFrames) {
+  for (const char* number : {"1", "2", "3"}) make("shot_TB." + std::string(number) + ".png");
+  const std::string titles = folder.path("title.#.exr");
+  ASSERT_EQ(run("title End --at 0,0,2 --height 1 --width 64 --frames 1-2 --fps 2 --fade-in 1 -o " + titles), 0) << err;
+  const std::string shots = folder.path("shot_TB.#.png"), made = folder.path("made_TB.#.png");
+  ASSERT_EQ(run("over " + titles + " " + shots + " -q -o " + made), 0) << err;
+  const auto differs = [&](const std::string& number) {
+    return run("compare " + folder.path("shot_TB." + number + ".png") + " " +
+               folder.path("made_TB." + number + ".png") + " --max-error 0.1") == 1;
+  };
+  EXPECT_TRUE(differs("2"));
+  EXPECT_FALSE(differs("3")) << out;  // no title there
+  EXPECT_EQ(run("over " + titles + " " + shots + " -o " + shots), 2);
+  EXPECT_EQ(run("title End -o " + folder.path("title.exr") + " --fade-in 1"), 2);
+  EXPECT_EQ(run("title \\n -o " + folder.path("title.exr")), 3);
+  EXPECT_EQ(run("title End --at 1,2 -o " + folder.path("title.exr")), 2);
+}
+
 TEST_F(CliConvert, RefusalsSayWhy) {
   const std::string room = make("room.png");
   const std::vector<std::vector<std::string>> cases = {

@@ -27,9 +27,9 @@ constexpr bool kSanitized = false;
 #endif
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words :
-       {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help", "compare --help",
-        "convert --help", "lint --help", "sizes --help", "scenes --help", "testcard --help"}) {
+  for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
+                            "compare --help", "convert --help", "lint --help", "title --help", "over --help",
+                            "sizes --help", "scenes --help", "testcard --help", "film --help", "encode --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli_runner.h"
+#include "tests/decoded_film.h"
 #include "tests/made_films.h"
 
 namespace {
@@ -122,24 +123,11 @@ TEST_F(FilmCommand, PicturesAreProbedToo) {
 
 // --- other programs --------------------------------------------------------------------------------------------------
 
-bool is_installed(const std::string& program) {
-  return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;
-}
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> bytes{};
-  while (const size_t size = std::fread(bytes.data(), 1, bytes.size(), pipe)) text.append(bytes.data(), size);
-  pclose(pipe);
-  return text;
-}
-
 TEST_F(FilmCommand, ExiftoolReadsWhatWeWrite) {
-  if (!is_installed("exiftool")) GTEST_SKIP() << "skipped: exiftool is not installed";
+  if (!ods::is_installed("exiftool")) GTEST_SKIP() << "skipped: exiftool is not installed";
   const std::string path = make("film.mp4");
   ASSERT_EQ(run("inject --layout top-bottom --projection lat-long --yaw 20 " + path), 0) << err;
-  const std::string text = output_of("exiftool -s -n " + path);
+  const std::string text = ods::output_of("exiftool -s -n " + path);
   for (const char* line : {"Stereoscopic3D                  : 1", "MetadataSource                  : Omnistereo",
                            "PoseYawDegrees                  : 20", "ProjectionType                  : equirectangular",
                            "StereoMode                      : top-bottom"}) {
@@ -148,10 +136,10 @@ TEST_F(FilmCommand, ExiftoolReadsWhatWeWrite) {
 }
 
 TEST_F(FilmCommand, FfprobeReadsWhatWeWrite) {
-  if (!is_installed("ffprobe")) GTEST_SKIP() << "skipped: ffprobe is not installed";
+  if (!ods::is_installed("ffprobe")) GTEST_SKIP() << "skipped: ffprobe is not installed";
   const std::string path = make("film.mp4");
   ASSERT_EQ(run("inject --layout top-bottom --projection lat-long " + path), 0) << err;
-  const std::string text = output_of("ffprobe -v quiet -show_streams " + path);
+  const std::string text = ods::output_of("ffprobe -v quiet -show_streams " + path);
   EXPECT_NE(text.find("type=top and bottom"), std::string::npos) << text;
   EXPECT_NE(text.find("projection=equirectangular"), std::string::npos) << text;
 }

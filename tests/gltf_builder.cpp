@@ -17,7 +17,7 @@ int GltfBuilder::add_view(const Binary& bytes) {
 }
 
 int GltfBuilder::add_bytes(const Binary& bytes, size_t values, int component_type, const std::string& type) {
-  const size_t components = type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
+  const size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<size_t>(type.back() - '0');
   const int view = add_view(bytes);
   json["accessors"].push_back(
       {{"bufferView", view}, {"componentType", component_type}, {"count", values / components}, {"type", type}});

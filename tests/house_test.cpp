@@ -29,7 +29,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
 };
 
 // Libraries that one .cpp hides from all the others, by how their headers start.
-const std::vector<std::string> kHidden = {"OpenImageIO/", "embree", "CLI/"};
+const std::vector<std::string> kHidden = {"OpenImageIO/", "embree", "CLI/", "libavcodec/", "libavformat/", "pango/"};
 
 struct Source {
   std::string path;  // from the root of the tree

@@ -34,7 +34,15 @@ static std::string check_vertex(const Vertex& v) {
   return "";
 }
 
-static std::string check_mesh(const Scene& scene, const Mesh& mesh) {
+// A mesh that is bent may lose its triangles' areas on the way.
+static bool is_bent(const Scene& scene, size_t mesh) {
+  for (const Deformation& deformation : scene.animation.deformations) {
+    if (static_cast<size_t>(deformation.mesh) == mesh) return true;
+  }
+  return false;
+}
+
+static std::string check_mesh(const Scene& scene, const Mesh& mesh, bool bent) {
   if (mesh.triangle_count == 0 || size_t(mesh.first_triangle) + mesh.triangle_count > scene.triangles.size())
     return "triangle range";
   if (size_t(mesh.first_vertex) + mesh.vertex_count > scene.vertices.size()) return "vertex range";
@@ -44,7 +52,8 @@ static std::string check_mesh(const Scene& scene, const Mesh& mesh) {
     if (max(t.x, max(t.y, t.z)) >= mesh.vertex_count) return "corner";
     const Vertex* v = &scene.vertices[mesh.first_vertex];
     const vec3 normal = cross(v[t.y].position - v[t.x].position, v[t.z].position - v[t.x].position);
-    if (!(dot(normal, normal) > 0.0f) || !std::isfinite(dot(normal, normal))) return "area";
+    if (bent ? std::isnan(dot(normal, normal)) : !(dot(normal, normal) > 0.0f) || !std::isfinite(dot(normal, normal)))
+      return "area";
   }
   return "";
 }
@@ -69,7 +78,8 @@ static std::string check_material(const Scene& scene, const Material& m) {
 std::string broken_promise(const Scene& scene) {
   std::string broken;
   for (size_t i = 0; i < scene.vertices.size() && broken.empty(); i++) broken = check_vertex(scene.vertices[i]);
-  for (size_t i = 0; i < scene.meshes.size() && broken.empty(); i++) broken = check_mesh(scene, scene.meshes[i]);
+  for (size_t i = 0; i < scene.meshes.size() && broken.empty(); i++)
+    broken = check_mesh(scene, scene.meshes[i], is_bent(scene, i));
   for (size_t i = 0; i < scene.materials.size() && broken.empty(); i++)
     broken = check_material(scene, scene.materials[i]);
   if (!broken.empty()) return broken;
@@ -91,6 +101,7 @@ std::string broken_promise(const Scene& scene) {
   for (const ViewPoint& view : scene.view_points) {
     if (!bounded(view.position) || !bounded(vec3(view.yaw, view.pitch, view.roll), 180.01f)) return "view point";
   }
+  if (!scene.hidden.empty() && scene.hidden.size() != scene.instances.size()) return "hidden";
   const Bounds bounds = scene_bounds(scene);
   return bounded(bounds.low, 1.001e9f) && bounded(bounds.high, 1.001e9f) ? "" : "bounds";
 }

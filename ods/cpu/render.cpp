@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cassert>
 #include <mutex>
+#include <optional>
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
@@ -170,14 +171,12 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   if (progress.report) progress.report(1.0);
 }
 
-}  // namespace
-
-Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& wanted, const Progress& progress) {
-  assert(wanted.width > 0 && wanted.height >= 0 && wanted.samples > 0 && wanted.bounces >= 0);
-  RenderOptions options = wanted;
-  if (options.height == 0) options.height = natural_height(rig.projection, options.width);
+void check_picture_memory(const RenderOptions& options) {
   check_memory(picture_bytes(options), fmt::format("a picture {} pixels wide", options.width),
                "a smaller width or a single eye needs less");
+}
+
+Picture blank_picture(const RenderOptions& options) {
   Picture picture;
   for (int eye : eye_list(options.eyes)) {
     const int w = options.width, h = options.height;
@@ -186,22 +185,66 @@ Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions
     image.depth = Image(w, h, 1);
     image.normal = image.albedo = Image(w, h, 3);
   }
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    const LightTable lights = make_lights(scene);
-    const EmbreeScene embree(scene);
-    PathTracer tracer;
-    set_scene(tracer, scene, lights);
-    const Job job{embree,
+  return picture;
+}
+
+RenderOptions with_height(RenderOptions options, const CameraRig& rig) {
+  assert(options.width > 0 && options.height >= 0 && options.samples > 0 && options.bounces >= 0);
+  if (options.height == 0) options.height = natural_height(rig.projection, options.width);
+  return options;
+}
+
+}  // namespace
+
+struct CpuRenderer::Parts {
+  Parts(const Scene& wanted, int threads) : scene(wanted), arena(threads > 0 ? threads : tbb::task_arena::automatic) {
+    arena.execute([&] {
+      lights = make_lights(scene);
+      embree.emplace(scene);
+      set_scene(tracer, scene, lights);
+    });
+  }
+
+  const Scene& scene;
+  mutable tbb::task_arena arena;
+  LightTable lights;
+  std::optional<EmbreeScene> embree;
+  PathTracer tracer;
+};
+
+CpuRenderer::CpuRenderer(const Scene& scene, int threads) : parts_(std::make_unique<Parts>(scene, threads)) {}
+
+CpuRenderer::~CpuRenderer() = default;
+
+void CpuRenderer::update(const SceneChange& change) {
+  parts_->arena.execute([&] {
+    update_lights(parts_->scene, parts_->lights);
+    parts_->embree->update(change);
+    set_scene(parts_->tracer, parts_->scene, parts_->lights);
+  });
+}
+
+Picture CpuRenderer::render(const CameraRig& rig, const RenderOptions& wanted, const Progress& progress) const {
+  const RenderOptions options = with_height(wanted, rig);
+  check_picture_memory(options);
+  Picture picture = blank_picture(options);
+  parts_->arena.execute([&] {
+    PathTracer tracer = parts_->tracer;
+    const Job job{*parts_->embree,
                   tracer,
                   make_camera(rig),
-                  media_at(embree, tracer, rig.position),
+                  media_at(*parts_->embree, tracer, rig.position),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},
                   options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris};
     render_tiles(job, picture, progress);
   });
   return picture;
+}
+
+Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& options, const Progress& progress) {
+  check_picture_memory(with_height(options, rig));  // before the trees are built
+  return CpuRenderer(scene, options.threads).render(rig, options, progress);
 }
 
 }  // namespace ods

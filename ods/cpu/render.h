@@ -3,13 +3,34 @@
 //
 // The path tracer on the CPU: the kernel on Embree.
 #pragma once
+#include <memory>
+
 #include "ods/base/progress.h"
 #include "ods/image/camera_rig.h"
 #include "ods/image/picture.h"
+#include "ods/scene/motion.h"
 #include "ods/scene/render_options.h"
-#include "ods/scene/scene.h"
 
 namespace ods {
+
+// A scene ready to be rendered, for films: from one frame to the next only what moves is made anew.
+class CpuRenderer {
+ public:
+  // threads: 0 for all of the machine's. The scene must outlive this object.
+  explicit CpuRenderer(const Scene& scene, int threads = 0);
+  ~CpuRenderer();
+
+  // What set_time() has changed in the scene.
+  void update(const SceneChange& change);
+
+  // As render_cpu(), which it is on a new CpuRenderer, bit for bit, whatever was rendered before. options.threads does
+  // not count.
+  Picture render(const CameraRig& rig, const RenderOptions& options, const Progress& progress = {}) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 // Renders every eye asked for. The same arguments give the same bits, whatever the number of threads.
 // Throws Error: kCancelled when progress says so, kMemory before anything else when the machine has too little for the

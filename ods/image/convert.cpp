@@ -17,10 +17,10 @@ namespace ods {
 
 // --- what can become what ------------------------------------------------------------------------------------------
 
-static std::vector<int> eyes_of(const StoredPicture& picture) {
-  std::vector<int> eyes;
-  for (const StoredEye& eye : picture.eyes) eyes.push_back(eye.eye);
-  return eyes;
+ConvertTarget own_form(const StoredPicture& picture) {
+  ConvertTarget form{picture.rig, picture.size, {}};
+  for (const StoredEye& eye : picture.eyes) form.eyes.push_back(eye.eye);
+  return form;
 }
 
 static vec3 axis_in_world(const Camera& camera) {
@@ -40,7 +40,7 @@ static bool sees_around(const StoredPicture& picture, const ConvertTarget& targe
 }
 
 std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
-  const std::vector<int> eyes = eyes_of(picture);
+  const std::vector<int> eyes = own_form(picture).eyes;
   const bool from_mono = eyes[0] == kMono;
   if (picture.rig.mirrored != target.rig.mirrored) return "a mirrored picture stays mirrored";
   if (target.eyes[0] == kMono) return "";

@@ -25,6 +25,9 @@ struct ConvertTarget {
   int mono_from = kLeft;                 // the eye of a stereo picture that a mono one is made of
 };
 
+// A picture's own form: what converts it to itself.
+ConvertTarget own_form(const StoredPicture& picture);
+
 struct Conversion {
   PictureRows rows;
   bool sees_around = false;  // the eyes stand elsewhere than the picture's

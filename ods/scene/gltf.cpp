@@ -12,6 +12,7 @@
 
 #include "ods/base/error.h"
 #include "ods/scene/gltf/parts.h"
+#include "ods/scene/motion.h"
 
 namespace ods {
 
@@ -41,10 +42,9 @@ void spend(GltfFile& file, size_t count) {
 
 // Rendered, or understood enough to take the plain form that stands beside it.
 static constexpr std::array kRendered = {
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_lights_punctual",
-    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength",
+    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_animation_pointer",           "KHR_lights_punctual",
+    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength", "KHR_texture_transform",
     "KHR_materials_volume",    "KHR_mesh_quantization", "KHR_materials_transmission",
-    "KHR_texture_transform",
 };
 
 static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
@@ -72,8 +72,6 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
     if (scene.warnings.size() == kMost) break;
     warn(scene, fmt::format("extension {} is ignored", printable(name)));
   }
-  if (!file.model->animations.empty()) warn(scene, "animations are ignored: the scene stands as it is at rest");
-  if (!file.model->skins.empty()) warn(scene, "skins are ignored: the meshes stand as they are stored");
 }
 
 static void check_reach(Scene& scene) {
@@ -91,7 +89,9 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
   read_materials(file, scene);
-  read_nodes(file, scene, options.scene);
+  const Places places = read_nodes(file, scene, options.scene, named_nodes(file));
+  read_clips(file, scene, places);
+  set_time(scene, 0.0);  // skins and morph targets as they are at rest
   check_reach(scene);
   return scene;
 }

@@ -68,7 +68,9 @@ SceneInfo describe(const Scene& scene, vec3 camera_position) {
   for (const Mesh& mesh : scene.meshes) materials.insert(mesh.material);
   info.materials = materials.size();
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Instance& instance : scene.instances) {
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    if (is_hidden(scene, i)) continue;
+    const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
     info.instanced_triangles += mesh.triangle_count;
@@ -84,6 +86,7 @@ SceneInfo describe(const Scene& scene, vec3 camera_position) {
   info.has_environment = scene.environment.radiance != vec3(0.0f);
   info.bounds = scene_bounds(scene);
   info.view_points = scene.view_points;
+  for (const Clip& clip : scene.animation.clips) info.animations.push_back({clip.name, clip.end});
   info.warnings = scene.warnings;
   return info;
 }

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ods/scene/scene.h"
@@ -28,6 +29,7 @@ struct SceneInfo {
   Bounds bounds;                  // metres
   float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1: there is none
   std::vector<ViewPoint> view_points;
+  std::vector<std::pair<std::string, double>> animations;  // and how many seconds they last
   std::vector<std::string> warnings;
 };
 

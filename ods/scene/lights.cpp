@@ -120,7 +120,7 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    if (!glows(material)) continue;
+    if (!glows(material) || is_hidden(scene, i)) continue;
     table.instances[i].first_light = static_cast<int>(table.lights.size());
     for (uint t = 0; t < mesh.triangle_count; t++) {
       Light light = blank_light(kLightTriangle);
@@ -132,8 +132,7 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
   }
 }
 
-static void add_environment_light(const Scene& scene, double scene_radius, LightTable& table,
-                                  std::vector<double>& powers) {
+static void read_environment(const Scene& scene, LightTable& table) {
   const Environment& source = scene.environment;
   assert(source.width == 0 ||
          source.texels.size() == static_cast<size_t>(source.width) * static_cast<size_t>(source.height));
@@ -151,9 +150,13 @@ static void add_environment_light(const Scene& scene, double scene_radius, Light
     }
   }
   table.environment_rows = make_alias_table(row_weights);
+  table.environment_power = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
+}
+
+static void add_environment_light(double scene_radius, LightTable& table, std::vector<double>& powers) {
+  table.environment.light = -1;
   // The weights are radiance times solid angle; the scene offers its cross-section to all of it.
-  const double pi = std::acos(-1.0);
-  double power = std::accumulate(row_weights.begin(), row_weights.end(), 0.0) * pi * scene_radius * scene_radius;
+  double power = table.environment_power * std::acos(-1.0) * scene_radius * scene_radius;
   if (!(power > 0.0)) return;
   const double others = std::accumulate(powers.begin(), powers.end(), 0.0);
   if (others > 0.0) power = std::min(power, others);
@@ -200,9 +203,10 @@ static void fill_picks(const std::vector<double>& powers, LightTable& table) {
   }
 }
 
-LightTable make_lights(const Scene& scene) {
-  LightTable table;
+void update_lights(const Scene& scene, LightTable& table) {
   table.instances = scene.instances;
+  table.lights.clear();
+  table.picks.clear();
   std::vector<double> powers;
   const Bounds bounds = scene_bounds(scene);
   const double radius = std::max(0.5 * static_cast<double>(length(bounds.high - bounds.low)), 1e-3);
@@ -213,8 +217,14 @@ LightTable make_lights(const Scene& scene) {
     table.lights.push_back(make_punctual(source));
     powers.push_back(power);
   }
-  add_environment_light(scene, radius, table, powers);
+  add_environment_light(radius, table, powers);
   fill_picks(powers, table);
+}
+
+LightTable make_lights(const Scene& scene) {
+  LightTable table;
+  read_environment(scene, table);
+  update_lights(scene, table);
   return table;
 }
 

@@ -16,6 +16,7 @@ struct LightTable {
   std::vector<EnvironmentTexel> environment_texels;
   std::vector<AliasEntry> environment_rows;
   EnvironmentInfo environment;
+  double environment_power = 0.0;   // without others, for each square metre that the scene offers it
   std::vector<Instance> instances;  // the scene's, with first_light filled in
 };
 
@@ -23,6 +24,9 @@ struct LightTable {
 // gets at most half of the picks where other lights exist, since walls may hide it. A uniform environment is left to
 // the scattered rays, which find it as well as any other way could.
 LightTable make_lights(const Scene& scene);
+
+// The same for a scene that set_time() has changed, without looking at its environment again.
+void update_lights(const Scene& scene, LightTable& table);
 
 // Points the kernel's view at a scene and its lights, both of which must outlive it.
 void set_scene(SceneView& view, const Scene& scene, const LightTable& lights);

@@ -69,10 +69,16 @@ void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world) {
   scene.instances.push_back(instance);
 }
 
+bool is_hidden(const Scene& scene, size_t instance) {
+  return !scene.hidden.empty() && scene.hidden[instance] != 0;
+}
+
 Bounds scene_bounds(const Scene& scene) {
   Bounds bounds;
   bool empty = true;
-  for (const Instance& instance : scene.instances) {
+  for (size_t k = 0; k < scene.instances.size(); k++) {
+    if (is_hidden(scene, k)) continue;
+    const Instance& instance = scene.instances[k];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     for (uint i = 0; i < mesh.vertex_count; i++) {
       const vec4 p(scene.vertices[mesh.first_vertex + i].position, 1.0f);

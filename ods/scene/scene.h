@@ -9,6 +9,7 @@
 
 #include "ods/image/camera_rig.h"
 #include "ods/kernel/scene_data.h"
+#include "ods/scene/animation.h"
 
 namespace ods {
 
@@ -63,6 +64,10 @@ struct Scene {
   Environment environment;
 
   std::vector<ViewPoint> view_points;
+
+  Animation animation;       // what moves: set_time() (ods/scene/motion.h) writes the lists above anew
+  std::vector<char> hidden;  // 1: the instance is not there at this time; empty: all are
+
   std::vector<std::string> warnings;  // what of the file is not rendered, or not as it should be, one line each
 };
 
@@ -71,6 +76,9 @@ Material default_material();
 
 // A slot that reads nothing.
 TextureSlot no_texture();
+
+// Whether an instance is not there at this time.
+bool is_hidden(const Scene& scene, size_t instance);
 
 // Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
 int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material);
@@ -83,7 +91,7 @@ struct Bounds {
   vec3 high{0.0f};  // low > high on no axis; both 0 for an empty scene
 };
 
-// The box around every instanced vertex.
+// The box around every instanced vertex that is not hidden.
 Bounds scene_bounds(const Scene& scene);
 
 // Where to look from when nobody says: the first view point; without one at eye height in the scene, looking along -Z,

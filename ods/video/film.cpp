@@ -80,8 +80,8 @@ const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, cons
   return largest;
 }
 
-TagResult tag_film(const std::string& path, const std::string& to, uint64_t track,
-                   const std::optional<FilmForm>& form) {
+TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form,
+                   const std::optional<Ambisonics>& sound) {
   const FileInput file(path);
   const bool matroska = is_of_matroska(file);
   std::error_code ignored;
@@ -90,7 +90,7 @@ TagResult tag_film(const std::string& path, const std::string& to, uint64_t trac
   AtomicFile output(real.empty() ? to : real.native());
   TagResult result;
   try {
-    result = matroska ? tag_matroska(file, output, track, form) : tag_mp4(file, output, track, form);
+    result = matroska ? tag_matroska(file, output, track, form) : tag_mp4(file, output, track, form, sound);
   } catch (const Broken& broken) {
     throw unusable(path, broken.what());
   }

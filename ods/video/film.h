@@ -57,7 +57,9 @@ struct TagResult {
 
 // Writes the film with another form into `to`, which may be `path` itself: a complete new file takes its place. No
 // form: one that says nothing. Every sample stays bit for bit what it was. Throws Error(kInput), also where the
-// container cannot say such a form; Error(kOutput).
-TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form);
+// container cannot say such a form; Error(kOutput). With `sound`, the sound of an mp4 or mov says so, too; in Matroska
+// Opus says by itself what its channels are.
+TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form,
+                   const std::optional<Ambisonics>& sound = {});
 
 }  // namespace ods

@@ -105,15 +105,20 @@ static VideoTrack read_video(Box& track, Box& moov) {
   return video;
 }
 
-// Its boxes stand behind a description of three lengths, in QuickTime's reading; what cannot be read says nothing.
+// Its boxes stand behind a description of three lengths, in QuickTime's reading.
+static void open_sound_entry(Box& entry) {
+  const uint64_t version = get_number(entry.body, 8, 2);
+  open_box(entry, version == 1 ? 44 : version == 2 ? 64 : 28);
+}
+
+// What cannot be read says nothing.
 static SoundTrack read_sound(Box& track) {
   SoundTrack sound;
   sound.id = id_of(track);
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     sound.codec = type_text(entry.type);
-    const uint64_t version = get_number(entry.body, 8, 2);
     try {
-      open_box(entry, version == 1 ? 44 : version == 2 ? 64 : 28);
+      open_sound_entry(entry);
     } catch (const Broken&) {
       continue;
     }
@@ -189,6 +194,14 @@ static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
   return result;
 }
 
+static void tag_sound(Box& track, const Ambisonics& sound) {
+  for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
+    open_sound_entry(entry);
+    std::erase_if(entry.children, [](const Box& box) { return box.type == box_type("SA3D"); });
+    entry.children.push_back(sa3d_box(sound));
+  }
+}
+
 // Offsets into other files are not ours to move.
 static void refuse_other_files(Box& track) {
   Box& media = open_child(open_child(track, box_type("mdia")), box_type("minf"));
@@ -261,13 +274,15 @@ static void write_header(const Mp4& film, const Plan& plan, AtomicFile& to) {
   append(to, bytes);
 }
 
-TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id, const std::optional<FilmForm>& form) {
+TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id, const std::optional<FilmForm>& form,
+                  const std::optional<Ambisonics>& sound) {
   Mp4 film = open_mp4(file);
   TagResult result;
   for (Box& track : film.moov.children) {
     if (track.type != box_type("trak")) continue;
     open_box(track, 0);
     if (is_video(track) && id_of(track) == track_id) result = tag_track(track, form);
+    if (sound && handler_of(track) == box_type("soun")) tag_sound(track, *sound);
   }
   const Plan plan = plan_move(film, file.size());
   move_header(film.moov, plan.move);

@@ -21,6 +21,7 @@ FilmInfo read_mp4(const FileInput& file);
 
 // Throws Broken, Error(kInput), Error(kOutput). The header keeps its place; a `free` box behind it is used up, or
 // grown, before anything is moved.
-TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track, const std::optional<FilmForm>& form);
+TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track, const std::optional<FilmForm>& form,
+                  const std::optional<Ambisonics>& sound = {});
 
 }  // namespace ods

@@ -253,4 +253,16 @@ std::optional<Ambisonics> parse_sa3d(const std::string& body) {
   return sound;
 }
 
+Box sa3d_box(const Ambisonics& sound) {
+  Box box;
+  box.type = box_type("SA3D");
+  append_number(box.body, 0, 1);                                 // version
+  append_number(box.body, sound.has_head_locked ? 0x80 : 0, 1);  // and that it is periphonic
+  append_number(box.body, sound.order, 4);
+  append_number(box.body, 0, 2);  // ACN, SN3D
+  append_number(box.body, sound.channels, 4);
+  for (uint32_t channel = 0; channel < sound.channels; channel++) append_number(box.body, channel, 4);
+  return box;
+}
+
 }  // namespace ods

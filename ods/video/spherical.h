@@ -84,5 +84,7 @@ struct Ambisonics {
   bool has_head_locked = false;  // stereo that does not turn with the head
 };
 std::optional<Ambisonics> parse_sa3d(const std::string& body);
+// Channels in the order of ambisonics (ACN), normalised as SN3D has it.
+Box sa3d_box(const Ambisonics& sound);
 
 }  // namespace ods

@@ -12,6 +12,7 @@ Scene make_mirrors();
 Scene make_wineglass();
 Scene make_fractal();
 Scene make_room();
+Scene make_toys();
 Scene make_furnace();
 Scene make_marker_spheres();
 Scene make_lamp();

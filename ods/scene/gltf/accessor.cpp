@@ -37,6 +37,8 @@ static int component_count(int type) {
       return 3;
     case TINYGLTF_TYPE_VEC4:
       return 4;
+    case TINYGLTF_TYPE_MAT4:
+      return 16;
     default:
       return 0;
   }
@@ -84,13 +86,14 @@ static uint load_index(const unsigned char* data, int type) {
   }
 }
 
+float AccessorView::number_at(size_t i, int component) const {
+  const size_t size = component_size(component_type);
+  return load_component(data + i * stride + static_cast<size_t>(component) * size, component_type, normalized);
+}
+
 vec4 AccessorView::at(size_t i) const {
   vec4 value(0.0f, 0.0f, 0.0f, 1.0f);
-  const unsigned char* element = data + i * stride;
-  const size_t size = component_size(component_type);
-  for (int c = 0; c < components; c++) {
-    value[c] = load_component(element + static_cast<size_t>(c) * size, component_type, normalized);
-  }
+  for (int c = 0; c < std::min(components, 4); c++) value[c] = number_at(i, c);
   return value;
 }
 

@@ -59,6 +59,13 @@ static std::vector<double> numbers(const Value& parent, const char* key, const s
   return values;
 }
 
+// KHR_texture_transform.
+static UvPlace uv_place(const Value& transform) {
+  const std::vector<double> offset = numbers(transform, "offset", {0.0, 0.0});
+  const std::vector<double> scale = numbers(transform, "scale", {1.0, 1.0});
+  return {{offset[0], offset[1]}, number(transform, "rotation", 0.0), {scale[0], scale[1]}};
+}
+
 // Textures are made where a material first asks for one: the use decides about the sRGB curve.
 class TextureTable {
  public:
@@ -94,17 +101,8 @@ class TextureTable {
   void decode_images();
 
  private:
-  // The matrices in the text of KHR_texture_transform and its first example disagree about the sense of rotation; the
-  // example, the conformance model TextureTransformTest and the viewers agree on this one.
   static void apply(const Value& transform, TextureSlot& slot) {
-    const std::vector<double> offset = numbers(transform, "offset", {0.0, 0.0});
-    const std::vector<double> scale = numbers(transform, "scale", {1.0, 1.0});
-    const double rotation = number(transform, "rotation", 0.0);
-    const double c = std::cos(rotation), s = std::sin(rotation);
-    auto legal = [](double value) { return clamped(value, double{-kLargestUv}, double{kLargestUv}, 0.0); };
-    slot.offset = vec2(legal(offset[0]), legal(offset[1]));
-    slot.axis_u = vec2(legal(c * scale[0]), legal(-s * scale[0]));
-    slot.axis_v = vec2(legal(s * scale[1]), legal(c * scale[1]));
+    place_texture(slot, uv_place(transform));
     slot.uv_set = integer(transform, "texCoord", slot.uv_set);
   }
 
@@ -245,6 +243,35 @@ static Material read_material(const tinygltf::Material& source, Scene& scene, Te
   material.double_sided = source.doubleSided;
   read_extensions(source, scene, textures, material);
   return material;
+}
+
+template <class Info>
+static UvPlace place_of(const Info& info) {
+  const Value* transform = extension(info.extensions, "KHR_texture_transform");
+  return transform == nullptr ? UvPlace() : uv_place(*transform);
+}
+
+MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int index) {
+  const tinygltf::Material& source = element(file, file.model->materials, index, "material");
+  const Material& material = scene.materials[static_cast<size_t>(index)];
+  MovingMaterial moving;
+  moving.material = index;
+  moving.base_color = glm::dvec4(material.base_color);
+  moving.emission = glm::dvec3(color(source.emissiveFactor, 1e9));
+  if (const Value* strength = extension(source.extensions, "KHR_materials_emissive_strength")) {
+    moving.strength = number(*strength, "emissiveStrength", 1.0);
+  }
+  moving.metallic = static_cast<double>(material.metallic);
+  moving.roughness = static_cast<double>(material.roughness);
+  moving.places[kBaseColorSlot] = place_of(source.pbrMetallicRoughness.baseColorTexture);
+  moving.places[kMetallicRoughnessSlot] = place_of(source.pbrMetallicRoughness.metallicRoughnessTexture);
+  moving.places[kNormalSlot] = place_of(source.normalTexture);
+  moving.places[kEmissionSlot] = place_of(source.emissiveTexture);
+  if (const Value* transmission = extension(source.extensions, "KHR_materials_transmission")) {
+    const Value& extensions = object(object(*transmission, "transmissionTexture"), "extensions");
+    moving.places[kTransmissionSlot] = uv_place(object(extensions, "KHR_texture_transform"));
+  }
+  return moving;
 }
 
 void read_materials(const GltfFile& file, Scene& scene) {

@@ -81,10 +81,10 @@ struct Attributes {
   AccessorView position, normal, tangent, uv0, uv1, color;
 };
 
-static AccessorView read_attribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name,
-                                   int components, size_t count) {
-  const auto found = primitive.attributes.find(name);
-  if (found == primitive.attributes.end()) return {};
+AccessorView read_attribute(GltfFile& file, const std::map<std::string, int>& attributes, const char* name,
+                            int components, size_t count) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return {};
   const AccessorView attribute = open_accessor(file, found->second);
   if (attribute.components < components || attribute.components > 4) {
     fail(file, fmt::format("accessor {} has {} components, {} needs {}", found->second, attribute.components, name,
@@ -125,6 +125,7 @@ static Vertex read_vertex(const Attributes& attributes, size_t i) {
 struct Geometry {
   std::vector<Vertex> vertices;
   std::vector<uvec3> triangles;
+  std::vector<uint> order;  // which of the file's vertices each is
 };
 
 // Only the vertices that triangles use: files share one long list among many primitives.
@@ -140,6 +141,7 @@ static Geometry gather(const Attributes& attributes, const std::vector<uvec3>& t
   auto place = [&](uint i) { return static_cast<uint>(std::lower_bound(used.begin(), used.end(), i) - used.begin()); };
   geometry.triangles.reserve(triangles.size());
   for (const uvec3& t : triangles) geometry.triangles.emplace_back(place(t.x), place(t.y), place(t.z));
+  geometry.order = std::move(used);
   return geometry;
 }
 
@@ -158,6 +160,7 @@ static void make_flat(Geometry& geometry) {
     const vec3 normal = direction(area_vector(geometry, t));
     for (int c = 0; c < 3; c++) {
       flat.vertices.push_back(geometry.vertices[t[c]]);
+      flat.order.push_back(geometry.order[t[c]]);
       flat.vertices.back().normal = normal;
       flat.vertices.back().tangent = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     }
@@ -184,11 +187,10 @@ static void repair_normals(Geometry& geometry) {
 // --- meshes
 
 // Appends the Scene mesh of one primitive and returns it, or -1 when nothing of it can be seen.
-static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitive& primitive) {
+static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitive& primitive, const Bending& bending) {
   const int mode = primitive.mode == -1 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
   if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
     fail(file, fmt::format("primitive mode {} does not exist", mode));
-  if (!primitive.targets.empty()) warn(scene, "morph targets are ignored: the meshes stand as they are stored");
   if (mode < TINYGLTF_MODE_TRIANGLES) {
     warn(scene, "points and lines are ignored");
     return -1;
@@ -203,13 +205,13 @@ static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitiv
     fail(file, fmt::format("material {} does not exist; the file is damaged", material));
 
   Attributes attributes;
-  attributes.position = read_attribute(file, primitive, "POSITION", 3, 0);
+  attributes.position = read_attribute(file, primitive.attributes, "POSITION", 3, 0);
   const size_t count = attributes.position.count;
-  attributes.normal = read_attribute(file, primitive, "NORMAL", 3, count);
-  attributes.tangent = read_attribute(file, primitive, "TANGENT", 4, count);
-  attributes.uv0 = read_attribute(file, primitive, "TEXCOORD_0", 2, count);
-  attributes.uv1 = read_attribute(file, primitive, "TEXCOORD_1", 2, count);
-  attributes.color = read_attribute(file, primitive, "COLOR_0", 3, count);
+  attributes.normal = read_attribute(file, primitive.attributes, "NORMAL", 3, count);
+  attributes.tangent = read_attribute(file, primitive.attributes, "TANGENT", 4, count);
+  attributes.uv0 = read_attribute(file, primitive.attributes, "TEXCOORD_0", 2, count);
+  attributes.uv1 = read_attribute(file, primitive.attributes, "TEXCOORD_1", 2, count);
+  attributes.color = read_attribute(file, primitive.attributes, "COLOR_0", 3, count);
 
   std::vector<uvec3> triangles = make_triangles(read_corners(file, primitive, count), mode);
   if (drop_bad_triangles(attributes.position, triangles) > 0) {
@@ -221,13 +223,16 @@ static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitiv
   repair_normals(geometry);
   const TextureSlot& normal_slot = scene.materials[static_cast<size_t>(material)].normal_slot;
   if (normal_slot.texture != -1) make_tangents(geometry.vertices, geometry.triangles, normal_slot);
-  return add_mesh(scene, geometry.vertices, geometry.triangles, material);
+  const int index = add_mesh(scene, geometry.vertices, geometry.triangles, material);
+  const PrimitiveSource source{primitive.attributes, primitive.targets, count, geometry.order};
+  if (bends(source, bending)) read_deformation(file, scene, source, bending, index, attributes.normal.count == 0);
+  return index;
 }
 
-std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh) {
+std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Bending& bending) {
   std::vector<int> meshes;
   for (const tinygltf::Primitive& primitive : element(file, file.model->meshes, mesh, "mesh").primitives) {
-    const int index = read_primitive(file, scene, primitive);
+    const int index = read_primitive(file, scene, primitive, bending);
     if (index != -1) meshes.push_back(index);
   }
   return meshes;

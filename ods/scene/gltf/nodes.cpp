@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <optional>
 
 #include "ods/scene/gltf/parts.h"
@@ -15,27 +14,19 @@ namespace ods {
 using glm::dmat4, glm::dvec3, glm::dvec4;
 using tinygltf::Node;
 
-static bool is_finite(const dmat4& m) {
-  for (int column = 0; column < 4; column++) {
-    for (int row = 0; row < 4; row++) {
-      if (!(std::abs(m[column][row]) <= static_cast<double>(kFarthest))) return false;
-    }
-  }
-  return true;
-}
+struct Place {
+  dvec3 translation{0.0};
+  dvec4 rotation{0.0, 0.0, 0.0, 1.0};
+  dvec3 scale{1.0};
+};
 
-static dvec3 unit(const dvec3& v, const dvec3& fallback) {
-  const double size = glm::length(v);
-  return std::isfinite(size) && size > 1e-100 ? v / size : fallback;
-}
-
-static dmat4 trs_matrix(const dvec3& translation, const dvec4& rotation, const dvec3& scale) {
-  const double size = glm::length(rotation);
-  const dvec4 q = std::isfinite(size) && size > 1e-100 ? rotation / size : dvec4(0.0, 0.0, 0.0, 1.0);
-  dmat4 matrix = glm::mat4_cast(glm::dquat(q.w, q.x, q.y, q.z));
-  for (int i = 0; i < 3; i++) matrix[i] *= scale[i];
-  matrix[3] = dvec4(translation, 1.0);
-  return matrix;
+static Place read_place(const Node& node) {
+  Place place;
+  const auto &t = node.translation, &r = node.rotation, &s = node.scale;
+  if (t.size() == 3) place.translation = dvec3(t[0], t[1], t[2]);
+  if (r.size() == 4) place.rotation = dvec4(r[0], r[1], r[2], r[3]);
+  if (s.size() == 3) place.scale = dvec3(s[0], s[1], s[2]);
+  return place;
 }
 
 static dmat4 local_matrix(const Node& node) {
@@ -44,13 +35,8 @@ static dmat4 local_matrix(const Node& node) {
     for (int i = 0; i < 16; i++) matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
     return matrix;
   }
-  dvec3 translation(0.0), scale(1.0);
-  dvec4 rotation(0.0, 0.0, 0.0, 1.0);
-  if (node.translation.size() == 3) translation = dvec3(node.translation[0], node.translation[1], node.translation[2]);
-  if (node.scale.size() == 3) scale = dvec3(node.scale[0], node.scale[1], node.scale[2]);
-  if (node.rotation.size() == 4)
-    rotation = dvec4(node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]);
-  return trs_matrix(translation, rotation, scale);
+  const Place place = read_place(node);
+  return trs_matrix(place.translation, place.rotation, place.scale);
 }
 
 // --- the hierarchy
@@ -91,7 +77,7 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
     const int parent = tree.parents[i];
     world[i] = local_matrix(file.model->nodes[i]);
     if (parent != -1) world[i] = world[static_cast<size_t>(parent)] * world[i];
-    if (!is_finite(world[i])) fail(file, fmt::format("node {} has a matrix that is not finite, or too large", node));
+    if (!is_bounded(world[i])) fail(file, fmt::format("node {} has a matrix that is not finite, or too large", node));
   }
   return world;
 }
@@ -121,73 +107,143 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
   return nodes;
 }
 
+// --- what moves
+
+// The rows of the file's nodes that move, in Animation::nodes; those below one that moves go with it.
+static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy& tree, const std::vector<dmat4>& world,
+                                          const std::vector<char>& named, Scene& scene) {
+  std::vector<int> rows(tree.order.size(), -1);
+  for (const int node : tree.order) {
+    const auto i = static_cast<size_t>(node);
+    const int parent = tree.parents[i];
+    const int parent_row = parent == -1 ? -1 : rows[static_cast<size_t>(parent)];
+    if (!named[i] && parent_row == -1) continue;
+    MovingNode moving;
+    moving.parent = parent_row;
+    if (parent != -1 && parent_row == -1) moving.before = world[static_cast<size_t>(parent)];
+    const Node& source = file.model->nodes[i];
+    if (source.matrix.size() == 16) {
+      moving.before *= local_matrix(source);
+    } else {
+      const Place place = read_place(source);
+      moving.translation = place.translation;
+      moving.rotation = place.rotation;
+      moving.scale = place.scale;
+    }
+    rows[i] = static_cast<int>(scene.animation.nodes.size());
+    scene.animation.nodes.push_back(moving);
+  }
+  return rows;
+}
+
 // --- what stands at a node
 
 class Placer {
  public:
-  Placer(GltfFile& file, Scene& scene) : file_(file), scene_(scene), meshes_(file.model->meshes.size()) {}
+  Placer(GltfFile& file, Scene& scene, Places& places)
+      : file_(file),
+        scene_(scene),
+        places_(places),
+        meshes_(file.model->meshes.size()),
+        skins_(file.model->skins.size()) {}
 
-  void place_meshes(const Node& node, const dmat4& world);
-  void place_light(int light, const dmat4& world);
-  void place_camera(const Node& node, const dmat4& world);
+  void place_meshes(int node, const dmat4& world);
+  void place_light(int node, int light, const dmat4& world);
+  void place_camera(int node, const dmat4& world);
 
  private:
   struct LoadedMesh {
     int index;
     Bounds bounds;
+    int deformation = -1;
+    bool skinned = false;  // stands where its joints are
   };
+  using LoadedMeshes = std::vector<LoadedMesh>;
 
-  const std::vector<LoadedMesh>& load_mesh(int mesh);
-  void place(const std::vector<LoadedMesh>& meshes, const dmat4& world);
+  LoadedMeshes read(int mesh, const Bending& bending);
+  const LoadedMeshes& load_mesh(int node);
+  Bending bending_of(int node);
+  void place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local);
   std::vector<dmat4> instance_matrices(const Node& node);
 
   GltfFile& file_;
   Scene& scene_;
-  std::vector<std::optional<std::vector<LoadedMesh>>> meshes_;
+  Places& places_;
+  std::vector<std::optional<LoadedMeshes>> meshes_;
+  std::vector<std::optional<int>> skins_;
+  LoadedMeshes bent_;
 };
 
-const std::vector<Placer::LoadedMesh>& Placer::load_mesh(int mesh) {
-  static const std::vector<LoadedMesh> kNone;
-  if (mesh == -1) return kNone;
-  auto& loaded = element(file_, meshes_, mesh, "mesh");
-  if (loaded) return *loaded;
-  loaded.emplace();
-  for (const int index : read_mesh(file_, scene_, mesh)) {
-    const Mesh& record = scene_.meshes[static_cast<size_t>(index)];
-    Bounds bounds{scene_.vertices[record.first_vertex].position, scene_.vertices[record.first_vertex].position};
-    for (uint i = 0; i < record.vertex_count; i++) {
-      bounds.low = min(bounds.low, scene_.vertices[record.first_vertex + i].position);
-      bounds.high = max(bounds.high, scene_.vertices[record.first_vertex + i].position);
-    }
-    loaded->push_back({index, bounds});
+// A row of weights for a node whose mesh has morph targets, and of a skin where it has one.
+Bending Placer::bending_of(int index) {
+  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
+  const tinygltf::Mesh& mesh = element(file_, file_.model->meshes, node.mesh, "mesh");
+  Bending bending;
+  size_t targets = 0;
+  for (const tinygltf::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
+  if (targets > 0) {
+    std::vector<double> weights = node.weights.empty() ? mesh.weights : node.weights;
+    weights.resize(targets);
+    for (double& weight : weights) weight = std::isfinite(weight) ? weight : 0.0;
+    bending.weights = static_cast<int>(scene_.animation.weights.size());
+    scene_.animation.weights.push_back(std::move(weights));
+    places_.weights[static_cast<size_t>(index)] = bending.weights;
   }
+  if (node.skin != -1) {
+    auto& row = element(file_, skins_, node.skin, "skin");
+    if (!row) row = read_skin(file_, scene_, node.skin, places_.nodes);
+    bending.skin = *row;
+  }
+  return bending;
+}
+
+Placer::LoadedMeshes Placer::read(int mesh, const Bending& bending) {
+  LoadedMeshes loaded;
+  const size_t first = scene_.animation.deformations.size();
+  for (const int index : read_mesh(file_, scene_, mesh, bending)) {
+    loaded.push_back({index, mesh_bounds(scene_, scene_.meshes[static_cast<size_t>(index)])});
+    for (size_t i = first; i < scene_.animation.deformations.size(); i++) {
+      const Deformation& deformation = scene_.animation.deformations[i];
+      if (deformation.mesh != index) continue;
+      loaded.back().deformation = static_cast<int>(i);
+      loaded.back().skinned = deformation.skin != -1;
+    }
+  }
+  return loaded;
+}
+
+// Meshes that bend are the node's own: each bends in its own way.
+const Placer::LoadedMeshes& Placer::load_mesh(int index) {
+  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
+  const Bending bending = bending_of(index);
+  if (bending.weights != -1 || bending.skin != -1) return bent_ = read(node.mesh, bending);
+  auto& loaded = element(file_, meshes_, node.mesh, "mesh");
+  if (!loaded) loaded = read(node.mesh, bending);
   return *loaded;
 }
 
-// Whether the three axes span a volume, however small.
-static bool is_invertible(const dmat4& m) {
-  const dvec3 x(m[0]), y(m[1]), z(m[2]);
-  const double sizes = glm::length(x) * glm::length(y) * glm::length(z);
-  return sizes > 1e-24 && std::abs(glm::dot(x, glm::cross(y, z))) > 1e-7 * sizes;
-}
-
-void Placer::place(const std::vector<LoadedMesh>& meshes, const dmat4& world) {
-  if (!is_invertible(world)) {
+// row: of the node among those that move, -1: it stands still.
+void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local) {
+  spend(file_, 1);
+  const int instance = static_cast<int>(scene_.instances.size());
+  if (mesh.deformation != -1 || row != -1) {
+    MovingInstance moving{instance, row, mesh.deformation, row == -1 ? world * local : local, {}, {}};
+    if (mesh.skinned) moving.node = -1, moving.local = dmat4(1.0);
+    moving.low = mesh.bounds.low, moving.high = mesh.bounds.high;
+    scene_.animation.instances.push_back(moving);
+    add_instance(scene_, mesh.index, glm::mat4(1.0f));
+    return;
+  }
+  const dmat4 matrix = world * local;
+  if (!is_bounded(matrix)) fail(file_, "has an instance whose matrix is not finite, or too large");
+  if (!is_invertible(matrix)) {
     warn(scene_, "instances that are scaled to nothing are left out");
     return;
   }
-  spend(file_, meshes.size());
-  for (const LoadedMesh& mesh : meshes) {
-    for (int corner = 0; corner < 8; corner++) {
-      const vec3 low = mesh.bounds.low, high = mesh.bounds.high;
-      const dvec4 p(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z, 1.0);
-      const dvec3 q = glm::abs(dvec3(world * p));
-      if (!(std::max({q.x, q.y, q.z}) <= static_cast<double>(kFarthest))) {
-        fail(file_, fmt::format("a mesh stands more than {:.0e} m from the origin; the file is damaged", kFarthest));
-      }
-    }
-    add_instance(scene_, mesh.index, glm::mat4(world));
+  if (!stays_near(matrix, mesh.bounds)) {
+    fail(file_, fmt::format("a mesh stands more than {:.0e} m from the origin; the file is damaged", kFarthest));
   }
+  add_instance(scene_, mesh.index, glm::mat4(matrix));
 }
 
 // EXT_mesh_gpu_instancing: many places for the node's mesh, relative to the node.
@@ -216,22 +272,30 @@ std::vector<dmat4> Placer::instance_matrices(const Node& node) {
   return matrices;
 }
 
-void Placer::place_meshes(const Node& node, const dmat4& world) {
-  const std::vector<LoadedMesh>& meshes = load_mesh(node.mesh);
+void Placer::place_meshes(int index, const dmat4& world) {
+  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
+  if (node.mesh == -1) return;
+  const LoadedMeshes& meshes = load_mesh(index);
   if (meshes.empty()) return;
+  const int row = places_.nodes[static_cast<size_t>(index)];
   for (const dmat4& matrix : instance_matrices(node)) {
-    const dmat4 placed = world * matrix;
-    if (!is_finite(placed)) fail(file_, "has an instance whose matrix is not finite, or too large");
-    place(meshes, placed);
+    for (const LoadedMesh& mesh : meshes) place(mesh, row, world, matrix);
   }
 }
 
-static float finite_or(double value, float fallback) {
-  return std::isfinite(value) ? static_cast<float>(std::clamp(value, -1e15, 1e15)) : fallback;
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_lights_punctual
+Lamp read_lamp(const GltfFile& file, int index) {
+  const tinygltf::Light& source = element(file, file.model->lights, index, "light");
+  Lamp lamp;
+  if (source.color.size() == 3) lamp.color = dvec3(source.color[0], source.color[1], source.color[2]);
+  lamp.intensity = source.intensity;
+  lamp.range = source.range;
+  lamp.inner_cone = source.spot.innerConeAngle;
+  lamp.outer_cone = source.spot.outerConeAngle;
+  return lamp;
 }
 
-// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_lights_punctual
-void Placer::place_light(int index, const dmat4& world) {
+void Placer::place_light(int node, int index, const dmat4& world) {
   const tinygltf::Light& source = element(file_, file_.model->lights, index, "light");
   PunctualLight light;
   if (source.type == "point") {
@@ -244,47 +308,39 @@ void Placer::place_light(int index, const dmat4& world) {
     warn(scene_, fmt::format("lights of type {} are ignored", printable(source.type)));
     return;
   }
-  light.position = vec3(world[3]);
-  light.direction = vec3(unit(-dvec3(world[2]), dvec3(0.0, 0.0, -1.0)));
-  for (int c = 0; c < 3; c++) {
-    const double color = source.color.size() == 3 ? source.color[static_cast<size_t>(c)] : 1.0;
-    light.intensity[c] = std::max(0.0f, finite_or(color * source.intensity, 0.0f));
-  }
-  light.range = std::max(0.0f, finite_or(source.range, 0.0f));
-  light.outer_cone = std::clamp(finite_or(source.spot.outerConeAngle, 0.7853982f), 1e-3f, 1.5707963f);
-  light.inner_cone = std::clamp(finite_or(source.spot.innerConeAngle, 0.0f), 0.0f, light.outer_cone);
+  set_lamp(light, read_lamp(file_, index));
+  ods::place_light(light, world);
+  places_.lights.push_back({static_cast<int>(scene_.lights.size()), index, node});
   scene_.lights.push_back(light);
 }
 
-void Placer::place_camera(const Node& node, const dmat4& world) {
+void Placer::place_camera(int index, const dmat4& world) {
+  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
   const std::string& own = element(file_, file_.model->cameras, node.camera, "camera").name;
   ViewPoint view;
   view.name = printable(!node.name.empty() ? node.name : !own.empty() ? own : fmt::format("camera {}", node.camera));
-  view.position = vec3(world[3]);
-  const dvec3 forward = unit(-dvec3(world[2]), dvec3(0.0, 0.0, -1.0));
-  // A scaled parent may have sheared the axes: up is what is left of it across the line of sight.
-  const dvec3 up(world[1]);
-  const dvec3 any_across = std::abs(forward.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(0.0, 0.0, 1.0);
-  const dvec3 fallback = unit(any_across - forward * glm::dot(forward, any_across), any_across);
-  const ViewAngles angles = view_angles(forward, unit(up - forward * glm::dot(forward, up), fallback));
-  view.yaw = angles.yaw;
-  view.pitch = angles.pitch;
-  view.roll = angles.roll;
+  place_view(view, world);
+  const int row = places_.nodes[static_cast<size_t>(index)];
+  if (row != -1) scene_.animation.views.push_back({static_cast<int>(scene_.view_points.size()), row});
   scene_.view_points.push_back(view);
 }
 
-void read_nodes(GltfFile& file, Scene& scene, int chosen) {
+Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<char>& moves) {
   const Hierarchy tree = read_hierarchy(file);
   const std::vector<dmat4> world = evaluate_nodes(file, tree);
-  Placer placer(file, scene);
+  Places places;
+  places.nodes = read_moving_nodes(file, tree, world, moves, scene);
+  places.weights.assign(places.nodes.size(), -1);
+  Placer placer(file, scene, places);
   for (const int i : nodes_of_scene(file, tree, chosen)) {
     const Node& node = file.model->nodes[static_cast<size_t>(i)];
     const dmat4& matrix = world[static_cast<size_t>(i)];
-    placer.place_meshes(node, matrix);
-    if (node.camera != -1) placer.place_camera(node, matrix);
+    placer.place_meshes(i, matrix);
+    if (node.camera != -1) placer.place_camera(i, matrix);
     const auto light = node.extensions.find("KHR_lights_punctual");
-    if (light != node.extensions.end()) placer.place_light(integer(light->second, "light", -1), matrix);
+    if (light != node.extensions.end()) placer.place_light(i, integer(light->second, "light", -1), matrix);
   }
+  return places;
 }
 
 }  // namespace ods

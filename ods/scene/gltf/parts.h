@@ -6,16 +6,19 @@
 //   accessor  numbers out of buffers
 //   material  materials, samplers, textures
 //   mesh      primitives -> meshes
+//   bend      morph targets and skins of primitives -> deformations
 //   nodes     the hierarchy -> instances, lights, view points
+//   clips     animations -> clips, and what they move
 // Every function here throws Error(kInput) naming the file when the file does not hold what it promises.
 #pragma once
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "ods/scene/scene.h"
+#include "ods/scene/placement.h"
 
 namespace tinygltf {
 class Model;
@@ -26,17 +29,24 @@ namespace ods {
 
 using Bytes = std::span<const unsigned char>;
 
-// Nothing in a Scene lies further from its origin than this: squared areas still fit a float.
-inline constexpr float kFarthest = 1e9f;  // metres
-
-// Texture coordinates, and each number of their transforms, are cut here: further out a float has no digits left for
-// the place within a texel.
-inline constexpr float kLargestUv = 1e6f;
-
 struct ImageSource {
   std::string uri;  // empty where the picture lies in the buffer view
   int view = -1;
   size_t first = 0;  // the first image with the same source: the one that is read
+};
+
+// One thing that an animation of the file moves.
+struct ChannelSource {
+  int times = -1;  // accessors
+  int values = -1;
+  std::string interpolation;
+  int node = -1;
+  std::string path;  // of the node: translation, ...; of KHR_animation_pointer a JSON pointer, which starts with '/'
+};
+
+struct ClipSource {
+  std::string name;
+  std::vector<ChannelSource> channels;
 };
 
 // A file being read. The model's own buffers and images stay empty: tinygltf reads the records, we the bytes, so that
@@ -46,6 +56,7 @@ struct GltfFile {
   std::shared_ptr<const tinygltf::Model> model;
   std::vector<Bytes> buffers;
   std::vector<ImageSource> images;
+  std::vector<ClipSource> clips;
   std::vector<std::shared_ptr<const std::vector<unsigned char>>> storage;  // what buffers point into
   size_t size = 0;                                                         // bytes of the file and of its buffers
   size_t budget = 0;  // how many more corners and instances a file of this size may ask for
@@ -86,7 +97,8 @@ struct AccessorView {
   size_t count = 0;
   int components = 0;
 
-  vec4 at(size_t i) const;
+  vec4 at(size_t i) const;  // the first four
+  float number_at(size_t i, int component) const;
   uint index_at(size_t i) const;
 
   const unsigned char* data = nullptr;
@@ -109,15 +121,67 @@ int integer(const tinygltf::Value& object, const char* key, int fallback);
 // The member as an object; an empty one where it is absent or something else.
 const tinygltf::Value& object(const tinygltf::Value& object, const char* key);
 
+// A material's factors and places of textures one by one, as its animation starts from them.
+MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int material);
+
 // --- mesh.cpp
-// The Scene meshes that a mesh of the file becomes: one for each primitive that has triangles.
-std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh);
+// What bends the vertices of a node's mesh: rows of Scene::animation.
+struct Bending {
+  int skin = -1;
+  int weights = -1;
+};
+
+// The Scene meshes that a mesh of the file becomes: one for each primitive that has triangles. Where they bend, each
+// has a row in Animation::deformations.
+std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Bending& bending);
+
+// Floats of a primitive's attribute; count 0 where it has none. Fails unless there are `count` of them, each of so many
+// components or up to 4.
+AccessorView read_attribute(GltfFile& file, const std::map<std::string, int>& attributes, const char* name,
+                            int components, size_t count);
 
 // Vertices without a tangent get one that follows u of the normal map's coordinates.
 void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& normal_slot);
 
+// --- bend.cpp
+struct PrimitiveSource {
+  const std::map<std::string, int>& attributes;
+  const std::vector<std::map<std::string, int>>& targets;
+  size_t vertex_count;             // of the file
+  const std::vector<uint>& order;  // which of the file's vertices each of the mesh's is
+};
+
+// Whether something bends the primitive.
+bool bends(const PrimitiveSource& primitive, const Bending& bending);
+
+// Appends a row to Animation::deformations for a mesh of the Scene that stands as it is stored.
+void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primitive, const Bending& bending, int mesh,
+                      bool flat);
+
+// Appends a row to Animation::skins. rows: of the file's nodes in Animation::nodes.
+int read_skin(GltfFile& file, Scene& scene, int skin, const std::vector<int>& rows);
+
 // --- nodes.cpp
-// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras.
-void read_nodes(GltfFile& file, Scene& scene, int chosen);
+// Where the file's things are in the Scene: for what moves them. -1: nowhere.
+struct Places {
+  struct PlacedLight {
+    int light;  // of the Scene
+    int source;
+    int node;
+  };
+  std::vector<int> nodes;    // of each node its row in Animation::nodes
+  std::vector<int> weights;  // of each node its mesh's row in Animation::weights
+  std::vector<PlacedLight> lights;
+};
+
+// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. moves: of each node
+// whether an animation or a skin names it.
+Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<char>& moves);
+
+Lamp read_lamp(const GltfFile& file, int light);
+
+// --- clips.cpp
+std::vector<char> named_nodes(const GltfFile& file);
+void read_clips(GltfFile& file, Scene& scene, const Places& places);
 
 }  // namespace ods

@@ -225,6 +225,45 @@ static void take_images(GltfFile& file, const Json& json) {
   }
 }
 
+// --- animations, which tinygltf drops where they name no node
+
+static int index_in(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  const bool sound = object.is_object() && found != object.end() && found->is_number_integer();
+  return sound ? static_cast<int>(std::clamp<int64_t>(found->get<int64_t>(), -1, INT32_MAX)) : -1;
+}
+
+static std::string text_in(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return object.is_object() && found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+static const Json& member(const Json& object, const char* key) {
+  static const Json kNone = Json::array();
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return object.is_object() && found != object.end() ? *found : kNone;
+}
+
+static void take_clips(GltfFile& file, const Json& json) {
+  for (const Json& animation : json) {
+    ClipSource clip{text_in(animation, "name"), {}};
+    if (clip.name.empty()) clip.name = fmt::format("animation {}", file.clips.size());
+    const Json& samplers = member(animation, "samplers");
+    if (!samplers.is_array()) fail(file, "has an animation whose samplers are not a list");
+    for (const Json& source : member(animation, "channels")) {
+      const Json& target = member(source, "target");
+      const Json& sampler = element(file, samplers, index_in(source, "sampler"), "animation sampler");
+      ChannelSource channel{index_in(sampler, "input"), index_in(sampler, "output"), text_in(sampler, "interpolation"),
+                            index_in(target, "node"), text_in(target, "path")};
+      if (channel.path == "pointer") {
+        channel.path = text_in(member(member(target, "extensions"), "KHR_animation_pointer"), "pointer");
+      }
+      clip.channels.push_back(channel);
+    }
+    file.clips.push_back(std::move(clip));
+  }
+}
+
 // Takes a member out of the document.
 static Json take(const GltfFile& file, Json& json, const char* key) {
   const auto found = json.find(key);
@@ -292,6 +331,7 @@ static void parse(GltfFile& file, Bytes bytes) {
   Json json = parse_json(file, chunks.json);
   const Json buffers = take(file, json, "buffers");
   const Json images = take(file, json, "images");
+  take_clips(file, take(file, json, "animations"));
   file.model = parse_model(file, json);
   take_buffers(file, buffers, chunks.binary);
   take_images(file, images);

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/film_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "ods/base/suggest.h"
+#include "ods/video/players.h"
+
+using ods::Chroma, ods::Container, ods::Extent, ods::FilmCodec;
+
+namespace {
+
+// One of a closed set that nobody need name.
+template <class T, size_t kCount>
+void optional_choice(Options& options, const std::string& name, std::optional<T>& value, const T (&all)[kCount],
+                     std::string_view (*name_of)(T), const std::string& text) {
+  std::vector<std::string_view> names;
+  for (T member : all) names.push_back(name_of(member));
+  const auto set = [&value, &all, names, name](const std::string& word) {
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      throw UsageError(fmt::format("{} is one of {}, not '{}'", name, fmt::join(names, ", "), word));
+    }
+    value = all[found - names.begin()];
+  };
+  options.custom(name, fmt::format("{}", fmt::join(names, "|")), "", set, text);
+}
+
+std::string encoder_list() {
+  std::vector<std::string_view> names;
+  for (const ods::EncoderFacts& facts : ods::known_encoders()) names.push_back(facts.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void parse_encoder(const std::string& name, FilmWishes& wishes) {
+  for (const ods::EncoderFacts& facts : ods::known_encoders()) {
+    if (facts.name != name) continue;
+    wishes.encoder = name;
+    return;
+  }
+  throw UsageError(fmt::format("--encoder is one of {}, not '{}'", encoder_list(), name));
+}
+
+Container container_for(const std::string& path) {
+  if (path.empty()) throw UsageError("where to? -o film.mp4");
+  if (const std::optional<Container> container = ods::container_of_path(path)) return *container;
+  throw UsageError(fmt::format("'{}' is no name of a film: it ends in .mp4, .mov, .mkv or .webm", path));
+}
+
+// What the target says, but for what was asked for.
+ods::Packing packing_for(const FilmWishes& wishes, Container container, Extent size) {
+  ods::Packing packing = ods::packing_for(wishes.target, size, wishes.rate.value());
+  const auto change = [&](FilmCodec codec) {
+    if (packing.codec == codec) return;
+    packing.codec = codec;
+    packing.quality.reset();
+    if (codec == FilmCodec::kProRes) packing.bits = 10, packing.chroma = Chroma::k422;
+  };
+  if (wishes.codec) {
+    change(*wishes.codec);
+  } else if (!wishes.encoder.empty()) {
+    for (const ods::EncoderFacts& facts : ods::known_encoders()) {
+      if (facts.name == wishes.encoder) change(facts.codec);
+    }
+  } else if (container == Container::kWebm && wishes.target != ods::FilmTarget::kMaster) {
+    change(FilmCodec::kVp9);
+  }
+  packing.bits = wishes.bits.value_or(packing.bits);
+  packing.chroma = wishes.chroma.value_or(packing.chroma);
+  if (wishes.crf) packing.quality = wishes.crf;
+  return packing;
+}
+
+void check_container(Container container, FilmCodec codec) {
+  if (ods::can_hold(container, codec)) return;
+  std::vector<std::string_view> codecs, containers;
+  for (FilmCodec each : ods::kFilmCodecs) {
+    if (ods::can_hold(container, each)) codecs.push_back(ods::film_codec_name(each));
+  }
+  for (Container each : ods::containers_of(codec)) containers.push_back(ods::container_name(each));
+  throw UsageError(fmt::format("{} holds {}, not {}, which goes into {}", ods::container_name(container),
+                               fmt::join(codecs, ", "), ods::film_codec_name(codec), fmt::join(containers, ", ")));
+}
+
+void check_quality(const ods::EncodeOptions& options) {
+  const ods::Packing& packing = options.packing;
+  const std::string_view codec = ods::film_codec_name(packing.codec);
+  if (!ods::can_have(packing.codec, packing.bits, packing.chroma)) {
+    throw UsageError(
+        fmt::format("there is no {} of {} bits and chroma {}", codec, packing.bits, ods::chroma_name(packing.chroma)));
+  }
+  for (const ods::EncoderFacts& facts : ods::known_encoders()) {
+    if (facts.codec != packing.codec) continue;
+    if (!options.encoder.empty() && options.encoder != facts.name) continue;
+    const bool has_choice = packing.quality || options.bitrate || !options.preset.empty();
+    if (facts.worst_quality == 0 && has_choice) {
+      throw UsageError(fmt::format("{} knows no --crf, --bitrate or --preset", codec));
+    }
+    if (packing.quality && *packing.quality > facts.worst_quality) {
+      throw UsageError(fmt::format("--crf of {} is from 0, the best, to {}", codec, facts.worst_quality));
+    }
+    return;
+  }
+  throw UsageError(fmt::format("{} does not encode {}", options.encoder, codec));
+}
+
+// A film that is not there yet, as ods probe would see it.
+void warn_of_names(const FilmWishes& wishes, const ods::FilmPlan& plan) {
+  ods::FilmInfo film;
+  ods::VideoTrack track;
+  track.size = plan.size;
+  track.v2 = track.v1 = plan.form;
+  for (const std::string& warning : ods::film_warnings(film, track, wishes.output)) warn(warning);
+  const std::filesystem::path path(wishes.output);
+  if (plan.eyes == 1 || !ods::read_name(wishes.output).layout_word.empty()) return;
+  const char* words = plan.form.is_partial() ? "180" : plan.form.projection == ods::FilmProjection::kFlat ? "" : "360";
+  const bool beside = plan.form.stereo == ods::FilmStereo::kSideBySide;
+  note(fmt::format("players that go by the name would know it as {}{}{}_{}{}", path.stem().native(), *words ? "_" : "",
+                   words, beside ? "LR" : "TB", path.extension().native()));
+}
+
+void warn_of_level(const ods::FilmPlan& plan, const ods::EncodeOptions& options) {
+  const std::optional<ods::Codec> codec = ods::level_codec(options.packing.codec);
+  const double fps = options.rate.value();
+  if (!codec || !ods::smallest_level(*codec, plan.size, fps).empty()) return;
+  const std::optional<Extent> largest = ods::largest_in_levels(*codec, plan.size, fps);
+  warn(fmt::format("no level of {} holds {}x{} at {:.4g} frames a second: many players will refuse it{}",
+                   ods::codec_name(*codec), plan.size.width, plan.size.height, fps,
+                   largest ? fmt::format("; the largest is {}x{}", largest->width, largest->height) : ""));
+}
+
+void warn_of_hardware(const ods::Packing& packing) {
+  if (packing.codec == FilmCodec::kProRes) return;
+  if (packing.chroma != Chroma::k420 || (packing.codec == FilmCodec::kH264 && packing.bits > 8)) {
+    warn(fmt::format("few players take {} of {} bits and chroma {}", ods::film_codec_name(packing.codec), packing.bits,
+                     ods::chroma_name(packing.chroma)));
+  }
+}
+
+}  // namespace
+
+ods::FrameRate parse_rate(const std::string& text) {
+  const size_t stroke = text.find('/');
+  const std::vector<float> parts = parse_numbers(text.substr(0, stroke));
+  const std::vector<float> below =
+      stroke == std::string::npos ? std::vector<float>{1.0f} : parse_numbers(text.substr(stroke + 1));
+  const auto thousandths = [](float value) { return std::lround(std::clamp(value, 0.0f, 2e5f) * 1000.0f); };
+  if (parts.size() != 1 || below.size() != 1 || thousandths(parts[0]) < 1 || thousandths(below[0]) < 1) {
+    throw UsageError(fmt::format("--fps is a number or a fraction, as 30, 29.97 or 30000/1001, not '{}'", text));
+  }
+  long count = thousandths(parts[0]), seconds = thousandths(below[0]);
+  for (long whole : {24, 30, 48, 60, 120}) {
+    if (seconds == 1000 && std::abs(count * 1001 - whole * 1000 * 1000) < 1000) count = whole * 1000, seconds = 1001;
+  }
+  const long common = std::gcd(count, seconds);
+  const ods::FrameRate rate{static_cast<int>(count / common), static_cast<int>(seconds / common)};
+  if (rate.value() < 0.1 || rate.value() > 1000.0) throw UsageError("--fps is from 0.1 to 1000");
+  return rate;
+}
+
+void add_film_options(Options& options, FilmWishes& wishes) {
+  options.group("Film");
+  options.text("-o,--output", "FILE", wishes.output, ".mp4 .mov .mkv .webm");
+  options.choice("--target", wishes.target, ods::kFilmTargets, ods::film_target_name,
+                 "whom it is for; what follows goes before it");
+  optional_choice(options, "--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name,
+                  "by default as the target has it");
+  options.custom(
+      "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
+      "which of those of the codec: " + encoder_list());
+  options.text("--preset", "NAME", wishes.preset, "how hard it tries, in the encoder's words");
+  options.number("--crf", wishes.crf, 0, 63,
+                 "quality, less is better; by default 18 of h264, 20 of hevc, 28 of av1, 24 of vp9");
+  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "million bits a second, in place of --crf");
+  options.number("--bits", wishes.bits, 8, 10, "8 or 10");
+  optional_choice(options, "--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "what of the colour is kept");
+  options.text("--audio", "FILE", wishes.sound,
+               "its sound: mono, stereo, or four channels of first-order ambisonics (AmbiX)");
+}
+
+ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int threads) {
+  const Container container = container_for(wishes.output);
+  setenv("SVT_LOG", "0", 0);  // SVT-AV1 speaks for itself
+  ods::EncodeOptions options;
+  options.packing = packing_for(wishes, container, size);
+  options.encoder = wishes.encoder;
+  options.preset = wishes.preset;
+  if (wishes.bitrate) options.bitrate = static_cast<double>(*wishes.bitrate);
+  options.rate = wishes.rate;
+  options.threads = threads;
+  options.sound = wishes.sound;
+  check_container(container, options.packing.codec);
+  check_quality(options);
+  ods::check_encoder(container, options);
+  ods::check_writable(wishes.output);
+  return options;
+}
+
+void say_what_players_need(const FilmWishes& wishes, const ods::FilmPlan& plan, const ods::EncodeOptions& options) {
+  warn_of_level(plan, options);
+  warn_of_hardware(options.packing);
+  warn_of_names(wishes, plan);
+}
+
+void say_length_of_sound(const ods::EncodeOptions& options, size_t frames) {
+  if (options.sound.empty()) return;
+  const double frame = 1.0 / options.rate.value(), film = static_cast<double>(frames) * frame;
+  const ods::SoundInfo sound = ods::read_sound_info(options.sound);
+  if (sound.channels == 4) note("the sound is taken as first-order ambisonics (AmbiX: W Y Z X, SN3D)");
+  if (sound.seconds > film + frame) {
+    note(fmt::format("the sound, {:.1f} s, is cut where the pictures end, at {:.1f} s", sound.seconds, film));
+  } else if (sound.seconds > 0.0 && sound.seconds < film - frame) {
+    warn(fmt::format("the sound ends at {:.1f} s, the pictures at {:.1f} s", sound.seconds, film));
+  }
+}
+
+std::string film_text(const ods::FilmPlan& plan, const ods::EncodeOptions& options, size_t frames) {
+  const std::optional<ods::Codec> codec = ods::level_codec(options.packing.codec);
+  const std::string_view level =
+      codec ? ods::smallest_level(*codec, plan.size, options.rate.value()) : std::string_view();
+  return fmt::format("{}, {} bits, {}{}, {}x{}, {} frame{} at {:.4g} a second",
+                     ods::film_codec_name(options.packing.codec), options.packing.bits,
+                     ods::chroma_name(options.packing.chroma), level.empty() ? "" : fmt::format(", level {}", level),
+                     plan.size.width, plan.size.height, frames, frames == 1 ? "" : "s", options.rate.value());
+}

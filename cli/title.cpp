@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods title: text that stands in the world of a stereo 360 picture.
+#include "ods/image/title.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "cli/interrupt.h"
+#include "cli/title_job.h"
+#include "ods/base/frames.h"
+
+namespace {
+
+ods::Lettering letter(const TitleJob& job, const ods::CameraRig& rig, ods::Extent eye) {
+  ods::Lettering lettering = ods::draw_lettering(job.text, ods::lettering_em(rig, eye, job.title), job.lettering);
+  if (lettering.characters_lost > 0) {
+    warn(fmt::format("no font here has {} of its characters; --font FILE may", lettering.characters_lost));
+  }
+  if (!job.lettering.font.starts_with("Sans") && job.lettering.font.find('/') == std::string::npos &&
+      !job.lettering.font.starts_with(lettering.font) && !std::filesystem::exists(job.lettering.font)) {
+    note(fmt::format("there is no font '{}' here: {} stands in", job.lettering.font, lettering.font));
+  }
+  return lettering;
+}
+
+void warn_if_too_near(const TitleJob& job, const ods::CameraRig& rig) {
+  const float nearest = ods::nearest_comfortable(rig, job.title.pitch);
+  if (job.title.distance >= nearest) return;
+  warn(fmt::format("at {:g} m it strains the eyes: {:.2g} m or more are comfortable there", job.title.distance,
+                   nearest));
+}
+
+// Of a frame's middle, from the first one's beginning.
+float fade(const TitleJob& job, int frame) {
+  const auto [first, last] = std::minmax_element(job.frames->begin(), job.frames->end());
+  const float at = (static_cast<float>(frame - *first) + 0.5f) / job.fps;
+  const float left = (static_cast<float>(*last - frame) + 0.5f) / job.fps;
+  const float in = job.fade_in > 0.0f ? at / job.fade_in : 1.0f, out = job.fade_out > 0.0f ? left / job.fade_out : 1.0f;
+  return std::clamp(std::min(in, out), 0.0f, 1.0f);
+}
+
+void save(const TitleJob& job, const ods::Title& title, const ods::CameraRig& rig, const std::string& path) {
+  const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
+  ods::PictureRows rows;
+  rows.eye = title.eye;
+  rows.eyes = eyes;
+  rows.layers = {{{"R", "G", "B", "A"}}, {{"Z"}, ods::LayerRule::kNearest, ods::Sample::kFloat}};
+  rows.fill = [&](int index, int y, std::span<float> row) {
+    fill_title_row(title, eyes[static_cast<size_t>(index)], y, row);
+  };
+  for (const std::string& file : save_picture(rows, &rig, job.save, path)) std::cout << file << std::endl;
+}
+
+void title(int argc, char** argv) {
+  TitleJob job;
+  if (!read_title_job(job, argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  const ods::CameraRig rig = place_camera(job.camera);
+  const ods::Extent eye{job.picture.width, job.picture.height};
+  const auto names = ods::frame_names(job.output);
+  if (job.frames && !names)
+    throw UsageError("a film needs a place for the number in its files' names: -o title.####.exr");
+  ods::check_output(job.frames ? names->path(0) : job.output, job.save, ods::eye_list(job.picture.eyes), eye);
+  note_misleading_name(job.output, job.save, ods::eye_list(job.picture.eyes).size(), rig.projection);
+  warn_if_too_near(job, rig);
+  ods::Title title = make_title(rig, eye, job.title, letter(job, rig, eye));
+  if (!job.frames) return save(job, title, rig, job.output);
+  for (const int frame : *job.frames) {
+    title.setting.opacity = job.title.opacity * fade(job, frame);
+    save(job, title, rig, names->path(frame));
+  }
+}
+
+}  // namespace
+
+extern "C" int ods_title(int argc, char** argv) {
+  return run_command([=] { title(argc, argv); });
+}

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/title_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "ods/base/frames.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods title 'The Long Way Home' --at 0,10,3 --height 0.3 -o title.exr\n"
+    "  ods title 'first line\\nsecond line' --font 'DejaVu Serif Bold' --color '#ffd070' -o title.png\n"
+    "  ods title 'Chapter 2' --frames 1-120 --fps 30 --fade-in 0.5 --fade-out 1 -o title.####.exr";
+
+constexpr const char* kSummary =
+    "Makes a picture of text that stands at its distance in stereo 360, with nothing around it: alpha, and in .exr "
+    "depth.\n"
+    "ods over lays it over pictures and films. It has to see as they do: the same --ipd, --merge and so on.";
+
+void parse_place(const std::string& text, ods::TitleSetting& title) {
+  const std::vector<float> numbers = parse_numbers(text);
+  const bool legal = numbers.size() == 3 && std::abs(numbers[0]) <= 36000.0f && std::abs(numbers[1]) <= 90.0f &&
+                     numbers[2] >= 0.01f && numbers[2] <= 1e6f;
+  if (!legal) throw UsageError(fmt::format("--at is YAW,PITCH in degrees and metres, as 0,10,3, not '{}'", text));
+  title.yaw = numbers[0], title.pitch = numbers[1], title.distance = numbers[2];
+}
+
+// #rrggbb as a display shows it, or R,G,B of light.
+void parse_color(const std::string& text, ods::vec3& color) {
+  if (text.size() == 7 && text[0] == '#' && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
+    const long code = std::strtol(text.c_str() + 1, nullptr, 16);
+    for (int c = 0; c < 3; c++) color[c] = ods::srgb_decode(static_cast<float>(code >> (16 - 8 * c) & 255) / 255.0f);
+    return;
+  }
+  const std::vector<float> numbers = parse_numbers(text);
+  const bool legal = numbers.size() == 3 &&
+                     std::all_of(numbers.begin(), numbers.end(), [](float n) { return n >= 0.0f && n <= 1e4f; });
+  if (!legal) throw UsageError(fmt::format("--color is #rrggbb or R,G,B of light, not '{}'", text));
+  color = ods::vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+// What shells make hard to type.
+std::string with_newlines(std::string text) {
+  for (size_t at = 0; (at = text.find("\\n", at)) != std::string::npos; at++) text.replace(at, 2, "\n");
+  return text;
+}
+
+void add_text_options(Options& options, TitleJob& job) {
+  options.argument("TEXT", job.text, "in any script; \\n begins a new line");
+  options.group("Text");
+  options.custom(
+      "--at", "YAW,PITCH,METRES", "0,0,3", [&](const std::string& text) { parse_place(text, job.title); },
+      "where its middle is: degrees to the right and up, and its distance");
+  options.number("--height", job.title.height, 1e-3f, 1e5f, "of a line, metres");
+  options.text("--font", "FONT", job.lettering.font, "a name, as 'DejaVu Serif Bold Italic', or a font file");
+  options.choice("--align", job.lettering.align, ods::kTextAligns, ods::text_align_name, "its lines");
+  options.number("--spacing", job.lettering.spacing, 0.1f, 10.0f, "of its lines, times what the font asks for");
+  options.custom(
+      "--color", "COLOR", "#ffffff", [&](const std::string& text) { parse_color(text, job.title.color); },
+      "#rrggbb as a display shows it, or R,G,B of light");
+  options.number("--opacity", job.title.opacity, 0.0f, 1.0f, "of the letters");
+}
+
+void add_frame_options(Options& options, TitleJob& job) {
+  options.group("Film");
+  options.custom(
+      "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
+      "1-100, 1-100x2, ..: a picture for each, with #### in its name");
+  options.number("--fps", job.fps, 0.01f, 1000.0f, "frames a second");
+  options.number("--fade-in", job.fade_in, 0.0f, 1e5f, "seconds");
+  options.number("--fade-out", job.fade_out, 0.0f, 1e5f, "seconds");
+}
+
+}  // namespace
+
+bool read_title_job(TitleJob& job, int argc, char** argv) {
+  Options options("title", kSummary, kExamples);
+  add_text_options(options, job);
+  bool flat = false;
+  options.flag("--flat", flat, "on a flat card; else on one about the viewer, every letter equally far");
+  add_frame_options(options, job);
+  options.group("Picture");
+  options.text("-o,--output", "FILE", job.output, ".exr .png .tif .webp; %V in its name: a file per eye");
+  job.picture.width = 4096;
+  add_form_options_but_height(options, job.picture, job.save);
+  add_sceneless_camera_options(options, job.camera);
+  options.group("Console");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  if (!options.parse(argc, argv)) return false;
+  if (job.output.empty()) throw UsageError("where to? -o title.exr");
+  const bool fades = options.given("--fps") || options.given("--fade-in") || options.given("--fade-out");
+  if (fades && !job.frames) throw UsageError("--fps and fades are for films: --frames 1-100");
+  job.text = with_newlines(job.text);
+  job.title.curved = !flat;
+  job.save.tone = ods::ToneCurve::kLinear;  // a colour is shown as it is given
+  if (options.given("--width")) job.picture.height = 0;  // --height is the text's
+  finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
+  finish_camera_options(job.camera, job.picture.width, job.picture.height);
+  return true;
+}

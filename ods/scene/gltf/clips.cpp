@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "ods/scene/gltf/parts.h"
+
+namespace ods {
+
+// --- what a channel moves
+
+enum class List { kNodes, kLights, kMaterials };
+
+struct Target {
+  List list;
+  int index;
+  Property property;
+  int slot = 0;  // of a material's textures
+};
+
+struct PointerForm {
+  std::string_view member;
+  Property property;
+  int slot = 0;
+};
+
+static constexpr std::array kNodeForms = {
+    PointerForm{"/translation", Property::kTranslation}, PointerForm{"/rotation", Property::kRotation},
+    PointerForm{"/scale", Property::kScale}, PointerForm{"/weights", Property::kWeights}};
+
+static constexpr std::array kLightForms = {
+    PointerForm{"/color", Property::kLampColor}, PointerForm{"/intensity", Property::kLampIntensity},
+    PointerForm{"/range", Property::kLampRange}, PointerForm{"/spot/innerConeAngle", Property::kLampInnerCone},
+    PointerForm{"/spot/outerConeAngle", Property::kLampOuterCone}};
+
+static constexpr std::array kMaterialForms = {
+    PointerForm{"/pbrMetallicRoughness/baseColorFactor", Property::kBaseColor},
+    PointerForm{"/pbrMetallicRoughness/metallicFactor", Property::kMetallic},
+    PointerForm{"/pbrMetallicRoughness/roughnessFactor", Property::kRoughness},
+    PointerForm{"/emissiveFactor", Property::kEmission},
+    PointerForm{"/extensions/KHR_materials_emissive_strength/emissiveStrength", Property::kEmissionStrength}};
+
+static constexpr std::array kTextureForms = {
+    PointerForm{"/extensions/KHR_texture_transform/offset", Property::kUvOffset},
+    PointerForm{"/extensions/KHR_texture_transform/rotation", Property::kUvRotation},
+    PointerForm{"/extensions/KHR_texture_transform/scale", Property::kUvScale}};
+
+static constexpr std::array<std::string_view, kSlotCount> kSlots = {
+    "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture", "/normalTexture",
+    "/emissiveTexture", "/extensions/KHR_materials_transmission/transmissionTexture"};
+
+static std::optional<Target> find_form(List list, int index, std::span<const PointerForm> forms,
+                                       std::string_view member) {
+  for (const PointerForm& form : forms) {
+    if (member == form.member) return Target{list, index, form.property};
+  }
+  return std::nullopt;
+}
+
+static std::optional<Target> find_texture_form(int index, std::string_view member) {
+  for (size_t slot = 0; slot < kSlots.size(); slot++) {
+    if (!member.starts_with(kSlots[slot])) continue;
+    std::optional<Target> target =
+        find_form(List::kMaterials, index, kTextureForms, member.substr(kSlots[slot].size()));
+    if (target) target->slot = static_cast<int>(slot);
+    return target;
+  }
+  return std::nullopt;
+}
+
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_animation_pointer
+static std::optional<Target> parse_pointer(std::string_view text) {
+  struct Start {
+    std::string_view words;
+    List list;
+    std::span<const PointerForm> forms;
+  };
+  const Start kStarts[] = {{"/nodes/", List::kNodes, kNodeForms},
+                           {"/extensions/KHR_lights_punctual/lights/", List::kLights, kLightForms},
+                           {"/materials/", List::kMaterials, kMaterialForms}};
+  for (const Start& start : kStarts) {
+    if (!text.starts_with(start.words)) continue;
+    text.remove_prefix(start.words.size());
+    int index = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (error != std::errc() || index < 0) return std::nullopt;
+    const std::string_view member = text.substr(static_cast<size_t>(end - text.data()));
+    if (const auto target = find_form(start.list, index, start.forms, member)) return target;
+    return start.list == List::kMaterials ? find_texture_form(index, member) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+static std::optional<Target> target_of(const ChannelSource& channel) {
+  if (channel.path.starts_with('/')) return parse_pointer(channel.path);
+  if (channel.node == -1) return std::nullopt;
+  return find_form(List::kNodes, channel.node, kNodeForms, "/" + channel.path);
+}
+
+std::vector<char> named_nodes(const GltfFile& file) {
+  const auto& nodes = file.model->nodes;
+  std::vector<char> named(nodes.size(), 0);
+  for (const ClipSource& clip : file.clips) {
+    for (const ChannelSource& channel : clip.channels) {
+      const auto target = target_of(channel);
+      if (!target || target->list != List::kNodes) continue;
+      element(file, nodes, target->index, "node");
+      if (target->property != Property::kWeights) named[static_cast<size_t>(target->index)] = 1;
+    }
+  }
+  for (const tinygltf::Node& node : nodes) {
+    if (node.skin == -1) continue;
+    for (const int joint : element(file, file.model->skins, node.skin, "skin").joints) {
+      element(file, nodes, joint, "node");
+      named[static_cast<size_t>(joint)] = 1;
+    }
+  }
+  return named;
+}
+
+// --- keys
+
+static std::optional<Interpolation> interpolation_of(const std::string& name) {
+  if (name.empty() || name == "LINEAR") return Interpolation::kLinear;
+  if (name == "STEP") return Interpolation::kStep;
+  if (name == "CUBICSPLINE") return Interpolation::kCubicSpline;
+  return std::nullopt;
+}
+
+// The channel's keys; nothing where they make no sense. width 0: whatever the values have.
+static std::optional<Keyframes> read_keys(GltfFile& file, const ChannelSource& channel, Property property,
+                                          size_t width) {
+  const auto interpolation = interpolation_of(channel.interpolation);
+  if (!interpolation) return std::nullopt;
+  Keyframes keys;
+  keys.interpolation = *interpolation;
+  keys.rotation = property == Property::kRotation;
+  keys.width = width;
+  const AccessorView times = open_accessor(file, channel.times), values = open_accessor(file, channel.values);
+  if (times.count == 0 || values.count == 0 || times.components != 1 || width == 0) return std::nullopt;
+  const size_t numbers = values.count * static_cast<size_t>(values.components);
+  const size_t per_key = width * (keys.interpolation == Interpolation::kCubicSpline ? 3 : 1);
+  // A buffer view's elements may be read as often as channels name them.
+  spend(file, times.count + numbers);
+  if (numbers / per_key != times.count || numbers % per_key != 0) return std::nullopt;
+  for (size_t i = 0; i < times.count; i++) {
+    const float time = times.number_at(i, 0);
+    if (!std::isfinite(time) || (i > 0 && time < keys.times.back())) return std::nullopt;
+    keys.times.push_back(time);
+  }
+  for (size_t i = 0; i < values.count; i++) {
+    for (int c = 0; c < values.components; c++) {
+      keys.values.push_back(values.number_at(i, c));
+      if (!std::isfinite(keys.values.back())) return std::nullopt;
+    }
+  }
+  return keys;
+}
+
+// --- rows
+
+class TargetRows {
+ public:
+  TargetRows(const GltfFile& file, Scene& scene, const Places& places)
+      : file_(file),
+        animation_(scene.animation),
+        scene_(scene),
+        places_(places),
+        lamps_(file.model->lights.size(), -1),
+        materials_(file.model->materials.size(), -1) {}
+
+  // The row that a track writes; -1: nothing of it is in the Scene.
+  int row(const Target& target);
+  void add_lights();
+
+ private:
+  int lamp(int light) {
+    int& row = element(file_, lamps_, light, "light");
+    if (row != -1) return row;
+    animation_.lamps.push_back(read_lamp(file_, light));
+    return row = static_cast<int>(animation_.lamps.size()) - 1;
+  }
+
+  int material(int index) {
+    int& row = element(file_, materials_, index, "material");
+    if (row != -1) return row;
+    animation_.materials.push_back(read_moving_material(file_, scene_, index));
+    return row = static_cast<int>(animation_.materials.size()) - 1;
+  }
+
+  const GltfFile& file_;
+  Animation& animation_;
+  const Scene& scene_;
+  const Places& places_;
+  std::vector<int> lamps_, materials_;  // of the file's
+};
+
+int TargetRows::row(const Target& target) {
+  if (target.list == List::kLights) return lamp(target.index);
+  if (target.list == List::kNodes) {
+    const bool weights = target.property == Property::kWeights;
+    return element(file_, weights ? places_.weights : places_.nodes, target.index, "node");
+  }
+  const int row = material(target.index);
+  const bool placed = target.property == Property::kUvOffset || target.property == Property::kUvRotation ||
+                      target.property == Property::kUvScale;
+  if (!placed) return row;
+  animation_.materials[static_cast<size_t>(row)].placed[target.slot] = true;
+  return row * kSlotCount + target.slot;
+}
+
+// Lights whose lamp or whose node moves.
+void TargetRows::add_lights() {
+  for (const Places::PlacedLight& placed : places_.lights) {
+    const int node = places_.nodes[static_cast<size_t>(placed.node)];
+    if (node == -1 && lamps_[static_cast<size_t>(placed.source)] == -1) continue;
+    animation_.lights.push_back({placed.light, node, lamp(placed.source)});
+  }
+}
+
+void read_clips(GltfFile& file, Scene& scene, const Places& places) {
+  Animation& animation = scene.animation;
+  TargetRows rows(file, scene, places);
+  for (const ClipSource& source : file.clips) {
+    Clip clip{printable(source.name), 0.0, {}};
+    for (const ChannelSource& channel : source.channels) {
+      const auto target = target_of(channel);
+      if (!target) {
+        if (!channel.path.empty()) warn(scene, fmt::format("an animation of {} is ignored", printable(channel.path)));
+        continue;
+      }
+      const int row = rows.row(*target);
+      if (row == -1) continue;
+      const size_t width = target->property == Property::kWeights ? animation.weights[static_cast<size_t>(row)].size()
+                                                                  : property_width(target->property);
+      auto keys = read_keys(file, channel, target->property, width);
+      if (!keys) {
+        warn(scene, "animation channels whose keys make no sense are ignored");
+        continue;
+      }
+      clip.end = std::max(clip.end, static_cast<double>(keys->times.back()));
+      clip.tracks.push_back({target->property, row, std::move(*keys)});
+    }
+    if (!clip.tracks.empty()) animation.clips.push_back(std::move(clip));
+  }
+  rows.add_lights();
+}
+
+}  // namespace ods

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "ods/scene/placement.h"
+
+namespace ods {
+
+using glm::dmat4, glm::dvec2, glm::dvec3, glm::dvec4;
+
+namespace {
+
+// Everything that tracks write, as it is at one time.
+struct Pose {
+  std::vector<MovingNode> nodes;
+  std::vector<std::vector<double>> weights;
+  std::vector<Lamp> lamps;
+  std::vector<MovingMaterial> materials;
+  std::vector<dmat4> world;  // of each node
+};
+
+dvec3 three(const std::vector<double>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+void write_node(Property property, const std::vector<double>& value, MovingNode& node) {
+  if (property == Property::kTranslation) node.translation = three(value);
+  if (property == Property::kRotation) node.rotation = dvec4(three(value), value[3]);
+  if (property == Property::kScale) node.scale = three(value);
+}
+
+void write_lamp(Property property, const std::vector<double>& value, Lamp& lamp) {
+  if (property == Property::kLampColor) lamp.color = three(value);
+  if (property == Property::kLampIntensity) lamp.intensity = value[0];
+  if (property == Property::kLampRange) lamp.range = value[0];
+  if (property == Property::kLampInnerCone) lamp.inner_cone = value[0];
+  if (property == Property::kLampOuterCone) lamp.outer_cone = value[0];
+}
+
+void write_material(Property property, const std::vector<double>& value, MovingMaterial& material) {
+  if (property == Property::kBaseColor) material.base_color = dvec4(three(value), value[3]);
+  if (property == Property::kEmission) material.emission = three(value);
+  if (property == Property::kEmissionStrength) material.strength = value[0];
+  if (property == Property::kMetallic) material.metallic = value[0];
+  if (property == Property::kRoughness) material.roughness = value[0];
+}
+
+void write_place(Property property, const std::vector<double>& value, UvPlace& place) {
+  if (property == Property::kUvOffset) place.offset = {value[0], value[1]};
+  if (property == Property::kUvRotation) place.rotation = value[0];
+  if (property == Property::kUvScale) place.scale = {value[0], value[1]};
+}
+
+void write(const Track& track, double seconds, Pose& pose) {
+  std::vector<double> value(track.keys.width);
+  evaluate(track.keys, seconds, value);
+  const auto target = static_cast<size_t>(track.target);
+  switch (track.property) {
+    case Property::kTranslation:
+    case Property::kRotation:
+    case Property::kScale:
+      return write_node(track.property, value, pose.nodes[target]);
+    case Property::kWeights:
+      pose.weights[target] = value;
+      return;
+    case Property::kLampColor:
+    case Property::kLampIntensity:
+    case Property::kLampRange:
+    case Property::kLampInnerCone:
+    case Property::kLampOuterCone:
+      return write_lamp(track.property, value, pose.lamps[target]);
+    case Property::kBaseColor:
+    case Property::kEmission:
+    case Property::kEmissionStrength:
+    case Property::kMetallic:
+    case Property::kRoughness:
+      return write_material(track.property, value, pose.materials[target]);
+    case Property::kUvOffset:
+    case Property::kUvRotation:
+    case Property::kUvScale:
+      return write_place(track.property, value, pose.materials[target / kSlotCount].places[target % kSlotCount]);
+  }
+}
+
+void place_nodes(Pose& pose) {
+  pose.world.reserve(pose.nodes.size());
+  for (const MovingNode& node : pose.nodes) {
+    assert(node.parent < static_cast<int>(pose.world.size()));
+    const dmat4 own = node.before * trs_matrix(node.translation, node.rotation, node.scale);
+    pose.world.push_back(node.parent == -1 ? own : pose.world[static_cast<size_t>(node.parent)] * own);
+  }
+}
+
+// Whether a deformed mesh could be written; where it could not it is as it is stored, and hidden.
+bool bend(Scene& scene, const Deformation& deformation, const Pose& pose, SceneChange& change) {
+  static const std::vector<double> kNoWeights;
+  const std::vector<double>& weights =
+      deformation.weights == -1 ? kNoWeights : pose.weights[static_cast<size_t>(deformation.weights)];
+  std::vector<dmat4> joints;
+  if (deformation.skin != -1) {
+    const Skin& skin = scene.animation.skins[static_cast<size_t>(deformation.skin)];
+    for (size_t i = 0; i < skin.joints.size(); i++) {
+      joints.push_back(pose.world[static_cast<size_t>(skin.joints[i])] * skin.inverse_bind[i]);
+    }
+  }
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(deformation.mesh)];
+  const std::span<const uvec3> triangles(scene.triangles.data() + mesh.first_triangle, mesh.triangle_count);
+  std::vector<Vertex> vertices = deformation.rest;
+  const bool sound = deform(deformation, weights, joints, triangles, kFarthest, vertices);
+  Vertex* stored = scene.vertices.data() + mesh.first_vertex;
+  const auto same = [](const Vertex& a, const Vertex& b) {
+    return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent;
+  };
+  if (!std::equal(vertices.begin(), vertices.end(), stored, same)) {
+    std::copy(vertices.begin(), vertices.end(), stored);
+    change.meshes.push_back(deformation.mesh);
+  }
+  return sound;
+}
+
+void place_instance(Scene& scene, const MovingInstance& moving, const Pose& pose, const Bounds& bounds, bool sound,
+                    SceneChange& change) {
+  const auto i = static_cast<size_t>(moving.instance);
+  dmat4 matrix = moving.node == -1 ? moving.local : pose.world[static_cast<size_t>(moving.node)] * moving.local;
+  sound = sound && is_bounded(matrix) && is_invertible(matrix) && stays_near(matrix, bounds);
+  if (!sound) matrix = dmat4(1.0);
+  const Instance before = scene.instances[i];
+  Instance& instance = scene.instances[i];
+  set_matrix(instance, matrix);
+  const char hidden = sound ? 0 : 1;
+  const bool same = instance.row0 == before.row0 && instance.row1 == before.row1 && instance.row2 == before.row2;
+  if (!same || scene.hidden[i] != hidden) change.instances.push_back(moving.instance);
+  scene.hidden[i] = hidden;
+}
+
+void write_instances(Scene& scene, const Pose& pose, SceneChange& change) {
+  const Animation& animation = scene.animation;
+  std::vector<char> sound;
+  for (const Deformation& deformation : animation.deformations) sound.push_back(bend(scene, deformation, pose, change));
+  if (!animation.instances.empty()) scene.hidden.resize(scene.instances.size());
+  for (const MovingInstance& moving : animation.instances) {
+    const bool bends = moving.deformation != -1;
+    const Instance& instance = scene.instances[static_cast<size_t>(moving.instance)];
+    const Bounds bounds =
+        bends ? mesh_bounds(scene, scene.meshes[static_cast<size_t>(instance.mesh)]) : Bounds{moving.low, moving.high};
+    place_instance(scene, moving, pose, bounds, !bends || sound[static_cast<size_t>(moving.deformation)], change);
+  }
+}
+
+void write_lights(Scene& scene, const Pose& pose, SceneChange& change) {
+  for (const MovingLight& moving : scene.animation.lights) {
+    PunctualLight& light = scene.lights[static_cast<size_t>(moving.light)];
+    const PunctualLight before = light;
+    set_lamp(light, pose.lamps[static_cast<size_t>(moving.lamp)]);
+    if (moving.node != -1) {
+      const dmat4& world = pose.world[static_cast<size_t>(moving.node)];
+      place_light(light, is_bounded(world) ? world : dmat4(1.0));
+    }
+    change.lights |= before.position != light.position || before.direction != light.direction ||
+                     before.intensity != light.intensity || before.range != light.range ||
+                     before.inner_cone != light.inner_cone || before.outer_cone != light.outer_cone;
+  }
+}
+
+void write_views(Scene& scene, const Pose& pose, SceneChange& change) {
+  for (const MovingView& moving : scene.animation.views) {
+    ViewPoint& view = scene.view_points[static_cast<size_t>(moving.view_point)];
+    const ViewPoint before = view;
+    const dmat4& world = pose.world[static_cast<size_t>(moving.node)];
+    place_view(view, is_bounded(world) ? world : dmat4(1.0));
+    change.view_points |= before.position != view.position || before.yaw != view.yaw || before.pitch != view.pitch ||
+                          before.roll != view.roll;
+  }
+}
+
+float clamped(double value, double high) {
+  return static_cast<float>(std::isfinite(value) ? std::clamp(value, 0.0, high) : 0.0);
+}
+
+void write_materials(Scene& scene, const Pose& pose, SceneChange& change) {
+  for (const MovingMaterial& moving : pose.materials) {
+    Material& material = scene.materials[static_cast<size_t>(moving.material)];
+    const Material before = material;
+    for (int c = 0; c < 4; c++) material.base_color[c] = clamped(moving.base_color[c], 1.0);
+    for (int c = 0; c < 3; c++) material.emission[c] = clamped(moving.emission[c], 1e9);
+    material.emission *= clamped(moving.strength, 1e9);
+    material.metallic = clamped(moving.metallic, 1.0);
+    material.roughness = clamped(moving.roughness, 1.0);
+    TextureSlot* slots[kSlotCount] = {&material.base_color_slot, &material.metallic_roughness_slot,
+                                      &material.normal_slot, &material.emission_slot, &material.transmission_slot};
+    for (size_t k = 0; k < kSlotCount; k++) {
+      if (moving.placed[k]) place_texture(*slots[k], moving.places[k]);
+    }
+    change.materials |= std::memcmp(&before, &material, sizeof before) != 0;
+  }
+}
+
+}  // namespace
+
+SceneChange set_time(Scene& scene, double seconds) {
+  const Animation& animation = scene.animation;
+  Pose pose{animation.nodes, animation.weights, animation.lamps, animation.materials, {}};
+  for (const int clip : animation.playing) {
+    for (const Track& track : animation.clips[static_cast<size_t>(clip)].tracks) write(track, seconds, pose);
+  }
+  place_nodes(pose);
+  SceneChange change;
+  write_instances(scene, pose, change);
+  write_lights(scene, pose, change);
+  write_views(scene, pose, change);
+  write_materials(scene, pose, change);
+  return change;
+}
+
+}  // namespace ods

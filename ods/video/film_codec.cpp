@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/film_codec.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace ods {
+
+std::string_view film_codec_name(FilmCodec codec) {
+  switch (codec) {
+    case FilmCodec::kH264:
+      return "h264";
+    case FilmCodec::kHevc:
+      return "hevc";
+    case FilmCodec::kAv1:
+      return "av1";
+    case FilmCodec::kVp9:
+      return "vp9";
+    case FilmCodec::kProRes:
+      return "prores";
+  }
+  return {};
+}
+
+std::optional<Codec> level_codec(FilmCodec codec) {
+  switch (codec) {
+    case FilmCodec::kH264:
+      return Codec::kH264;
+    case FilmCodec::kHevc:
+      return Codec::kHevc;
+    case FilmCodec::kAv1:
+      return Codec::kAv1;
+    case FilmCodec::kVp9:
+    case FilmCodec::kProRes:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<Container> container_of_path(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".m4v") return Container::kMp4;
+  for (Container container : kContainers) {
+    if (extension.ends_with(container_name(container)) && extension.size() == 1 + container_name(container).size()) {
+      return container;
+    }
+  }
+  return std::nullopt;
+}
+
+bool can_hold(Container container, FilmCodec codec) {
+  switch (container) {
+    case Container::kMp4:
+      return codec != FilmCodec::kProRes;
+    case Container::kMov:
+      return codec == FilmCodec::kH264 || codec == FilmCodec::kHevc || codec == FilmCodec::kProRes;
+    case Container::kMatroska:
+      return true;
+    case Container::kWebm:
+      return codec == FilmCodec::kVp9 || codec == FilmCodec::kAv1;
+  }
+  return false;
+}
+
+std::vector<Container> containers_of(FilmCodec codec) {
+  std::vector<Container> all;
+  for (Container container : kContainers) {
+    if (can_hold(container, codec)) all.push_back(container);
+  }
+  return all;
+}
+
+bool can_have(FilmCodec codec, int bits, Chroma chroma) {
+  if (bits != 8 && bits != 10) return false;
+  if (codec == FilmCodec::kProRes) return bits == 10 && chroma != Chroma::k420;
+  return codec != FilmCodec::kAv1 || chroma != Chroma::k422;  // no decoder of today's devices knows its 422
+}
+
+std::string_view film_target_name(FilmTarget target) {
+  switch (target) {
+    case FilmTarget::kVrPlayers:
+      return "vr-players";
+    case FilmTarget::kQuest:
+      return "quest";
+    case FilmTarget::kYoutube:
+      return "youtube";
+    case FilmTarget::kMaster:
+      return "master";
+  }
+  return {};
+}
+
+Packing packing_for(FilmTarget target, Extent size, double fps) {
+  const double kPlayersRate = 4096.0 * 4096.0 * 30.0;  // pixels a second
+  const double rate = 1.0 * size.width * size.height * fps;
+  const bool players_take_h264 = std::max(size.width, size.height) <= 4096 && rate <= kPlayersRate;
+  Packing packing;
+  switch (target) {
+    case FilmTarget::kVrPlayers:
+      packing.codec = players_take_h264 ? FilmCodec::kH264 : FilmCodec::kHevc;
+      break;
+    case FilmTarget::kQuest:
+      packing.codec = FilmCodec::kHevc;
+      break;
+    case FilmTarget::kYoutube:  // it encodes again: finer than is seen
+      packing.codec = smallest_level(Codec::kH264, size, fps).empty() ? FilmCodec::kHevc : FilmCodec::kH264;
+      packing.quality = 14;
+      break;
+    case FilmTarget::kMaster:
+      packing = {FilmCodec::kProRes, 10, Chroma::k422, {}};
+      break;
+  }
+  return packing;
+}
+
+static constexpr std::string_view kX26Presets =
+    "ultrafast superfast veryfast faster fast medium slow slower veryslow placebo";
+
+static constexpr EncoderFacts kEncoders[] = {
+    {"libx264", FilmCodec::kH264, false, 51, 18, "preset", "medium", kX26Presets},
+    {"libx265", FilmCodec::kHevc, false, 51, 20, "preset", "medium", kX26Presets},
+    {"libsvtav1", FilmCodec::kAv1, true, 63, 28, "preset", "8", "12 11 10 9 8 7 6 5 4 3 2 1 0"},
+    {"libaom-av1", FilmCodec::kAv1, false, 63, 24, "cpu-used", "6", "8 7 6 5 4 3 2 1 0"},
+    {"libvpx-vp9", FilmCodec::kVp9, false, 63, 24, "cpu-used", "4", "8 7 6 5 4 3 2 1 0"},
+    {"prores_ks", FilmCodec::kProRes, false, 0, 0, "", "", ""},
+};
+
+std::span<const EncoderFacts> known_encoders() {
+  return kEncoders;
+}
+
+std::optional<Extent> largest_in_levels(Codec codec, Extent size, double fps) {
+  const int kStep = 64;
+  for (int width = (size.width - 1) / kStep * kStep; width > 0; width -= kStep) {
+    const int height = static_cast<int>(int64_t{width} * size.height / size.width) / 2 * 2;
+    if (height > 0 && !smallest_level(codec, {width, height}, fps).empty()) return Extent{width, height};
+  }
+  return std::nullopt;
+}
+
+}  // namespace ods

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A stored picture as a frame of a film: its eyes stacked or side by side, the left one first, as a display shows them.
+#pragma once
+#include <cstddef>
+#include <memory>
+
+#include "ods/image/stored_picture.h"
+#include "ods/image/tone.h"
+#include "ods/video/film_codec.h"
+
+namespace ods {
+
+// A frame to be filled.
+class FilmFrame {
+ public:
+  // Precondition: can_have(), and `size` is of whole blocks.
+  FilmFrame(Extent size, const Packing& packing);
+  const Planes& planes() const { return planes_; }
+  size_t bytes() const { return bytes_; }
+
+ private:
+  struct Free {
+    void operator()(std::byte* bytes) const;
+  };
+  Planes planes_;
+  size_t bytes_ = 0;
+  std::unique_ptr<std::byte[], Free> memory_;
+};
+
+// What becomes of the scene's light, in pictures of floats. Others are what a display shows already.
+struct Development {
+  float exposure = 0.0f;  // EV
+  ToneCurve tone = ToneCurve::kNeutral;
+};
+
+// The layouts that a film can have, by that of its pictures: kTopBottom or kSideBySide, squeezed or not.
+Layout film_layout(const StoredPicture& picture);
+
+// Precondition: `frame` is packed_size() of the layout and the picture's eyes, which are of whole blocks. Alpha is
+// before black.
+void fill_frame(const StoredPicture& picture, Layout layout, const Development& development, FilmFrame& frame);
+
+}  // namespace ods

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/make_film.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+
+#include "ods/base/error.h"
+#include "ods/base/memory.h"
+#include "ods/video/film_form.h"
+
+namespace ods {
+
+// --- the files -------------------------------------------------------------------------------------------------------
+
+static FrameNames names_in(const std::string& pattern) {
+  if (const std::optional<FrameNames> names = frame_names(pattern)) return *names;
+  throw Error(ErrorKind::kInput,
+              fmt::format("'{}' has no place for the number of a frame; it is written like shot.####.exr", pattern));
+}
+
+std::string FrameFiles::path(size_t index) const {
+  return names_in(pattern).path(frames[index]);
+}
+
+// The names of one file for a frame, or of two.
+static std::vector<std::string> patterns_of(const std::string& pattern) {
+  if (!names_eye(pattern)) return {pattern};
+  return {path_for_eye(pattern, kLeft), path_for_eye(pattern, kRight)};
+}
+
+FrameFiles find_frames(const std::string& pattern, const std::optional<std::vector<int>>& wanted) {
+  std::set<int> all;
+  std::vector<std::vector<int>> found;
+  const std::vector<std::string> patterns = patterns_of(pattern);
+  for (const std::string& each : patterns) {
+    found.push_back(frames_on_disk(names_in(each)));
+    all.insert(found.back().begin(), found.back().end());
+  }
+  if (all.empty()) throw Error(ErrorKind::kInput, fmt::format("there is no file like '{}'", pattern));
+  const std::vector<int> there(all.begin(), all.end()), holes = gaps(there);
+  all.insert(holes.begin(), holes.end());
+  FrameFiles files{pattern, wanted.value_or(std::vector<int>(all.begin(), all.end()))};
+  std::string missing;
+  for (size_t i = 0; i < patterns.size(); i++) {
+    const std::set<int> here(found[i].begin(), found[i].end());
+    std::vector<int> absent = files.frames;
+    std::erase_if(absent, [&](int frame) { return here.contains(frame); });
+    if (absent.empty()) continue;
+    missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", frames_text(absent), patterns[i]);
+  }
+  if (missing.empty()) return files;
+  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, frames_text(there)));
+}
+
+// --- the plan --------------------------------------------------------------------------------------------------------
+
+// Frames whose headers tell another size than the first one's.
+static void check_sizes(const FrameFiles& files) {
+  for (const std::string& pattern : patterns_of(files.pattern)) {
+    const FrameNames names = names_in(pattern);
+    std::vector<Extent> sizes(files.frames.size());
+    tbb::parallel_for(size_t{0}, sizes.size(), [&](size_t i) {
+      const FileInfo info = read_info(names.path(files.frames[i]));
+      sizes[i] = {info.width, info.height};
+    });
+    std::vector<int> others;
+    Extent other;
+    for (size_t i = 0; i < sizes.size(); i++) {
+      if (sizes[i].width == sizes[0].width && sizes[i].height == sizes[0].height) continue;
+      if (others.empty()) other = sizes[i];
+      others.push_back(files.frames[i]);
+    }
+    if (others.empty()) continue;
+    throw Error(ErrorKind::kInput,
+                fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
+                            frames_text(others), pattern, others[0], other.width, other.height, sizes[0].width,
+                            sizes[0].height));
+  }
+}
+
+static bool is_squeezed(Layout layout) {
+  return layout == Layout::kTopBottomHalf || layout == Layout::kSideBySideHalf;
+}
+
+static Layout wished_layout(Layout own, std::optional<Layout> wish) {
+  if (!wish || *wish == own) return own;
+  if (is_squeezed(own)) {
+    throw Error(ErrorKind::kInput, fmt::format("the frames are {} and cannot become {}; ods convert unsqueezes them",
+                                               layout_name(own), layout_name(*wish)));
+  }
+  return *wish;
+}
+
+FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optional<Layout> layout) {
+  check_sizes(files);
+  OpenOptions options;
+  options.form = known;
+  options.only_light = true;
+  const StoredPicture first = open_picture(files.path(0), options);
+  FilmPlan plan;
+  plan.eye = first.size;
+  plan.eyes = first.eyes.size();
+  const int count = static_cast<int>(plan.eyes);
+  plan.layout = wished_layout(film_layout(first), layout);
+  plan.size = packed_size(plan.layout, plan.eye, count);
+  plan.known.layout = first.layout;
+  plan.known.camera = first.rig;
+  plan.form.stereo = count == 1 ? FilmStereo::kOneView : film_stereo(plan.layout);
+  plan.form.source = "Omnistereo";
+  for (const std::string& guess : first.guesses) plan.notes.push_back(fmt::format("{}: {}", files.path(0), guess));
+  try {
+    set_projection(plan.form, first.rig.projection);
+  } catch (const Error& error) {
+    plan.notes.push_back(fmt::format("{}; it says only how its eyes lie", error.what()));
+  }
+  return plan;
+}
+
+void check_packing(const FilmPlan& plan, const Packing& packing) {
+  const Extent block = chroma_block(packing.chroma);
+  if (plan.eye.width % block.width == 0 && plan.eye.height % block.height == 0) return;
+  throw Error(ErrorKind::kInput, fmt::format("eyes of {}x{} pixels cannot be a film of chroma {}: its sides are even",
+                                             plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
+}
+
+// --- the film --------------------------------------------------------------------------------------------------------
+
+static std::unique_ptr<FilmFrame> read_frame(const std::string& path, const FilmPlan& plan,
+                                             const Development& development, const Packing& packing) {
+  OpenOptions options;
+  options.form = plan.known;
+  options.only_light = true;
+  const StoredPicture picture = open_picture(path, options);
+  const Extent size = picture.size;
+  if (size.width != plan.eye.width || size.height != plan.eye.height || picture.eyes.size() != plan.eyes) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' is not like the first frame: {} of {}x{} pixels, not {} of {}x{}", path,
+                            picture.eyes.size(), size.width, size.height, plan.eyes, plan.eye.width, plan.eye.height));
+  }
+  auto frame = std::make_unique<FilmFrame>(plan.size, packing);
+  fill_frame(picture, plan.layout, development, *frame);
+  return frame;
+}
+
+// Frames that may be in memory at once: one that is read has up to four floats a pixel.
+static size_t frames_ahead(const FilmPlan& plan, const Packing& packing) {
+  const size_t pixels = static_cast<size_t>(plan.size.width) * static_cast<size_t>(plan.size.height);
+  const size_t bytes = pixels * 4 * sizeof(float) + FilmFrame(plan.size, packing).bytes();
+  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
+}
+
+static void encode_frames(const FrameFiles& files, const FilmPlan& plan, const Development& development,
+                          const EncodeOptions& options, FilmEncoder& encoder, const Progress& progress) {
+  using Frame = FilmFrame*;  // what a pipeline passes on is copied
+  size_t next = 0, done = 0;
+  const auto number = [&](tbb::flow_control& control) {
+    if (next == files.frames.size()) control.stop();
+    return next++;
+  };
+  const auto read = [&](size_t index) -> Frame {
+    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
+    return read_frame(files.path(index), plan, development, options.packing).release();
+  };
+  const auto encode = [&](Frame frame) {
+    encoder.add(std::unique_ptr<FilmFrame>(frame));
+    done++;
+    if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(files.frames.size()));
+  };
+  using tbb::filter_mode;
+  tbb::parallel_pipeline(frames_ahead(plan, options.packing),
+                         tbb::make_filter<void, size_t>(filter_mode::serial_in_order, number) &
+                             tbb::make_filter<size_t, Frame>(filter_mode::parallel, read) &
+                             tbb::make_filter<Frame, void>(filter_mode::serial_in_order, encode));
+}
+
+TagResult make_film(const FrameFiles& files, const FilmPlan& plan, const Development& development,
+                    const EncodeOptions& options, const std::string& path, const Progress& progress) {
+  assert(!files.frames.empty() && container_of_path(path));
+  check_packing(plan, options.packing);
+  AtomicFile untagged(path);
+  FilmEncoder encoder(untagged, *container_of_path(path), plan.size, options);
+  encode_frames(files, plan, development, options, encoder, progress);
+  encoder.finish();
+  untagged.finish();
+  const FilmInfo film = read_film(untagged.temporary());
+  std::optional<Ambisonics> ambisonics;
+  if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) ambisonics.emplace();
+  return tag_film(untagged.temporary(), path, choose_track(film, {}, path).id, plan.form, ambisonics);
+}
+
+}  // namespace ods

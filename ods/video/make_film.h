@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures, a file or two for every frame, into a film that says what it is.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/base/frames.h"
+#include "ods/base/progress.h"
+#include "ods/video/encode.h"
+
+namespace ods {
+
+// Frames of a film as files.
+struct FrameFiles {
+  std::string pattern;  // shot.####.exr (ods/base/frames.h); %V or %v in it: a file for each eye
+  std::vector<int> frames;
+  std::string path(size_t index) const;  // of a frame; with %V as the pattern has it
+};
+
+// The frames asked for, or all that there are. Throws Error(kInput): the pattern has no place for a number; frames that
+// are missing, all at once ("7,9-12"), also between the first and the last of those found.
+FrameFiles find_frames(const std::string& pattern, const std::optional<std::vector<int>>& wanted = {});
+
+// What a film of such frames is like, by the first of them.
+struct FilmPlan {
+  KnownForm known;  // of every frame
+  Extent eye;       // as it is stored
+  size_t eyes = 1;  // in a frame
+  Extent size;      // of the film
+  Layout layout = Layout::kTopBottom;
+  FilmForm form;
+  std::vector<std::string> notes;  // what was guessed, and what the film cannot say, for people
+};
+
+// `known` goes before what the files say; `layout` is kTopBottom or kSideBySide. Reads the first frame, and of the
+// others what they say of themselves. Throws Error(kInput): a frame that cannot be read, frames of another size
+// (which), a layout that squeezed eyes cannot have.
+FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optional<Layout> layout);
+
+// What the plan's size is not fit for. Throws Error(kInput): odd sides.
+void check_packing(const FilmPlan& plan, const Packing& packing);
+
+// Writes the film; whatever happens there is a complete one or none. The frames are read ahead, as many as half of the
+// free memory holds. Throws Error: kInput, also for a frame that is not like the first; kOutput, kMemory, kCancelled.
+TagResult make_film(const FrameFiles& files, const FilmPlan& plan, const Development& development,
+                    const EncodeOptions& options, const std::string& path, const Progress& progress = {});
+
+}  // namespace ods

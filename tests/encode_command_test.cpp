@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods encode as its users meet it.
+#include "ods/video/encode.h"
+#include "tests/cli_runner.h"
+#include "tests/made_frames.h"
+
+namespace {
+
+using ods::Layout;
+
+class EncodeCommand : public Cli {
+ protected:
+  std::string pattern(const std::string& name = "a.#.png") const { return folder.path(name); }
+
+  void expect_one_line(const std::string& words) const {
+    EXPECT_EQ(out, "");
+    EXPECT_TRUE(err.starts_with("ods: error: ")) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find(words), std::string::npos) << err;
+  }
+};
+
+TEST_F(EncodeCommand, FramesBecomeAFilm) {
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  const std::string film = folder.path("film_360_TB.mp4");
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --fps 29.97 -o " + film), 0) << err;
+  EXPECT_EQ(out, film + "\n");
+  EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 3 frames at 29.97 a second"), std::string::npos) << err;
+  EXPECT_NE(err.find("top-bottom: it has the shape of two eyes"), std::string::npos) << err;
+  EXPECT_EQ(err.find("warning"), std::string::npos) << err;
+}
+
+TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
+  ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
+  const std::string words =
+      "encode " + pattern() + " --codec h264 -o " + folder.path("film.mp4") + " --audio " + folder.path("sound.wav");
+  folder.write("sound.wav", ods::made::wav(2, 1.0));
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_NE(err.find("the sound, 1.0 s, is cut where the pictures end, at 0.2 s"), std::string::npos) << err;
+  folder.write("sound.wav", ods::made::wav(2, 0.1));
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_NE(err.find("warning: the sound ends at 0.1 s, the pictures at 0.2 s"), std::string::npos) << err;
+  folder.write("sound.wav", ods::made::wav(3, 0.1));
+  EXPECT_EQ(run(words), 3);
+  expect_one_line("it has 3 channels");
+}
+
+// --- what goes wrong -------------------------------------------------------------------------------------------------
+
+TEST_F(EncodeCommand, ExitCodesSayWhatWasWrong) {
+  ods::made::write_frames(pattern(), {1, 2, 4});
+  const size_t before = files();
+  const std::string film = folder.path("film.mp4"), all = "encode " + pattern() + " --frames 1-2 ";
+  const std::tuple<std::string, int, const char*> kCases[] = {
+      {"encode " + pattern() + " -o " + film, 3, "frames are missing: 3 of"},
+      {all, 2, "where to? -o film.mp4"},
+      {all + "-o " + folder.path("film.avi"), 2, "ends in .mp4, .mov, .mkv or .webm"},
+      {all + "-o " + folder.path("film.webm") + " --codec h264", 2,
+       "webm holds av1, vp9, not h264, which goes into mp4, mov, mkv"},
+      {all + "-o " + film + " --target master", 2, "not prores, which goes into mov, mkv"},
+      {all + "-o " + film + " --codec mpeg1", 2, "--codec is one of h264, hevc, av1, vp9, prores, not 'mpeg1'"},
+      {all + "-o " + film + " --encoder h263", 2, "--encoder is one of"},
+      {all + "-o " + film + " --encoder libx265 --codec h264", 2, "libx265 does not encode h264"},
+      {all + "-o " + film + " --bits 9", 2, "there is no h264 of 9 bits"},
+      {all + "-o " + film + " --crf 60", 2, "from 0, the best, to 51"},
+      {all + "-o " + film + " --fps 0", 2, "--fps is a number or a fraction"},
+      {all + "-o " + film + " --fps 30/0", 2, "--fps is a number or a fraction"},
+      {all + "-o " + film + " --fps nan", 2, "--fps is a number or a fraction"},
+      {all + "-o " + film + " --layout anaglyph", 2, "top-bottom or side-by-side"},
+      {all + "-o " + folder.path("a.1.png/film.mp4"), 4, "film.mp4"},
+      {"encode " + pattern() + " --frames 1-x -o " + film, 3, "frames '1-x'"},
+      {"encode " + folder.path("b.#.png") + " -o " + film, 3, "there is no file like"},
+  };
+  for (const auto& [words, code, why] : kCases) {
+    EXPECT_EQ(run(words), code) << words << err;
+    expect_one_line(why);
+  }
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(EncodeCommand, AFullDiskLeavesNothing) {
+  ods::TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: this machine lets nobody mount a disk";
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  disk.fill();
+  for (const char* name : {"film.mp4", "film.mkv"}) {
+    EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + disk.folder().path(name)), 4);
+    expect_one_line("cannot write");
+  }
+  EXPECT_EQ(disk.folder().names(), std::vector<std::string>{"ballast"});
+}
+
+TEST_F(EncodeCommand, ALimitOnFilesLeavesNothing) {
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  const size_t before = files();
+  EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + folder.path("film.mp4"), 200), 4);
+  expect_one_line("cannot write");
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
+  std::vector<int> frames;
+  for (int i = 1; i <= 40; i++) frames.push_back(i);
+  ods::made::write_frames(pattern(), frames);
+  const size_t before = files();
+  for (const char* encoder : {"libx264", "libsvtav1"}) {
+    if (!ods::has_encoder(encoder)) continue;
+    Ods command({"encode", pattern(), "-o", folder.path("film.mp4"), "--encoder", encoder, "--progress", "json"});
+    command.wait_for("\"progress\"");
+    command.kill(SIGINT);
+    EXPECT_EQ(command.finish(), 130);
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(EncodeCommand, SizesThatNoLevelHoldsAreSaidWithTheLargest) {
+  ods::made::write_frames(pattern(), {1}, Layout::kTopBottom, {4096, 544});
+  const std::string words = "encode " + pattern() + " --from-layout top-bottom --from lat-long --codec h264 " +
+                            "--preset ultrafast -o " + folder.path("film.mp4");
+  ASSERT_EQ(run(words + " --fps 900"), 0) << err;
+  EXPECT_EQ(err.find("no level"), std::string::npos) << err;
+  ASSERT_EQ(run(words + " --fps 1000"), 0) << err;
+  EXPECT_NE(err.find("no level of H.264 holds 4096x1088 at 1000 frames a second"), std::string::npos) << err;
+  EXPECT_NE(err.find("the largest is 3968x1054"), std::string::npos) << err;
+}
+
+TEST_F(EncodeCommand, NamesThatPlayersGoByAreSuggested) {
+  ods::made::write_frames(pattern(), {1});
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("film.mp4")), 0) << err;
+  EXPECT_NE(err.find("would know it as film_360_TB.mp4"), std::string::npos) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("film_360_LR.mp4")), 0) << err;
+  EXPECT_NE(err.find("its name says side-by-side"), std::string::npos) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --bits 10 -o " + folder.path("film_360_TB.mp4")), 0) << err;
+  EXPECT_NE(err.find("few players take h264 of 10 bits"), std::string::npos) << err;
+  EXPECT_EQ(err.find("its name says"), std::string::npos) << err;
+}
+
+}  // namespace
