@@ -3,9 +3,11 @@
 //
 // How fast frames become a film, over the ffmpeg program on the same frames with the same encoder and settings,
 // measured in turns in the same run. The frames have gradients, edges and grain that moves, so that they take about as
-// long to pack as photographs. above_ffmpeg: 1 is as fast, more is faster.
+// long to pack as photographs. above_ffmpeg: 1 is as fast, more is faster;
+// by wall clock and, for machines that have other work, by CPU seconds.
 #include <benchmark/benchmark.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <cmath>
@@ -21,7 +23,7 @@ namespace {
 
 using namespace ods;
 
-constexpr int kFrames = 24;
+constexpr int kFrames = 48;
 
 // A folder that goes with the process, beside where it runs: temporary folders may be memory.
 class Folder {
@@ -56,10 +58,25 @@ PictureRows frame(int width, int number) {
   return rows;
 }
 
-double seconds_of(const std::function<void()>& work) {
+struct Seconds {
+  double wall = 1e9;
+  double cpu = 1e9;
+};
+
+double cpu_seconds(int who) {
+  rusage usage;
+  getrusage(who, &usage);
+  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// The least so far.
+void measure(Seconds& least, int who, const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds(who);
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  least.wall = std::min(least.wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  least.cpu = std::min(least.cpu, cpu_seconds(who) - cpu);
 }
 
 struct Settings {
@@ -103,20 +120,21 @@ void encode(benchmark::State& state) {
   options.encoder = settings.encoder;
   options.preset = settings.preset;
   const std::string command = ffmpeg_words(settings, folder.path("frame.%04d.png"), folder.path("theirs.mp4"));
-  double ours = 1e9, theirs = 1e9;
+  Seconds ours, theirs;
   for (auto round : state) {
     static_cast<void>(round);
-    theirs = std::min(theirs, seconds_of([&] {
-                        if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
-                      }));
-    ours = std::min(ours, seconds_of([&] {
-                      const FrameFiles files = find_frames(folder.path("frame.####.png"));
-                      make_film(files, plan_film(files, {}, {}), {}, options, folder.path("ours.mp4"));
-                    }));
+    measure(theirs, RUSAGE_CHILDREN, [&] {
+      if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
+    });
+    measure(ours, RUSAGE_SELF, [&] {
+      const FrameFiles files = find_frames(folder.path("frame.####.png"));
+      make_film(files, plan_film(files, {}, {}), {}, options, folder.path("ours.mp4"));
+    });
   }
   state.SetLabel(std::string(settings.encoder) + " " + settings.preset);
-  state.counters["frames/s"] = kFrames / ours;
-  state.counters["above_ffmpeg"] = theirs / ours;
+  state.counters["frames/s"] = kFrames / ours.wall;
+  state.counters["above_ffmpeg"] = theirs.wall / ours.wall;
+  state.counters["above_ffmpeg_cpu"] = theirs.cpu / ours.cpu;
   state.counters["bytes_over_ffmpeg"] = static_cast<double>(std::filesystem::file_size(folder.path("ours.mp4"))) /
                                         static_cast<double>(std::filesystem::file_size(folder.path("theirs.mp4")));
 }

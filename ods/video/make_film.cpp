@@ -13,6 +13,8 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/read_file.h"
+#include "ods/video/bytes.h"
 #include "ods/video/film_form.h"
 
 namespace ods {
@@ -61,15 +63,23 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
 
 // --- the plan --------------------------------------------------------------------------------------------------------
 
+// Of a PNG by its first bytes alone: what opens it looks at every one.
+static Extent size_of(const std::string& path) {
+  const std::vector<unsigned char> start = read_start(path, 24);
+  const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
+  if (bytes.size() == 24 && bytes.starts_with("\x89PNG\r\n\x1a\n")) {
+    return {static_cast<int>(get_number(bytes, 16, 4)), static_cast<int>(get_number(bytes, 20, 4))};
+  }
+  const FileInfo info = read_info(path);
+  return {info.width, info.height};
+}
+
 // Frames whose headers tell another size than the first one's.
 static void check_sizes(const FrameFiles& files) {
   for (const std::string& pattern : patterns_of(files.pattern)) {
     const FrameNames names = names_in(pattern);
     std::vector<Extent> sizes(files.frames.size());
-    tbb::parallel_for(size_t{0}, sizes.size(), [&](size_t i) {
-      const FileInfo info = read_info(names.path(files.frames[i]));
-      sizes[i] = {info.width, info.height};
-    });
+    tbb::parallel_for(size_t{0}, sizes.size(), [&](size_t i) { sizes[i] = size_of(names.path(files.frames[i])); });
     std::vector<int> others;
     Extent other;
     for (size_t i = 0; i < sizes.size(); i++) {
@@ -189,7 +199,6 @@ TagResult make_film(const FrameFiles& files, const FilmPlan& plan, const Develop
   FilmEncoder encoder(untagged, *container_of_path(path), plan.size, options);
   encode_frames(files, plan, development, options, encoder, progress);
   encoder.finish();
-  untagged.finish();
   const FilmInfo film = read_film(untagged.temporary());
   std::optional<Ambisonics> ambisonics;
   if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) ambisonics.emplace();
