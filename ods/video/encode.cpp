@@ -313,11 +313,11 @@ class Sound {
   }
 
   AVCodecContext& encoder() const { return *encoder_; }
-  int64_t position() const { return position_; }  // samples
 
-  // The next samples, at most so many; none at the end.
-  Owned<AVFrame> next(int64_t most) {
-    const int size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024;
+  // The next samples up to a position; none at the end. Encoders take no fewer than they like but the last time.
+  Owned<AVFrame> next(int64_t until, bool is_end) {
+    const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, most = until - position_;
+    if (most < size && !is_end) return nullptr;
     while (!ended_ && av_audio_fifo_size(fifo_.get()) < size) decode();
     const int64_t count = std::min<int64_t>({size, most, av_audio_fifo_size(fifo_.get())});
     if (count <= 0) return nullptr;
@@ -436,10 +436,10 @@ struct FilmEncoder::State {
   }
 
   // Sound goes along with the pictures.
-  void encode_sound() {
+  void encode_sound(bool is_end) {
     if (!sound) return;
     const int64_t until = std::llround(static_cast<double>(count) / options.rate.value() * kSoundRate);
-    while (const Owned<AVFrame> frame = sound->next(until - sound->position())) {
+    while (const Owned<AVFrame> frame = sound->next(until, is_end)) {
       encode(sound->encoder(), frame.get(), 1);
     }
   }
@@ -483,13 +483,14 @@ void FilmEncoder::add(std::unique_ptr<FilmFrame> frame) {
   State& state = *state_;
   state.encode(*state.pictures, wrapped(std::move(frame), *state.pictures, state.count).get(), 0);
   state.count++;
-  state.encode_sound();
+  state.encode_sound(false);
 }
 
 void FilmEncoder::finish() {
   State& state = *state_;
   state.encode(*state.pictures, nullptr, 0);
   state.finished = true;
+  state.encode_sound(true);
   if (state.sound) state.encode(state.sound->encoder(), nullptr, 1);
   state.written(av_write_trailer(state.file.get()));
   state.written(avio_closep(&state.file->pb));
