@@ -142,7 +142,7 @@ void check_packing(const FilmPlan& plan, const Packing& packing) {
 
 // --- the film --------------------------------------------------------------------------------------------------------
 
-static std::unique_ptr<FilmFrame> read_frame(const std::string& path, const FilmPlan& plan,
+static std::shared_ptr<FilmFrame> read_frame(const std::string& path, const FilmPlan& plan,
                                              const Development& development, const Packing& packing) {
   OpenOptions options;
   options.form = plan.known;
@@ -154,7 +154,7 @@ static std::unique_ptr<FilmFrame> read_frame(const std::string& path, const Film
                 fmt::format("'{}' is not like the first frame: {} of {}x{} pixels, not {} of {}x{}", path,
                             picture.eyes.size(), size.width, size.height, plan.eyes, plan.eye.width, plan.eye.height));
   }
-  auto frame = std::make_unique<FilmFrame>(plan.size, packing);
+  auto frame = std::make_shared<FilmFrame>(plan.size, packing);
   fill_frame(picture, plan.layout, development, *frame);
   return frame;
 }
@@ -169,7 +169,7 @@ static size_t frames_ahead(const FilmPlan& plan, const Packing& packing) {
 
 static void encode_frames(const FrameFiles& files, const FilmPlan& plan, const Development& development,
                           const EncodeOptions& options, FilmEncoder& encoder, const Progress& progress) {
-  using Frame = FilmFrame*;  // what a pipeline passes on is copied
+  using Frame = std::shared_ptr<FilmFrame>;
   size_t next = 0, done = 0;
   const auto number = [&](tbb::flow_control& control) {
     if (next == files.frames.size()) control.stop();
@@ -177,10 +177,10 @@ static void encode_frames(const FrameFiles& files, const FilmPlan& plan, const D
   };
   const auto read = [&](size_t index) -> Frame {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    return read_frame(files.path(index), plan, development, options.packing).release();
+    return read_frame(files.path(index), plan, development, options.packing);
   };
-  const auto encode = [&](Frame frame) {
-    encoder.add(std::unique_ptr<FilmFrame>(frame));
+  const auto encode = [&](const Frame& frame) {
+    encoder.add(frame);
     done++;
     if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(files.frames.size()));
   };
