@@ -37,6 +37,14 @@ static std::vector<std::string> patterns_of(const std::string& pattern) {
   return {path_for_eye(pattern, kLeft), path_for_eye(pattern, kRight)};
 }
 
+// For messages, which stay lines.
+static std::string some_of(const std::vector<int>& frames) {
+  const size_t kLongest = 200;
+  const std::string text = frames_text(frames);
+  if (text.size() <= kLongest) return text;
+  return fmt::format("{} ... ({} in all)", text.substr(0, text.rfind(',', kLongest)), frames.size());
+}
+
 FrameFiles find_frames(const std::string& pattern, const std::optional<std::vector<int>>& wanted) {
   std::set<int> all;
   std::vector<std::vector<int>> found;
@@ -55,10 +63,10 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
     std::vector<int> absent = files.frames;
     std::erase_if(absent, [&](int frame) { return here.contains(frame); });
     if (absent.empty()) continue;
-    missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", frames_text(absent), patterns[i]);
+    missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", some_of(absent), patterns[i]);
   }
   if (missing.empty()) return files;
-  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, frames_text(there)));
+  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, some_of(there)));
 }
 
 // --- the plan --------------------------------------------------------------------------------------------------------
@@ -88,10 +96,10 @@ static void check_sizes(const FrameFiles& files) {
       others.push_back(files.frames[i]);
     }
     if (others.empty()) continue;
-    throw Error(ErrorKind::kInput,
-                fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
-                            frames_text(others), pattern, others[0], other.width, other.height, sizes[0].width,
-                            sizes[0].height));
+    throw Error(
+        ErrorKind::kInput,
+        fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
+                    some_of(others), pattern, others[0], other.width, other.height, sizes[0].width, sizes[0].height));
   }
 }
 
