@@ -14,6 +14,7 @@
 #include "ods/cpu/render.h"
 #include "ods/image/layout.h"
 #include "ods/kernel/random.h"
+#include "ods/scene/shutter.h"
 
 using ods::FrameNames;
 
@@ -73,6 +74,32 @@ void tell_speed(const RenderJob& job, const std::vector<Frame>& frames, const st
   note(fmt::format("{} in {}, {:.3g} Msamples/s", what, duration_text(seconds), samples / seconds * 1e-6));
 }
 
+// The scene as a frame has it, and where the camera is while the shutter is open.
+struct Shot {
+  ods::SceneChange change;
+  std::vector<ods::CameraRig> rigs;
+};
+
+Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const Frame& frame) {
+  Shot shot;
+  const auto camera_at = [&](double seconds) {
+    return ods::moved(place_camera_again(job.camera, scene), time.move, seconds);
+  };
+  const double open = static_cast<double>(time.shutter) / 360.0 / static_cast<double>(time.fps);
+  if (open == 0.0 || !(asks_for_film(time) || time.time)) {
+    shot.change = ods::set_time(scene, frame.time);
+    shot.rigs = {camera_at(frame.time)};
+    return shot;
+  }
+  for (int key = 0; key < ods::kShutterKeys; key++) {
+    const double seconds = frame.time + open * (static_cast<double>(key) / (ods::kShutterKeys - 1) - 0.5);
+    if (!scene.animation.views.empty()) ods::set_time(scene, seconds);
+    shot.rigs.push_back(camera_at(seconds));
+  }
+  shot.change = ods::open_shutter(scene, frame.time - 0.5 * open, frame.time + 0.5 * open);
+  return shot;
+}
+
 }  // namespace
 
 void render_job(const RenderJob& job, ProgressLines& lines) {
@@ -83,7 +110,7 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   start_clock(time, scene);
   const std::vector<Frame> frames = choose_frames(job, time);
   if (frames.empty()) return;
-  ods::set_time(scene, frames.front().time);
+  Shot first = make_shot(job, time, scene, frames.front());
   place_camera(job.camera, scene);
 
   const auto start = std::chrono::steady_clock::now();
@@ -91,17 +118,17 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   std::vector<std::string> files;
   for (size_t i = 0; i < frames.size(); i++) {
     const Frame& frame = frames[i];
-    if (i > 0) renderer.update(ods::set_time(scene, frame.time));
-    const ods::CameraRig rig = ods::moved(place_camera_again(job.camera, scene), time.move, frame.time);
+    const Shot shot = i == 0 ? first : make_shot(job, time, scene, frame);
+    if (i > 0) renderer.update(shot.change);
     ods::RenderOptions options = job.render;
     options.seed = frame.seed;
     ods::Progress progress;
     progress.report = [&](double done) {
       lines.report((static_cast<double>(i) + done) / static_cast<double>(frames.size()), seconds_since(start));
     };
-    const ods::Picture picture = renderer.render(rig, options, progress);
+    const ods::Picture picture = renderer.render(shot.rigs, options, progress);
     lines.clear();
-    files = ods::save_picture(picture, rig, job.save, frame.path);
+    files = ods::save_picture(picture, shot.rigs[shot.rigs.size() / 2], job.save, frame.path);
     for (const std::string& file : files) std::cout << file << std::endl;
   }
   tell_speed(job, frames, files.front(), seconds_since(start));

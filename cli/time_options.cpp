@@ -64,6 +64,9 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
       "in the duration the camera flies from where it stands through these places, on a smooth curve");
+  options.number("--shutter", time.shutter, 0.0f, 360.0f,
+                 "motion blur: degrees for which it is open around the frame's time, 360 are the time between two "
+                 "frames and 180 is usual; 0: none");
   options.choice("--noise", time.noise, kFilmNoises, film_noise_name, "the same grain in every frame, or each its own");
   options.flag("--skip-existing", time.skip_existing, "frames whose files are there are left as they are");
 }

@@ -24,6 +24,7 @@ struct TimeOptions {
   float fps = 30.0f;
   std::optional<float> duration;  // seconds; of a film, or of the camera's move
   ods::CameraMove move;
+  float shutter = 0.0f;  // degrees of the time between two frames
   FilmNoise noise = FilmNoise::kFixed;
   bool skip_existing = false;
 };
