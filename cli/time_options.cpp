@@ -77,6 +77,7 @@ bool asks_for_film(const TimeOptions& time) {
 
 void check_time_options(const TimeOptions& time) {
   if (time.time && asks_for_film(time)) throw UsageError("--time is for one picture, --frames for a film; give one");
+  if (!time.frames.empty()) ods::parse_frames(time.frames);
 }
 
 void start_clock(TimeOptions& time, ods::Scene& scene) {

@@ -34,7 +34,7 @@ void add_time_options(Options& options, TimeOptions& time);
 // Whether a film is asked for, frame by frame.
 bool asks_for_film(const TimeOptions& time);
 
-// Looks at what was given as a whole. Throws UsageError.
+// Looks at what was given as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);
 
 // Lets the scene play what was asked for, and finds out how long the film is. Throws UsageError.
