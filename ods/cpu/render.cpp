@@ -241,6 +241,7 @@ CpuRenderer::CpuRenderer(const Scene& scene, int threads) : parts_(std::make_uni
 CpuRenderer::~CpuRenderer() = default;
 
 void CpuRenderer::update(const SceneChange& change) {
+  if (change.instances.empty() && change.meshes.empty() && !change.lights && !change.materials) return;
   parts_->arena.execute([&] {
     update_lights(parts_->scene, parts_->lights);
     parts_->embree->update(change);

@@ -79,7 +79,9 @@ SceneChange open_shutter(Scene& scene, double opens, double closes) {
   }
   set_time(scene, 0.5 * (opens + closes));
   if (!scene.hidden.empty()) scene.hidden = hidden;
-  change.lights = change.materials = change.view_points = true;
+  change.lights = !scene.animation.lights.empty();
+  change.materials = !scene.animation.materials.empty();
+  change.view_points = !scene.animation.views.empty();
   compare_rows(scene, poses, vertices, change);
   for (size_t i = 0; i < scene.hidden.size(); i++) {
     if (hidden_before.empty() || hidden_before[i] != hidden[i]) change.instances.push_back(static_cast<int>(i));
