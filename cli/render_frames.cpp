@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -96,6 +97,11 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
     if (!scene.animation.views.empty()) ods::set_time(scene, seconds);
     shot.rigs.push_back(camera_at(seconds));
   }
+  const auto same = [&](const ods::CameraRig& a) {
+    const ods::CameraRig& b = shot.rigs.front();
+    return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
+  };
+  if (std::all_of(shot.rigs.begin(), shot.rigs.end(), same)) shot.rigs.resize(1);
   shot.change = ods::open_shutter(scene, frame.time - 0.5 * open, frame.time + 0.5 * open);
   return shot;
 }

@@ -20,7 +20,7 @@ std::string_view film_noise_name(FilmNoise noise);  // fixed, changing
 struct TimeOptions {
   std::optional<float> time;  // seconds
   std::string animation;      // empty: what ods::play() chooses
-  std::string frames;         // empty: all of the duration
+  std::string frames;         // empty or "all": all of the duration
   float fps = 30.0f;
   std::optional<float> duration;  // seconds; of a film, or of the camera's move
   ods::CameraMove move;

@@ -122,6 +122,13 @@ TEST_F(CliFrames, TheDurationMakesTheFrames) {
             0)
       << err;
   EXPECT_EQ(files(), 4u);
+  ASSERT_EQ(run(film("--frames all --duration 0.2")), 0) << err;
+  EXPECT_EQ(files(), 6u);
+  ASSERT_EQ(run("render " + scene + " --position 0,0,0 --width 8 --samples 1 --frames all --fps 2 -o " +
+                folder.path("all.%d.png")),
+            0)
+      << err;
+  EXPECT_EQ(files(), 10u) << "two seconds of two frames";
 }
 
 TEST_F(CliFrames, MistakesAreExplained) {

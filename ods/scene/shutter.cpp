@@ -65,6 +65,7 @@ static void compare_rows(const Scene& scene, const std::vector<MotionPose>& pose
 
 SceneChange open_shutter(Scene& scene, double opens, double closes) {
   assert(opens <= closes);
+  if (scene.animation.playing.empty()) return set_time(scene, opens);
   const std::vector<MotionPose> poses = scene.motion_poses;
   const std::vector<MotionVertex> vertices = scene.motion_vertices;
   const std::vector<char> hidden_before = scene.hidden;
