@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "cli/console.h"
+#include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "ods/base/frames.h"
 #include "ods/cpu/render.h"
@@ -63,9 +64,10 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
 }
 
 void check_outputs(const RenderJob& job) {
-  const bool film = asks_for_film(job.time);
-  ods::check_output(film ? name_frames(job).path(0) : job.output, job.save, ods::eye_list(job.render.eyes),
-                    {job.render.width, job.render.height});
+  const std::string path = asks_for_film(job.time) ? name_frames(job).path(0) : job.output;
+  const std::vector<int> eyes = ods::eye_list(job.render.eyes);
+  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height});
+  note_misleading_name(path, job.save, eyes.size(), job.camera.rig.projection);
 }
 
 void tell_speed(const RenderJob& job, const std::vector<Frame>& frames, const std::string& file, double seconds) {
