@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "ods/base/atomic_file.h"
 #include "ods/image/camera_export.h"
+#include "ods/image/file_format.h"
 
 using ods::CameraTarget;
 
@@ -40,6 +41,9 @@ void camera(int argc, char** argv) {
   if (output.empty()) {
     std::fwrite(result.text.data(), 1, result.text.size(), stdout);
     return;
+  }
+  if (ods::format_of_path(output)) {
+    throw UsageError(fmt::format("'{}' would be a picture; what a camera is said in is text", output));
   }
   ods::AtomicFile file(output);
   std::fwrite(result.text.data(), 1, result.text.size(), file.stream());

@@ -129,6 +129,7 @@ void run(int argc, char** argv) {
   CompareJob job;
   if (!read_options(job, argc, argv)) return;
   end_on_interrupts("ods: interrupted\n");
+  for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
   const CompareReport report = compare(job);
   job.json ? print_json(report) : print_text(report);
   if (!job.difference.empty()) write_difference(report, job.difference);

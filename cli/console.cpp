@@ -22,21 +22,26 @@ bool stderr_is_terminal() {
 
 namespace {
 
+// A file's name may hold anything, also what a terminal would obey.
+std::string one_line(std::string text) {
+  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
+  return text;
+}
+
 void print_json(const char* key, const std::string& text) {
   // A file's name may be no UTF-8.
   const nlohmann::json line = {{key, text}};
   std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
-int fail(ExitCode code, std::string text) {
+int fail(ExitCode code, const std::string& text) {
   if (console.json) {
     print_json("error", text);
     return code;
   }
-  for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;  // a file's name may hold anything
   const char* no_color = std::getenv("NO_COLOR");
   bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
-  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", text.c_str());
+  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", one_line(text).c_str());
   return code;
 }
 
@@ -58,13 +63,13 @@ ExitCode exit_code(ods::ErrorKind kind) {
 void note(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json("note", text);
-  std::fprintf(stderr, "ods: %s\n", text.c_str());
+  std::fprintf(stderr, "ods: %s\n", one_line(text).c_str());
 }
 
 void warn(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json("warning", text);
-  std::fprintf(stderr, "ods: warning: %s\n", text.c_str());
+  std::fprintf(stderr, "ods: warning: %s\n", one_line(text).c_str());
 }
 
 int run_command(const std::function<void()>& body) {

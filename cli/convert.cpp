@@ -43,11 +43,16 @@ void say_what_is_missing(const ods::Conversion& conversion) {
 void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   ods::check_output(job.output, job.save, job.target.eyes, job.target.eye);
   const std::string fault = ods::conversion_fault(job.picture, job.target);
-  if (!fault.empty()) throw UsageError(fault);
+  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
   const auto start = std::chrono::steady_clock::now();
   ods::Conversion conversion = ods::convert(job.picture, job.target);
+  if (conversion.no_depth > 0) {
+    note(fmt::format("{}: {} of its depths are no distances (NaN, 0 or less): taken for far away", job.input,
+                     conversion.no_depth));
+  }
   count_rows(conversion.rows, lines, start);
   const auto files = ods::save_picture(conversion.rows, &job.target.rig, job.save, job.output);
+  lines.report(1.0, seconds_since(start));
   lines.clear();
   for (const std::string& file : files) std::cout << file << std::endl;
   say_what_is_missing(conversion);
@@ -59,7 +64,10 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
 void convert(int argc, char** argv) {
   ConvertJob job;
   if (!read_convert_job(job, argc, argv)) return;
-  run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { convert_to_file(job, lines); });
+  run_long_job(job.progress, job.threads, [&](ProgressLines& lines) {
+    open_convert_job(job, argc, argv);
+    convert_to_file(job, lines);
+  });
 }
 
 }  // namespace

@@ -121,6 +121,14 @@ void turn(CameraRig& rig, const CameraOptions& by) {
   rig.yaw = angles.yaw, rig.pitch = angles.pitch, rig.roll = angles.roll;
 }
 
+// A mono picture is one of the eyes that there are, wherever eyes are wanted.
+void note_unmoved(const ConvertJob& job, const CameraRig& wished) {
+  const CameraRig& own = job.picture.rig;
+  const bool moves = wished.ipd != own.ipd || wished.neck != own.neck || !ods::same_merge(wished.top, own.top) ||
+                     !ods::same_merge(wished.bottom, own.bottom);
+  if (moves && job.target.eyes[0] == ods::kMono) note("--ipd, --merge and --neck change nothing of one eye");
+}
+
 std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
   if (wishes.mono || wishes.size.eyes == Eyes::kMonoEye) return {ods::kMono};
   if (given) return ods::eye_list(wishes.size.eyes);
@@ -147,10 +155,10 @@ Layout same_layout(const ConvertJob& job) {
 }  // namespace
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
-  Given given{};
+  Given ignored{};
   Wishes first;
   try {
-    if (!parse(job, first, given, argc, argv)) return false;
+    if (!parse(job, first, ignored, argc, argv)) return false;
   } catch (const UsageError&) {
     if (job.input.empty() || job.output.empty()) throw;  // else judged again, knowing what there is
   }
@@ -158,12 +166,18 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
   ods::check_output(job.output, {}, {ods::kLeft, ods::kRight},
                     {2, 2});  // before the picture is opened, which takes time
+  refuse_overwriting(job.output, job.input);
+  return true;
+}
+
+void open_convert_job(ConvertJob& job, int argc, char** argv) {
   ods::OpenOptions open;
   open.form = job.known;
   open.scratch_folder = folder_of(job.output);
   job.picture = ods::open_picture(job.input, open);
   for (const std::string& guess : job.picture.guesses) note(fmt::format("{}: {}", job.input, guess));
 
+  Given given{};
   Wishes wishes;
   wishes.camera.rig = job.picture.rig;
   parse(job, wishes, given, argc, argv);
@@ -171,6 +185,7 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   CameraRig& rig = job.target.rig = wishes.camera.rig;
   turn(rig, wishes.camera);
   job.target.eyes = wished_eyes(job, wishes, given.eyes);
+  note_unmoved(job, rig);
   if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
   job.save.layout = wishes.layout.value_or(same_layout(job));
   if (!given.tone && !job.picture.is_float) job.save.tone = ods::ToneCurve::kLinear;
@@ -179,5 +194,5 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, rig.projection);
   if (given.size) eye = {wishes.size.width, wishes.size.height};
   finish_projection(rig.projection, eye.width, eye.height);
-  return true;
+  note_misleading_name(job.output, job.save, job.target.eyes.size(), rig.projection);
 }

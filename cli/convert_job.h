@@ -21,6 +21,8 @@ struct ConvertJob {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// Opens the input too: what is not given stays as it is there. False when help was asked for. Throws UsageError and
-// ods::Error.
+// False when help was asked for. Throws UsageError and ods::Error.
 bool read_convert_job(ConvertJob& job, int argc, char** argv);
+
+// Opens the input: what is not given stays as it is there. The same arguments; throws likewise.
+void open_convert_job(ConvertJob& job, int argc, char** argv);

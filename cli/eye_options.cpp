@@ -184,6 +184,8 @@ void finish_eye_options(CameraOptions& camera) {
   const bool wanted = rig.top.mode == ods::kMergeMap || rig.bottom.mode == ods::kMergeMap;
   if (camera.merge_map.empty() && wanted && !rig.merge_map)
     throw UsageError("--merge map needs a picture: --merge-map FILE");
+  if (camera.merge_map.empty() && camera.merge_map_inverted)
+    throw UsageError("--merge-map-inverted needs a picture: --merge-map FILE");
   if (!camera.merge_map.empty()) {
     if (!wanted) rig.top.mode = rig.bottom.mode = ods::kMergeMap;
     read_merge_map(camera);

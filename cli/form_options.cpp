@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "cli/console.h"
 #include "ods/base/suggest.h"
 #include "ods/image/file_format.h"
+#include "ods/image/picture_form.h"
 #include "ods/image/sizes.h"
 
 using ods::Layout;
@@ -88,6 +91,25 @@ void finish_form_options(const Options& options, const ods::ProjectionSetting& p
   if (!options.given("--width") && !sized) picture.width -= picture.width % ods::width_step(projection);
   if (!options.given("--layout") && !sized) {
     save.layout = ods::projection_name(projection) == "vr180" ? Layout::kSideBySide : Layout::kTopBottom;
+  }
+}
+
+void note_misleading_name(const std::string& output, const ods::SaveOptions& save, size_t eye_count,
+                          const ods::ProjectionSetting& projection) {
+  const auto layout = eye_count == 2 ? std::optional(save.layout) : std::nullopt;
+  const std::string fault = ods::name_fault(output, layout, projection);
+  if (!fault.empty()) warn(fmt::format("'{}': {}", output, fault));
+}
+
+void refuse_overwriting(const std::string& output, const std::string& input) {
+  std::error_code none;  // what does not exist is no other file
+  for (const int eye : {ods::kLeft, ods::kRight}) {
+    for (const int other : {ods::kLeft, ods::kRight}) {
+      const std::string out = ods::names_eye(output) ? ods::path_for_eye(output, eye) : output;
+      const std::string in = ods::names_eye(input) ? ods::path_for_eye(input, other) : input;
+      if (!std::filesystem::equivalent(out, in, none)) continue;
+      throw UsageError(fmt::format("'{}' would be overwritten with what is made of it: choose another name", in));
+    }
   }
 }
 

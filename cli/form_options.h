@@ -33,5 +33,12 @@ void finish_form_options(const Options& options, const ods::ProjectionSetting& p
 // Whether a file of this name holds the scene's light, which is neither exposed nor toned: exr and hdr.
 bool keeps_light(const std::string& path);
 
+// Says it where readers of the file would go by a name that misleads: y_LR.png of top-bottom.
+void note_misleading_name(const std::string& output, const ods::SaveOptions& save, size_t eye_count,
+                          const ods::ProjectionSetting& projection);
+
+// Throws UsageError where `output` is the file that `input` is, by this name or another; %V stands for both eyes'.
+void refuse_overwriting(const std::string& output, const std::string& input);
+
 // Throws UsageError with a suggestion.
 const ods::NamedSize& size_by_name(const std::string& name);

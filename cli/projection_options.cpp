@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 
 #include "cli/console.h"
 #include "ods/base/suggest.h"
@@ -58,7 +59,8 @@ void parse_fov(const std::string& text, ProjectionSetting& projection) {
   projection.fov = numbers[0];
 }
 
-void parse_face(const std::string& name, ProjectionSetting& projection) {
+void parse_face(const std::string& name, bool has_other, ProjectionSetting& projection) {
+  expect(!has_other || projection.kind == ods::kPerspective, "--face", "perspective, which it implies", projection);
   for (const Face& face : kFaces) {
     if (face.name != name) continue;
     projection = ods::find_projection("perspective")->setting;
@@ -85,12 +87,17 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
     names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
   }
   const std::string option = name.empty() ? "--projection" : name;
+  const auto is_named = std::make_shared<bool>(false);
   options.custom(
       name.empty() ? option : fmt::format("{},--projection", name), "NAME", name.empty() ? "lat-long" : "",
-      [&projection, option](const std::string& text) { projection = projection_by_name(option, text); },
+      [&projection, option, is_named](const std::string& text) {
+        projection = projection_by_name(option, text);
+        *is_named = true;
+      },
       "of each eye's picture: " + names);
   options.custom(
-      "--face", "NAME", "", [&](const std::string& text) { parse_face(text, projection); },
+      "--face", "NAME", "",
+      [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },
       "a single face of a cube: front, right, back, left, up or down");
   options.custom(
       "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },

@@ -57,6 +57,7 @@ void testcard(int argc, char** argv) {
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
   ods::check_output(job.output, job.save, eyes, eye);
+  note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
   const ods::Layout shared = ods::names_eye(job.output) ? ods::Layout::kSeparate : job.save.layout;
   const std::string layout(eyes.size() == 2 ? ods::layout_name(shared) : ods::eye_name(eyes[0]));
   const ods::Testcard card = make_testcard(rig, eye,

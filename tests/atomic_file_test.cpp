@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "cli/interrupt.h"
 #include "ods/base/error.h"
 #include "tests/temporary_folder.h"
@@ -25,6 +27,21 @@ TEST(AtomicFile, AppearsCompleteAndReplaces) {
   file.commit();
   EXPECT_EQ(folder.read("a.txt"), "new");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+}
+
+TEST(AtomicFile, WritesWhatALinkStandsFor) {
+  const TemporaryFolder folder;
+  folder.write("a.txt", "old");
+  std::filesystem::create_symlink("a.txt", folder.path("link.txt"));
+  std::filesystem::create_symlink("new.txt", folder.path("dangling.txt"));
+  for (const char* name : {"link.txt", "dangling.txt"}) {
+    AtomicFile file(folder.path(name));
+    std::fputs("new", file.stream());
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path(name)));
+  }
+  EXPECT_EQ(folder.read("a.txt"), "new");
+  EXPECT_EQ(folder.read("new.txt"), "new");
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {

@@ -99,6 +99,25 @@ TEST_F(CliConvert, MovesTheEyes) {
   EXPECT_FLOAT_EQ(open("moved.exr").rig.ipd, 0.05f);
 }
 
+TEST_F(CliConvert, WarnsOfNamesThatMislead) {
+  const std::string room = make("room.png");
+  ASSERT_EQ(convert(room, "y_LR.png"), 0) << err;
+  EXPECT_NE(err.find("warning: "), std::string::npos) << err;
+  EXPECT_NE(err.find("_LR"), std::string::npos) << err;
+  ASSERT_EQ(convert(room, "y_LR.png", "--layout side-by-side"), 0) << err;
+  EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
+}
+
+TEST_F(CliConvert, OverwritesNothingItReads) {
+  const std::string room = make("room.png"), before = folder.read("room.png");
+  EXPECT_EQ(convert(room, "room.png", "--mono"), 2);
+  EXPECT_EQ(convert(room, "../" + std::filesystem::path(room).parent_path().filename().string() + "/room.png"), 2);
+  EXPECT_NE(err.find("overwritten"), std::string::npos) << err;
+  EXPECT_EQ(run("compare " + room + " " + room + " --diff " + room), 2);
+  EXPECT_EQ(run("camera --for json -o " + room), 2);
+  EXPECT_EQ(folder.read("room.png"), before);
+}
+
 TEST_F(CliConvert, RefusalsSayWhy) {
   const std::string room = make("room.png");
   const std::vector<std::vector<std::string>> cases = {
@@ -107,6 +126,9 @@ TEST_F(CliConvert, RefusalsSayWhy) {
       {"--to latlong", "did you mean 'lat-long'?"},
       {"--to cube-3x2 --width 100", "multiple of 3"},
       {"--to lat-long --fov 40", "--fov is for"},
+      {"--to fisheye --face up", "--face is for"},
+      {"--range 0,1e-20", "0.01 degrees"},
+      {"--merge-map-inverted", "--merge-map FILE"},
       {"--height 40", "--width"},
       {"--from-layout tob", "--from-layout"},
   };

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "ods/base/error.h"
@@ -145,12 +146,37 @@ TEST(DecodeImage, RefusesTruncatedFiles) {
     ASSERT_EQ(refusal(whole), "") << extension_of(format);
     for (size_t size = 0; size < whole.size(); size += 1 + whole.size() / 150) {
       const std::string why = refusal(whole.substr(0, size));
-      // libjpeg fills what is missing with grey; the end of a file need not carry pixels.
-      if (format != FileFormat::kJpeg && size < whole.size() / 2) {
+      // The end of a file need not carry pixels.
+      if (format == FileFormat::kJpeg || size < whole.size() / 2) {
         EXPECT_NE(why, "") << extension_of(format) << " " << size;
       }
     }
   }
+}
+
+TEST(DecodeImage, AThumbnailsEndIsNotThatOfItsJpeg) {
+  std::string whole = small_file(FileFormat::kJpeg);
+  const std::string thumbnail("\xff\xd8\xff\xd9", 4);
+  whole.insert(2, std::string("\xff\xe1\x00\x06", 4) + thumbnail);
+  EXPECT_EQ(refusal(whole), "");
+  EXPECT_NE(refusal(whole.substr(0, whole.size() - 1)).find("cut short"), std::string::npos);
+  EXPECT_EQ(refusal(whole + "and more behind it"), "");
+}
+
+// OpenEXR would make room for it first.
+TEST(DecodeImage, AHeaderOfGigabytesIsRefused) {
+  const std::string whole = small_file(FileFormat::kExr);
+  const auto with = [&](const std::string& before, int32_t number) {
+    const size_t at = whole.find(before);
+    EXPECT_NE(at, std::string::npos);
+    std::string broken = whole;
+    std::memcpy(&broken[at + before.size()], &number, sizeof number);
+    return refusal(broken);
+  };
+  using namespace std::string_literals;
+  EXPECT_NE(with("dataWindow\0box2i\0"s, 0x7ffffff0).find("cut short or damaged"), std::string::npos);
+  const std::string window = "dataWindow\0box2i\0\x10\0\0\0"s;
+  EXPECT_NE(with(window + whole.substr(whole.find(window) + window.size(), 12), 0x7ffffff0), "");
 }
 
 std::string big_endian(uint32_t value) {

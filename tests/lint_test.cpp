@@ -18,6 +18,7 @@
 #include "ods/image/camera_file.h"
 #include "ods/image/image_file.h"
 #include "ods/image/save.h"
+#include "ods/image/testcard.h"
 #include "ods/scene/builtin.h"
 #include "tests/temporary_folder.h"
 
@@ -189,7 +190,13 @@ TEST_P(LintScene, FindsWhatIsWrongWithTheEyes) {
   const vec3 aside(0.5f * studio.rig.ipd, 0.0f, 0.0f);
   const Image left = studio.mono_at(-aside), right = studio.mono_at(aside, 7);
   expect_only(Fault::kTwoCameras, save(Pair{left, right}, "two_cameras.png"));
-  expect_only(Fault::kOneEyeTwice, save(Pair{left, studio.mono_at(-aside, 7)}, "twice_other_noise.jpg"));
+}
+
+TEST_P(LintScene, FindsOneEyeThatWasRenderedTwice) {
+  Studio studio(GetParam());
+  studio.options.width = 2 * kWidth;
+  const Pair twice{studio.mono_at(vec3(0.0f)), studio.mono_at(vec3(0.0f), 7)};
+  expect_only(Fault::kOneEyeTwice, save(twice, "twice_other_noise.jpg"));
 }
 
 TEST_P(LintScene, FindsAMirroredCircle) {
@@ -323,7 +330,7 @@ TEST_F(Lint, SaysThatThereIsNothingToSee) {
 }
 
 TEST_F(Lint, KnowsWhatFilmsAreTooLarge) {
-  const std::string tall = save(Image(64, 20000, 3), "tall.png");
+  const std::string tall = save(Image(256, 20000, 3), "tall.png");
   const LintReport film = lint(tall, {Layout::kSeparate, {}});
   EXPECT_TRUE(has_finding(film, Severity::kInformation, 1.0)) << told(film).text;
 }
@@ -338,6 +345,19 @@ TEST_F(Lint, SurvivesBadInput) {
   folder.write("cut.png", whole.substr(0, whole.size() / 2));
   EXPECT_THROW(lint(folder.path("cut.png")), Error);
   EXPECT_THROW(lint(folder.path("absent.png")), Error);
+}
+
+// Most of it is far away, and little of it moves.
+TEST_F(Lint, IsSilentAboutTestCardsOfEverySize) {
+  for (const int width : {128, 256, 512}) {
+    const Testcard card = make_testcard(CameraRig(), {width, width / 2}, {});
+    Pair pair{Image(width, width / 2, 3), Image(width, width / 2, 3)};
+    for (int y = 0; y < width / 2; y++) {
+      fill_testcard_row(card, kLeft, y, {pair.left.at(0, y), static_cast<size_t>(3 * width)});
+      fill_testcard_row(card, kRight, y, {pair.right.at(0, y), static_cast<size_t>(3 * width)});
+    }
+    expect_silence(save(pair, "card.png"));
+  }
 }
 
 // Saving a picture takes them out.

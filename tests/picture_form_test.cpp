@@ -155,7 +155,7 @@ TEST(Gpano, ComesBackFromEveryFormatThatHasIt) {
                    "GPano:CroppedAreaLeftPixels='0' GPano:CroppedAreaImageWidthPixels='900'"));
 }
 
-TEST(Sidecar, GoesBeforeWhatIsInTheFile) {
+TEST(Sidecar, SaysWhatTheFileDoesNot) {
   const TemporaryFolder folder;
   SaveOptions options;
   options.sidecar = true;
@@ -197,6 +197,72 @@ TEST(Sidecar, OfAnotherPictureIsLeftOut) {
   EXPECT_EQ(picture.layout, Layout::kTopBottom);
   EXPECT_EQ(picture.rig.yaw, 0.0f);
   EXPECT_NE(picture.guesses[0].find("of another picture"), std::string::npos) << picture.guesses[0];
+}
+
+TEST(Sidecar, OfAPictureThatIsGoneIsWrittenAnew) {
+  const TemporaryFolder folder;
+  CameraRig rig;
+  SaveOptions options;
+  options.sidecar = true;
+  save_picture(grey({kLeft, kRight}, {16, 8}), &rig, options, folder.path("a.png"));
+  rig.yaw = 50.0f;
+  options.sidecar = false;
+  const auto names = save_picture(grey({kLeft, kRight}, {16, 8}), &rig, options, folder.path("a.png"));
+  EXPECT_EQ(names.size(), 2u);
+  EXPECT_EQ(open_picture(folder.path("a.png")).rig.yaw, 50.0f);
+}
+
+// Another picture of the same name and size may have written it.
+TEST(Sidecar, GoesBehindTheFilesOwnCamera) {
+  const TemporaryFolder folder;
+  CameraRig rig;
+  rig.yaw = 50.0f;
+  save_picture(grey({kLeft, kRight}, {16, 8}), &rig, {}, folder.path("a.exr"));
+  save_camera({CameraRig(), {16, 8}, Layout::kTopBottom, {kLeft, kRight}}, folder.path("a.camera.json"));
+  EXPECT_EQ(open_picture(folder.path("a.exr")).rig.yaw, 50.0f);
+}
+
+TEST(Sidecar, DamagedIsAnErrorWithACure) {
+  const TemporaryFolder folder;
+  save_picture(grey({kLeft, kRight}, {16, 8}), nullptr, {}, folder.path("a.png"));
+  folder.write("a.camera.json", "{");
+  try {
+    open_picture(folder.path("a.png"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("mend or remove it"), std::string::npos) << error.what();
+  }
+  OpenOptions known;
+  known.form.layout = Layout::kTopBottom;
+  const StoredPicture picture = open_picture(folder.path("a.png"), known);
+  EXPECT_EQ(picture.eyes.size(), 2u);
+  EXPECT_NE(picture.guesses[0].find("left aside"), std::string::npos) << picture.guesses[0];
+}
+
+TEST(GuessLayout, WhatIsNoLayoutIsLeftAside) {
+  FileInfo info;
+  info.width = info.height = 64;
+  info.is_float = true;
+  info.text["ods:layout"] = "up-down";
+  const LayoutGuess guess = guess_layout(info, "a_LR.png");
+  EXPECT_EQ(guess.layout, Layout::kSideBySide);
+  EXPECT_EQ(guess.source, LayoutSource::kName);
+  EXPECT_TRUE(is_guess(guess));
+  const PictureForm form = find_form(info, "a_LR.png", {});
+  EXPECT_NE(form.guesses[0].find("no layout"), std::string::npos) << form.guesses[0];
+}
+
+TEST(NameFault, IsWhatReadersWouldGetWrong) {
+  const ProjectionSetting sphere, half = find_projection("vr180")->setting;
+  EXPECT_NE(name_fault("y_LR.png", Layout::kTopBottom, sphere).find("_LR"), std::string::npos);
+  EXPECT_NE(name_fault("y_LR.png", {}, sphere).find("one eye"), std::string::npos);
+  EXPECT_NE(name_fault("y_mono.png", Layout::kTopBottom, sphere), "");
+  EXPECT_NE(name_fault("y_180_TB.png", Layout::kTopBottom, find_projection("cube-3x2")->setting), "");
+  for (const char* fine : {"y.png", "y_TB.png", "y_OU_360.png", "y.0180.png"}) {
+    EXPECT_EQ(name_fault(fine, Layout::kTopBottom, sphere), "") << fine;
+  }
+  EXPECT_EQ(name_fault("y_180.png", {}, half), "");
+  EXPECT_EQ(name_fault("y_LR.exr", Layout::kMultiview, sphere), "");  // it says so itself
 }
 
 struct Guess {

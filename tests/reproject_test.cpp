@@ -138,7 +138,7 @@ TEST(Reproject, MeetsWhatThePictureShows) {
   for (int i = 0; i < 256 * 128; i++) {
     const vec2 uv((static_cast<float>(i % 256) + 0.5f) / 256.0f, (static_cast<float>(i / 256) + 0.5f) / 128.0f);
     const Ray ray = camera_ray(source.camera, kLeft, uv);
-    const Meeting3d met = meet_surface(reprojection, 0, ray);
+    const SurfaceHit met = meet_surface(reprojection, 0, ray);
     ASSERT_TRUE(met.place.seen) << i;
     EXPECT_EQ(met.place.eye, 0);
     EXPECT_NEAR(met.place.at.y, uv.y * 128.0f, 0.01f);
@@ -155,7 +155,9 @@ TEST(Reproject, BadDepths) {
                    [&](int, vec2 uv, float* out) { *out = bad[static_cast<int>(uv.x * 6.0f)]; });
   ConvertTarget target = target_of(made, projection_named("eac"), {24, 16});
   target.rig.ipd = 0.2f;
-  for (const Image& image : images_of(convert(made.picture, target).rows)) {
+  const Conversion conversion = convert(made.picture, target);
+  EXPECT_EQ(conversion.no_depth, 2 * 12 * 12);  // both eyes; 0, -1 and NaN are half of each
+  for (const Image& image : images_of(conversion.rows)) {
     for (const float value : image.pixels) EXPECT_FALSE(std::isnan(value));
   }
 }

@@ -104,12 +104,23 @@ void check_writable(const std::string& path) {
   remove_temporary(temporary);
 }
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path) {
-  check_writable(path);
+// A link stays one, and what it stands for is replaced.
+static std::string behind_links(const std::string& path) {
+  const int kMostLinks = 40;  // as Linux has it
+  fs::path target = path;
   std::error_code error;
-  fs::create_directories(folder_of(path), error);
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); i++) {
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces the folder
+  }
+  return target.native();
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(behind_links(path)) {
+  check_writable(target_);
+  std::error_code error;
+  fs::create_directories(folder_of(target_), error);
   if (error) throw cannot_write(path, fmt::format("folder cannot be made: {}", error.message()));
-  stream_ = create_temporary(folder_of(path), path, temporary_);
+  stream_ = create_temporary(folder_of(target_), target_, temporary_);
   if (stream_ == nullptr) throw cannot_write(path, std::strerror(errno));
 }
 
@@ -134,7 +145,7 @@ void AtomicFile::finish() {
 
 void AtomicFile::commit() {
   finish();
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw cannot_write(path_, std::strerror(errno));
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) throw cannot_write(path_, std::strerror(errno));
   forget(temporary_);
 }
 

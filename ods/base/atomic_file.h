@@ -36,6 +36,7 @@ class AtomicFile {
 
  private:
   std::string path_;
+  std::string target_;  // path_, or what it links to
   std::string temporary_;
   std::FILE* stream_ = nullptr;
 };

@@ -5,6 +5,7 @@
 // not be read.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,8 @@ std::vector<unsigned char> read_file(const std::string& path, size_t most);
 
 // Its first `count` bytes, or all where it has fewer; likewise.
 std::vector<unsigned char> read_start(const std::string& path, size_t count);
+
+// Copies `size` bytes of a file, or of what stands for one, from an offset on; false: it has not so many.
+using ByteReader = std::function<bool(size_t offset, void* to, size_t size)>;
 
 }  // namespace ods

@@ -179,7 +179,7 @@ void read_projection(Reader& in, ProjectionSetting& setting) {
   in.number("pan", setting.pan, -36000.0f, 36000.0f);
   in.number("tilt", setting.tilt, -90.0f, 90.0f);
   const std::string fault = projection_fault(setting);
-  if (!fault.empty()) in.fail("", ": " + fault);
+  if (!fault.empty()) in.fail("", "cannot be: " + fault);
 }
 
 void read_convergence(Reader& in, CameraRig& rig) {

@@ -108,9 +108,9 @@ Place Mapping::find(int index, vec2 home, vec2 uv) const {
   const Ray ray = ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
   int eye = from[i];
-  if (camera.projection.kind == kLatLong && eyes[i] != kMono && source.picture->eyes.size() == 2) {
+  if (camera.projection.kind == kLatLong && eyes[i] != kMono) {
     const float phi = camera.projection.center.y + (0.5f - uv.y) * camera.projection.span.y;
-    if (abs(phi) > 0.5f * kPi && camera.ipd > 0.0f && is_apart_at_pole(camera, phi > 0.0f)) eye = 1 - eye;
+    if (abs(phi) > 0.5f * kPi) eye = eye_over_pole(source, eye, phi > 0.0f);
   }
   return place_of_line(source, eye, ray.direction);
 }
@@ -127,7 +127,7 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // A stretch of a row in which places follow a parabola to a hundredth of a texel, known at its ends and in its middle.
 // Then no pixel needs its own trigonometry.
-constexpr int kLongStretch = 16;
+constexpr int kLongStretch = 32;
 constexpr int kShortStretch = 8;
 struct Stretch {
   int pixels;
@@ -142,9 +142,9 @@ struct Stretch {
 class Converter {
  public:
   Converter(const StoredPicture& picture, const ConvertTarget& target, bool adds_alpha)
-      : mapping_(make_mapping(picture, target)), resampler_(mapping_.source), adds_alpha_(adds_alpha) {
-    colours_ = static_cast<int>(picture.eyes[0].layers[0].channels.size());
-    channels_ = resampler_.channels() + (adds_alpha ? 1 : 0);
+      : mapping_(make_mapping(picture, target)),
+        resampler_(mapping_.source, adds_alpha),
+        channels_(resampler_.channels()) {
     if (sees_around(picture, target)) reprojection_ = make_reprojection(mapping_.source);
     if (const std::optional<size_t> layer = depth_layer(picture)) {
       depth_channel_ = adds_alpha ? 1 : 0;
@@ -153,6 +153,8 @@ class Converter {
   }
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
+
+  int64_t no_depth() const { return reprojection_ ? reprojection_->no_depth : 0; }
 
   // The number of empty pixels.
   int fill(int index, int y, std::span<float> row) const;
@@ -165,7 +167,7 @@ class Converter {
   void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
   bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
   bool fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
-  Meeting3d meet(int index, vec2 home, vec2 uv) const;
+  SurfaceHit meet(int index, vec2 home, vec2 uv) const;
   void sum_near(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
   bool stays_in_cell(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points) const;
@@ -175,8 +177,6 @@ class Converter {
   Mapping mapping_;
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;
-  bool adds_alpha_;
-  int colours_;
   int channels_;
   int depth_channel_ = -1;  // of a row's pixel; below 0: there is no depth
 };
@@ -207,7 +207,9 @@ std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int 
   for (int i = 0; i < 3; i++) stretch.down[i] = (below[i].at - at[i].at) * static_cast<float>(down);
   const float texels = length(stretch.step) * 2.0f / static_cast<float>(pixels);  // per pixel
   const float turn = length(stretch.down[1] - stretch.down[0]) + length(stretch.down[2] - stretch.down[1]);
-  if (length(stretch.bend) > 1.0f + 0.1f * texels || turn > 0.25f + 0.25f * length(stretch.down[1])) return {};
+  const float most = pixels == kLongStretch ? 0.25f : 1.0f;
+  if (length(stretch.bend) > most * (1.0f + 0.1f * texels) || turn > most * (0.25f + 0.25f * length(stretch.down[1])))
+    return {};
   return stretch;
 }
 
@@ -276,16 +278,8 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
 
 void Converter::put(const Place& place, const float* sums, int x, std::span<float> row) const {
   float* out = row.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
-  if (!adds_alpha_) {
-    std::copy(sums, sums + channels_, out);
-    resampler_.set_nearest(place, out);
-    return;
-  }
-  std::vector<float> all(sums, sums + resampler_.channels());
-  resampler_.set_nearest(place, all.data());
-  std::copy(all.begin(), all.begin() + colours_, out);
-  out[colours_] = 1.0f;
-  std::copy(all.begin() + colours_, all.end(), out + colours_ + 1);
+  std::copy(sums, sums + channels_, out);
+  resampler_.finish(place, out);
 }
 
 void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const {
@@ -298,12 +292,15 @@ void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, in
     const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * per_pixel;
     const vec2 dy =
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
-    filter_points({dx, dy}, points);
     std::fill(sums.begin(), sums.end(), 0.0f);
-    if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
-      sum_near(place, stretch.cell, points, sums.data());
-    } else {
-      sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
+    const std::optional<TexelFilter> filter = texel_filter({dx, dy}, place.at);
+    if (!filter || !resampler_.add(place.eye, *filter, stretch.cell, sums.data())) {
+      filter_points({dx, dy}, points);
+      if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
+        sum_near(place, stretch.cell, points, sums.data());
+      } else {
+        sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
+      }
     }
     put(place, sums.data(), x + i, row);
   }
@@ -325,7 +322,7 @@ bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<
   return true;
 }
 
-Meeting3d Converter::meet(int index, vec2 home, vec2 uv) const {
+SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
   const Ray ray = mapping_.ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
   return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
@@ -334,7 +331,7 @@ Meeting3d Converter::meet(int index, vec2 home, vec2 uv) const {
 // The footprint is that of the line of sight alone: parallax changes it by little, but where things end.
 bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
   const vec2 home = mapping_.home_of(x, y), pixel = mapping_.uv_of(1.0f, 1.0f);
-  const Meeting3d met = meet(index, home, home);
+  const SurfaceHit met = meet(index, home, home);
   if (!met.place.seen) return false;
   const Place unmoved = mapping_.find(index, home, home);
   std::vector<FilterPoint> points;
@@ -342,7 +339,7 @@ bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std:
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
   float weight = 0.0f;
   for (const FilterPoint& point : points) {
-    const Meeting3d there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
+    const SurfaceHit there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
     if (!there.place.seen) continue;
     resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, sums.data());
     weight += point.weight;
@@ -367,15 +364,16 @@ int Converter::fill_pixels(int index, const Cell& cell, int x, int y, int count,
 
 // The same of up to a stretch of pixels of one cell.
 int Converter::fill_some(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const {
-  const int pixels = count > kShortStretch ? kLongStretch : kShortStretch;
+  int pixels = kLongStretch;
+  while (pixels > kShortStretch && pixels / 2 >= count) pixels /= 2;
   if (reprojection_) return fill_pixels(index, cell, x, y, count, row);
   if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, pixels)) {
     fill_stretch(index, *stretch, x, y, count, row);
     return 0;
   }
   if (pixels == kShortStretch) return fill_pixels(index, cell, x, y, count, row);
-  return fill_some(index, cell, x, y, kShortStretch, row) +
-         fill_some(index, cell, x + kShortStretch, y, count - kShortStretch, row);
+  const int half = pixels / 2;
+  return fill_some(index, cell, x, y, half, row) + fill_some(index, cell, x + half, y, count - half, row);
 }
 
 int Converter::fill(int index, int y, std::span<float> row) const {
@@ -421,6 +419,7 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   const bool adds_alpha = colour.back() != "A" && (conversion.sees_around || sees_more(picture, target));
   if (adds_alpha) colour.push_back("A");
   const auto converter = std::make_shared<const Converter>(picture, target, adds_alpha);
+  conversion.no_depth = converter->no_depth();
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
     *empty += converter->fill(index, y, row);
   };

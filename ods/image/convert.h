@@ -28,6 +28,7 @@ struct ConvertTarget {
 struct Conversion {
   PictureRows rows;
   bool sees_around = false;  // the eyes stand elsewhere than the picture's
+  int64_t no_depth = 0;      // pixels of the picture, both eyes', with a depth that is none: Reprojection
   // Pixels filled so far which the picture had nothing for; all their channels are 0, but for depth,
   // which is kFarDepth.
   std::shared_ptr<std::atomic<int64_t>> empty = std::make_shared<std::atomic<int64_t>>(0);

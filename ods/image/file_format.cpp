@@ -3,11 +3,12 @@
 #include "ods/image/file_format.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 #include <string_view>
+
+#include "ods/base/text.h"
 
 namespace ods {
 
@@ -26,8 +27,7 @@ std::optional<FileFormat> format_of_path(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().native();
   if (extension.empty()) return std::nullopt;
   extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  extension = small_letters(extension);
   for (const Extension& known : kExtensions) {
     if (known.name == extension) return known.format;
   }

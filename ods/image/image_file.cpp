@@ -19,6 +19,8 @@
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
+#include "ods/image/exr_header.h"
+#include "ods/image/jpeg_segments.h"
 #include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
 
@@ -82,10 +84,6 @@ static Error cannot_read(const std::string& name, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", name, why));
 }
 
-static std::string unknown_format() {
-  return fmt::format("it is none of {}", known_extensions());
-}
-
 static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std::string& name) {
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1) throw cannot_read(name, "it is not a flat image");
   const int sides[] = {spec.width, spec.height, spec.tile_width, spec.tile_height};
@@ -133,7 +131,7 @@ struct Reader {
 static Reader create_reader(std::span<const std::byte> start, const std::string& name) {
   set_up_openimageio();
   const std::optional<FileFormat> format = format_of_bytes(start);
-  if (!format) throw cannot_read(name, unknown_format());
+  if (!format) throw cannot_read(name, fmt::format("it is none of {}", known_extensions()));
   Reader reader;
   reader.format = *format;
   reader.input = OIIO::ImageInput::create(plugin_name(*format));
@@ -141,10 +139,18 @@ static Reader create_reader(std::span<const std::byte> start, const std::string&
   return reader;
 }
 
-static std::unique_ptr<PngSource> open_png(size_t size, const ByteReader& bytes, const std::string& name) {
+// libpng comments on damaged files; libjpeg fills what is missing with grey, and only warns; OpenEXR makes room first.
+static void check_whole(Reader& reader, size_t size, const ByteReader& bytes, const std::string& name) {
+  if (reader.format == FileFormat::kJpeg && !is_whole_jpeg(size, bytes)) {
+    throw cannot_read(name, "the JPEG is cut short or damaged");
+  }
+  if (reader.format == FileFormat::kExr && !has_room_for_header(size, bytes)) {
+    throw cannot_read(name, "the EXR is cut short or damaged");
+  }
+  if (reader.format != FileFormat::kPng) return;
   std::optional<std::vector<FileRange>> parts = essential_png(size, bytes);
   if (!parts) throw cannot_read(name, "the PNG is cut short or damaged");
-  return std::make_unique<PngSource>(FileParts(bytes, std::move(*parts)));
+  reader.source = std::make_unique<PngSource>(FileParts(bytes, std::move(*parts)));
 }
 
 static void open(Reader& reader, size_t file_size, const std::string& name, bool keep_alpha) {
@@ -157,29 +163,25 @@ static void open(Reader& reader, size_t file_size, const std::string& name, bool
 
 static Reader open_reader(const std::string& path, bool keep_alpha = true) {
   const std::vector<unsigned char> start = read_start(path, 16);
-  const size_t size = file_size(path);
   Reader reader = create_reader(std::as_bytes(std::span(start)), path);
-  if (reader.format == FileFormat::kPng) {
-    const auto file = std::make_shared<OIIO::Filesystem::IOFile>(path, OIIO::Filesystem::IOProxy::Read);
-    const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
-      return file->pread(to, count, static_cast<int64_t>(offset)) == count;
-    };
-    reader.source = open_png(size, bytes, path);
-  }
-  open(reader, size, path, keep_alpha);
+  const auto file = std::make_shared<OIIO::Filesystem::IOFile>(path, OIIO::Filesystem::IOProxy::Read);
+  const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
+    return file->pread(to, count, static_cast<int64_t>(offset)) == count;
+  };
+  check_whole(reader, file->size(), bytes, path);
+  open(reader, file->size(), path, keep_alpha);
   return reader;
 }
 
 static Reader open_memory(std::span<const std::byte> file, const std::string& name) {
   Reader reader = create_reader(file, name);
-  if (reader.format == FileFormat::kPng) {
-    const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
-      if (offset > file.size() || count > file.size() - offset) return false;
-      std::memcpy(to, file.data() + offset, count);
-      return true;
-    };
-    reader.source = open_png(file.size(), bytes, name);
-  } else {
+  const ByteReader bytes = [file](size_t offset, void* to, size_t count) {
+    if (offset > file.size() || count > file.size() - offset) return false;
+    std::memcpy(to, file.data() + offset, count);
+    return true;
+  };
+  check_whole(reader, file.size(), bytes, name);
+  if (!reader.source) {
     reader.source = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(file.data()), file.size());
   }
   open(reader, file.size(), name, true);
@@ -292,7 +294,8 @@ struct RowReader::State {
   std::string path;
   Reader reader;
   FileInfo info;
-  OIIO::TypeDesc type;      // of all samples; UNKNOWN: as info.samples has them
+  OIIO::TypeDesc type;  // of all samples; UNKNOWN: as info.samples has them
+  std::map<size_t, unsigned> beyond_floats;
   float multiplied = 0.0f;  // integers that OpenImageIO hands out multiplied by alpha to this power; 0: not
 };
 
@@ -300,7 +303,7 @@ static bool says_unassociated(const OIIO::ImageSpec& spec) {
   return spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
 }
 
-RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}}) {
+RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}, {}}) {
   State& state = *state_;
   state.info = info_of(state.reader.spec);
   if (state.info.is_float && says_unassociated(state.reader.spec)) state.reader = open_reader(path, false);
@@ -363,10 +366,13 @@ void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
   size_t offset = 0;
   for (size_t c = 0; c < channels; offset += bytes_of(samples[c]), c++) {
     if (!is_whole_number(c) || state.type != OIIO::TypeDesc()) continue;
-    const unsigned bad = whole_numbers_to_floats({to + offset, size - offset}, stride);
-    const std::string& name = state.info.channels[c];
-    if (bad > 0) throw cannot_read(state.path, fmt::format("channel '{}' has the number {}, and no float", name, bad));
+    const unsigned number = whole_numbers_to_floats({to + offset, size - offset}, stride);
+    if (number > 0) state.beyond_floats.emplace(c, number);
   }
+}
+
+const std::map<size_t, unsigned>& RowReader::beyond_floats() const {
+  return state_->beyond_floats;
 }
 
 // --- writing -------------------------------------------------------------------------------------------------------

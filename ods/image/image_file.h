@@ -63,9 +63,11 @@ class RowReader {
   // Bands are `band_rows()` high, but for the last: what the file packs together.
   int band_rows() const;
 
-  // The first `channels` channels of rows begin..end, one sample behind the other. Throws Error(kInput), also for a
-  // whole number above 2^24, which no float can hold.
+  // The first `channels` channels of rows begin..end, one sample behind the other. Throws Error(kInput).
   void read(int begin, int end, size_t channels, std::byte* to);
+
+  // Channels that are of no use: a whole number above 2^24 was met there, which no float can hold. The number, too.
+  const std::map<size_t, unsigned>& beyond_floats() const;
 
  private:
   struct State;

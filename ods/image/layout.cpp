@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 
+#include "ods/base/text.h"
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -52,8 +52,7 @@ const std::vector<LayoutAlias>& layout_aliases() {
 }
 
 std::optional<Layout> layout_of(std::string_view word) {
-  std::string small(word);
-  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string small = small_letters(std::string(word));
   for (Layout layout : kLayouts) {
     if (small == layout_name(layout)) return layout;
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "ods/base/error.h"
 #include "ods/image/lint/checks.h"
@@ -88,20 +89,23 @@ bool has_finding(const LintReport& report, Severity severity, double certainty) 
 static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
   subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
-  KnownForm known;
-  known.layout = options.layout;
-  known.projection = options.projection;
-  subject.form = find_form(subject.info, path, known);
+  OpenOptions open;
+  open.form.layout = options.layout;
+  open.form.projection = options.projection;
+  open.only_light = true;
+  subject.form = find_form(subject.info, path, open.form);
   if (names_eye(path) || subject.layout() == Layout::kMultiview) {
-    subject.eyes = load_eyes(path, options.layout).eyes;
+    subject.eyes = grey_eyes(open_picture(path, open));
     return;
   }
-  subject.packed = read_image(path);
-  const Extent size{subject.packed.width, subject.packed.height};
+  const Extent size{subject.info.width, subject.info.height};
   if (!unpacked_size(subject.layout(), size)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
                                                path, size.width, size.height, layout_name(subject.layout())));
   }
+  open.form.layout = Layout::kSeparate;
+  open.form.projection = ProjectionSetting();  // any: its pixels are taken as they lie
+  subject.packed = grey_eyes(open_picture(path, open))[0];
   subject.eyes = unpack(subject.layout(), subject.packed);
 }
 
@@ -134,7 +138,15 @@ static void describe(const Subject& subject, LintReport& report) {
 
 // --- the checks ----------------------------------------------------------------------------------------------------
 
-constexpr int kLeastWidth = 64, kLeastHeight = 32;  // of an eye
+constexpr double kLeastAround = 256.0;  // pixels of an eye for 360 degrees
+constexpr int kLeastHeight = 32;
+
+static void check_pixels(const Subject& subject, LintReport& report) {
+  check_seam(subject, report);
+  if (report.eye_count < 2) return;
+  check_parallax(subject, report);
+  check_poles(subject, report);
+}
 
 LintReport lint(const std::string& path, const LintOptions& options) {
   Subject subject;
@@ -144,19 +156,16 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   load_sidecar(subject);
   find_camera(subject);
   describe(subject, report);
-  if (report.eye.width < kLeastWidth || report.eye.height < kLeastHeight) {
+  const double around = 2.0 * std::numbers::pi * pixels_per_radian(subject.projection(), report.eye.width);
+  const bool small = around < kLeastAround || report.eye.height < kLeastHeight;
+  if (small) {
     report.not_judged.push_back(
         fmt::format("its pixels: an eye of {}x{} is too small", report.eye.width, report.eye.height));
-    return report;
   }
-  if (check_layout(subject, report)) {
+  if (small || check_layout(subject, report)) {
     check_metadata(subject, report);
     check_form(subject, report);
-    check_seam(subject, report);
-    if (report.eye_count > 1) {
-      check_parallax(subject, report);
-      check_poles(subject, report);
-    }
+    if (!small) check_pixels(subject, report);
   } else {
     report.not_judged.push_back("everything else: first the layout must be right");
   }

@@ -4,26 +4,47 @@
 
 #include <tbb/parallel_for.h>
 
-#include "ods/image/stored_picture.h"
+#include <algorithm>
+#include <cmath>
+
 #include "ods/image/tone.h"
+#include "ods/kernel/surface.h"
 
 namespace ods {
 
-// The first three channels of a layer.
-static Image linear_image(const LayerPixels& layer, Extent size, bool is_float) {
-  Image image(size.width, size.height, 3);
+// The first three channels of a layer, as light; `put` makes what it wants of a pixel.
+template <class Put>
+static void read_pixels(const LayerPixels& layer, Extent size, bool is_float, Put put) {
   const size_t step = bytes_of(layer.sample);
+  const int largest = layer.sample == Sample::kUint8 ? 255 : 65535;
+  const std::vector<float> light = is_float ? std::vector<float>() : light_of_codes(largest);
   tbb::parallel_for(0, size.height, [&](int y) {
     const std::byte* in = layer.first + y * layer.row_stride;
-    float* out = image.at(0, y);
     for (int x = 0; x < size.width; x++, in += layer.pixel_stride) {
-      for (size_t c = 0; c < 3; c++) {
-        const float value = sample_value(layer.sample, in + c * step);
-        *out++ = is_float ? value : srgb_decode(value);
+      vec3 rgb;
+      for (int c = 0; c < 3; c++) {
+        const float value = sample_value(layer.sample, in + static_cast<size_t>(c) * step);
+        rgb[c] = is_float ? value : light[static_cast<size_t>(std::lround(value * static_cast<float>(largest)))];
       }
+      put(x, y, rgb);
     }
   });
+}
+
+static Image linear_image(const LayerPixels& layer, Extent size, bool is_float) {
+  Image image(size.width, size.height, 3);
+  read_pixels(layer, size, is_float, [&](int x, int y, vec3 rgb) { std::copy_n(&rgb.x, 3, image.at(x, y)); });
   return image;
+}
+
+std::vector<Image> grey_eyes(const StoredPicture& picture) {
+  std::vector<Image> eyes;
+  for (const StoredEye& eye : picture.eyes) {
+    Image& image = eyes.emplace_back(picture.size.width, picture.size.height, 1);
+    read_pixels(eye.layers[0], picture.size, picture.is_float,
+                [&](int x, int y, vec3 rgb) { *image.at(x, y) = luminance(rgb); });
+  }
+  return eyes;
 }
 
 static const LayerPixels* find_variance(const StoredEye& eye) {

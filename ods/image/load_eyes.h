@@ -10,6 +10,7 @@
 #include "ods/image/layout.h"
 #include "ods/image/picture.h"
 #include "ods/image/picture_form.h"
+#include "ods/image/stored_picture.h"
 
 namespace ods {
 
@@ -24,5 +25,8 @@ struct LoadedEyes {
 // %V or %v in the path stands for two files. A layout that is given is not guessed; kSeparate without %V takes the file
 // as one eye. Squeezed eyes stay as they are stored; alpha is left out. Throws as open_picture().
 LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout = {});
+
+// The luminance of a picture's eyes, 1 channel of linear light; NaN and infinity as they are there.
+std::vector<Image> grey_eyes(const StoredPicture& picture);
 
 }  // namespace ods

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "ods/base/error.h"
+#include "ods/base/text.h"
 #include "ods/image/camera_file.h"
 #include "ods/image/metadata.h"
 
@@ -36,9 +36,7 @@ NameWords read_name(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().native();
   for (size_t at = name.find_last_of("_. "); at != std::string::npos; at = name.find_last_of("_. ")) {
     const std::string marked = name.substr(at);
-    std::string word = marked.substr(1);
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string word = small_letters(marked.substr(1));
     const std::optional<Layout> layout = layout_of(word);
     // Behind a point stands the number of a frame, not an angle.
     const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
@@ -78,27 +76,48 @@ static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSe
   }
   for (const ProjectionSetting& setting : settings) {
     const std::string_view name = projection_name(setting);
-    if (has_shape(setting, file)) return {{}, fmt::format("it has the shape of one eye, {}", name)};
+    if (has_shape(setting, file)) {
+      return {{}, LayoutSource::kShape, fmt::format("it has the shape of one eye, {}", name)};
+    }
     for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
       const std::optional<Extent> eye = unpacked_size(layout, file);
-      if (eye && has_shape(setting, *eye)) return {layout, fmt::format("it has the shape of two eyes, {}", name)};
+      if (eye && has_shape(setting, *eye)) {
+        return {layout, LayoutSource::kShape, fmt::format("it has the shape of two eyes, {}", name)};
+      }
     }
   }
-  return {{}, "nothing says otherwise"};
+  return {{}, LayoutSource::kNothing, "nothing says otherwise"};
 }
 
 static bool has_channel(const FileInfo& info, const std::string& name) {
   return std::find(info.channels.begin(), info.channels.end(), name) != info.channels.end();
 }
 
+// What ods:layout says: a layout, or which eye the file is.
+static std::optional<LayoutGuess> said_layout(const FileInfo& info) {
+  const auto said = info.text.find("ods:layout");
+  if (said == info.text.end()) return std::nullopt;
+  LayoutGuess guess{layout_of(said->second), LayoutSource::kFile, "the file says so"};
+  for (int eye : {kLeft, kRight, kMono}) {
+    if (said->second == eye_name(eye)) return guess;
+  }
+  return guess.layout ? std::optional(guess) : std::nullopt;
+}
+
+bool is_guess(const LayoutGuess& guess) {
+  return guess.source > LayoutSource::kFile;
+}
+
 LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
                          const std::optional<ProjectionSetting>& projection) {
-  const auto said = info.text.find("ods:layout");
-  if (said != info.text.end()) return {layout_of(said->second), "the file says so", true};
-  if (has_channel(info, "right.R") || has_channel(info, "left.R"))
-    return {Layout::kMultiview, "it has two views", true};
+  if (const std::optional<LayoutGuess> said = said_layout(info)) return *said;
+  if (has_channel(info, "right.R") || has_channel(info, "left.R")) {
+    return {Layout::kMultiview, LayoutSource::kFile, "it has two views"};
+  }
   const NameWords words = read_name(path);
-  if (!words.layout_word.empty()) return {words.layout, fmt::format("its name ends in {}", words.layout_word)};
+  if (!words.layout_word.empty()) {
+    return {words.layout, LayoutSource::kName, fmt::format("its name ends in {}", words.layout_word)};
+  }
   if (projection) return layout_of_shape({info.width, info.height}, projection);
   if (words.projection != nullptr) return layout_of_shape({info.width, info.height}, words.projection->setting);
   return layout_of_shape({info.width, info.height}, {});
@@ -120,19 +139,27 @@ static std::optional<CameraFile> find_sidecar(const FileInfo& info, const std::s
   const std::string beside = sidecar_path(path);
   std::error_code ignored;
   if (known.camera || !std::filesystem::exists(beside, ignored)) return std::nullopt;
-  std::optional<CameraFile> sidecar = load_camera(beside, warnings);
-  if (belongs_to(*sidecar, info)) return sidecar;
-  warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
+  try {
+    std::optional<CameraFile> sidecar = load_camera(beside, warnings);
+    if (belongs_to(*sidecar, info)) return sidecar;
+    warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
+  } catch (const Error& error) {
+    const std::string why = error.what();
+    if (!known.layout && !known.projection) {
+      throw Error(error.kind(), why + "; mend or remove it, or say what the picture's layout and projection are");
+    }
+    warnings.push_back(why + ": left aside");
+  }
   return std::nullopt;
 }
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const KnownForm& known,
                                const std::optional<CameraFile>& sidecar) {
-  if (names_eye(path)) return {Layout::kSeparate, "its name stands for two files", true};
-  if (known.layout) return {known.layout, "as asked", true};
-  if (sidecar && !info.text.contains("ods:layout")) {
-    if (sidecar->eyes.size() == 1) return {{}, "its sidecar says so", true};
-    return {sidecar->layout, "its sidecar says so", true};
+  if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
+  if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
+  if (sidecar && !said_layout(info)) {
+    const bool is_one = sidecar->eyes.size() == 1;
+    return {is_one ? std::nullopt : std::optional(sidecar->layout), LayoutSource::kSidecar, "its sidecar says so"};
   }
   return guess_layout(info, path, known.projection);
 }
@@ -152,7 +179,15 @@ static int find_eye(const FileInfo& info, const std::optional<CameraFile>& sidec
 static std::optional<CameraRig> camera_in_file(const FileInfo& info, const std::string& path,
                                                std::vector<std::string>& warnings) {
   if (std::optional<CameraRig> camera = camera_of(info, warnings)) return camera;
-  if (!info.is_float) return gpano_camera(read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path));
+  if (!info.is_float) {
+    const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
+    const std::optional<CameraRig> camera = gpano_camera(xmp);
+    if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
+      warnings.push_back(fmt::format("its GPano says {}, of which only whole lat-long and parts of it are understood",
+                                     xmp_property(xmp, "GPano:ProjectionType")));
+    }
+    return camera;
+  }
   const auto envmap = info.text.find("textureformat");
   if (envmap != info.text.end() && envmap->second == "LatLong Environment") return CameraRig();
   return std::nullopt;
@@ -172,6 +207,16 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, s
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
+// A file's own words go before its sidecar's, which may be older, but for a merge map, which only the sidecar holds.
+static std::optional<CameraRig> find_camera(const FileInfo& info, const std::string& path, const KnownForm& known,
+                                            const std::optional<CameraFile>& sidecar,
+                                            std::vector<std::string>& guesses) {
+  if (known.camera) return known.camera;
+  if (sidecar && (sidecar->rig.merge_map || !info.text.contains("ods:projection"))) return sidecar->rig;
+  if (std::optional<CameraRig> own = camera_in_file(info, path, guesses)) return own;
+  return sidecar ? std::optional(sidecar->rig) : std::nullopt;
+}
+
 PictureForm find_form(const FileInfo& info, const std::string& path, const KnownForm& known) {
   PictureForm form;
   const std::optional<CameraFile> sidecar = find_sidecar(info, path, known, form.guesses);
@@ -181,13 +226,14 @@ PictureForm find_form(const FileInfo& info, const std::string& path, const Known
   if (is_anaglyph(layout)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': nobody can take an anaglyph apart again", path));
   }
-  if (!form.layout.is_certain) {
+  if (info.text.contains("ods:layout") && !said_layout(info)) {
+    form.guesses.push_back("its ods:layout is no layout: left aside");
+  }
+  if (is_guess(form.layout)) {
     const std::string_view name = form.layout.layout ? layout_name(layout) : "one eye";
     form.guesses.push_back(fmt::format("{}: {}", name, form.layout.because));
   }
-  std::optional<CameraRig> camera = known.camera;
-  if (!camera && sidecar) camera = sidecar->rig;
-  if (!camera) camera = camera_in_file(info, path, form.guesses);
+  const std::optional<CameraRig> camera = find_camera(info, path, known, sidecar, form.guesses);
   form.camera_is_said = camera.has_value();
   if (camera) form.camera = *camera;
   if (known.projection) {
@@ -199,6 +245,20 @@ PictureForm find_form(const FileInfo& info, const std::string& path, const Known
         guess_projection({eye.width * squeeze.width, eye.height * squeeze.height}, path, form.guesses);
   }
   return form;
+}
+
+std::string name_fault(const std::string& path, std::optional<Layout> layout, const ProjectionSetting& projection) {
+  const NameWords words = read_name(path);
+  const bool packed = !layout || is_packing(*layout);
+  if (!words.layout_word.empty() && packed && words.layout != layout) {
+    const std::string_view is = layout ? layout_name(*layout) : "one eye";
+    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.layout_word, is);
+  }
+  if (words.projection != nullptr && words.projection->setting.kind != projection.kind) {
+    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.projection_word,
+                       projection_name(projection));
+  }
+  return {};
 }
 
 }  // namespace ods

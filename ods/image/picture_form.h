@@ -26,11 +26,15 @@ struct NameWords {
 };
 NameWords read_name(const std::string& path);
 
+// Who says how the eyes share a file; those behind kFile are guesses.
+enum class LayoutSource { kPair, kCaller, kSidecar, kFile, kName, kShape, kNothing };
+
 struct LayoutGuess {
   std::optional<Layout> layout;  // none: the file is one eye
-  std::string because;           // "its name ends in _TB", to be said to people
-  bool is_certain = false;       // it says so itself, and nothing was guessed
+  LayoutSource source = LayoutSource::kNothing;
+  std::string because;  // "its name ends in _TB", to be said to people
 };
+bool is_guess(const LayoutGuess& guess);
 
 // From what the file says (ods:layout, or the channels of two views), else its name, else its shape: that of a whole
 // sphere in lat-long, cube-3x2, cube-6x1 or cube-1x6, or of what its name says; one eye, two stacked or two beside each
@@ -53,8 +57,12 @@ struct PictureForm {
   std::vector<std::string> guesses;  // "top-bottom: its name ends in _TB", to be said to people
 };
 
-// %V or %v in the path stands for two files, of which `info` is the left one's. Throws Error(kInput): a sidecar that is
-// none, an anaglyph.
+// %V or %v in the path stands for two files, of which `info` is the left one's. Throws Error(kInput): an anaglyph; a
+// sidecar that is none, unless the caller knows the layout or the projection.
 PictureForm find_form(const FileInfo& info, const std::string& path, const KnownForm& known);
+
+// What a file's name would make readers believe that is not so, in words for people: "its name ends in _LR, ...".
+// Empty where it agrees or says nothing. `layout`: none of one eye.
+std::string name_fault(const std::string& path, std::optional<Layout> layout, const ProjectionSetting& projection);
 
 }  // namespace ods

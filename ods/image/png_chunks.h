@@ -4,11 +4,11 @@
 // What OpenImageIO does not do for PNG. ISO/IEC 15948 (PNG); Adobe, "XMP Specification Part 3" for the XMP chunk.
 #pragma once
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ods/base/read_file.h"
 #include "ods/image/attribute.h"
 
 namespace ods {
@@ -21,9 +21,6 @@ std::string gpano_chunk(const std::vector<Attribute>& attributes);
 
 // Where a chunk may be put in a PNG: right behind its header chunk.
 inline constexpr size_t kPngAfterHeader = 33;
-
-// Copies `size` bytes of a file from an offset on; false: it has not so many.
-using ByteReader = std::function<bool(size_t offset, void* to, size_t size)>;
 
 struct FileRange {
   size_t offset = 0;

@@ -70,6 +70,8 @@ bool is_full_lat_long(const ProjectionSetting& setting) {
   return setting.kind == kLatLong && same_numbers(setting, of_kind(kLatLong));
 }
 
+constexpr float kLeastRange = 0.01f;  // degrees
+
 std::string projection_fault(const ProjectionSetting& setting) {
   if (has_range(setting.kind)) {
     const float limit = setting.kind == kLatLong ? 90.0f : 89.0f;
@@ -78,6 +80,9 @@ std::string projection_fault(const ProjectionSetting& setting) {
     if (!(setting.latitude.x >= -limit && setting.latitude.x < setting.latitude.y && setting.latitude.y <= limit)) {
       return setting.kind == kLatLong ? "latitudes run from bottom to top within -90 and 90 degrees"
                                       : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
+    }
+    if (turn < kLeastRange || setting.latitude.y - setting.latitude.x < kLeastRange) {
+      return "a part of the sphere is at least 0.01 degrees wide and high";
     }
   }
   if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= 360.0f))

@@ -10,12 +10,15 @@
 
 namespace ods {
 
-// Depths are compared as 1/metres: nearly even over a plane's picture, and 0 where nothing was met.
-static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
+static float depth_at(const Reprojection& reprojection, const Texel& texel) {
   const LayerPixels& layer =
       reprojection.source->picture->eyes[static_cast<size_t>(texel.eye)].layers[reprojection.layer];
-  const float depth =
-      sample_value(layer.sample, layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride);
+  return sample_value(layer.sample, layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride);
+}
+
+// Depths are compared as 1/metres: nearly even over a plane's picture, and 0 where nothing was met.
+static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
+  const float depth = depth_at(reprojection, texel);
   return depth > 0.0f && depth < 0.1f * kFarDepth ? 1.0f / depth : 0.0f;
 }
 
@@ -30,12 +33,15 @@ std::optional<size_t> depth_layer(const StoredPicture& picture) {
 
 Reprojection make_reprojection(const Source& source) {
   assert(depth_layer(*source.picture));
-  Reprojection reprojection{&source, *depth_layer(*source.picture), 0.0f};
+  Reprojection reprojection{&source, *depth_layer(*source.picture)};
   const Extent size = source.picture->size;
   float largest = 1e-6f;
   for (int eye = 0; eye < static_cast<int>(source.picture->eyes.size()); eye++) {
     for (int y = 0; y < size.height; y++) {
-      for (int x = 0; x < size.width; x++) largest = std::max(largest, nearness_at(reprojection, {eye, x, y}));
+      for (int x = 0; x < size.width; x++) {
+        largest = std::max(largest, nearness_at(reprojection, {eye, x, y}));
+        if (!(depth_at(reprojection, {eye, x, y}) > 0.0f)) reprojection.no_depth++;
+      }
     }
   }
   reprojection.nearest = std::max(1.0f / largest, 0.01f);
@@ -117,7 +123,7 @@ Curve make_curve(const Source& source, int eye, const Ray& ray, float most) {
 }
 
 // The first crossing from before the surface to behind it, from near to far, by steps of about a texel.
-std::optional<Meeting3d> first_meeting(const Reprojection& reprojection, const Curve& curve) {
+std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const Curve& curve) {
   const float length_of_curve = length(curve.at_near.place.at - curve.at_middle.place.at) +
                                 length(curve.at_middle.place.at - curve.at_far.place.at);
   const int steps = curve.is_parabola ? 1 + static_cast<int>(std::min(length_of_curve, 4000.0f)) : 64;
@@ -142,7 +148,7 @@ std::optional<Meeting3d> first_meeting(const Reprojection& reprojection, const C
         (off > 0.0f ? above : below) = off;
       }
       const float met = low + (high - low) * (-below / std::max(above - below, 1e-20f));
-      return Meeting3d{curve.at(met).place, met > kLeastNearness ? 1.0f / met : kFarDepth};
+      return SurfaceHit{curve.at(met).place, met > kLeastNearness ? 1.0f / met : kFarDepth};
     }
     before = ahead > 0.0f;
     last_nearness = nearness, last_surface = surface, last_ahead = ahead;
@@ -152,7 +158,7 @@ std::optional<Meeting3d> first_meeting(const Reprojection& reprojection, const C
 
 }  // namespace
 
-Meeting3d meet_surface(const Reprojection& reprojection, int eye, const Ray& ray) {
+SurfaceHit meet_surface(const Reprojection& reprojection, int eye, const Ray& ray) {
   const Source& source = *reprojection.source;
   // The ray may start nearer to things than the picture's own.
   const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));

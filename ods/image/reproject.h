@@ -7,6 +7,7 @@
 // the surface breaks off the ray may pass behind it, and what it meets there its own eye has not seen; the other eye
 // may have. What neither has seen is a hole.
 #pragma once
+#include <cstdint>
 #include <optional>
 
 #include "ods/image/source.h"
@@ -17,6 +18,7 @@ struct Reprojection {
   const Source* source = nullptr;
   size_t layer = 0;      // of the depth
   float nearest = 0.0f;  // metres: nothing in the picture is nearer
+  int64_t no_depth = 0;  // pixels whose depth is no distance (NaN, 0 or less): as if nothing were there
 };
 
 // The index of the layer of metres along the ray (Z, as save.h has it).
@@ -25,13 +27,13 @@ std::optional<size_t> depth_layer(const StoredPicture& picture);
 // Reads all depths once. Precondition: there is a depth layer. The source stays where it is.
 Reprojection make_reprojection(const Source& source);
 
-struct Meeting3d {
+struct SurfaceHit {
   Place place;
   float depth = kFarDepth;  // along the ray
 };
 
 // What a ray from around the centre meets, in the picture of the eye of an index if it shows there, else in the
 // other's. Not seen: a hole. Precondition: a direction of unit length.
-Meeting3d meet_surface(const Reprojection& reprojection, int eye, const Ray& ray);
+SurfaceHit meet_surface(const Reprojection& reprojection, int eye, const Ray& ray);
 
 }  // namespace ods

@@ -38,8 +38,8 @@ struct Tent {
 // Points whose variance is the tent's own, radius^2 / 6.
 static Tent make_tent(float variance_of_6) {
   Tent tent;
-  const float radius = std::sqrt(std::max(variance_of_6, 0.0f));
-  if (radius < kLeastRadius) return tent;
+  if (variance_of_6 < kLeastRadius * kLeastRadius) return tent;
+  const float radius = std::sqrt(variance_of_6);
   tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * radius)), kMostPoints);
   float sum = 0.0f, squares = 0.0f;
   for (int i = 0; i < tent.count; i++) {
@@ -81,17 +81,15 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
 
 // --- texels --------------------------------------------------------------------------------------------------------
 
-template <class T>
-static std::vector<float> make_table(float (*decode)(T)) {
-  std::vector<float> table;
-  for (int i = 0; i <= std::numeric_limits<T>::max(); i++) table.push_back(decode(static_cast<T>(i)));
-  return table;
+static std::vector<float> light_of_halves() {
+  std::vector<float> light;
+  for (int bits = 0; bits < 1 << 16; bits++) {
+    light.push_back(finite(glm::unpackHalf1x16(static_cast<uint16_t>(bits)), -65504.0f, 65504.0f));
+  }
+  return light;
 }
 
-static float finite(float value) {
-  if (std::isnan(value)) return 0.0f;
-  return std::clamp(value, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max());
-}
+constexpr float kMost = std::numeric_limits<float>::max();
 
 // Samples of a file to light and to numbers. Whoever reads many asks for the table once.
 template <class T>
@@ -99,8 +97,7 @@ struct Codes {
   using Type = T;
   static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
   static const float* table() {
-    static const std::vector<float> kTable =
-        make_table<T>([](T c) { return srgb_decode(static_cast<float>(c) / std::numeric_limits<T>::max()); });
+    static const std::vector<float> kTable = light_of_codes(std::numeric_limits<T>::max());
     return kTable.data();
   }
   static float light(const float* table, T code) { return table[code]; }
@@ -111,10 +108,7 @@ struct Halves {
   using Type = uint16_t;
   static constexpr bool kIsAssociated = true;
   static const float* table() {
-    static const std::vector<float> kTable = make_table<uint16_t>([](uint16_t b) {
-      const float value = glm::unpackHalf1x16(b);
-      return std::isnan(value) ? 0.0f : std::clamp(value, -65504.0f, 65504.0f);
-    });
+    static const std::vector<float> kTable = light_of_halves();
     return kTable.data();
   }
   static float light(const float* table, uint16_t bits) { return table[bits]; }
@@ -125,8 +119,8 @@ struct Floats {
   using Type = float;
   static constexpr bool kIsAssociated = true;
   static const float* table() { return nullptr; }
-  static float light(const float*, float value) { return finite(value); }
-  static float number(float value) { return finite(value); }
+  static float light(const float*, float value) { return finite(value, -kMost, kMost); }
+  static float number(float value) { return finite(value, -kMost, kMost); }
 };
 
 template <class Samples>
@@ -155,20 +149,22 @@ static Four read_light(const float* table, const std::byte* texel) {
   return value * share;
 }
 
-template <class Samples, int kCount, bool kAlpha>
-static void add_texels(const std::byte* const* texels, const float* across, const float* down, float weight,
-                       float* sums) {
+// What is between texels is not beyond them: the cubic's overshoot is cut.
+template <class Samples, int kCount, bool kAlpha, class Block>
+static void add_texels(const Block& block, const TexelFilter& filter, float weight, float* sums) {
   const float* table = Samples::table();
-  Four low = read_light<Samples, kCount, kAlpha>(table, texels[0]), high = low, sum{};
-  for (int y = 0; y < 4; y++) {
+  Four low = read_light<Samples, kCount, kAlpha>(table, block.first), high = low, sum{};
+  const std::byte* start = block.first;
+  for (int y = 0; y < filter.down.count; y++, start += block.row_stride) {
     Four row{};
-    for (int x = 0; x < 4; x++) {
-      const Four value = read_light<Samples, kCount, kAlpha>(table, texels[4 * y + x]);
-      row += value * across[x];
+    const std::byte* texel = start;
+    for (int x = 0; x < filter.across.count; x++, texel += block.pixel_stride) {
+      const Four value = read_light<Samples, kCount, kAlpha>(table, texel);
+      row += value * filter.across.weights[x];
       low = value < low ? value : low;
       high = value > high ? value : high;
     }
-    sum += row * down[y];
+    sum += row * filter.down.weights[y];
   }
   sum = sum > low ? sum : low;  // NaN too, of numbers near the largest
   sum = sum < high ? sum : high;
@@ -180,28 +176,30 @@ static void read_numbers(const std::byte* texel, int count, float* out) {
   for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
 }
 
-using AddTexels = void (*)(const std::byte* const*, const float*, const float*, float, float*);
+template <class Block>
+using AddTexels = void (*)(const Block&, const TexelFilter&, float, float*);
 
-template <class Samples>
-static AddTexels adder(int count, bool alpha) {
-  if (alpha) return count == 4 ? add_texels<Samples, 4, true> : add_texels<Samples, 2, true>;
-  if (count == 1) return add_texels<Samples, 1, false>;
-  if (count == 2) return add_texels<Samples, 2, false>;
-  return count == 3 ? add_texels<Samples, 3, false> : add_texels<Samples, 4, false>;
+template <class Samples, class Block>
+static AddTexels<Block> adder(int count, bool alpha) {
+  if (alpha) return count == 4 ? add_texels<Samples, 4, true, Block> : add_texels<Samples, 2, true, Block>;
+  if (count == 1) return add_texels<Samples, 1, false, Block>;
+  if (count == 2) return add_texels<Samples, 2, false, Block>;
+  return count == 3 ? add_texels<Samples, 3, false, Block> : add_texels<Samples, 4, false, Block>;
 }
 
-static AddTexels adder_of(Sample sample, int count, bool alpha) {
+template <class Block>
+static AddTexels<Block> adder_of(Sample sample, int count, bool alpha) {
   switch (sample) {
     case Sample::kUint8:
-      return adder<Codes<uint8_t>>(count, alpha);
+      return adder<Codes<uint8_t>, Block>(count, alpha);
     case Sample::kUint16:
-      return adder<Codes<uint16_t>>(count, alpha);
+      return adder<Codes<uint16_t>, Block>(count, alpha);
     case Sample::kHalf:
-      return adder<Halves>(count, alpha);
+      return adder<Halves, Block>(count, alpha);
     case Sample::kFloat:
       break;
   }
-  return adder<Floats>(count, alpha);
+  return adder<Floats, Block>(count, alpha);
 }
 
 static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
@@ -220,7 +218,7 @@ static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
 
 // --- layers --------------------------------------------------------------------------------------------------------
 
-Resampler::Resampler(const Source& source) : source_(source) {
+Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
   const std::vector<LayerPixels>& layers = source.picture->eyes[0].layers;
   for (size_t i = 0; i < layers.size(); i++) {
     const LayerPixels& layer = layers[i];
@@ -229,15 +227,17 @@ Resampler::Resampler(const Source& source) : source_(source) {
     const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
     for (int first = 0; first < all; first += 4) {
       const int count = std::min(all - first, 4);
-      const Group group{adder_of(layer.sample, count, alpha),
+      const Group group{adder_of<Block>(layer.sample, count, alpha),
                         reader_of(layer.sample),
                         i,
                         first * static_cast<ptrdiff_t>(bytes_of(layer.sample)),
                         channels_ + first,
-                        count};
+                        count,
+                        count * static_cast<ptrdiff_t>(bytes_of(layer.sample))};
       (layer.rule == LayerRule::kNearest ? nearest_ : mixed_).push_back(group);
     }
     channels_ += all;
+    if (i == 0 && adds_alpha) added_alpha_ = channels_++;
   }
 }
 
@@ -261,49 +261,97 @@ struct Position {
 // A place this near to the middle of a texel is meant to be there: angles and their way back leave that much.
 static Position split(float at) {
   const float kTolerance = 1.0f / 256.0f;
-  const float from = at - 0.5f, whole = std::floor(from), beyond = from - whole;
-  if (beyond < kTolerance) return {static_cast<int>(whole), 0.0f};
-  if (beyond > 1.0f - kTolerance) return {static_cast<int>(whole) + 1, 0.0f};
-  return {static_cast<int>(whole), beyond};
+  const float from = at - 0.5f;
+  const int towards_0 = static_cast<int>(from), whole = towards_0 - (static_cast<float>(towards_0) > from ? 1 : 0);
+  const float beyond = from - static_cast<float>(whole);
+  if (beyond < kTolerance) return {whole, 0.0f};
+  if (beyond > 1.0f - kTolerance) return {whole + 1, 0.0f};
+  return {whole, beyond};
 }
 
-// Whether 4x4 texels are all of a cell's. A fisheye's circle has them if it has their corners.
-static bool has_all(const Source& source, const Cell& cell, int left, int top) {
-  if (left < cell.left || left + 3 >= cell.right || top < cell.top || top + 3 >= cell.bottom) return false;
+// Whether a filter's texels are all of a cell's. A fisheye's circle has them if it has their corners.
+static bool has_all(const Source& source, const Cell& cell, const TexelFilter& filter) {
+  const int left = filter.across.first, right = left + filter.across.count - 1;
+  const int top = filter.down.first, bottom = top + filter.down.count - 1;
+  if (left < cell.left || right >= cell.right || top < cell.top || bottom >= cell.bottom) return false;
   if (!is_fisheye(source.camera.projection.kind)) return true;
-  return has_texel(source, cell, left, top) && has_texel(source, cell, left + 3, top) &&
-         has_texel(source, cell, left, top + 3) && has_texel(source, cell, left + 3, top + 3);
+  return has_texel(source, cell, left, top) && has_texel(source, cell, right, top) &&
+         has_texel(source, cell, left, bottom) && has_texel(source, cell, right, bottom);
+}
+
+Resampler::Block Resampler::block_at(const Group& group, int eye, const TexelFilter& filter) const {
+  const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(eye)].layers[group.layer];
+  return {address(layer, filter.across.first, filter.down.first) + group.offset, layer.pixel_stride, layer.row_stride};
+}
+
+static void set_weights(float at, const Tent& tent, TexelWeights& to) {
+  if (tent.count == 1) {
+    const Position position = split(at);
+    to.first = position.texel - 1;
+    to.count = 4;
+    cubic_weights(position.beyond, to.weights);
+    return;
+  }
+  to.first = split(at + tent.at(0)).texel - 1;
+  to.count = split(at + tent.at(tent.count - 1)).texel + 2 - to.first + 1;
+  std::fill_n(to.weights, to.count, 0.0f);
+  for (int i = 0; i < tent.count; i++) {
+    const Position position = split(at + tent.at(i));
+    float cubic[4];
+    cubic_weights(position.beyond, cubic);
+    float* weights = to.weights + (position.texel - 1 - to.first);
+    for (int k = 0; k < 4; k++) weights[k] += cubic[k] * tent.weight(i);
+  }
+}
+
+std::optional<TexelFilter> texel_filter(const Footprint& footprint, vec2 at) {
+  // Beyond it the ellipse leans so far that columns and rows tell another one.
+  const float kMostLean = 0.1f;
+  // A filter this wide has fewer texels than there is room for.
+  const float kMostRadius = 12.0f;
+  const vec2 dx = footprint.dx, dy = footprint.dy;
+  const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  const bool fits = xx + yy < kMostRadius * kMostRadius && xy * xy <= kMostLean * kMostLean * xx * yy;
+  if (!fits) return std::nullopt;
+  TexelFilter filter;
+  set_weights(at.x, make_tent(xx - 1.0f), filter.across);
+  set_weights(at.y, make_tent(yy - 1.0f), filter.down);
+  return filter;
 }
 
 void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
-  const Position x = split(place.at.x), y = split(place.at.y);
-  float across[4], down[4];
-  cubic_weights(x.beyond, across);
-  cubic_weights(y.beyond, down);
-  const int left = x.texel - 1, top = y.texel - 1;
-  const bool inside = has_all(source_, cell, left, top);
+  TexelFilter filter;
+  set_weights(place.at.x, Tent(), filter.across);
+  set_weights(place.at.y, Tent(), filter.down);
+  const int left = filter.across.first, top = filter.down.first;
+  const bool inside = has_all(source_, cell, filter);
   Texel around[16];
   for (int i = 0; i < 16 && !inside; i++) {
     around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
   }
-  const std::byte* texels[16];
   for (const Group& group : mixed_) {
     if (inside) {
-      const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(place.eye)].layers[group.layer];
-      const std::byte* first = address(layer, left, top) + group.offset;
-      for (int i = 0; i < 16; i++) texels[i] = first + (i / 4) * layer.row_stride + (i % 4) * layer.pixel_stride;
-    } else {
-      for (int i = 0; i < 16; i++) {
-        const Texel& t = around[i];
-        const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(t.eye)].layers[group.layer];
-        texels[i] = address(layer, t.x, t.y) + group.offset;
-      }
+      group.add(block_at(group, place.eye, filter), filter, weight, sums + group.first);
+      continue;
     }
-    group.add(texels, across, down, weight, sums + group.first);
+    std::byte gathered[16 * 4 * sizeof(float)];
+    const ptrdiff_t size = group.size;
+    for (int i = 0; i < 16; i++) {
+      const Texel& t = around[i];
+      const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(t.eye)].layers[group.layer];
+      std::memcpy(gathered + i * size, address(layer, t.x, t.y) + group.offset, static_cast<size_t>(size));
+    }
+    group.add({gathered, size, 4 * size}, filter, weight, sums + group.first);
   }
 }
 
-void Resampler::set_nearest(const Place& place, float* out) const {
+bool Resampler::add(int eye, const TexelFilter& filter, const Cell& cell, float* sums) const {
+  if (!has_all(source_, cell, filter)) return false;
+  for (const Group& group : mixed_) group.add(block_at(group, eye, filter), filter, 1.0f, sums + group.first);
+  return true;
+}
+
+void Resampler::finish(const Place& place, float* out) const {
   const Extent size = source_.picture->size;
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
@@ -311,6 +359,7 @@ void Resampler::set_nearest(const Place& place, float* out) const {
     const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(place.eye)].layers[group.layer];
     group.read(address(layer, x, y) + group.offset, group.count, out + group.first);
   }
+  if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
 }
 
 }  // namespace ods

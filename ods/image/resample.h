@@ -11,6 +11,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "ods/image/source.h"
@@ -32,24 +33,45 @@ struct FilterPoint {
 // The points over which a pixel is summed; their weights are 1 together. `points` is overwritten.
 void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points);
 
+// The same of a footprint whose axes are about the picture's own, for which columns and rows have weights each by
+// themselves: a sixth of the work. Nothing of other footprints, and of very large ones.
+struct TexelWeights {
+  int first = 0;  // column or row of the first weight
+  int count = 0;
+  float weights[32];
+};
+struct TexelFilter {
+  TexelWeights across, down;
+};
+std::optional<TexelFilter> texel_filter(const Footprint& footprint, vec2 at);
+
 // Reads every layer at once; their channels follow each other.
 class Resampler {
  public:
-  // Precondition: every eye of the picture has the same layers.
-  explicit Resampler(const Source& source);
+  // With adds_alpha there is one more channel, behind the colour's, for who sees more than the picture does.
+  // Precondition: every eye of the picture has the same layers; adds_alpha: its colour has no alpha.
+  explicit Resampler(const Source& source, bool adds_alpha = false);
 
   int channels() const { return channels_; }
 
   // Adds what a place of a cell shows, by its weight. Layers that must not be averaged are left alone.
   void add(const Place& place, const Cell& cell, float weight, float* sums) const;
 
-  // Sets those layers, to the texel of the place.
-  void set_nearest(const Place& place, float* out) const;
+  // The same of a pixel with a filter of its own. False, and nothing added: the filter leaves the cell.
+  bool add(int eye, const TexelFilter& filter, const Cell& cell, float* sums) const;
+
+  // Sets what add() leaves alone: those layers, to the texel of the place, and an alpha that is added to 1.
+  void finish(const Place& place, float* out) const;
 
  private:
-  // Adds 4x4 texels of up to 4 channels, interpolated by the weights of columns and rows.
-  using AddTexels = void (*)(const std::byte* const* texels, const float* across, const float* down, float weight,
-                             float* sums);
+  // Texels that lie as in a picture.
+  struct Block {
+    const std::byte* first;
+    ptrdiff_t pixel_stride;
+    ptrdiff_t row_stride;
+  };
+  // Adds those of up to 4 channels, by the weights of columns and rows.
+  using AddTexels = void (*)(const Block& block, const TexelFilter& filter, float weight, float* sums);
   using ReadTexel = void (*)(const std::byte* texel, int count, float* out);
 
   struct Group {
@@ -59,12 +81,16 @@ class Resampler {
     ptrdiff_t offset;  // bytes, in a texel
     int first;         // channel of the whole
     int count;
+    ptrdiff_t size;  // bytes
   };
+
+  Block block_at(const Group& group, int eye, const TexelFilter& filter) const;
 
   const Source& source_;
   std::vector<Group> mixed_;
   std::vector<Group> nearest_;
   int channels_ = 0;
+  int added_alpha_ = -1;  // its channel; below 0: there is none
 };
 
 }  // namespace ods

@@ -63,6 +63,10 @@ static void divide(std::span<std::byte> pixels, size_t channels, size_t alpha, f
   }
 }
 
+float finite(float value, float lowest, float highest) {
+  return std::isnan(value) ? 0.0f : std::clamp(value, lowest, highest);
+}
+
 void divide_by_alpha(Sample sample, std::span<std::byte> pixels, size_t channels, size_t alpha, float power) {
   assert(sample == Sample::kUint8 || sample == Sample::kUint16);
   sample == Sample::kUint8 ? divide<uint8_t>(pixels, channels, alpha, power)

@@ -14,6 +14,9 @@ size_t bytes_of(Sample sample);
 // 0..1 for integers, the number itself for floats. Any address will do.
 float sample_value(Sample sample, const std::byte* at);
 
+// A number between two others; NaN becomes 0.
+float finite(float value, float lowest, float highest);
+
 // Code values of `channels` a pixel, the colours multiplied by (alpha / largest)^power: undone, as far as rounding
 // left anything. kUint8 or kUint16.
 void divide_by_alpha(Sample sample, std::span<std::byte> pixels, size_t channels, size_t alpha, float power);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "ods/base/atomic_file.h"
@@ -127,11 +128,6 @@ static bool keeps_alpha(FileFormat format, Layout layout) {
 }
 
 // --- the pixels ----------------------------------------------------------------------------------------------------
-
-static float finite(float value, float lowest, float highest) {
-  if (std::isnan(value)) return 0.0f;
-  return std::clamp(value, lowest, highest);
-}
 
 // One file of some eyes of a picture.
 struct File {
@@ -341,7 +337,9 @@ std::vector<std::string> save_picture(const PictureRows& picture, const CameraRi
   } else {
     write(path, all);
   }
-  if (options.sidecar && rig) {
+  // One that is there already would from now on tell of a picture that is gone.
+  std::error_code ignored;
+  if (rig && (options.sidecar || std::filesystem::exists(sidecar_path(path), ignored))) {
     names.push_back(sidecar_path(path));
     const std::string text = write_camera({*rig, picture.eye, layout, picture.eyes});
     std::fwrite(text.data(), 1, text.size(), files.emplace_back(names.back()).stream());

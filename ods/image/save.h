@@ -38,7 +38,7 @@ struct SaveOptions {
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;  // of jpg and webp, 1..100
-  bool sidecar = false;   // picture.camera.json too (ods/image/camera_file.h)
+  bool sidecar = false;   // picture.camera.json too (ods/image/camera_file.h); one that is there is always written anew
 };
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a

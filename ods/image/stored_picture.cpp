@@ -6,13 +6,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <map>
 #include <numeric>
 
 #include "ods/base/error.h"
 #include "ods/base/scratch.h"
+#include "ods/base/text.h"
 
 namespace ods {
 
@@ -32,12 +32,6 @@ struct Plane {
   std::byte* to = nullptr;
   size_t pixel_size() const { return channels.size() * bytes_of(sample); }
 };
-
-static std::string small_letters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // `ViewLayer.Depth.Z` is Z of ViewLayer.Depth.
 static std::pair<std::string, std::string> split_name(const std::string& channel) {
@@ -199,6 +193,8 @@ static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const s
   }
   const FileInfo& info = readers[0].info();
   const View left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
+  const View bare = channels_of_view(info, "left", true);
+  if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
   if (left.contains("R") || right.contains("R")) {
     shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), only_light));
     shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), only_light));
@@ -375,6 +371,28 @@ static std::vector<StoredEye> make_eyes(const std::vector<FileShare>& shares, La
   return {make_eye(kLeft, shares[0], views[0]), make_eye(kRight, shares[0], views[1])};
 }
 
+static void leave_out_unreadable(std::vector<FileShare>& shares, const std::string& path,
+                                 std::vector<std::string>& guesses) {
+  std::vector<std::vector<std::string>> lost;
+  for (const FileShare& share : shares) {
+    for (const auto& [channel, number] : share.reader->beyond_floats()) {
+      for (const Plane& plane : share.planes) {
+        if (std::find(plane.from.begin(), plane.from.end(), channel) == plane.from.end()) continue;
+        if (std::find(lost.begin(), lost.end(), plane.channels) != lost.end()) continue;
+        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are whole numbers that no float can hold");
+        lost.push_back(plane.channels);
+        guesses.push_back(fmt::format("its channel {} has the number {}, which no float can hold: left out",
+                                      share.reader->info().channels[channel], number));
+      }
+    }
+  }
+  for (FileShare& share : shares) {
+    std::erase_if(share.planes, [&](const Plane& plane) {
+      return std::find(lost.begin(), lost.end(), plane.channels) != lost.end();
+    });
+  }
+}
+
 StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
   std::vector<RowReader> readers = open_files(path);
   const FileInfo& info = readers[0].info();
@@ -394,6 +412,7 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   keep_common(shares, path, picture.guesses);
   picture.memory = make_room(shares, info, options);
   for (RowReader& reader : readers) read_file(reader, shares, *picture.memory);
+  leave_out_unreadable(shares, path, picture.guesses);
   picture.memory->release();
   picture.eyes = make_eyes(shares, picture.layout, picture.size, form.eye);
   return picture;

@@ -64,7 +64,7 @@ struct OpenOptions {
 // them has are left out, and a guess says so. Whole numbers are floats here, exact up to 2^24.
 //
 // Throws Error(kInput): a file that cannot be read or has no colour, an anaglyph, a size that the layout or the
-// projection cannot have, eyes of two sizes, whole numbers above 2^24; Error(kOutput), Error(kMemory) as Scratch.
+// projection cannot have, eyes of two sizes; Error(kOutput), Error(kMemory) as Scratch.
 StoredPicture open_picture(const std::string& path, const OpenOptions& options = {});
 
 }  // namespace ods

@@ -4,6 +4,7 @@
 // From the scene's light to a display: exposure, tone curve, sRGB.
 #pragma once
 #include <string_view>
+#include <vector>
 
 #include "ods/kernel/math.h"
 
@@ -26,5 +27,8 @@ vec3 tone_map(vec3 light, float exposure, ToneCurve curve);
 // IEC 61966-2-1: linear 0..1 <-> encoded 0..1.
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
+
+// The light of every code value 0..largest.
+std::vector<float> light_of_codes(int largest);
 
 }  // namespace ods

@@ -14,7 +14,7 @@ struct Subject {
   std::string path;
   FileInfo info;  // of the left file of a pair
   PictureForm form;
-  std::vector<Image> eyes;  // linear light, as stored
+  std::vector<Image> eyes;  // luminance of linear light, 1 channel, as stored
   Image packed;             // the whole file, where it can be cut in other ways
   std::optional<CameraFile> sidecar;
   std::optional<Camera> camera;  // where something says how the eyes converge

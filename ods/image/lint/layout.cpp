@@ -75,16 +75,19 @@ std::vector<Cut> other_cuts(const Subject& subject) {
 void add_misread(const Subject& subject, const Cut& cut, double certainty, const std::string& evidence,
                  LintReport& report) {
   const std::string truth = cut_name(subject, cut.layout);
-  const std::string& because = subject.form.layout.because;
-  const bool in_sidecar = because.starts_with("its sidecar");
-  const bool in_name = because.starts_with("its name");
-  const bool said = in_sidecar || in_name || because.starts_with("the file");
-  const std::string cure = in_name      ? fmt::format("rename the file: it is {}", truth)
-                           : in_sidecar ? fmt::format("correct the sidecar: it is {}", truth)
-                           : said       ? fmt::format("correct what the file says: it is {}", truth)
-                                        : fmt::format("read it as {} (--layout {})", truth, truth);
-  report.findings.push_back(
-      {said ? Fault::kMetadata : Fault::kLayoutMisread, certainty, evidence + ", " + because, cure});
+  const auto [fault, cure] = [&]() -> std::pair<Fault, std::string> {
+    switch (subject.form.layout.source) {
+      case LayoutSource::kName:
+        return {Fault::kMetadata, fmt::format("rename the file: it is {}", truth)};
+      case LayoutSource::kSidecar:
+        return {Fault::kMetadata, fmt::format("correct the sidecar: it is {}", truth)};
+      case LayoutSource::kFile:
+        return {Fault::kMetadata, fmt::format("correct what the file says: it is {}", truth)};
+      default:
+        return {Fault::kLayoutMisread, fmt::format("read it as {} (--layout {})", truth, truth)};
+    }
+  }();
+  report.findings.push_back({fault, certainty, evidence + ", " + subject.form.layout.because, cure});
 }
 
 }  // namespace

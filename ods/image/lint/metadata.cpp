@@ -32,7 +32,7 @@ static void check_name(const Subject& subject, LintReport& report) {
   FileInfo no_words = subject.info;
   no_words.text.clear(), no_words.channels.clear();
   const LayoutGuess named = guess_layout(no_words, subject.path);
-  if (!named.because.starts_with("its name") || names_eye(subject.path) || named.layout == report.layout) return;
+  if (named.source != LayoutSource::kName || names_eye(subject.path) || named.layout == report.layout) return;
   const Extent size = report.file;
   if (named.layout) {
     const std::optional<Extent> other = unpacked_size(*named.layout, size);

@@ -27,7 +27,7 @@ struct Parallax {
   double theta = 0.0;
   double phi = 0.0;
   double angle = 0.0;  // radians, of a parallel pair
-  double sign = 0.0;   // -1..1: near 0 where the angle is no more than the precision
+  double sign = 0.0;   // -1..1: near 0 where the angle is less than the precision
   double weight = 0.0;
   int sector = 0;
 };
@@ -70,7 +70,8 @@ void add_matches(Parallaxes& parallaxes, const Matches& matches, const Subject& 
     each.theta = static_cast<double>(match.theta);
     each.phi = static_cast<double>(match.phi);
     each.angle = static_cast<double>(match.around) + convergence_at(subject, each.phi);
-    each.sign = std::tanh(each.angle / (kPrecision * static_cast<double>(matches.pixel)));
+    const double in_precisions = each.angle / (kPrecision * static_cast<double>(matches.pixel));
+    each.sign = std::copysign(std::tanh(in_precisions * in_precisions), in_precisions);
     each.sector = std::clamp(static_cast<int>((each.theta / kPi2 + 0.5) * kSectors), 0, kSectors - 1);
     parallaxes.all.push_back(each);
   }
@@ -156,9 +157,9 @@ Stillness stillness_of(const Matches& matches) {
     moving += 1.0;
     sense += angle > still.middle ? 1.0 : -1.0;
   }
-  const double alive = std::abs(sense) / (6.0 * std::sqrt(moving + 1.0));
+  const double alive = std::clamp(0.5 * (std::abs(sense) / std::sqrt(moving + 1.0) - 1.0), 0.0, 1.0);
   still.certainty = count / (count + 10.0) * std::max(0.0, 1.0 - still.spread / 0.4) *
-                    std::max(0.0, 1.0 - 2.0 * std::abs(balance)) * std::max(0.0, 1.0 - alive);
+                    std::max(0.0, 1.0 - 2.0 * std::abs(balance)) * (1.0 - alive);
   return still;
 }
 
@@ -181,6 +182,9 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
     least = still;
     degrees = static_cast<double>(matches.pixel) * 360.0 / kPi2;
   }
+  // In small pictures things that are merely far stand still, too.
+  const double width = kPi2 / static_cast<double>(scales.back().pixel);
+  least.certainty *= std::clamp((width - 256.0) / 768.0, 0.0, 1.0);
   if (least.certainty < 0.1) return false;
   report.findings.push_back(
       {Fault::kOneEyeTwice, least.certainty,

@@ -25,8 +25,7 @@ Columns mean_row(const Image& eye, int from, int to) {
   Columns mean(static_cast<size_t>(eye.width));
   for (int y = from; y < to; y++) {
     for (int x = 0; x < eye.width; x++) {
-      const float* pixel = eye.at(x, y);
-      const float light = 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2];
+      const float light = *eye.at(x, y);
       const float shown = std::isnan(light) ? 0.0f : srgb_encode(std::clamp(light, 0.0f, 1.0f));
       mean[static_cast<size_t>(x)] += static_cast<double>(shown) / (to - from);
     }

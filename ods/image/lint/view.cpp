@@ -12,15 +12,9 @@
 
 namespace ods {
 
-static float luminance(const float* rgb) {
-  return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-}
-
 // Pixels that the eye has for the 360 degrees around the horizon, or would have if it reached so far.
 static double pixels_around(const ProjectionSetting& setting, int width) {
-  if (has_range(setting.kind)) return width * 360.0 / static_cast<double>(setting.longitude.y - setting.longitude.x);
-  if (has_lens(setting.kind)) return width * 360.0 / static_cast<double>(setting.fov);
-  return width * 4.0 / cube_columns(setting.kind);
+  return 2.0 * std::numbers::pi * pixels_per_radian(setting, width);
 }
 
 // Light has no largest value: it is scaled so that its geometric mean becomes a middle grey.
@@ -28,8 +22,8 @@ static float exposure_of(const std::vector<Image>& eyes) {
   double sum = 0.0;
   int64_t count = 0;
   for (const Image& eye : eyes) {
-    for (size_t i = 0; i < eye.pixels.size(); i += 3 * 61) {
-      const float light = luminance(&eye.pixels[i]);
+    for (size_t i = 0; i < eye.pixels.size(); i += 61) {
+      const float light = eye.pixels[i];
       if (!(light > 0.0f && light < 1e30f)) continue;
       sum += std::log(static_cast<double>(light));
       count++;
@@ -79,7 +73,7 @@ class Sampler {
 static float mean_grey(const Image& eye, const std::vector<size_t>& places, float exposure) {
   float sum = 0.0f;
   for (size_t place : places) {
-    const float light = luminance(&eye.pixels[3 * place]) * exposure;
+    const float light = eye.pixels[place] * exposure;
     sum += std::isinf(light) ? std::numeric_limits<float>::quiet_NaN() : std::min(light, 1.0f);
   }
   return srgb_encode(sum / static_cast<float>(places.size()));  // of no place: NaN
@@ -87,7 +81,7 @@ static float mean_grey(const Image& eye, const std::vector<size_t>& places, floa
 
 std::vector<View> make_views(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
                              int max_width) {
-  assert(!eyes.empty() && eyes[0].channels == 3);
+  assert(!eyes.empty() && eyes[0].channels == 1);
   const int detail = static_cast<int>(pixels_around(projection, eyes[0].width));
   const int width = std::clamp(detail / 4 * 4, 4, max_width);
   Sampler sampler(projection, eyes[0], width);

@@ -15,7 +15,7 @@ namespace ods {
 using View = Image;
 
 // Two eyes are shown with one exposure. Never more than max_width wide, nor wider than the eyes have detail for.
-// Precondition: one or two eyes of one size, 3 channels.
+// Precondition: one or two eyes of one size, 1 channel.
 std::vector<View> make_views(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
                              int max_width);
 

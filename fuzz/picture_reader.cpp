@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// libFuzzer on the reader of pictures, and on converting them: any bytes are a picture or say why not, and what is made
+// of one has no NaN.
+//   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_picture_reader
+//   build/fuzz/fuzz_picture_reader -max_len=16384 folder/of/small/pictures
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "ods/base/error.h"
+#include "ods/image/convert.h"
+
+constexpr int kManyPixels = 1 << 16;  // converting more takes too long to try many
+
+static void convert_picture(const ods::StoredPicture& picture) {
+  ods::ConvertTarget target;
+  target.rig = picture.rig;
+  target.rig.projection = ods::find_projection("cube-3x2")->setting;
+  target.eye = {24, 16};
+  target.eyes = {ods::kMono};
+  if (!ods::conversion_fault(picture, target).empty()) return;
+  const ods::Conversion conversion = ods::convert(picture, target);
+  size_t channels = 0;
+  for (const ods::RowLayer& layer : conversion.rows.layers) channels += layer.channels.size();
+  std::vector<float> row(24 * channels);
+  for (int y = 0; y < 16; y++) {
+    conversion.rows.fill(0, y, row);
+    if (std::any_of(row.begin(), row.end(), [](float value) { return std::isnan(value); })) std::abort();
+  }
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const int file = memfd_create("picture", MFD_CLOEXEC);
+  if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) std::abort();
+  try {
+    const std::string path = "/proc/self/fd/" + std::to_string(file);
+    const ods::FileInfo info = ods::read_info(path);
+    if (int64_t{info.width} * info.height <= kManyPixels) convert_picture(ods::open_picture(path));
+  } catch (const ods::Error&) {
+  }
+  close(file);
+  return 0;
+}
