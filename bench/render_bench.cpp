@@ -17,6 +17,7 @@
 #include "ods/cpu/render.h"
 #include "ods/scene/lights.h"
 #include "ods/scene/load.h"
+#include "ods/scene/shutter.h"
 
 namespace {
 
@@ -211,6 +212,36 @@ void two_threads_against_one(benchmark::State& state, const Subject& subject) {
   }
 }
 
+// What a frame of a film costs beside tracing it: the scene at another time, its trees and lights, against making them
+// all as for a first frame. The built-in toys, or a scene that stands still.
+void frame_overhead(benchmark::State& state, const Subject& subject) {
+  const bool moves = std::string_view(subject.name) == "toys";
+  Scene scene = moves ? load_scene("toys", {}) : load(subject);
+  play(scene.animation, "");
+  const auto start = std::chrono::steady_clock::now();
+  const auto milliseconds = [](auto since) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+  };
+  CpuRenderer renderer(scene);
+  const double first = milliseconds(start);
+  constexpr int kFrames = 48;
+  for (auto _ : state) {
+    auto since = std::chrono::steady_clock::now();
+    for (int frame = 0; frame < kFrames; frame++) renderer.update(set_time(scene, frame / 24.0));
+    state.counters["ms_per_frame"] = milliseconds(since) / kFrames;
+    since = std::chrono::steady_clock::now();
+    for (int frame = 0; frame < kFrames; frame++) set_time(scene, frame / 24.0);
+    state.counters["ms_of_it_posing"] = milliseconds(since) / kFrames;
+    state.counters["ms_first_frame"] = first;
+  }
+  open_shutter(scene, 0.0, 0.02);
+  CpuRenderer blurred(scene);
+  const auto since = std::chrono::steady_clock::now();
+  for (int frame = 0; frame < kFrames; frame++) blurred.update(open_shutter(scene, frame / 24.0, frame / 24.0 + 0.02));
+  state.counters["ms_per_blurred_frame"] = milliseconds(since) / kFrames;
+  state.counters["triangles"] = static_cast<double>(scene.triangles.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -227,6 +258,13 @@ int main(int argc, char** argv) {
           ->Iterations(1)
           ->Unit(benchmark::kSecond);
     }
+  }
+  static constexpr Subject kToys{"toys", "", {}, 0.0};
+  for (const Subject* subject : {&kToys, &kSubjects[0]}) {
+    const auto run = [subject](benchmark::State& state) { frame_overhead(state, *subject); };
+    benchmark::RegisterBenchmark((std::string("frame_overhead/") + subject->name).c_str(), run)
+        ->Iterations(1)
+        ->Unit(benchmark::kSecond);
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

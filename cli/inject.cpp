@@ -11,6 +11,7 @@
 #include "cli/form_options.h"
 #include "cli/interrupt.h"
 #include "ods/base/suggest.h"
+#include "ods/video/encode.h"
 #include "ods/video/film_form.h"
 
 using ods::FilmForm, ods::FilmProjection;
@@ -34,7 +35,7 @@ struct InjectJob {
   FilmForm form;
   std::optional<int> track;
   float yaw = 0.0f, pitch = 0.0f, roll = 0.0f;
-  bool remove = false;
+  bool remove = false, ambisonics = false;
 };
 
 void parse_projection(const std::string& name, FilmForm& form) {
@@ -68,11 +69,13 @@ bool read_options(InjectJob& job, int argc, char** argv) {
   options.number("--pitch", job.pitch, -90.0f, 90.0f, "and up");
   options.number("--roll", job.roll, -180.0f, 180.0f, "and clockwise");
   options.number("--track", job.track, 0, 2147483647, "of several video tracks, by its number (the largest picture)");
+  options.flag("--ambisonics", job.ambisonics,
+               "its sound of four channels is first-order ambisonics (AmbiX: W Y Z X, SN3D); of mp4 and mov");
   options.flag("--remove", job.remove, "make it say nothing");
   options.group("Console");
   options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   if (!options.parse(argc, argv)) return false;
-  for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll"}) {
+  for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics"}) {
     if (job.remove && options.given(other)) throw UsageError(fmt::format("--remove leaves nothing for {}", other));
   }
   if (layout == "mono") job.form.stereo = ods::FilmStereo::kOneView;
@@ -94,6 +97,20 @@ void say_what_is_written(const FilmForm& form, const ods::TagResult& result, ods
   }
 }
 
+// What the sound is to say; nothing where it is left as it is.
+std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::FilmInfo& film) {
+  if (!job.ambisonics) return std::nullopt;
+  const bool has_boxes = film.container == ods::Container::kMp4 || film.container == ods::Container::kMov;
+  if (!has_boxes) throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus says it by itself");
+  const bool is_alone = film.sound.size() == 1;
+  if (!is_alone)
+    throw UsageError(fmt::format("--ambisonics: '{}' has {} tracks of sound, not one", job.file, film.sound.size()));
+  const int channels = ods::read_sound_info(job.file).channels;
+  if (channels != 4)
+    throw UsageError(fmt::format("--ambisonics takes sound of 4 channels; '{}' has {}", job.file, channels));
+  return ods::Ambisonics();
+}
+
 void inject(int argc, char** argv) {
   InjectJob job;
   if (!read_options(job, argc, argv)) return;
@@ -109,7 +126,7 @@ void inject(int argc, char** argv) {
     form->roll = static_cast<double>(job.roll);
     form->source = "Omnistereo";
   }
-  const ods::TagResult result = tag_film(job.file, job.output, track.id, form);
+  const ods::TagResult result = tag_film(job.file, job.output, track.id, form, wished_sound(job, film));
   for (const std::string& guess : guesses) note(guess);
   if (form) say_what_is_written(*form, result, film.container);
   std::cout << job.output << std::endl;

@@ -4,16 +4,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 
 #include "cli/console.h"
+#include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "ods/base/frames.h"
 #include "ods/cpu/render.h"
 #include "ods/image/layout.h"
 #include "ods/kernel/random.h"
+#include "ods/scene/shutter.h"
 
 using ods::FrameNames;
 
@@ -61,9 +64,10 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
 }
 
 void check_outputs(const RenderJob& job) {
-  const bool film = asks_for_film(job.time);
-  ods::check_output(film ? name_frames(job).path(0) : job.output, job.save, ods::eye_list(job.render.eyes),
-                    {job.render.width, job.render.height});
+  const std::string path = asks_for_film(job.time) ? name_frames(job).path(0) : job.output;
+  const std::vector<int> eyes = ods::eye_list(job.render.eyes);
+  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height});
+  note_misleading_name(path, job.save, eyes.size(), job.camera.rig.projection);
 }
 
 void tell_speed(const RenderJob& job, const std::vector<Frame>& frames, const std::string& file, double seconds) {
@@ -73,27 +77,58 @@ void tell_speed(const RenderJob& job, const std::vector<Frame>& frames, const st
   note(fmt::format("{} in {}, {:.3g} Msamples/s", what, duration_text(seconds), samples / seconds * 1e-6));
 }
 
+// The scene as a frame has it, and where the camera is while the shutter is open.
+struct Shot {
+  ods::SceneChange change;
+  std::vector<ods::CameraRig> rigs;
+};
+
+Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const Frame& frame) {
+  Shot shot;
+  const auto camera_at = [&](double seconds) {
+    return ods::moved(place_camera_again(job.camera, scene), time.move, seconds);
+  };
+  const double open = static_cast<double>(time.shutter) / 360.0 / static_cast<double>(time.fps);
+  if (open == 0.0 || !(asks_for_film(time) || time.time)) {
+    shot.change = ods::set_time(scene, frame.time);
+    shot.rigs = {camera_at(frame.time)};
+    return shot;
+  }
+  for (int key = 0; key < ods::kShutterKeys; key++) {
+    const double seconds = frame.time + open * (static_cast<double>(key) / (ods::kShutterKeys - 1) - 0.5);
+    if (!scene.animation.views.empty()) ods::set_time(scene, seconds);
+    shot.rigs.push_back(camera_at(seconds));
+  }
+  const auto same = [&](const ods::CameraRig& a) {
+    const ods::CameraRig& b = shot.rigs.front();
+    return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
+  };
+  if (std::all_of(shot.rigs.begin(), shot.rigs.end(), same)) shot.rigs.resize(1);
+  shot.change = ods::open_shutter(scene, frame.time - 0.5 * open, frame.time + 0.5 * open);
+  return shot;
+}
+
 using Report = std::function<void(double done)>;
 using Saved = std::function<void(const std::vector<std::string>& files)>;
 
 // Renders the frames and saves each.
 void render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
                 const Report& report, const Saved& saved) {
-  ods::set_time(scene, frames.front().time);
+  const Shot first = make_shot(job, time, scene, frames.front());
   place_camera(job.camera, scene);
   ods::CpuRenderer renderer(scene, job.render.threads);
   for (size_t i = 0; i < frames.size(); i++) {
     const Frame& frame = frames[i];
-    if (i > 0) renderer.update(ods::set_time(scene, frame.time));
-    const ods::CameraRig rig = ods::moved(place_camera_again(job.camera, scene), time.move, frame.time);
+    const Shot shot = i == 0 ? first : make_shot(job, time, scene, frame);
+    if (i > 0) renderer.update(shot.change);
     ods::RenderOptions options = job.render;
     options.seed = frame.seed;
     ods::Progress progress;
     progress.report = [&](double done) {
       report((static_cast<double>(i) + done) / static_cast<double>(frames.size()));
     };
-    const ods::Picture picture = renderer.render(rig, options, progress);
-    saved(ods::save_picture(picture, rig, job.save, frame.path));
+    const ods::Picture picture = renderer.render(shot.rigs, options, progress);
+    saved(ods::save_picture(picture, shot.rigs[shot.rigs.size() / 2], job.save, frame.path));
   }
 }
 

@@ -43,6 +43,10 @@ void read_flight(const std::string& word, ods::CameraMove& move) {
   }
 }
 
+bool names_frames(const TimeOptions& time) {
+  return !time.frames.empty() && time.frames != "all";
+}
+
 }  // namespace
 
 void add_time_options(Options& options, TimeOptions& time) {
@@ -51,9 +55,9 @@ void add_time_options(Options& options, TimeOptions& time) {
                  "seconds into the scene's animation; without it the scene stands at rest");
   options.text("--animation", "NAME", time.animation,
                "which of several (ods info lists them); by default all that do not move the same things");
-  options.text("--frames", "LIST", time.frames,
-               "a film, a file for each frame: -o shot.####.exr or shot.%04d.exr. As 1-100, 1-100x2 or 1,5,10-20; by "
-               "default the whole duration. Frame N is the scene at N / fps seconds");
+  options.text("--frames", "LIST|all", time.frames,
+               "a film, a file for each frame: -o shot.####.exr or shot.%04d.exr. As 1-100, 1-100x2 or 1,5,10-20; "
+               "all: the whole duration, as with a camera's move. Frame N is the scene at N / fps seconds");
   options.number("--fps", time.fps, 0.01f, 1000.0f, "frames for each second");
   options.number("--duration", time.duration, 0.01f, 1e6f,
                  "seconds of the film and of the camera's move; by default the animation's, or 10");
@@ -64,6 +68,9 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
       "in the duration the camera flies from where it stands through these places, on a smooth curve");
+  options.number("--shutter", time.shutter, 0.0f, 360.0f,
+                 "motion blur: degrees for which it is open around the frame's time, 360 are the time between two "
+                 "frames and 180 is usual; 0: none");
   options.choice("--noise", time.noise, kFilmNoises, film_noise_name, "the same grain in every frame, or each its own");
   options.flag("--skip-existing", time.skip_existing, "frames whose files are there are left as they are");
 }
@@ -74,6 +81,7 @@ bool asks_for_film(const TimeOptions& time) {
 
 void check_time_options(const TimeOptions& time) {
   if (time.time && asks_for_film(time)) throw UsageError("--time is for one picture, --frames for a film; give one");
+  if (names_frames(time)) ods::parse_frames(time.frames);
 }
 
 void start_clock(TimeOptions& time, ods::Scene& scene) {
@@ -95,7 +103,7 @@ void start_clock(TimeOptions& time, ods::Scene& scene) {
 }
 
 std::vector<int> film_frames(const TimeOptions& time) {
-  if (!time.frames.empty()) return ods::parse_frames(time.frames);
+  if (names_frames(time)) return ods::parse_frames(time.frames);
   const double count = std::round(time.move.seconds * static_cast<double>(time.fps));
   if (count > 1e6) throw UsageError("the film would have more than a million frames; --frames says which to render");
   std::vector<int> frames(static_cast<size_t>(std::max(count, 1.0)));

@@ -20,10 +20,11 @@ std::string_view film_noise_name(FilmNoise noise);  // fixed, changing
 struct TimeOptions {
   std::optional<float> time;  // seconds
   std::string animation;      // empty: what ods::play() chooses
-  std::string frames;         // empty: all of the duration
+  std::string frames;         // empty or "all": all of the duration
   float fps = 30.0f;
   std::optional<float> duration;  // seconds; of a film, or of the camera's move
   ods::CameraMove move;
+  float shutter = 0.0f;  // degrees of the time between two frames
   FilmNoise noise = FilmNoise::kFixed;
   bool skip_existing = false;
   bool is_film = false;  // whatever else is given
@@ -34,7 +35,7 @@ void add_time_options(Options& options, TimeOptions& time);
 // Whether a film is asked for, frame by frame.
 bool asks_for_film(const TimeOptions& time);
 
-// Looks at what was given as a whole. Throws UsageError.
+// Looks at what was given as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);
 
 // Lets the scene play what was asked for, and finds out how long the film is. Throws UsageError.

@@ -45,6 +45,48 @@ def quad(indices=True, normals=True, mode=4):
             "meshes": [{"primitives": [primitive]}], "accessors": accessors, "bufferViews": views}, b"".join(parts)
 
 
+def moving():
+    """A skinned and morphed quad, a light and a material, each moved in one of the three ways."""
+    document, binary = quad()
+
+    def add(data, component, count, kind):
+        nonlocal binary
+        document["bufferViews"].append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+        document["accessors"].append({"bufferView": len(document["bufferViews"]) - 1, "componentType": component,
+                                      "count": count, "type": kind})
+        binary += data + b"\0" * (-len(data) % 4)
+        return len(document["accessors"]) - 1
+
+    def floats(kind, *values):
+        size = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
+        return add(struct.pack(f"<{len(values)}f", *values), 5126, len(values) // size, kind)
+
+    binary += b"\0" * (-len(binary) % 4)
+    primitive = document["meshes"][0]["primitives"][0]
+    primitive["attributes"]["JOINTS_0"] = add(bytes([0, 1, 0, 0] * 4), 5121, 4, "VEC4")
+    primitive["attributes"]["WEIGHTS_0"] = floats("VEC4", *([0.5, 0.5, 0, 0] * 4))
+    primitive["targets"] = [{"POSITION": 1, "NORMAL": 1}, {"POSITION": 1}]
+    primitive["material"] = 0
+    one = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    document["materials"] = [{"emissiveFactor": [1, 1, 1]}]
+    document["skins"] = [{"joints": [1, 2], "inverseBindMatrices": floats("MAT4", *one, *one)}]
+    document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}
+    document["scenes"] = [{"nodes": [0, 1]}]
+    document["nodes"] = [{"mesh": 0, "skin": 0}, {"children": [2]},
+                         {"translation": [1, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+    times = floats("SCALAR", 0, 1)
+    pointer = lambda path: {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": path}}}
+    moves = [({"node": 2, "path": "rotation"}, "LINEAR", floats("VEC4", 0, 0, 0, 1, 0, 1, 0, 0)),
+             ({"node": 1, "path": "translation"}, "CUBICSPLINE", floats("VEC3", *range(18))),
+             ({"node": 0, "path": "weights"}, "STEP", floats("SCALAR", 0, 1, 1, 0)),
+             (pointer("/extensions/KHR_lights_punctual/lights/0/intensity"), "LINEAR", floats("SCALAR", 1, 2)),
+             (pointer("/materials/0/emissiveFactor"), "LINEAR", floats("VEC3", 1, 1, 1, 0, 0, 0))]
+    document["animations"] = [{
+        "samplers": [{"input": times, "output": output, "interpolation": how} for _, how, output in moves],
+        "channels": [{"sampler": i, "target": target} for i, (target, _, _) in enumerate(moves)]}]
+    return document, binary
+
+
 def seeds():
     yield "triangles", quad()
     yield "flat", quad(normals=False)
@@ -82,6 +124,7 @@ def seeds():
                          {"camera": 0, "rotation": [0, 0.7, 0, 0.7], "scale": [1, 1, 2], "translation": [1, 0, 0],
                           "extensions": {"KHR_lights_punctual": {"light": 0}}}]
     yield "nodes", (document, binary)
+    yield "moving", moving()
 
 
 os.makedirs(sys.argv[1], exist_ok=True)

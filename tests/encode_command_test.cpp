@@ -32,6 +32,23 @@ TEST_F(EncodeCommand, FramesBecomeAFilm) {
   EXPECT_EQ(err.find("warning"), std::string::npos) << err;
 }
 
+TEST_F(EncodeCommand, SoundOfAFilmThatIsThereCanBeSaidToBeAmbisonics) {
+  ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
+  folder.write("sound.wav", ods::made::wav(4, 0.2));
+  const std::string film = folder.path("film.mov"), encode = "encode -q " + pattern() + " --codec h264 -o ";
+  ASSERT_EQ(run(encode + film + " --audio " + folder.path("sound.wav")), 0) << err;
+  const std::string said = folder.read("film.mov");
+  std::string unsaid = said;
+  unsaid.replace(unsaid.find("SA3D"), 4, "free");
+  folder.write("film.mov", unsaid);
+  EXPECT_FALSE(ods::read_film(film).sound.at(0).ambisonics);
+  ASSERT_EQ(run("inject --ambisonics --layout top-bottom --projection lat-long " + film), 0) << err;
+  EXPECT_TRUE(ods::read_film(film).sound.at(0).ambisonics);
+  ASSERT_EQ(run(encode + film), 0) << err;
+  EXPECT_EQ(run("inject --ambisonics " + film), 2);
+  expect_one_line("has 0 tracks of sound");
+}
+
 TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   const std::string words =

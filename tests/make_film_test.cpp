@@ -41,6 +41,9 @@ TEST_F(MakeFilm, MissingFramesAreAllSaid) {
   const std::string pattern = folder.path("a.#.png");
   expect_error([&] { find_frames(pattern); }, "frames are missing: 3-4,7-8 of '" + pattern + "' (there are 1-2,5-6,9)");
   expect_error([&] { find_frames(pattern, std::vector<int>{1, 2, 3, 12}); }, "missing: 3,12 of");
+  std::vector<int> many;
+  for (int i = 1; i <= 1000; i++) many.push_back(20 + i * i);
+  expect_error([&] { find_frames(pattern, many); }, " ... (1000 in all) of '");
   EXPECT_EQ(find_frames(pattern, std::vector<int>{6, 5}).path(0), folder.path("a.6.png"));
   expect_error([&] { find_frames(folder.path("b.#.png")); }, "there is no file like");
   expect_error([&] { find_frames(folder.path("a.1.png")); }, "has no place for the number of a frame");

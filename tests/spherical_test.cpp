@@ -217,5 +217,20 @@ TEST(Players, PicturesAreWarnedOfGPanoInStereo) {
   EXPECT_EQ(picture_views(info, form, true, "a.png").at(1).takes_it_for, "mono, lat-long");
 }
 
+// "Spatial Audio RFC": version, type, order, ACN, SN3D, the number of channels, which is which.
+TEST(Spherical, Sa3dIsAsItsSpecificationHasIt) {
+  const Box box = sa3d_box({});
+  EXPECT_EQ(type_text(box.type), "SA3D");
+  const std::string head("\0\0\0\0\0\1\0\0\0\0\0\4", 12), map("\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\3", 16);
+  EXPECT_EQ(box.body, head + map);
+  for (const Ambisonics& sound : {Ambisonics{}, Ambisonics{2, 11, true}}) {
+    const std::optional<Ambisonics> back = parse_sa3d(sa3d_box(sound).body);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->order, sound.order);
+    EXPECT_EQ(back->channels, sound.channels);
+    EXPECT_EQ(back->has_head_locked, sound.has_head_locked);
+  }
+}
+
 }  // namespace
 }  // namespace ods

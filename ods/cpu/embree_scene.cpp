@@ -104,11 +104,18 @@ static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
   if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) arguments->valid[0] = 0;
 }
 
-// A mesh's vertices; placed: moved by the instance's matrix.
-static void write_positions(const Scene& scene, const Mesh& mesh, const Instance* placed, float* positions) {
+static uint key_count(const Scene& scene, int motion) {
+  return motion < 0 ? 1u : static_cast<uint>(scene.motion_keys);
+}
+
+// A mesh's vertices at a key of the shutter; placed: moved by the instance's matrix.
+static void write_positions(const Scene& scene, const Mesh& mesh, uint key, const Instance* placed, float* positions) {
   const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
+  const MotionVertex* bent = nullptr;
+  if (mesh.motion >= 0) bent = scene.motion_vertices.data() + mesh.motion + size_t(key) * mesh.vertex_count;
   for (uint i = 0; i < mesh.vertex_count; i++) {
-    const vec3 p = placed ? to_world(*placed, vertices[i].position) : vertices[i].position;
+    vec3 p = bent ? bent[i].position : vertices[i].position;
+    if (placed) p = to_world(*placed, p);
     positions[3 * i] = p.x, positions[3 * i + 1] = p.y, positions[3 * i + 2] = p.z;
   }
 }
@@ -116,12 +123,17 @@ static void write_positions(const Scene& scene, const Mesh& mesh, const Instance
 // A mesh's triangles as Embree geometry; placed: with the instance's matrix applied to copies of the vertices.
 static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                3 * sizeof(float), mesh.vertex_count));
+  const uint keys = key_count(scene, mesh.motion);
+  rtcSetGeometryTimeStepCount(geometry, keys);
+  for (uint key = 0; key < keys; key++) {
+    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, key, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertex_count));
+    if (!positions) throw std::bad_alloc();
+    write_positions(scene, mesh, key, placed, positions);
+  }
   auto* corners = static_cast<uint*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                              3 * sizeof(uint), mesh.triangle_count));
-  if (!positions || !corners) throw std::bad_alloc();
-  write_positions(scene, mesh, placed, positions);
+  if (!corners) throw std::bad_alloc();
   const uvec3* triangles = scene.triangles.data() + mesh.first_triangle;
   for (uint i = 0; i < mesh.triangle_count; i++) {
     corners[3 * i] = triangles[i].x, corners[3 * i + 1] = triangles[i].y, corners[3 * i + 2] = triangles[i].z;
@@ -142,19 +154,25 @@ static RTCScene new_scene(RTCDevice device) {
   return scene;
 }
 
-static void set_transform(RTCGeometry geometry, const Instance& instance) {
-  const vec4 rows[3] = {instance.row0, instance.row1, instance.row2};
-  float matrix[12];
-  for (int row = 0; row < 3; row++) {
-    for (int column = 0; column < 4; column++) matrix[row * 4 + column] = rows[row][column];
+static void set_transform(RTCGeometry geometry, const Scene& scene, const Instance& instance) {
+  const uint keys = key_count(scene, instance.motion);
+  rtcSetGeometryTimeStepCount(geometry, keys);
+  for (uint key = 0; key < keys; key++) {
+    MotionPose pose{instance.row0, instance.row1, instance.row2};
+    if (instance.motion >= 0) pose = scene.motion_poses[static_cast<size_t>(instance.motion) + key];
+    const vec4 rows[3] = {pose.row0, pose.row1, pose.row2};
+    float matrix[12];
+    for (int row = 0; row < 3; row++) {
+      for (int column = 0; column < 4; column++) matrix[row * 4 + column] = rows[row][column];
+    }
+    rtcSetGeometryTransform(geometry, key, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, matrix);
   }
-  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, matrix);
 }
 
-static RTCGeometry make_instance(RTCDevice device, RTCScene mesh, const Instance& instance) {
+static RTCGeometry make_instance(RTCDevice device, RTCScene mesh, const Scene& scene, const Instance& instance) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, mesh);
-  set_transform(geometry, instance);
+  set_transform(geometry, scene, instance);
   rtcCommitGeometry(geometry);
   return geometry;
 }
@@ -212,15 +230,16 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : hand
       attach(handles_->shared[mesh], make_geometry(device, scene, scene.meshes[mesh], nullptr), 0);
       rtcCommitScene(handles_->shared[mesh]);
     }
-    RTCGeometry geometry = make_instance(device, handles_->shared[mesh], instance);
+    RTCGeometry geometry = make_instance(device, handles_->shared[mesh], scene, instance);
     if (hidden) rtcDisableGeometry(geometry);
     attach(handles_->top, geometry, i);
   }
   if (split) {
     rtcCommitScene(handles_->still);
-    Instance here;
+    Instance here{};
+    here.motion = -1;
     set_matrix(here, glm::dmat4(1.0));
-    attach(handles_->top, make_instance(device, handles_->still, here), handles_->still_id);
+    attach(handles_->top, make_instance(device, handles_->still, scene, here), handles_->still_id);
   }
   rtcCommitScene(handles_->top);
   if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -235,16 +254,19 @@ void EmbreeScene::update(const SceneChange& change) {
     RTCScene tree = handles_->shared[static_cast<size_t>(mesh)];
     if (!tree) continue;  // no instance wears it
     RTCGeometry triangles = rtcGetGeometry(tree, 0);
-    auto* positions = static_cast<float*>(rtcGetGeometryBufferData(triangles, RTC_BUFFER_TYPE_VERTEX, 0));
-    write_positions(scene, scene.meshes[static_cast<size_t>(mesh)], nullptr, positions);
-    rtcUpdateGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0);
+    const Mesh& record = scene.meshes[static_cast<size_t>(mesh)];
+    for (uint key = 0; key < key_count(scene, record.motion); key++) {
+      auto* positions = static_cast<float*>(rtcGetGeometryBufferData(triangles, RTC_BUFFER_TYPE_VERTEX, key));
+      write_positions(scene, record, key, nullptr, positions);
+      rtcUpdateGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, key);
+    }
     rtcCommitGeometry(triangles);
     rtcCommitScene(tree);
   }
   for (size_t i = 0; i < handles_->moves.size(); i++) {
     if (!handles_->moves[i]) continue;
     RTCGeometry geometry = rtcGetGeometry(handles_->top, static_cast<uint>(i));
-    set_transform(geometry, scene.instances[i]);
+    set_transform(geometry, scene, scene.instances[i]);
     is_hidden(scene, i) ? rtcDisableGeometry(geometry) : rtcEnableGeometry(geometry);
     rtcCommitGeometry(geometry);
   }
@@ -252,11 +274,11 @@ void EmbreeScene::update(const SceneChange& change) {
   if (rtcGetDeviceError(handles_->device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
 }
 
-static void set_ray(RTCRay& out, const Ray& ray, float length) {
+static void set_ray(RTCRay& out, const Ray& ray, float length, float time) {
   out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
   out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
   out.tnear = 0.0f, out.tfar = length;
-  out.time = 0.0f, out.mask = ~0u, out.id = 0, out.flags = 0;
+  out.time = time, out.mask = ~0u, out.id = 0, out.flags = 0;
 }
 
 static RayContext make_context(PathTracer& tracer, int ray, uint still) {
@@ -270,7 +292,7 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
 
 Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const {
   RTCRayHit found;
-  set_ray(found.ray, ray, std::numeric_limits<float>::infinity());
+  set_ray(found.ray, ray, std::numeric_limits<float>::infinity(), tracer.ray_time);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RayContext context = make_context(tracer, kind, handles_->still_id);
@@ -287,7 +309,7 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
 
 bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length) const {
   RTCRay shadow;
-  set_ray(shadow, ray, length);
+  set_ray(shadow, ray, length, tracer.ray_time);
   RayContext context = make_context(tracer, kShadowRay, handles_->still_id);
   occlude(handles_->top, context.embree, shadow);
   return shadow.tfar < 0.0f;

@@ -20,7 +20,8 @@ class EmbreeScene {
   ~EmbreeScene();
 
   // What set_time() has changed: only the trees of meshes that were bent are built again, and the one over all parts.
-  // Leaves what a new EmbreeScene would be. Precondition: the scene is that of the constructor, with the same playing.
+  // Leaves what a new EmbreeScene would be. Precondition: the scene is that of the constructor, with the same
+  // clips playing and as many keys of the shutter.
   void update(const SceneChange& change);
 
   EmbreeScene(const EmbreeScene&) = delete;

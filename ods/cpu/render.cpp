@@ -12,6 +12,8 @@
 #include <cassert>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
@@ -28,8 +30,10 @@ constexpr int kTileSize = 16;
 struct Job {
   const EmbreeScene& embree;
   PathTracer tracer;
-  Camera camera;
-  Media media;  // that the camera stands in
+  std::span<const Camera> cameras;  // at even times from the opening of the shutter to its closing; one: it stands
+  Camera camera;                    // in the middle of them
+  bool shutter;                     // every sample has a time of its own
+  Media media;                      // that the camera stands in
   RenderOptions options;
   PathSettings settings;
   int filter;
@@ -54,6 +58,23 @@ struct Pixel {
   }
 }
 
+// The camera of a time: between two that are near each other.
+Camera camera_at(const Job& job, float time) {
+  const auto last = static_cast<float>(job.cameras.size() - 1);
+  const size_t before = std::min(static_cast<size_t>(time * last), job.cameras.size() - 2);
+  const Camera &a = job.cameras[before], &b = job.cameras[before + 1];
+  const float share = time * last - static_cast<float>(before);
+  Camera camera = job.camera;
+  camera.center = mix(a.center, b.center, share);
+  camera.back = normalize(mix(a.back, b.back, share));
+  const vec3 up = mix(a.up, b.up, share);
+  camera.up = normalize(up - camera.back * dot(up, camera.back));
+  camera.right = cross(camera.up, camera.back) * (dot(cross(a.up, a.back), a.right) < 0.0f ? -1.0f : 1.0f);
+  camera.axis = mix(a.axis, b.axis, share);
+  if (a.axis != b.axis) camera.axis = normalize(camera.axis);
+  return camera;
+}
+
 vec2 pixel_center(const Job& job, int x, int y) {
   return {(static_cast<float>(x) + 0.5f) / static_cast<float>(job.options.width),
           (static_cast<float>(y) + 0.5f) / static_cast<float>(job.options.height)};
@@ -66,6 +87,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   PathSettings first_hit_only = job.settings;
   first_hit_only.bounces = 0;
   PathTracer& tracer = job.tracer;
+  tracer.ray_time = 0.5f;
   tracer.start_path(ray, job.media, seed, 0u);
   while (tracer.path.alive) {
     tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
@@ -85,7 +107,9 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
     const vec2 place = random_pair(seed, index, kPixelPair);
     const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
     const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
-    const Ray ray = camera_ray(job.camera, eye, home, uv, lens);
+    if (job.shutter) job.tracer.ray_time = random_pair(seed, index, kTimePair).x;
+    const Ray ray = job.cameras.size() > 1 ? camera_ray(camera_at(job, job.tracer.ray_time), eye, home, uv, lens)
+                                           : camera_ray(job.camera, eye, home, uv, lens);
     if (ray.direction == vec3(0.0f)) return {};
     job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
@@ -217,6 +241,7 @@ CpuRenderer::CpuRenderer(const Scene& scene, int threads) : parts_(std::make_uni
 CpuRenderer::~CpuRenderer() = default;
 
 void CpuRenderer::update(const SceneChange& change) {
+  if (change.instances.empty() && change.meshes.empty() && !change.lights && !change.materials) return;
   parts_->arena.execute([&] {
     update_lights(parts_->scene, parts_->lights);
     parts_->embree->update(change);
@@ -224,15 +249,27 @@ void CpuRenderer::update(const SceneChange& change) {
   });
 }
 
-Picture CpuRenderer::render(const CameraRig& rig, const RenderOptions& wanted, const Progress& progress) const {
+Picture CpuRenderer::render(const CameraRig& rig, const RenderOptions& options, const Progress& progress) const {
+  return render(std::span(&rig, 1), options, progress);
+}
+
+Picture CpuRenderer::render(std::span<const CameraRig> rigs, const RenderOptions& wanted,
+                            const Progress& progress) const {
+  assert(rigs.size() % 2 == 1);
+  const CameraRig& rig = rigs[rigs.size() / 2];
   const RenderOptions options = with_height(wanted, rig);
+  std::vector<Camera> cameras;
+  for (const CameraRig& each : rigs) cameras.push_back(make_camera(each));
   check_picture_memory(options);
   Picture picture = blank_picture(options);
   parts_->arena.execute([&] {
     PathTracer tracer = parts_->tracer;
+    tracer.ray_time = 0.5f;
     const Job job{*parts_->embree,
                   tracer,
-                  make_camera(rig),
+                  cameras,
+                  cameras[cameras.size() / 2],
+                  cameras.size() > 1 || parts_->scene.motion_keys > 1,
                   media_at(*parts_->embree, tracer, rig.position),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},

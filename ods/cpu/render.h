@@ -4,6 +4,7 @@
 // The path tracer on the CPU: the kernel on Embree.
 #pragma once
 #include <memory>
+#include <span>
 
 #include "ods/base/progress.h"
 #include "ods/image/camera_rig.h"
@@ -26,6 +27,11 @@ class CpuRenderer {
   // As render_cpu(), which it is on a new CpuRenderer, bit for bit, whatever was rendered before. options.threads does
   // not count.
   Picture render(const CameraRig& rig, const RenderOptions& options, const Progress& progress = {}) const;
+
+  // The same with a camera that moves while the shutter is open: where it is at even times from its opening to its
+  // closing, an odd number of them; all but its place and attitude is that of the middle, and so is the depth layer.
+  // With open_shutter() the scene moves as well: every sample is of a time of its own, evenly spread.
+  Picture render(std::span<const CameraRig> rigs, const RenderOptions& options, const Progress& progress = {}) const;
 
  private:
   struct Parts;

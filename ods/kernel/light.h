@@ -87,7 +87,7 @@ struct LightSampler : BsdfEvaluator {
 
   // Pdf with which sample_light finds the triangle that a ray has hit at a distance.
   inline float hit_light_pdf(Hit hit, vec3 direction, float distance) {
-    Instance instance = scene_instance(hit.instance);
+    Instance instance = instance_now(hit.instance);
     if (instance.first_light < 0) return 0.0f;
     Triangle triangle = triangle_of(instance, corners_of(hit));
     float pick = scene_light(instance.first_light + hit.triangle).probability;
@@ -102,7 +102,7 @@ struct LightSampler : BsdfEvaluator {
     hit.v = root * uv.y;
     hit.instance = light.instance;
     hit.triangle = light.triangle;
-    Instance instance = scene_instance(hit.instance);
+    Instance instance = instance_now(hit.instance);
     Corners k = corners_of(hit);
     Triangle triangle = triangle_of(instance, k);
     vec3 area = cross(triangle.ab, triangle.ac) * 0.5f;

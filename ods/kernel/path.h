@@ -68,9 +68,11 @@ const float kRouletteThreshold = 0.25f;
 // several lamps reaches equal noise in four fifths of the time that one takes; deeper surfaces gain nothing by it.
 const int kLightCandidates = 3;
 
-// Number pairs of a path: 0 places the sample in its pixel, one places it on the lens, then these for each bounce.
+// Number pairs of a path: 0 places the sample in its pixel, one places it on the lens, one in the time that the shutter
+// is open, then these for each bounce.
 const uint kPixelPair = 0u;
 const uint kLensPair = 0xffffffffu;
+const uint kTimePair = 0xfffffffeu;
 const uint kScatterPair = 1u;  // lobe, roulette
 const uint kDirectionPair = 2u;
 const uint kCandidatePair = 3u;  // which candidate, free
@@ -89,7 +91,7 @@ struct PathTracer : MediumReader {
 
   PathState path;
 
-  // media: what the camera stands in, no_media() in air.
+  // media: what the camera stands in, no_media() in air. All of the path is at ray_time (ods/kernel/surface.h).
   inline void start_path(Ray ray, Media media, uint seed, uint index) {
     path.ray = ray;
     path.throughput = vec3(1.0f);

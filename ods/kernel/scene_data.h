@@ -25,6 +25,7 @@ struct Mesh {
   uint first_triangle;
   uint triangle_count;
   int material;
+  int motion;  // of a mesh that bends while the shutter is open, its first row of MotionVertex; else -1
 };
 
 // A mesh standing in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
@@ -34,6 +35,22 @@ struct Instance {
   vec4 row2;
   int mesh;
   int first_light;  // index of the light of its first triangle, -1 when the mesh does not glow; made by make_lights()
+  int motion;       // of one that moves while the shutter is open, its first MotionPose; else -1
+};
+
+// Where an instance stands, and a vertex of a mesh that bends, at each of the shutter's keys: evenly spaced times from
+// its opening to its closing, between which all goes straight. An instance has a row for each key; a mesh for each key
+// as many as it has vertices.
+struct MotionPose {
+  vec4 row0;
+  vec4 row1;
+  vec4 row2;
+};
+
+struct MotionVertex {
+  vec3 position;
+  vec3 normal;
+  vec3 tangent;
 };
 
 const int kWrapRepeat = 0;
@@ -145,7 +162,7 @@ struct Hit {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 20 && sizeof(Instance) == 56 && sizeof(Texture) == 28);
+static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 60 && sizeof(Texture) == 28);
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 64);
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
 }  // namespace ods

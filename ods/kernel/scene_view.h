@@ -29,6 +29,9 @@ struct SceneView {
   const uvec3* triangles = nullptr;
   const Mesh* meshes = nullptr;
   const Instance* instances = nullptr;
+  const MotionPose* motion_poses = nullptr;
+  const MotionVertex* motion_vertices = nullptr;
+  int motion_keys = 0;  // 0 or 1: the shutter is open for no time
   const Material* materials = nullptr;
   const Texture* textures = nullptr;
   const uint* texels = nullptr;
@@ -46,6 +49,9 @@ struct SceneView {
   const uvec3& scene_triangle(uint i) const { return triangles[i]; }
   const Mesh& scene_mesh(int i) const { return meshes[i]; }
   const Instance& scene_instance(int i) const { return instances[i]; }
+  const MotionPose& scene_motion_pose(int i) const { return motion_poses[i]; }
+  const MotionVertex& scene_motion_vertex(uint i) const { return motion_vertices[i]; }
+  int scene_motion_keys() const { return motion_keys; }
   const Material& scene_material(int i) const { return materials[i]; }
   const Texture& scene_texture(int i) const { return textures[i]; }
   uint scene_texel(uint i) const { return texels[i]; }

@@ -61,6 +61,37 @@ inline float handedness_of(Instance instance) {
 struct SurfaceReader : TextureReader {
 #endif
 
+  // When the ray is: 0 as the shutter opens, 1 as it closes. The device sets it before a path starts.
+  float ray_time = 0.0f;
+
+  // Between two of the shutter's keys.
+  struct MotionPlace {
+    int key;      // the one before
+    float share;  // of the one after
+  };
+
+  inline MotionPlace motion_place() {
+    int last = max(scene_motion_keys() - 1, 1);
+    float at = clamp(ray_time, 0.0f, 1.0f) * float(last);
+    MotionPlace place;
+    place.key = min(int(at), last - 1);
+    place.share = at - float(place.key);
+    return place;
+  }
+
+  // An instance as it stands at the ray's time.
+  inline Instance instance_now(int index) {
+    Instance instance = scene_instance(index);
+    if (instance.motion < 0) return instance;
+    MotionPlace place = motion_place();
+    MotionPose before = scene_motion_pose(instance.motion + place.key);
+    MotionPose after = scene_motion_pose(instance.motion + place.key + 1);
+    instance.row0 = mix(before.row0, after.row0, place.share);
+    instance.row1 = mix(before.row1, after.row1, place.share);
+    instance.row2 = mix(before.row2, after.row2, place.share);
+    return instance;
+  }
+
   struct Corners {
     uint a;  // vertices
     uint b;
@@ -68,6 +99,10 @@ struct SurfaceReader : TextureReader {
     float wa;  // weights of the hit point
     float wb;
     float wc;
+    bool bends;   // its positions, normals and tangents are these rows, each plus the number of the vertex
+    uint before;  // of MotionVertex
+    uint after;
+    float share;
   };
 
   inline Corners corners_of(Hit hit) {
@@ -80,7 +115,31 @@ struct SurfaceReader : TextureReader {
     corners.wa = 1.0f - hit.u - hit.v;
     corners.wb = hit.u;
     corners.wc = hit.v;
+    corners.bends = mesh.motion >= 0;
+    if (corners.bends) {
+      MotionPlace place = motion_place();
+      corners.before = uint(mesh.motion) + uint(place.key) * mesh.vertex_count - mesh.first_vertex;
+      corners.after = corners.before + mesh.vertex_count;
+      corners.share = place.share;
+    }
     return corners;
+  }
+
+  inline vec3 position_now(Corners k, uint vertex) {
+    if (!k.bends) return scene_vertex(vertex).position;
+    return mix(scene_motion_vertex(k.before + vertex).position, scene_motion_vertex(k.after + vertex).position,
+               k.share);
+  }
+
+  inline vec3 normal_now(Corners k, uint vertex) {
+    if (!k.bends) return scene_vertex(vertex).normal;
+    return mix(scene_motion_vertex(k.before + vertex).normal, scene_motion_vertex(k.after + vertex).normal, k.share);
+  }
+
+  inline vec3 tangent_now(Corners k, uint vertex) {
+    if (!k.bends)
+      return vec3(scene_vertex(vertex).tangent.x, scene_vertex(vertex).tangent.y, scene_vertex(vertex).tangent.z);
+    return mix(scene_motion_vertex(k.before + vertex).tangent, scene_motion_vertex(k.after + vertex).tangent, k.share);
   }
 
   inline vec2 uv0_of(Corners k) {
@@ -112,15 +171,15 @@ struct SurfaceReader : TextureReader {
   // Normal of the normal map, on the front side. The frame follows the vertices' tangents as glTF defines it.
   inline vec3 mapped_normal(Material material, Instance instance, Corners k, vec3 normal, float handedness,
                             bool reduced) {
-    vec4 tangent =
-        scene_vertex(k.a).tangent * k.wa + scene_vertex(k.b).tangent * k.wb + scene_vertex(k.c).tangent * k.wc;
-    vec3 local = vec3(tangent.x, tangent.y, tangent.z);
+    vec3 local = tangent_now(k, k.a) * k.wa + tangent_now(k, k.b) * k.wb + tangent_now(k, k.c) * k.wc;
+    float side =
+        scene_vertex(k.a).tangent.w * k.wa + scene_vertex(k.b).tangent.w * k.wb + scene_vertex(k.c).tangent.w * k.wc;
     vec3 t = turn_to_world(instance, local);
     t = t - normal * dot(normal, t);
     float size = length(t);
     if (!(size > 1e-12f)) return normal;
     t = t * (1.0f / size);
-    vec3 b = cross(normal, t) * (tangent.w < 0.0f ? -handedness : handedness);
+    vec3 b = cross(normal, t) * (side < 0.0f ? -handedness : handedness);
     vec4 map = slot_at(material.normal_slot, uv0_of(k), uv1_of(k), reduced);
     float x = (map.x * 2.0f - 1.0f) * material.normal_scale;
     float y = (map.y * 2.0f - 1.0f) * material.normal_scale;
@@ -140,10 +199,10 @@ struct SurfaceReader : TextureReader {
   inline Triangle triangle_of(Instance instance, Corners k) {
     Triangle triangle;
     // Edges before the move: far from the origin, corners rounded in the world would lose small triangles.
-    vec3 a = scene_vertex(k.a).position;
+    vec3 a = position_now(k, k.a);
     triangle.a = to_world(instance, a);
-    triangle.ab = turn_to_world(instance, scene_vertex(k.b).position - a);
-    triangle.ac = turn_to_world(instance, scene_vertex(k.c).position - a);
+    triangle.ab = turn_to_world(instance, position_now(k, k.b) - a);
+    triangle.ac = turn_to_world(instance, position_now(k, k.c) - a);
     return triangle;
   }
 
@@ -157,7 +216,7 @@ struct SurfaceReader : TextureReader {
 
   // reduced: small copies of textures will do, except for what glows, which must be as light sampling finds it.
   inline Surface surface_at(Hit hit, vec3 direction, bool reduced) {
-    Instance instance = scene_instance(hit.instance);
+    Instance instance = instance_now(hit.instance);
     Material material = scene_material(scene_mesh(instance.mesh).material);
     Corners k = corners_of(hit);
     Triangle triangle = triangle_of(instance, k);
@@ -169,7 +228,7 @@ struct SurfaceReader : TextureReader {
     Surface surface;
     surface.position = triangle.a + triangle.ab * k.wb + triangle.ac * k.wc;
     vec3 geometric = normalize(cross(triangle.ab, triangle.ac)) * handedness;
-    vec3 n = scene_vertex(k.a).normal * k.wa + scene_vertex(k.b).normal * k.wb + scene_vertex(k.c).normal * k.wc;
+    vec3 n = normal_now(k, k.a) * k.wa + normal_now(k, k.b) * k.wb + normal_now(k, k.c) * k.wc;
     vec3 normal = vec3(dot(cross(row1, row2), n), dot(cross(row2, row0), n), dot(cross(row0, row1), n)) * handedness;
     float size = length(normal);
     normal = size > 1e-30f ? normal * (1.0f / size) : geometric;

@@ -117,6 +117,7 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
   // Textures are read through the kernel, so that they mean the same here and there.
   LightSampler reader;
   set_scene(reader, scene, table);
+  reader.ray_time = 0.5f;
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
@@ -170,6 +171,9 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.triangles = scene.triangles.data();
   view.meshes = scene.meshes.data();
   view.instances = lights.instances.data();
+  view.motion_poses = scene.motion_poses.data();
+  view.motion_vertices = scene.motion_vertices.data();
+  view.motion_keys = scene.motion_keys;
   view.materials = scene.materials.data();
   view.textures = scene.textures.data();
   view.texels = scene.texels.data();

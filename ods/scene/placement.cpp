@@ -91,7 +91,7 @@ void place_view(ViewPoint& view, const dmat4& node) {
   const dvec3 any_across = std::abs(forward.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(0.0, 0.0, 1.0);
   const dvec3 fallback = unit(any_across - forward * glm::dot(forward, any_across), any_across);
   const ViewAngles angles = view_angles(forward, unit(up - forward * glm::dot(forward, up), fallback));
-  view.yaw = angles.yaw;
+  view.yaw = angles.yaw + 0.0f;  // no -0
   view.pitch = angles.pitch;
   view.roll = angles.roll;
 }

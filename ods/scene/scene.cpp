@@ -51,6 +51,7 @@ int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vecto
   mesh.first_triangle = static_cast<uint>(scene.triangles.size());
   mesh.triangle_count = static_cast<uint>(triangles.size());
   mesh.material = material;
+  mesh.motion = -1;
   scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
   scene.triangles.insert(scene.triangles.end(), triangles.begin(), triangles.end());
   scene.meshes.push_back(mesh);
@@ -66,6 +67,7 @@ void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world) {
   instance.row2 = rows[2];
   instance.mesh = mesh;
   instance.first_light = -1;
+  instance.motion = -1;
   scene.instances.push_back(instance);
 }
 

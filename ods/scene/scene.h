@@ -67,6 +67,9 @@ struct Scene {
 
   Animation animation;       // what moves: set_time() (ods/scene/motion.h) writes the lists above anew
   std::vector<char> hidden;  // 1: the instance is not there at this time; empty: all are
+  int motion_keys = 0;       // of an open shutter, made by open_shutter() (ods/scene/shutter.h); 0: none
+  std::vector<MotionPose> motion_poses;
+  std::vector<MotionVertex> motion_vertices;
 
   std::vector<std::string> warnings;  // what of the file is not rendered, or not as it should be, one line each
 };

@@ -50,16 +50,10 @@ static const EncoderFacts& choose_encoder(const EncodeOptions& options) {
 }
 
 static AVPixelFormat pixel_format(const Packing& packing) {
-  const bool eight = packing.bits == 8;
-  switch (packing.chroma) {
-    case Chroma::k420:
-      return eight ? AV_PIX_FMT_YUV420P : AV_PIX_FMT_YUV420P10;
-    case Chroma::k422:
-      return eight ? AV_PIX_FMT_YUV422P : AV_PIX_FMT_YUV422P10;
-    case Chroma::k444:
-      break;
-  }
-  return eight ? AV_PIX_FMT_YUV444P : AV_PIX_FMT_YUV444P10;
+  constexpr AVPixelFormat kFormats[][2] = {{AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUV420P10},
+                                           {AV_PIX_FMT_YUV422P, AV_PIX_FMT_YUV422P10},
+                                           {AV_PIX_FMT_YUV444P, AV_PIX_FMT_YUV444P10}};
+  return kFormats[static_cast<size_t>(packing.chroma)][packing.bits > 8 ? 1 : 0];
 }
 
 // --- what goes wrong -------------------------------------------------------------------------------------------------
@@ -118,7 +112,8 @@ using Owned = std::unique_ptr<T, Free>;
 // --- the frames ------------------------------------------------------------------------------------------------------
 
 // The same pixels as the library has them; they go when it is done with them.
-static Owned<AVFrame> wrapped(std::unique_ptr<FilmFrame> frame, const AVCodecContext& context, int64_t number) {
+static Owned<AVFrame> wrapped(const std::shared_ptr<const FilmFrame>& frame, const AVCodecContext& context,
+                              int64_t number) {
   Owned<AVFrame> result(made(av_frame_alloc()));
   result->width = context.width;
   result->height = context.height;
@@ -134,9 +129,11 @@ static Owned<AVFrame> wrapped(std::unique_ptr<FilmFrame> frame, const AVCodecCon
     result->data[i] = reinterpret_cast<uint8_t*>(frame->planes().first[i]);
     result->linesize[i] = static_cast<int>(frame->planes().stride[i]);
   }
-  const auto release = [](void* owner, uint8_t*) { delete static_cast<FilmFrame*>(owner); };
-  result->buf[0] = made(av_buffer_create(result->data[0], frame->bytes(), release, frame.get(), 0));
-  static_cast<void>(frame.release());
+  using Owner = std::shared_ptr<const FilmFrame>;
+  const auto release = [](void* owner, uint8_t*) { delete static_cast<Owner*>(owner); };
+  auto owner = std::make_unique<Owner>(frame);
+  result->buf[0] = made(av_buffer_create(result->data[0], frame->bytes(), release, owner.get(), 0));
+  static_cast<void>(owner.release());
   return result;
 }
 
@@ -313,11 +310,11 @@ class Sound {
   }
 
   AVCodecContext& encoder() const { return *encoder_; }
-  int64_t position() const { return position_; }  // samples
 
-  // The next samples, at most so many; none at the end.
-  Owned<AVFrame> next(int64_t most) {
-    const int size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024;
+  // The next samples up to a position; none at the end. Encoders take no fewer than they like but the last time.
+  Owned<AVFrame> next(int64_t until, bool is_end) {
+    const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, most = until - position_;
+    if (most < size && !is_end) return nullptr;
     while (!ended_ && av_audio_fifo_size(fifo_.get()) < size) decode();
     const int64_t count = std::min<int64_t>({size, most, av_audio_fifo_size(fifo_.get())});
     if (count <= 0) return nullptr;
@@ -385,7 +382,7 @@ class Sound {
 static void abandon(AVCodecContext& encoder, const Packing& packing, bool is_new) {
   if (encoder.codec->name != std::string_view("libsvtav1")) return;
   const Extent size{encoder.width, encoder.height};
-  if (is_new) avcodec_send_frame(&encoder, wrapped(std::make_unique<FilmFrame>(size, packing), encoder, 0).get());
+  if (is_new) avcodec_send_frame(&encoder, wrapped(std::make_shared<FilmFrame>(size, packing), encoder, 0).get());
   avcodec_send_frame(&encoder, nullptr);
   const Owned<AVPacket> packet(made(av_packet_alloc()));
   while (avcodec_receive_packet(&encoder, packet.get()) >= 0) {
@@ -436,10 +433,10 @@ struct FilmEncoder::State {
   }
 
   // Sound goes along with the pictures.
-  void encode_sound() {
+  void encode_sound(bool is_end) {
     if (!sound) return;
     const int64_t until = std::llround(static_cast<double>(count) / options.rate.value() * kSoundRate);
-    while (const Owned<AVFrame> frame = sound->next(until - sound->position())) {
+    while (const Owned<AVFrame> frame = sound->next(until, is_end)) {
       encode(sound->encoder(), frame.get(), 1);
     }
   }
@@ -479,17 +476,18 @@ FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size,
 
 FilmEncoder::~FilmEncoder() = default;
 
-void FilmEncoder::add(std::unique_ptr<FilmFrame> frame) {
+void FilmEncoder::add(std::shared_ptr<const FilmFrame> frame) {
   State& state = *state_;
-  state.encode(*state.pictures, wrapped(std::move(frame), *state.pictures, state.count).get(), 0);
+  state.encode(*state.pictures, wrapped(frame, *state.pictures, state.count).get(), 0);
   state.count++;
-  state.encode_sound();
+  state.encode_sound(false);
 }
 
 void FilmEncoder::finish() {
   State& state = *state_;
   state.encode(*state.pictures, nullptr, 0);
   state.finished = true;
+  state.encode_sound(true);
   if (state.sound) state.encode(state.sound->encoder(), nullptr, 1);
   state.written(av_write_trailer(state.file.get()));
   state.written(avio_closep(&state.file->pb));

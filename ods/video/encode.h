@@ -58,10 +58,9 @@ class FilmEncoder {
   ~FilmEncoder();
 
   // In the order of the film. Throws Error(kOutput), and Error(kInput) where the sound cannot be read on.
-  void add(std::unique_ptr<FilmFrame> frame);
+  void add(std::shared_ptr<const FilmFrame> frame);
 
-  // The rest. Sound ends with the pictures at the latest. What is missing then is AtomicFile::commit(). Throws as
-  // add().
+  // The rest. Sound ends with the pictures at the latest. Throws as add().
   void finish();
 
  private:

@@ -13,6 +13,8 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/read_file.h"
+#include "ods/video/bytes.h"
 #include "ods/video/film_form.h"
 
 namespace ods {
@@ -35,6 +37,14 @@ static std::vector<std::string> patterns_of(const std::string& pattern) {
   return {path_for_eye(pattern, kLeft), path_for_eye(pattern, kRight)};
 }
 
+// For messages, which stay lines.
+static std::string some_of(const std::vector<int>& frames) {
+  const size_t kLongest = 200;
+  const std::string text = frames_text(frames);
+  if (text.size() <= kLongest) return text;
+  return fmt::format("{} ... ({} in all)", text.substr(0, text.rfind(',', kLongest)), frames.size());
+}
+
 FrameFiles find_frames(const std::string& pattern, const std::optional<std::vector<int>>& wanted) {
   std::set<int> all;
   std::vector<std::vector<int>> found;
@@ -53,23 +63,31 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
     std::vector<int> absent = files.frames;
     std::erase_if(absent, [&](int frame) { return here.contains(frame); });
     if (absent.empty()) continue;
-    missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", frames_text(absent), patterns[i]);
+    missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", some_of(absent), patterns[i]);
   }
   if (missing.empty()) return files;
-  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, frames_text(there)));
+  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, some_of(there)));
 }
 
 // --- the plan --------------------------------------------------------------------------------------------------------
+
+// Of a PNG by its first bytes alone: what opens it looks at every one.
+static Extent size_of(const std::string& path) {
+  const std::vector<unsigned char> start = read_start(path, 24);
+  const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
+  if (bytes.size() == 24 && bytes.starts_with("\x89PNG\r\n\x1a\n")) {
+    return {static_cast<int>(get_number(bytes, 16, 4)), static_cast<int>(get_number(bytes, 20, 4))};
+  }
+  const FileInfo info = read_info(path);
+  return {info.width, info.height};
+}
 
 // Frames whose headers tell another size than the first one's.
 static void check_sizes(const FrameFiles& files) {
   for (const std::string& pattern : patterns_of(files.pattern)) {
     const FrameNames names = names_in(pattern);
     std::vector<Extent> sizes(files.frames.size());
-    tbb::parallel_for(size_t{0}, sizes.size(), [&](size_t i) {
-      const FileInfo info = read_info(names.path(files.frames[i]));
-      sizes[i] = {info.width, info.height};
-    });
+    tbb::parallel_for(size_t{0}, sizes.size(), [&](size_t i) { sizes[i] = size_of(names.path(files.frames[i])); });
     std::vector<int> others;
     Extent other;
     for (size_t i = 0; i < sizes.size(); i++) {
@@ -78,10 +96,10 @@ static void check_sizes(const FrameFiles& files) {
       others.push_back(files.frames[i]);
     }
     if (others.empty()) continue;
-    throw Error(ErrorKind::kInput,
-                fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
-                            frames_text(others), pattern, others[0], other.width, other.height, sizes[0].width,
-                            sizes[0].height));
+    throw Error(
+        ErrorKind::kInput,
+        fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
+                    some_of(others), pattern, others[0], other.width, other.height, sizes[0].width, sizes[0].height));
   }
 }
 
@@ -132,7 +150,7 @@ void check_packing(const FilmPlan& plan, const Packing& packing) {
 
 // --- the film --------------------------------------------------------------------------------------------------------
 
-static std::unique_ptr<FilmFrame> read_frame(const std::string& path, const FilmPlan& plan,
+static std::shared_ptr<FilmFrame> read_frame(const std::string& path, const FilmPlan& plan,
                                              const Development& development, const Packing& packing) {
   OpenOptions options;
   options.form = plan.known;
@@ -144,7 +162,7 @@ static std::unique_ptr<FilmFrame> read_frame(const std::string& path, const Film
                 fmt::format("'{}' is not like the first frame: {} of {}x{} pixels, not {} of {}x{}", path,
                             picture.eyes.size(), size.width, size.height, plan.eyes, plan.eye.width, plan.eye.height));
   }
-  auto frame = std::make_unique<FilmFrame>(plan.size, packing);
+  auto frame = std::make_shared<FilmFrame>(plan.size, packing);
   fill_frame(picture, plan.layout, development, *frame);
   return frame;
 }
@@ -159,7 +177,7 @@ static size_t frames_ahead(const FilmPlan& plan, const Packing& packing) {
 
 static void encode_frames(const FrameFiles& files, const FilmPlan& plan, const Development& development,
                           const EncodeOptions& options, FilmEncoder& encoder, const Progress& progress) {
-  using Frame = FilmFrame*;  // what a pipeline passes on is copied
+  using Frame = std::shared_ptr<FilmFrame>;
   size_t next = 0, done = 0;
   const auto number = [&](tbb::flow_control& control) {
     if (next == files.frames.size()) control.stop();
@@ -167,10 +185,10 @@ static void encode_frames(const FrameFiles& files, const FilmPlan& plan, const D
   };
   const auto read = [&](size_t index) -> Frame {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    return read_frame(files.path(index), plan, development, options.packing).release();
+    return read_frame(files.path(index), plan, development, options.packing);
   };
-  const auto encode = [&](Frame frame) {
-    encoder.add(std::unique_ptr<FilmFrame>(frame));
+  const auto encode = [&](const Frame& frame) {
+    encoder.add(frame);
     done++;
     if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(files.frames.size()));
   };
@@ -189,7 +207,6 @@ TagResult make_film(const FrameFiles& files, const FilmPlan& plan, const Develop
   FilmEncoder encoder(untagged, *container_of_path(path), plan.size, options);
   encode_frames(files, plan, development, options, encoder, progress);
   encoder.finish();
-  untagged.finish();
   const FilmInfo film = read_film(untagged.temporary());
   std::optional<Ambisonics> ambisonics;
   if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) ambisonics.emplace();

@@ -6,6 +6,8 @@ layout(buffer_reference, scalar) readonly buffer Vertices { Vertex at[]; };
 layout(buffer_reference, scalar) readonly buffer Triangles { uvec3 at[]; };
 layout(buffer_reference, scalar) readonly buffer Meshes { Mesh at[]; };
 layout(buffer_reference, scalar) readonly buffer Instances { Instance at[]; };
+layout(buffer_reference, scalar) readonly buffer MotionPoses { MotionPose at[]; };
+layout(buffer_reference, scalar) readonly buffer MotionVertices { MotionVertex at[]; };
 layout(buffer_reference, scalar) readonly buffer Materials { Material at[]; };
 layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
 layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
@@ -20,10 +22,13 @@ struct View {
   EnvironmentInfo environment;
   int light_pick_count;
   int bounces;
+  int motion_keys;
   Vertices vertices;
   Triangles triangles;
   Meshes meshes;
   Instances instances;
+  MotionPoses motion_poses;
+  MotionVertices motion_vertices;
   Materials materials;
   Textures textures;
   Texels texels;
@@ -45,6 +50,9 @@ Vertex scene_vertex(uint i) { return view.vertices.at[i]; }
 uvec3 scene_triangle(uint i) { return view.triangles.at[i]; }
 Mesh scene_mesh(int i) { return view.meshes.at[i]; }
 Instance scene_instance(int i) { return view.instances.at[i]; }
+MotionPose scene_motion_pose(int i) { return view.motion_poses.at[i]; }
+MotionVertex scene_motion_vertex(uint i) { return view.motion_vertices.at[i]; }
+int scene_motion_keys() { return view.motion_keys; }
 Material scene_material(int i) { return view.materials.at[i]; }
 Texture scene_texture(int i) { return view.textures.at[i]; }
 uint scene_texel(uint i) { return view.texels.at[i]; }

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How fast frames become a film, over the ffmpeg program on the same frames with the same encoder and settings,
+// measured in turns in the same run. The frames have gradients, edges and grain that moves, so that they take about as
+// long to pack as photographs. above_ffmpeg: 1 is as fast, more is faster;
+// by wall clock and, for machines that have other work, by CPU seconds.
+#include <benchmark/benchmark.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <sstream>
+
+#include "ods/image/save.h"
+#include "ods/video/make_film.h"
+
+namespace {
+
+using namespace ods;
+
+constexpr int kFrames = 48;
+
+// A folder that goes with the process, beside where it runs: temporary folders may be memory.
+class Folder {
+ public:
+  Folder() { path_ = mkdtemp(name_); }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string path(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  char name_[32] = "ods-encode-bench-XXXXXX";
+  std::string path_;
+};
+
+PictureRows frame(int width, int number) {
+  PictureRows rows;
+  rows.eye = {width, width / 2};
+  rows.eyes = {kLeft, kRight};
+  rows.layers = {{{"R", "G", "B"}}};
+  rows.fill = [=](int eye, int y, std::span<float> row) {
+    std::minstd_rand random(static_cast<unsigned>(1 + y + 65536 * eye));
+    for (int x = 0; x < width; x++) {
+      const float u = static_cast<float>(x + 4 * number) / static_cast<float>(width),
+                  v = static_cast<float>(2 * y) / static_cast<float>(width);
+      const float edge = std::fmod(8.0f * u + 3.0f * v, 1.0f) < 0.5f ? 0.25f : 0.0f;
+      const float grain = static_cast<float>(random() % 64) / 1600.0f;
+      for (int c = 0; c < 3; c++) {
+        row[static_cast<size_t>(3 * x + c)] =
+            0.3f + 0.25f * std::sin(6.28f * u + static_cast<float>(c)) * v + edge + grain;
+      }
+    }
+  };
+  return rows;
+}
+
+struct Seconds {
+  double wall = 1e9;
+  double cpu = 1e9;
+};
+
+double cpu_seconds(int who) {
+  rusage usage;
+  getrusage(who, &usage);
+  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// The least so far.
+void measure(Seconds& least, int who, const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds(who);
+  work();
+  least.wall = std::min(least.wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  least.cpu = std::min(least.cpu, cpu_seconds(who) - cpu);
+}
+
+struct Settings {
+  const char* encoder;
+  FilmCodec codec;
+  const char* preset_option;
+  const char* preset;
+};
+constexpr Settings kSettings[] = {{"libx264", FilmCodec::kH264, "-preset", "medium"},
+                                  {"libx264", FilmCodec::kH264, "-preset", "ultrafast"},
+                                  {"libx265", FilmCodec::kHevc, "-preset", "ultrafast"},
+                                  {"libsvtav1", FilmCodec::kAv1, "-preset", "12"}};
+
+// What a user of ffmpeg writes to get the same pictures: the matrix and the rounding are not its defaults.
+std::string ffmpeg_words(const Settings& settings, const std::string& frames, const std::string& film) {
+  std::ostringstream words;
+  words << "ffmpeg -v error -y -framerate 30 -i " << frames
+        << " -vf scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p"
+        << " -c:v " << settings.encoder << " " << settings.preset_option << " " << settings.preset
+        << " -crf 24 -g 30 -flags +cgop -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv"
+        << " -movflags +faststart " << film;
+  if (std::string(settings.encoder) == "libx265") return words.str() + " -x265-params log-level=none:open-gop=0";
+  return words.str();
+}
+
+void encode(benchmark::State& state) {
+  const Settings& settings = kSettings[state.range(0)];
+  const int width = static_cast<int>(state.range(1));
+  if (std::system("command -v ffmpeg > /dev/null") != 0) return state.SkipWithError("skipped: ffmpeg is not installed");
+  if (!has_encoder(settings.encoder)) return state.SkipWithError("skipped: this machine has no such encoder");
+  setenv("SVT_LOG", "0", 0);
+  const Folder folder;
+  SaveOptions save;
+  save.tone = ToneCurve::kLinear;
+  for (int i = 1; i <= kFrames; i++) {
+    const FrameNames names = *frame_names(folder.path("frame.####.png"));
+    save_picture(frame(width, i), nullptr, save, names.path(i));
+  }
+  EncodeOptions options;
+  options.packing = {settings.codec, 8, Chroma::k420, 24};
+  options.encoder = settings.encoder;
+  options.preset = settings.preset;
+  const std::string command = ffmpeg_words(settings, folder.path("frame.%04d.png"), folder.path("theirs.mp4"));
+  Seconds ours, theirs;
+  for (auto round : state) {
+    static_cast<void>(round);
+    measure(theirs, RUSAGE_CHILDREN, [&] {
+      if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
+    });
+    measure(ours, RUSAGE_SELF, [&] {
+      const FrameFiles files = find_frames(folder.path("frame.####.png"));
+      make_film(files, plan_film(files, {}, {}), {}, options, folder.path("ours.mp4"));
+    });
+  }
+  state.SetLabel(std::string(settings.encoder) + " " + settings.preset);
+  state.counters["frames/s"] = kFrames / ours.wall;
+  state.counters["above_ffmpeg"] = theirs.wall / ours.wall;
+  state.counters["above_ffmpeg_cpu"] = theirs.cpu / ours.cpu;
+  state.counters["bytes_over_ffmpeg"] = static_cast<double>(std::filesystem::file_size(folder.path("ours.mp4"))) /
+                                        static_cast<double>(std::filesystem::file_size(folder.path("theirs.mp4")));
+}
+BENCHMARK(encode)->ArgsProduct({{0, 1, 2, 3}, {1024}})->Iterations(3)->Unit(benchmark::kSecond)->UseRealTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();
