@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Prints a number that stands for every bit of a small picture with a little of everything in it. The test builds this
-// program with another compiler and compares.
+// Prints numbers that stand for every bit of a small picture with a little of everything in it, and of one of things
+// that move. The test builds this program with another compiler and compares.
 #include <cstdio>
 
 #include "ods/cpu/render.h"
+#include "ods/scene/load.h"
+#include "ods/scene/shutter.h"
 #include "tests/pictures.h"
 
 int main() {
@@ -17,5 +19,11 @@ int main() {
   rig.top.mode = ods::kMergeCosine;
   rig.bottom.mode = ods::kMergeSmoothstep;
   const ods::Picture picture = ods::render_cpu(ods::feature_scene(), rig, options);
-  std::printf("%016llx\n", static_cast<unsigned long long>(ods::digest(picture)));
+  ods::Scene toys = ods::load_scene("toys");
+  ods::play(toys.animation, "");
+  ods::open_shutter(toys, 1.3, 1.32);
+  rig.position = toys.view_points[0].position;
+  const ods::Picture moving = ods::render_cpu(toys, rig, options);
+  std::printf("%016llx %016llx\n", static_cast<unsigned long long>(ods::digest(picture)),
+              static_cast<unsigned long long>(ods::digest(moving)));
 }
