@@ -24,6 +24,8 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
   add_form_options(options, job.render, job.save);
+  options.flag("--transparent", job.render.transparent,
+               "the sky lights the scene and is left out: alpha, for ods over (.exr .png .tif .webp)");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
 }
@@ -69,6 +71,9 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   if (options.given("--exposure") && keeps_light(job.output))
     note("--exposure leaves .exr and .hdr as the scene is lit");
   note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
+  if (job.render.transparent && !ods::has_alpha(job.output)) {
+    throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
+  }
   job.render.layers = ods::keeps_layers(job.output);
   finish_render_job(options, quality, job);
   return true;

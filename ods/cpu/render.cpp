@@ -44,6 +44,7 @@ struct Pixel {
   vec3 normal{0.0f};
   vec3 albedo{0.0f};
   float depth = kFarDepth;
+  float alpha = 0.0f;
 };
 
 // The render loop. Inlining all of the kernel here, and the camera below, makes it a quarter faster.
@@ -113,6 +114,8 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
     if (ray.direction == vec3(0.0f)) return {};
     job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
+    if (job.options.transparent && path.depth < 0.0f) continue;  // it met nothing
+    pixel.alpha += 1.0f;
     pixel.radiance += path.radiance;
     pixel.normal += path.normal;
     pixel.albedo += path.albedo;
@@ -121,6 +124,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   pixel.radiance *= share;
   pixel.normal *= share;
   pixel.albedo *= share;
+  pixel.alpha *= share;
   if (job.options.layers) pixel.depth = center_depth(job, eye, x, y, seed);
   return pixel;
 }
@@ -139,6 +143,7 @@ void render_tile(Job job, int tile, EyeImage& image) {
     for (int x = x0; x < std::min(x0 + kTileSize, width); x++) {
       const Pixel pixel = render_pixel(job, image.eye, x, y);
       put(image.radiance, x, y, pixel.radiance);
+      if (job.options.transparent) *image.alpha.at(x, y) = pixel.alpha;
       if (!job.options.layers) continue;
       put(image.normal, x, y, pixel.normal);
       put(image.albedo, x, y, pixel.albedo);
@@ -204,7 +209,8 @@ Picture blank_picture(const RenderOptions& options) {
   Picture picture;
   for (int eye : eye_list(options.eyes)) {
     const int w = options.width, h = options.height;
-    EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}});
+    EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}, {}});
+    if (options.transparent) image.alpha = Image(w, h, 1);
     if (!options.layers) continue;
     image.depth = Image(w, h, 1);
     image.normal = image.albedo = Image(w, h, 3);

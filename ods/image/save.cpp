@@ -123,8 +123,16 @@ static bool has_alpha(const PictureRows& picture) {
   return picture.layers[0].channels.size() == 4;
 }
 
+static bool keeps_alpha(FileFormat format) {
+  return format != FileFormat::kJpeg && format != FileFormat::kHdr;
+}
+
 static bool keeps_alpha(FileFormat format, Layout layout) {
-  return format != FileFormat::kJpeg && format != FileFormat::kHdr && !is_anaglyph(layout);
+  return keeps_alpha(format) && !is_anaglyph(layout);
+}
+
+bool has_alpha(const std::string& path) {
+  return keeps_alpha(format_for(path));
 }
 
 // --- the pixels ----------------------------------------------------------------------------------------------------
@@ -373,6 +381,9 @@ static PictureRows rows_of(const Picture& picture, bool all_layers) {
     if ((picture.eyes[0].*each.image).pixels.empty() || !(all_layers || images.empty())) continue;
     images.push_back(each.image);
     rows.layers.push_back(each.layer);
+    if (images.size() > 1 || picture.eyes[0].alpha.pixels.empty()) continue;
+    images.push_back(&EyeImage::alpha);  // behind the colour, whose fourth channel it is
+    rows.layers[0].channels.push_back("A");
   }
   for (const EyeImage& eye : picture.eyes) rows.eyes.push_back(eye.eye);
   rows.fill = [&picture, images, stride = count_channels(rows.layers)](int index, int y, std::span<float> row) {

@@ -49,6 +49,9 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 // Whether a file of this name would hold depth, normal and albedo: exr does.
 bool keeps_layers(const std::string& path);
 
+// Whether a file of this name can hold alpha: not of jpg and hdr.
+bool has_alpha(const std::string& path);
+
 // Writes one file, or one per eye, and the sidecar behind them; all of them complete, or none. Creates missing folders.
 // Returns the names written.
 // Layers that are empty are left out. Throws Error(kOutput). Precondition: one eye or two, all of one size, with light.
