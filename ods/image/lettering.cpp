@@ -20,11 +20,11 @@ namespace ods {
 
 std::string_view text_align_name(TextAlign align) {
   switch (align) {
-    case TextAlign::kLeft:
+    case TextAlign::kFlushLeft:
       return "left";
-    case TextAlign::kCenter:
+    case TextAlign::kCentered:
       return "center";
-    case TextAlign::kRight:
+    case TextAlign::kFlushRight:
       break;
   }
   return "right";
@@ -132,11 +132,11 @@ class Text {
  private:
   static PangoAlignment alignment(TextAlign align) {
     switch (align) {
-      case TextAlign::kLeft:
+      case TextAlign::kFlushLeft:
         return PANGO_ALIGN_LEFT;
-      case TextAlign::kCenter:
+      case TextAlign::kCentered:
         return PANGO_ALIGN_CENTER;
-      case TextAlign::kRight:
+      case TextAlign::kFlushRight:
         break;
     }
     return PANGO_ALIGN_RIGHT;

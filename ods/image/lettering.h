@@ -11,13 +11,13 @@
 
 namespace ods {
 
-enum class TextAlign { kLeft, kCenter, kRight };
-inline constexpr TextAlign kTextAligns[] = {TextAlign::kLeft, TextAlign::kCenter, TextAlign::kRight};
+enum class TextAlign { kFlushLeft, kCentered, kFlushRight };
+inline constexpr TextAlign kTextAligns[] = {TextAlign::kFlushLeft, TextAlign::kCentered, TextAlign::kFlushRight};
 std::string_view text_align_name(TextAlign align);  // left, center, right
 
 struct LetteringOptions {
   std::string font = "Sans";  // as fontconfig knows it ("DejaVu Serif Bold Italic"), or a file (.ttf, .otf, .ttc ...)
-  TextAlign align = TextAlign::kCenter;
+  TextAlign align = TextAlign::kCentered;
   float spacing = 1.0f;  // between lines, of what the font asks for
 };
 
