@@ -48,7 +48,7 @@ void parse_color(const std::string& text, ods::vec3& color) {
 
 // What shells make hard to type.
 std::string with_newlines(std::string text) {
-  for (size_t at = 0; (at = text.find("\\n", at)) != std::string::npos; at++) text.replace(at, 2, "\n");
+  for (size_t at = 0; (at = text.find("\\n", at)) != std::string::npos; at++) text.replace(at, 2, 1, '\n');
   return text;
 }
 

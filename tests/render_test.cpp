@@ -325,26 +325,19 @@ Scene wall_scene(const Material& material, float side = 1.0f) {
 // Before the sky that was left out, it is what it would have been with it.
 TEST(Render, TransparentBeforeTheSkyIsThePicture) {
   Scene scene;
-  add_box(scene, vec3(-1.0f, -1.0f, -4.0f), vec3(1.0f, 0.5f, -2.0f),
-          add_material(scene, matte(vec3(0.6f, 0.3f, 0.1f))));
-  scene.environment.radiance = vec3(0.5f, 0.7f, 0.9f);
+  add_box(scene, vec3(-1.0f, -1.0f, -4.0f), vec3(1.0f, 0.5f, -2.0f), add_material(scene, matte(vec3(0.6f))));
+  scene.environment.radiance = vec3(0.5f);
   RenderOptions options = small_render(64, 8);
   const Picture whole = render_cpu(scene, CameraRig{}, options);
   options.transparent = true;
-  const Picture cut = render_cpu(scene, CameraRig{}, options);
-  EXPECT_TRUE(whole.eyes[0].alpha.pixels.empty());
-  int seen = 0, edges = 0;
-  for (size_t i = 0; i < cut.eyes[0].alpha.pixels.size(); i++) {
-    const float alpha = cut.eyes[0].alpha.pixels[i];
-    seen += alpha == 1.0f, edges += alpha > 0.0f && alpha < 1.0f;
-    for (int c = 0; c < 3; c++) {
-      const size_t at = 3 * i + static_cast<size_t>(c);
-      const float light = cut.eyes[0].radiance.pixels[at] + (1.0f - alpha) * scene.environment.radiance[c];
-      ASSERT_NEAR(light, whole.eyes[0].radiance.pixels[at], 1e-5f) << i;
-    }
+  const EyeImage cut = render_cpu(scene, CameraRig{}, options).eyes[0];
+  int edges = 0;
+  for (size_t i = 0; i < cut.radiance.pixels.size(); i++) {
+    const float alpha = cut.alpha.pixels[i / 3];
+    edges += alpha > 0.0f && alpha < 1.0f;
+    ASSERT_NEAR(cut.radiance.pixels[i] + (1.0f - alpha) * 0.5f, whole.eyes[0].radiance.pixels[i], 1e-5f) << i;
   }
-  EXPECT_GT(seen, 50);
-  EXPECT_GT(edges, 10);
+  EXPECT_GT(edges, 30);
 }
 
 TEST(Render, UnlitIsItsColor) {
