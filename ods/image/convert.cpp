@@ -285,6 +285,7 @@ void Converter::put(const Place& place, const float* sums, int x, std::span<floa
 void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const {
   std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
   std::vector<FilterPoint> points;
+  TexelFilter filter;
   const float per_pixel = 2.0f / static_cast<float>(stretch.pixels);
   for (int i = 0; i < count; i++) {
     const float t = static_cast<float>(i) * per_pixel;
@@ -293,8 +294,8 @@ void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, in
     const vec2 dy =
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
     std::fill(sums.begin(), sums.end(), 0.0f);
-    const std::optional<TexelFilter> filter = texel_filter({dx, dy}, place.at);
-    if (!filter || !resampler_.add(place.eye, *filter, stretch.cell, sums.data())) {
+    const bool is_upright = texel_filter({dx, dy}, place.at, filter);
+    if (!is_upright || !resampler_.add(place.eye, filter, stretch.cell, sums.data())) {
       filter_points({dx, dy}, points);
       if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
         sum_near(place, stretch.cell, points, sums.data());

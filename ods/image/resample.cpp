@@ -304,7 +304,7 @@ static void set_weights(float at, const Tent& tent, TexelWeights& to) {
   }
 }
 
-std::optional<TexelFilter> texel_filter(const Footprint& footprint, vec2 at) {
+bool texel_filter(const Footprint& footprint, vec2 at, TexelFilter& filter) {
   // Beyond it the ellipse leans so far that columns and rows tell another one.
   const float kMostLean = 0.1f;
   // A filter this wide has fewer texels than there is room for.
@@ -312,11 +312,10 @@ std::optional<TexelFilter> texel_filter(const Footprint& footprint, vec2 at) {
   const vec2 dx = footprint.dx, dy = footprint.dy;
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
   const bool fits = xx + yy < kMostRadius * kMostRadius && xy * xy <= kMostLean * kMostLean * xx * yy;
-  if (!fits) return std::nullopt;
-  TexelFilter filter;
+  if (!fits) return false;
   set_weights(at.x, make_tent(xx - 1.0f), filter.across);
   set_weights(at.y, make_tent(yy - 1.0f), filter.down);
-  return filter;
+  return true;
 }
 
 void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {

@@ -11,7 +11,6 @@
 #pragma once
 #include <array>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "ods/image/source.h"
@@ -34,7 +33,7 @@ struct FilterPoint {
 void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points);
 
 // The same of a footprint whose axes are about the picture's own, for which columns and rows have weights each by
-// themselves: a sixth of the work. Nothing of other footprints, and of very large ones.
+// themselves: a sixth of the work. False, and no filter, of other footprints and of very large ones.
 struct TexelWeights {
   int first = 0;  // column or row of the first weight
   int count = 0;
@@ -43,7 +42,7 @@ struct TexelWeights {
 struct TexelFilter {
   TexelWeights across, down;
 };
-std::optional<TexelFilter> texel_filter(const Footprint& footprint, vec2 at);
+bool texel_filter(const Footprint& footprint, vec2 at, TexelFilter& filter);
 
 // Reads every layer at once; their channels follow each other.
 class Resampler {
