@@ -134,6 +134,7 @@ TEST_F(CliConvert, TitlesGoOverFrames) {
   EXPECT_EQ(run("title End -o " + folder.path("title.exr") + " --fade-in 1"), 2);
   EXPECT_EQ(run("title \\n -o " + folder.path("title.exr")), 3);
   EXPECT_EQ(run("title End --at 1,2 -o " + folder.path("title.exr")), 2);
+  EXPECT_EQ(run("title End -o " + folder.path("title.jpg")), 2);
 }
 
 TEST_F(CliConvert, RefusalsSayWhy) {
