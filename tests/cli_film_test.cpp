@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods film as its users meet it: one command, and what becomes of it when it is killed.
+#include <filesystem>
 #include <random>
 #include <thread>
 

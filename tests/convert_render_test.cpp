@@ -4,6 +4,7 @@
 // Pictures converted against pictures rendered: the same scene in the target's form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ods/cpu/render.h"

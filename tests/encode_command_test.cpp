@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods encode as its users meet it.
+#include <algorithm>
+
 #include "ods/video/encode.h"
 #include "tests/cli_runner.h"
 #include "tests/made_frames.h"

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ods/video/make_film.h"
 #include "tests/decoded_film.h"
 #include "tests/made_frames.h"
@@ -113,7 +115,7 @@ void write_ramp(const std::string& path, const std::function<vec3(int field)>& c
       for (int c = 0; c < 3; c++) image.at(x, y)[c] = srgb_decode(codes[c]);
     }
   }
-  picture.eyes.push_back({kMono, image, {}, {}, {}});
+  picture.eyes.push_back({kMono, image, {}, {}, {}, {}});
   SaveOptions options;
   options.tone = ToneCurve::kLinear;
   save_picture(picture, options, path);

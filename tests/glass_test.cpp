@@ -4,6 +4,8 @@
 // Plane layers of glass and liquid against the sum of all their inner reflections.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ods/cpu/render.h"
 #include "tests/pictures.h"
 

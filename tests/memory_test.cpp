@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <filesystem>
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"

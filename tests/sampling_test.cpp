@@ -4,6 +4,8 @@
 // Light found by sampling lights, by scattered rays, and by both together is the same light.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ods/cpu/render.h"
 #include "tests/pictures.h"
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <random>
@@ -28,8 +29,9 @@ float light(int eye, int x, int y, int c) {
 }
 
 EyeImage make_eye(int eye) {
-  EyeImage result{eye, Image(kWidth, kHeight, 3), Image(kWidth, kHeight, 1), Image(kWidth, kHeight, 3),
-                  Image(kWidth, kHeight, 3)};
+  EyeImage result{
+      eye, Image(kWidth, kHeight, 3), Image(kWidth, kHeight, 1), Image(kWidth, kHeight, 3), Image(kWidth, kHeight, 3),
+      {}};
   for (int y = 0; y < kHeight; y++) {
     for (int x = 0; x < kWidth; x++) {
       for (int c = 0; c < 3; c++) {
@@ -273,7 +275,7 @@ TEST(Save, AFullDiskLeavesNothing) {
   // Noise, so that every format fails in the middle of the work and not only in its last buffer.
   std::mt19937 random(3);
   const auto noise = [&](int eye) {
-    EyeImage result{eye, Image(256, 128, 3), Image(256, 128, 1), Image(256, 128, 3), Image(256, 128, 3)};
+    EyeImage result{eye, Image(256, 128, 3), Image(256, 128, 1), Image(256, 128, 3), Image(256, 128, 3), {}};
     for (float& value : result.radiance.pixels) value = static_cast<float>(random() % 1024) / 1024.0f;
     return result;
   };

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "ods/image/tone.h"
 #include "ods/kernel/camera/project.h"
 
