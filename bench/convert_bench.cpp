@@ -116,12 +116,9 @@ void convert_file(const std::string& from, const std::string& to, const Projecti
   OpenOptions open;
   open.scratch_folder = scratch_folder;
   const StoredPicture picture = open_picture(from, open);
-  ConvertTarget target;
-  target.rig = picture.rig;
+  ConvertTarget target = own_form(picture);
   target.rig.projection = projection;
   target.eye = eye.value_or(fitting_extent(picture, projection));
-  target.eyes.clear();
-  for (const StoredEye& each : picture.eyes) target.eyes.push_back(each.eye);
   const std::string fault = conversion_fault(picture, target);
   if (!fault.empty()) throw Error(ErrorKind::kInput, fault);
   Conversion conversion = convert(picture, target);

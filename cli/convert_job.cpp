@@ -132,9 +132,7 @@ void note_unmoved(const ConvertJob& job, const CameraRig& wished) {
 std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
   if (wishes.mono || wishes.size.eyes == Eyes::kMonoEye) return {ods::kMono};
   if (given) return ods::eye_list(wishes.size.eyes);
-  std::vector<int> eyes;
-  for (const ods::StoredEye& eye : job.picture.eyes) eyes.push_back(eye.eye);
-  return eyes;
+  return own_form(job.picture).eyes;
 }
 
 // Where the output will lie, or what there is of the way to it.
@@ -143,13 +141,6 @@ std::string folder_of(const std::string& output) {
   std::error_code ignored;
   while (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) folder = folder.parent_path();
   return folder.empty() ? "." : folder.string();
-}
-
-// The picture's own, where the new file can have it.
-Layout same_layout(const ConvertJob& job) {
-  const Layout own = job.picture.layout;
-  const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(job.output));
-  return unfit ? Layout::kTopBottom : own;
 }
 
 }  // namespace
@@ -175,7 +166,7 @@ void open_convert_job(ConvertJob& job, int argc, char** argv) {
   open.form = job.known;
   open.scratch_folder = folder_of(job.output);
   job.picture = ods::open_picture(job.input, open);
-  for (const std::string& guess : job.picture.guesses) note(fmt::format("{}: {}", job.input, guess));
+  note_guesses(job.input, job.picture);
 
   Given given{};
   Wishes wishes;
@@ -187,8 +178,7 @@ void open_convert_job(ConvertJob& job, int argc, char** argv) {
   job.target.eyes = wished_eyes(job, wishes, given.eyes);
   note_unmoved(job, rig);
   if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
-  job.save.layout = wishes.layout.value_or(same_layout(job));
-  if (!given.tone && !job.picture.is_float) job.save.tone = ods::ToneCurve::kLinear;
+  save_as_it_was(job.picture, job.output, wishes.layout, given.tone, job.save);
   if (given.exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
 
   ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, rig.projection);

@@ -14,8 +14,6 @@
 #include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "cli/render_frames.h"
-#include "ods/base/error.h"
-#include "ods/video/film_form.h"
 
 using ods::Layout;
 
@@ -73,22 +71,15 @@ bool read_options(FilmJob& job, int argc, char** argv) {
 ods::FilmPlan expect(const RenderJob& render) {
   const Layout layout = render.save.layout;
   const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
-  ods::FilmPlan plan;
-  plan.eyes = ods::eye_list(render.render.eyes).size();
-  if (plan.eyes == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
+  const size_t count = ods::eye_list(render.render.eyes).size();
+  if (count == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
     throw UsageError(
         fmt::format("a film's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
   }
-  const int count = static_cast<int>(plan.eyes);
-  plan.layout = layout;
-  plan.eye = ods::squeezed_eye(layout, {render.render.width, render.render.height}, count);
-  plan.size = ods::packed_size(layout, plan.eye, count);
-  plan.form.stereo = count == 1 ? ods::FilmStereo::kOneView : ods::film_stereo(layout);
-  try {
-    set_projection(plan.form, render.camera.rig.projection);
-  } catch (const ods::Error& error) {
-    warn(fmt::format("{}; it says only how its eyes lie", error.what()));
-  }
+  const ods::Extent eye =
+      ods::squeezed_eye(layout, {render.render.width, render.render.height}, static_cast<int>(count));
+  const ods::FilmPlan plan = ods::plan_eyes(eye, count, layout, render.camera.rig.projection);
+  for (const std::string& each : plan.notes) warn(each);
   return plan;
 }
 

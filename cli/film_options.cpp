@@ -20,22 +20,6 @@ using ods::Chroma, ods::Container, ods::Extent, ods::FilmCodec;
 
 namespace {
 
-// One of a closed set that nobody need name.
-template <class T, size_t kCount>
-void optional_choice(Options& options, const std::string& name, std::optional<T>& value, const T (&all)[kCount],
-                     std::string_view (*name_of)(T), const std::string& text) {
-  std::vector<std::string_view> names;
-  for (T member : all) names.push_back(name_of(member));
-  const auto set = [&value, &all, names, name](const std::string& word) {
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) {
-      throw UsageError(fmt::format("{} is one of {}, not '{}'", name, fmt::join(names, ", "), word));
-    }
-    value = all[found - names.begin()];
-  };
-  options.custom(name, fmt::format("{}", fmt::join(names, "|")), "", set, text);
-}
-
 std::string encoder_list() {
   std::vector<std::string_view> names;
   for (const ods::EncoderFacts& facts : ods::known_encoders()) names.push_back(facts.name);
@@ -173,8 +157,7 @@ void add_film_options(Options& options, FilmWishes& wishes) {
   options.text("-o,--output", "FILE", wishes.output, ".mp4 .mov .mkv .webm");
   options.choice("--target", wishes.target, ods::kFilmTargets, ods::film_target_name,
                  "whom it is for; what follows goes before it");
-  optional_choice(options, "--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name,
-                  "by default as the target has it");
+  options.choice("--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name, "by default as the target has it");
   options.custom(
       "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
       "which of those of the codec: " + encoder_list());
@@ -183,7 +166,7 @@ void add_film_options(Options& options, FilmWishes& wishes) {
                  "quality, less is better; by default 18 of h264, 20 of hevc, 28 of av1, 24 of vp9");
   options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "million bits a second, in place of --crf");
   options.number("--bits", wishes.bits, 8, 10, "8 or 10");
-  optional_choice(options, "--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "what of the colour is kept");
+  options.choice("--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "what of the colour is kept");
   options.text("--audio", "FILE", wishes.sound,
                "its sound: mono, stereo, or four channels of first-order ambisonics (AmbiX)");
 }

@@ -98,6 +98,23 @@ void finish_form_options(const Options& options, const ods::ProjectionSetting& p
   }
 }
 
+ods::FrameNames film_names(const std::string& output) {
+  if (const auto names = ods::frame_names(output)) return *names;
+  throw UsageError("a film needs a place for the number of the frame in its files' names: -o shot.####.png");
+}
+
+void save_as_it_was(const ods::StoredPicture& picture, const std::string& output, std::optional<Layout> wished,
+                    bool has_tone, ods::SaveOptions& save) {
+  const Layout own = picture.layout;
+  const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(output));
+  save.layout = wished.value_or(unfit ? Layout::kTopBottom : own);
+  if (!has_tone && !picture.is_float) save.tone = ods::ToneCurve::kLinear;
+}
+
+void note_guesses(const std::string& path, const ods::StoredPicture& picture) {
+  for (const std::string& guess : picture.guesses) note(fmt::format("{}: {}", path, guess));
+}
+
 void note_misleading_name(const std::string& output, const ods::SaveOptions& save, size_t eye_count,
                           const ods::ProjectionSetting& projection) {
   const auto layout = eye_count == 2 ? std::optional(save.layout) : std::nullopt;

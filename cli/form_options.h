@@ -7,8 +7,10 @@
 #include <string>
 
 #include "cli/options.h"
+#include "ods/base/frames.h"
 #include "ods/image/save.h"
 #include "ods/image/sizes.h"
+#include "ods/image/stored_picture.h"
 #include "ods/scene/render_options.h"
 
 // --layout LAYOUT, by the names and aliases of ods/image/layout.h. `text` says what it is for.
@@ -35,6 +37,17 @@ void finish_form_options(const Options& options, const ods::ProjectionSetting& p
 
 // Whether a file of this name holds the scene's light, which is neither exposed nor toned: exr and hdr.
 bool keeps_light(const std::string& path);
+
+// The names of a film's frames. Throws UsageError: the output has no place for their numbers.
+ods::FrameNames film_names(const std::string& output);
+
+// What nobody gave of how a picture is saved that is made of another: its layout, where a file of that name can have
+// it, and what a display shows as it is.
+void save_as_it_was(const ods::StoredPicture& picture, const std::string& output, std::optional<ods::Layout> wished,
+                    bool has_tone, ods::SaveOptions& save);
+
+// Says what of a picture was guessed.
+void note_guesses(const std::string& path, const ods::StoredPicture& picture);
 
 // Says it where readers of the file would go by a name that misleads: y_LR.png of top-bottom.
 void note_misleading_name(const std::string& output, const ods::SaveOptions& save, size_t eye_count,

@@ -48,6 +48,16 @@ class Options {
         name, names, std::string(name_of(value)), [&value, &all](size_t i) { value = all[i]; }, text);
   }
 
+  // The same where nobody need choose.
+  template <class T, size_t kCount>
+  void choice(const std::string& name, std::optional<T>& value, const T (&all)[kCount], std::string_view (*name_of)(T),
+              const std::string& text) {
+    std::vector<std::string> names;
+    for (T member : all) names.emplace_back(name_of(member));
+    choice(
+        name, names, "", [&value, &all](size_t i) { value = all[i]; }, text);
+  }
+
   // Whatever set makes of the word; it throws UsageError.
   void custom(const std::string& name, const std::string& unit, const std::string& fallback,
               const std::function<void(const std::string&)>& set, const std::string& text);

@@ -71,13 +71,11 @@ bool read_options(OverJob& job, int argc, char** argv) {
   return true;
 }
 
-StoredPicture open(const std::string& path, const ods::KnownForm& known, bool says_guesses) {
+StoredPicture open(const std::string& path, const ods::KnownForm& known, bool is_first) {
   ods::OpenOptions options;
   options.form = known;
   StoredPicture picture = ods::open_picture(path, options);
-  for (const std::string& guess : picture.guesses) {
-    if (says_guesses) note(fmt::format("{}: {}", path, guess));
-  }
+  if (is_first) note_guesses(path, picture);
   return picture;
 }
 
@@ -87,28 +85,22 @@ void lay(const OverJob& job, const std::optional<StoredPicture>& front, const st
   for (const std::string& input : {job.foreground, background}) refuse_overwriting(output, input);
   const StoredPicture back = open(background, job.known, is_first);
   ods::SaveOptions save = job.save;
-  const bool keeps =
-      back.layout != ods::Layout::kSeparate && (back.layout != ods::Layout::kMultiview || ods::keeps_layers(output));
-  save.layout = job.layout.value_or(keeps ? back.layout : ods::Layout::kTopBottom);
-  if (!job.has_tone && !back.is_float) save.tone = ods::ToneCurve::kLinear;
-  ods::PictureRows rows;
+  save_as_it_was(back, output, job.layout, job.has_tone, save);
+  ods::Overlay overlay;
   if (front) {
     const std::string fault = over_fault(*front, back, job.over);
     if (!fault.empty()) throw UsageError(fmt::format("'{}' over '{}': {}", job.foreground, background, fault));
     if (is_first) {
       for (const std::string& warning : over_warnings(*front, back)) warn(warning);
     }
-    rows = lay_over(*front, back, job.over);
+    overlay = lay_over(*front, back, job.over);
   } else {
-    rows = convert(back, own_form(back)).rows;
+    overlay.rows = convert(back, own_form(back)).rows;
   }
   if (is_first) note_misleading_name(output, save, back.eyes.size(), back.rig.projection);
-  for (const std::string& file : save_picture(rows, &back.rig, save, output)) std::cout << file << std::endl;
-}
-
-FrameNames names_of(const std::string& path) {
-  if (const auto names = ods::frame_names(path)) return *names;
-  throw UsageError(fmt::format("'{}' needs a place for the number of the frame: ####", path));
+  for (const std::string& file : save_picture(overlay.rows, &back.rig, save, output)) std::cout << file << std::endl;
+  const std::string behind = behind_warning(overlay);
+  if (is_first && !behind.empty()) warn(behind);
 }
 
 bool exists(const std::string& path) {
@@ -118,7 +110,7 @@ bool exists(const std::string& path) {
 
 void lay_frames(const OverJob& job, const FrameNames& back, ProgressLines& lines) {
   const auto front = ods::frame_names(job.foreground);
-  const FrameNames output = names_of(job.output);
+  const FrameNames output = film_names(job.output);
   const std::vector<int> frames = job.frames ? *job.frames : ods::frames_on_disk(back);
   if (frames.empty()) throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no frame '{}'", job.background));
   std::optional<StoredPicture> still;

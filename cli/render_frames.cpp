@@ -45,14 +45,9 @@ bool exists(const std::string& path) {
   return true;
 }
 
-FrameNames name_frames(const RenderJob& job) {
-  if (const auto names = ods::frame_names(job.output)) return *names;
-  throw UsageError("a film needs a place for the number of the frame in its files' names: -o shot.####.png");
-}
-
 std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) {
   if (!asks_for_film(time)) return {{static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
-  const FrameNames names = name_frames(job);
+  const FrameNames names = film_names(job.output);
   std::vector<Frame> frames;
   size_t skipped = 0;
   for (const int number : film_frames(time)) {
@@ -64,7 +59,7 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
 }
 
 void check_outputs(const RenderJob& job) {
-  const std::string path = asks_for_film(job.time) ? name_frames(job).path(0) : job.output;
+  const std::string path = asks_for_film(job.time) ? film_names(job.output).path(0) : job.output;
   const std::vector<int> eyes = ods::eye_list(job.render.eyes);
   ods::check_output(path, job.save, eyes, {job.render.width, job.render.height});
   note_misleading_name(path, job.save, eyes.size(), job.camera.rig.projection);

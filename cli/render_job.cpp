@@ -70,11 +70,11 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   if (job.output.empty()) throw UsageError("where to? -o picture.png");
   if (options.given("--exposure") && keeps_light(job.output))
     note("--exposure leaves .exr and .hdr as the scene is lit");
-  note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
   }
   job.render.layers = ods::keeps_layers(job.output);
   finish_render_job(options, quality, job);
+  note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
   return true;
 }

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 #include "cli/console.h"
@@ -23,8 +22,7 @@ ods::Lettering letter(const TitleJob& job, const ods::CameraRig& rig, ods::Exten
   if (lettering.characters_lost > 0) {
     warn(fmt::format("no font here has {} of its characters; --font FILE may", lettering.characters_lost));
   }
-  if (!job.lettering.font.starts_with("Sans") && job.lettering.font.find('/') == std::string::npos &&
-      !job.lettering.font.starts_with(lettering.font) && !std::filesystem::exists(job.lettering.font)) {
+  if (lettering.stands_in) {
     note(fmt::format("there is no font '{}' here: {} stands in", job.lettering.font, lettering.font));
   }
   return lettering;
@@ -64,17 +62,15 @@ void title(int argc, char** argv) {
   end_on_interrupts("ods: interrupted\n");
   const ods::CameraRig rig = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
-  const auto names = ods::frame_names(job.output);
-  if (job.frames && !names)
-    throw UsageError("a film needs a place for the number in its files' names: -o title.####.exr");
-  ods::check_output(job.frames ? names->path(0) : job.output, job.save, ods::eye_list(job.picture.eyes), eye);
-  note_misleading_name(job.output, job.save, ods::eye_list(job.picture.eyes).size(), rig.projection);
+  const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
+  ods::check_output(job.frames ? film_names(job.output).path(0) : job.output, job.save, eyes, eye);
+  note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
   warn_if_too_near(job, rig);
   ods::Title title = make_title(rig, eye, job.title, letter(job, rig, eye));
   if (!job.frames) return save(job, title, rig, job.output);
   for (const int frame : *job.frames) {
     title.setting.opacity = job.title.opacity * fade(job, frame);
-    save(job, title, rig, names->path(frame));
+    save(job, title, rig, film_names(job.output).path(frame));
   }
 }
 

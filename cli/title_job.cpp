@@ -100,7 +100,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   if (fades && !job.frames) throw UsageError("--fps and fades are for films: --frames 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
-  job.save.tone = ods::ToneCurve::kLinear;  // a colour is shown as it is given
+  job.save.tone = ods::ToneCurve::kLinear;               // a colour is shown as it is given
   if (options.given("--width")) job.picture.height = 0;  // --height is the text's
   finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);

@@ -41,7 +41,7 @@ TEST(Over, IsPorterAndDuffsOver) {
   OverOptions options;
   options.opacity = 0.5f;
   ASSERT_EQ(over_fault(front.picture, back.picture, options), "");
-  const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, options));
+  const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, options).rows);
   for (int eye : {0, 1}) {
     for (int y = 0; y < kSize.height; y++) {
       for (int x = 0; x < kSize.width; x++) {
@@ -60,7 +60,7 @@ TEST(Over, ByDepthTheNearerIsSeen) {
   const MadePicture front = front_picture(CameraRig()), back = back_picture(CameraRig());
   OverOptions options;
   options.by_depth = true;
-  const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, options));
+  const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, options).rows);
   EXPECT_NEAR(images[0].at(2, 8)[2], 0.5f + 0.25f, 1e-6f);
   EXPECT_EQ(images[0].at(20, 8)[2], 0.5f);
   EXPECT_EQ(images[0].at(20, 8)[3], 3.0f);
@@ -71,7 +71,7 @@ TEST(Over, TheForegroundTakesTheBackgroundsForm) {
   half.projection = projection_named("vr180");
   const MadePicture front = front_picture(half, {64, 64}), back = back_picture(CameraRig());
   ASSERT_EQ(over_fault(front.picture, back.picture, {}), "");
-  const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, {}));
+  const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, {}).rows);
   EXPECT_EQ(images[0].width, kSize.width);
   EXPECT_NEAR(images[0].at(12, 8)[2], 0.75f, 1e-3f);  // ahead to the left
   EXPECT_NEAR(images[0].at(20, 8)[2], 1.0f, 1e-3f);   // to the right
@@ -93,9 +93,12 @@ TEST(Over, WarnsOfOtherEyes) {
 }
 
 TEST(Over, WarnsOfWhatStandsBehindWhatItCovers) {
-  const auto warnings = over_warnings(front_picture(CameraRig()).picture, back_picture(CameraRig()).picture);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("100 %"), std::string::npos) << warnings[0];  // of what covers more than half
+  const MadePicture front = front_picture(CameraRig()), back = back_picture(CameraRig());
+  const Overlay overlay = lay_over(front.picture, back.picture, {});
+  EXPECT_EQ(behind_warning(overlay), "");
+  images_of(overlay.rows);
+  const std::string warning = behind_warning(overlay);
+  EXPECT_NE(warning.find("100 %"), std::string::npos) << warning;  // of what covers more than half
 }
 
 TEST(Over, RefusalsSayWhy) {

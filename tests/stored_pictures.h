@@ -85,12 +85,9 @@ inline std::vector<Image> images_of(const PictureRows& rows) {
 
 // The same eyes with another projection and size.
 inline ConvertTarget target_of(const MadePicture& made, const ProjectionSetting& projection, Extent size) {
-  ConvertTarget target;
-  target.rig = made.picture.rig;
+  ConvertTarget target = own_form(made.picture);
   target.rig.projection = projection;
   target.eye = size;
-  target.eyes.clear();
-  for (const StoredEye& eye : made.picture.eyes) target.eyes.push_back(eye.eye);
   return target;
 }
 

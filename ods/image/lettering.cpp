@@ -171,6 +171,8 @@ Lettering draw_lettering(const std::string& text, float em, const LetteringOptio
   if (ink.width < 1 || ink.height < 1) throw Error(ErrorKind::kInput, "the text has nothing to see");
   lettering.coverage = drawn.draw();
   lettering.font = drawn.family();
+  const bool is_any = options.font.starts_with("Sans");  // no family's name
+  lettering.stands_in = !is_any && !is_font_file(options.font) && !options.font.starts_with(lettering.font);
   lettering.characters_lost = drawn.characters_lost();
   return lettering;
 }

@@ -24,7 +24,8 @@ struct LetteringOptions {
 struct Lettering {
   Image coverage;           // 1 channel, 0..1, just large enough
   float em = 0.0f;          // pixels: the font's size, about the distance of two lines
-  std::string font;         // the family that is the first choice: another one where there is none of that name
+  std::string font;         // the family that is the first choice
+  bool stands_in = false;   // for one of the name asked for, which is not here
   int characters_lost = 0;  // no font on this machine has a sign for them
 };
 

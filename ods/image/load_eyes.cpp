@@ -5,7 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "ods/image/tone.h"
 #include "ods/kernel/surface.h"
@@ -23,8 +24,10 @@ static void read_pixels(const LayerPixels& layer, Extent size, bool is_float, Pu
     for (int x = 0; x < size.width; x++, in += layer.pixel_stride) {
       vec3 rgb;
       for (int c = 0; c < 3; c++) {
-        const float value = sample_value(layer.sample, in + static_cast<size_t>(c) * step);
-        rgb[c] = is_float ? value : light[static_cast<size_t>(std::lround(value * static_cast<float>(largest)))];
+        const std::byte* at = in + static_cast<size_t>(c) * step;
+        uint16_t code = 0;
+        if (!is_float) std::memcpy(&code, at, step);
+        rgb[c] = is_float ? sample_value(layer.sample, at) : light[code];
       }
       put(x, y, rgb);
     }

@@ -55,6 +55,14 @@ static void compare_eyes_of(const CameraRig& front, const CameraRig& back, std::
   if (front.neck != back.neck) warnings.push_back("the foreground's eyes stand otherwise before the neck (--neck)");
 }
 
+std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
+  std::vector<std::string> warnings;
+  compare_eyes_of(foreground.rig, background.rig, warnings);
+  return warnings;
+}
+
+// --- laying over -----------------------------------------------------------------------------------------------------
+
 namespace {
 
 // A row of a picture as another's form has it: which channel is what.
@@ -81,39 +89,20 @@ struct Rows {
 
 }  // namespace
 
-std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
-  std::vector<std::string> warnings;
-  compare_eyes_of(foreground.rig, background.rig, warnings);
-  if (!depth_layer(foreground) || !depth_layer(background) || !has_alpha(foreground)) return warnings;
-  const ConvertTarget target = own_form(background);
-  const StoredPicture moved = with_eyes_of(foreground, background.rig);
-  const Rows front(moved, target), back(background, target);
-  int64_t seen = 0, behind = 0;
-  for (int y = 0; y < target.eye.height; y++) {
-    const std::vector<float> a = front.row(0, y), b = back.row(0, y);
-    for (size_t x = 0; x < static_cast<size_t>(target.eye.width); x++) {
-      const float* const pixel = &a[x * front.channels];
-      if (!(pixel[front.alpha] > 0.5f)) continue;
-      seen++;
-      if (pixel[front.depth] > b[x * back.channels + static_cast<size_t>(back.depth)]) behind++;
-    }
-  }
-  if (behind > 0) {
-    warnings.push_back(
-        fmt::format("{:.3g} % of the foreground stands behind what it covers: bring it nearer, or --by-depth",
-                    100.0 * static_cast<double>(behind) / static_cast<double>(seen)));
-  }
-  return warnings;
-}
+// Of a row's pixels, as Overlay has them.
+struct Count {
+  int covered = 0, behind = 0;
+};
 
-// --- laying over -----------------------------------------------------------------------------------------------------
-
-static void lay_row(const Rows& front, const Rows& back, const OverOptions& options, const std::vector<float>& before,
-                    std::span<float> row) {
+static Count lay_row(const Rows& front, const Rows& back, const OverOptions& options, const std::vector<float>& before,
+                     std::span<float> row) {
+  Count count;
   for (size_t x = 0; x < row.size() / back.channels; x++) {
     const float* in = &before[x * front.channels];
     float* out = &row[x * back.channels];
     const float own = front.alpha < 0 ? 1.0f : in[front.alpha];
+    const bool covers = front.depth >= 0 && back.depth >= 0 && own > 0.5f && !options.by_depth;
+    count.covered += covers, count.behind += covers && in[front.depth] > out[back.depth];
     const bool hidden = options.by_depth && !(in[front.depth] < out[back.depth]);
     const float alpha = hidden ? 0.0f : own * options.opacity;
     if (!(alpha > 0.0f)) continue;
@@ -121,20 +110,30 @@ static void lay_row(const Rows& front, const Rows& back, const OverOptions& opti
     if (back.alpha >= 0) out[back.alpha] = alpha + out[back.alpha] * (1.0f - alpha);
     if (front.depth >= 0 && back.depth >= 0 && alpha > 0.5f) out[back.depth] = in[front.depth];
   }
+  return count;
 }
 
-PictureRows lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
+Overlay lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
   assert(over_fault(foreground, background, options).empty());
   const ConvertTarget target = own_form(background);
   const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.rig));
   const auto front = std::make_shared<const Rows>(*moved, target);
   const auto back = std::make_shared<const Rows>(background, target);
-  PictureRows rows = back->rows;
-  rows.fill = [moved, front, back, options](int index, int y, std::span<float> row) {
+  Overlay overlay;
+  overlay.rows = back->rows;
+  overlay.rows.fill = [moved, front, back, options, covered = overlay.covered, behind = overlay.behind](
+                          int index, int y, std::span<float> row) {
     back->rows.fill(index, y, row);
-    lay_row(*front, *back, options, front->row(index, y), row);
+    const Count count = lay_row(*front, *back, options, front->row(index, y), row);
+    *covered += count.covered, *behind += count.behind;
   };
-  return rows;
+  return overlay;
+}
+
+std::string behind_warning(const Overlay& overlay) {
+  if (*overlay.behind == 0) return {};
+  return fmt::format("{:.3g} % of the foreground stands behind what it covers: bring it nearer, or --by-depth",
+                     100.0 * static_cast<double>(*overlay.behind) / static_cast<double>(*overlay.covered));
 }
 
 }  // namespace ods

@@ -6,6 +6,9 @@
 // The foreground comes into the background's form first, as convert() has it, but its eyes stay where they were: seen
 // from other places than the background's, it would stand at other distances than it was made for. That is said.
 #pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,12 +24,21 @@ struct OverOptions {
 // Why it cannot be laid over, in words for a message; empty: it can.
 std::string over_fault(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options);
 
-// What is suspicious, in words for people: eyes elsewhere, another merge, things that stand behind what they cover.
-// Reads both pictures' depths, where they have any.
+// What is suspicious of their eyes, in words for people: they stand elsewhere, or are merged otherwise.
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background);
 
-// Of the background's form, with its layers; Z is that of what is seen. Both pictures stay where they are until the
-// last row is filled. Precondition: no over_fault().
-PictureRows lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options);
+struct Overlay {
+  PictureRows rows;  // of the background's form, with its layers; Z is that of what is seen
+  // Pixels filled so far that the foreground covers by more than half, and those of them that stand behind what they
+  // cover; counted where both have depth and it does not decide.
+  std::shared_ptr<std::atomic<int64_t>> covered = std::make_shared<std::atomic<int64_t>>(0);
+  std::shared_ptr<std::atomic<int64_t>> behind = std::make_shared<std::atomic<int64_t>>(0);
+};
+
+// Both pictures stay where they are until the last row is filled. Precondition: no over_fault().
+Overlay lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options);
+
+// In words for people, once its rows are filled; empty: nothing stands behind what it covers.
+std::string behind_warning(const Overlay& overlay);
 
 }  // namespace ods

@@ -10,6 +10,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "ods/scene/placement.h"
+
 namespace ods {
 
 using glm::dmat3, glm::dmat4, glm::dvec3, glm::dvec4;
@@ -18,10 +20,9 @@ namespace {
 
 constexpr size_t kVerticesPerTask = 4096;
 
-// Unit length, or what stood there before where there is no direction.
+// Unit length, or what stood there before.
 vec3 unit_or(dvec3 v, vec3 before) {
-  const double size = glm::length(v);
-  return std::isfinite(size) && size > 1e-100 ? vec3(v / size) : before;
+  return vec3(unit(v, dvec3(before)));
 }
 
 struct MovedVertex {

@@ -23,8 +23,9 @@
 // To get there triangles without an area or with a corner that is not finite are left out, normals of no length are
 // replaced by those of the faces around them, a primitive without normals gets flat ones, one without the tangents its
 // normal map needs gets them from its texture coordinates, factors are clamped to their legal range, instances whose
-// matrix has no inverse are left out, those that move are hidden while that is so. Channels whose keys make no sense (of
-// the wrong number, falling times, no numbers) are left out with a warning. Everything else that is wrong is an Error.
+// matrix has no inverse are left out, those that move are hidden while that is so. Channels whose keys make no sense
+// (of the wrong number, falling times, no numbers) are left out with a warning. Everything else that is wrong is an
+// Error.
 #pragma once
 #include <span>
 #include <string>

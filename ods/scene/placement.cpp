@@ -10,7 +10,7 @@ namespace ods {
 
 using glm::dmat4, glm::dvec3, glm::dvec4;
 
-static dvec3 unit(const dvec3& v, const dvec3& fallback) {
+dvec3 unit(const dvec3& v, const dvec3& fallback) {
   const double size = glm::length(v);
   return std::isfinite(size) && size > 1e-100 ? v / size : fallback;
 }

@@ -30,7 +30,7 @@ struct RenderOptions {
   int bounces = 8;   // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // 1.5 pixels radius; the box is 1 pixel wide
-  bool layers = true;  // depth, normal and albedo beside radiance; without them their images are empty
+  bool layers = true;        // depth, normal and albedo beside radiance; without them their images are empty
   bool transparent = false;  // the sky lights the scene and is not seen: where nothing is met, alpha is 0
   uint32_t seed = 0;
   int threads = 0;  // 0: all of the machine's

@@ -84,10 +84,7 @@ TagResult tag_film(const std::string& path, const std::string& to, uint64_t trac
                    const std::optional<Ambisonics>& sound) {
   const FileInput file(path);
   const bool matroska = is_of_matroska(file);
-  std::error_code ignored;
-  // A link goes on leading to the film.
-  const std::filesystem::path real = std::filesystem::canonical(to, ignored);
-  AtomicFile output(real.empty() ? to : real.native());
+  AtomicFile output(to);
   TagResult result;
   try {
     result = matroska ? tag_matroska(file, output, track, form) : tag_mp4(file, output, track, form, sound);

@@ -3,8 +3,9 @@
 #include "ods/video/film_codec.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
+
+#include "ods/base/text.h"
 
 namespace ods {
 
@@ -40,9 +41,7 @@ std::optional<Codec> level_codec(FilmCodec codec) {
 }
 
 std::optional<Container> container_of_path(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = small_letters(std::filesystem::path(path).extension().string());
   if (extension == ".m4v") return Container::kMp4;
   for (Container container : kContainers) {
     if (extension.ends_with(container_name(container)) && extension.size() == 1 + container_name(container).size()) {

@@ -103,17 +103,30 @@ static void check_sizes(const FrameFiles& files) {
   }
 }
 
-static bool is_squeezed(Layout layout) {
-  return layout == Layout::kTopBottomHalf || layout == Layout::kSideBySideHalf;
-}
-
 static Layout wished_layout(Layout own, std::optional<Layout> wish) {
   if (!wish || *wish == own) return own;
-  if (is_squeezed(own)) {
+  const Extent squeeze = squeeze_of(own, 2);
+  if (squeeze.width * squeeze.height > 1) {
     throw Error(ErrorKind::kInput, fmt::format("the frames are {} and cannot become {}; ods convert unsqueezes them",
                                                layout_name(own), layout_name(*wish)));
   }
   return *wish;
+}
+
+FilmPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSetting& projection) {
+  FilmPlan plan;
+  plan.eye = eye;
+  plan.eyes = count;
+  plan.layout = layout;
+  plan.size = packed_size(layout, eye, static_cast<int>(count));
+  plan.form.stereo = count == 1 ? FilmStereo::kOneView : film_stereo(layout);
+  plan.form.source = "Omnistereo";
+  try {
+    set_projection(plan.form, projection);
+  } catch (const Error& error) {
+    plan.notes.push_back(fmt::format("{}; it says only how its eyes lie", error.what()));
+  }
+  return plan;
 }
 
 FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optional<Layout> layout) {
@@ -122,22 +135,11 @@ FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optiona
   options.form = known;
   options.only_light = true;
   const StoredPicture first = open_picture(files.path(0), options);
-  FilmPlan plan;
-  plan.eye = first.size;
-  plan.eyes = first.eyes.size();
-  const int count = static_cast<int>(plan.eyes);
-  plan.layout = wished_layout(film_layout(first), layout);
-  plan.size = packed_size(plan.layout, plan.eye, count);
+  const Layout own = wished_layout(film_layout(first), layout);
+  FilmPlan plan = plan_eyes(first.size, first.eyes.size(), own, first.rig.projection);
   plan.known.layout = first.layout;
   plan.known.camera = first.rig;
-  plan.form.stereo = count == 1 ? FilmStereo::kOneView : film_stereo(plan.layout);
-  plan.form.source = "Omnistereo";
   for (const std::string& guess : first.guesses) plan.notes.push_back(fmt::format("{}: {}", files.path(0), guess));
-  try {
-    set_projection(plan.form, first.rig.projection);
-  } catch (const Error& error) {
-    plan.notes.push_back(fmt::format("{}; it says only how its eyes lie", error.what()));
-  }
   return plan;
 }
 

@@ -35,6 +35,9 @@ struct FilmPlan {
   std::vector<std::string> notes;  // what was guessed, and what the film cannot say, for people
 };
 
+// That of so many eyes, `eye` large as they are stored, in a layout that films have.
+FilmPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSetting& projection);
+
 // `known` goes before what the files say; `layout` is kTopBottom or kSideBySide. Reads the first frame, and of the
 // others what they say of themselves. Throws Error(kInput): a frame that cannot be read, frames of another size
 // (which), a layout that squeezed eyes cannot have.
