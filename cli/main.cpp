@@ -32,6 +32,8 @@ constexpr Command kCommands[] = {
     {"encode", "make a film of frames", "ods_encode"},
     {"title", "make text that stands in a stereo 360 picture", "ods_title"},
     {"over", "lay a picture with alpha over another", "ods_over"},
+    {"rig", "plan perspective cameras for any renderer", "ods_rig"},
+    {"stitch", "make a picture of what those cameras saw", "ods_stitch"},
     {"info", "tell what is in a scene", "ods_info"},
     {"camera", "say a camera in the words of another renderer", "ods_camera"},
     {"project", "tell where world points fall in each eye", "ods_project"},

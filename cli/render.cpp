@@ -6,13 +6,15 @@
 #include "cli/long_job.h"
 #include "cli/render_frames.h"
 #include "cli/render_job.h"
+#include "cli/render_views.h"
 
 namespace {
 
 void render(int argc, char** argv) {
   RenderJob job;
   if (!read_render_job(job, argc, argv)) return;
-  run_long_job(job.progress, job.render.threads, [&](ProgressLines& lines) { render_job(job, lines); });
+  run_long_job(job.progress, job.render.threads,
+               [&](ProgressLines& lines) { job.rig.empty() ? render_job(job, lines) : render_views(job, lines); });
 }
 
 }  // namespace

@@ -18,16 +18,27 @@ constexpr const char* kExamples =
     "  ods render scene.glb -o picture.jpg --position 0,1.6,0 --yaw 90 --quality draft\n"
     "  ods render scene.glb -o eye_%V.png         eye_left.png and eye_right.png\n"
     "  ods render scene.glb -o picture.png --merge cosine,60,90\n"
-    "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30";
+    "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30\n"
+    "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
   add_form_options(options, job.render, job.save);
+  options.text("--rig", "FILE", job.rig, "render the views of this rig of slits (ods rig), for ods stitch");
   options.flag("--transparent", job.render.transparent,
                "the sky lights the scene and is left out: alpha, for ods over (.exr .png .tif .webp)");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
+}
+
+// A rig has cameras and a size of its own.
+void check_rig(const Options& options, const RenderJob& job) {
+  if (job.rig.empty()) return;
+  for (const char* own : {"--width", "--height", "--size", "--eyes", "--layout", "--position", "--camera", "--yaw",
+                          "--pitch", "--roll", "--ipd", "--projection", "--frames", "--shutter"}) {
+    if (options.given(own)) throw UsageError(fmt::format("{} is not for --rig", own));
+  }
 }
 
 }  // namespace
@@ -74,6 +85,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
     throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
   }
   job.render.layers = ods::keeps_layers(job.output);
+  check_rig(options, job);
   finish_render_job(options, quality, job);
   note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
   return true;

@@ -20,6 +20,7 @@ struct RenderJob {
   ods::RenderOptions render;
   ods::SaveOptions save;
   std::string output;
+  std::string rig;  // of slits: its views are rendered, in place of the camera's picture
   ProgressMode progress = ProgressMode::kAuto;
 };
 

@@ -74,6 +74,26 @@ TEST(Scratch, AFullDiskIsAnErrorBeforeTheFirstByte) {
   EXPECT_TRUE(disk.folder().names().empty());
 }
 
+TEST(Scratch, AFileOutlivesWhoWroteIt) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path("journal");
+  {
+    const Scratch scratch(5000, file);
+    scratch.data()[4999] = std::byte{7};
+    EXPECT_THROW(Scratch(5000, file), Error);  // it is in use
+  }
+  EXPECT_EQ(Scratch(5000, file).data()[4999], std::byte{7});
+  EXPECT_EQ(Scratch(6000, file).data()[4999], std::byte{0});  // another size, another thing
+  EXPECT_THROW(Scratch(10, folder.path("absent/journal")), Error);
+}
+
+TEST(Scratch, AFileThatFindsNoRoomIsRemoved) {
+  const TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: a small tmpfs can only be mounted by root with CAP_SYS_ADMIN";
+  EXPECT_THROW(Scratch(1 << 20, disk.folder().path("journal")), Error);
+  EXPECT_TRUE(disk.folder().names().empty());
+}
+
 TEST(Scratch, SaysWhyNot) {
   const TemporaryFolder folder;
   EXPECT_THROW(Scratch(10, folder.path("absent"), 0), Error);

@@ -4,7 +4,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -47,6 +49,14 @@ static void* map_file(const std::string& folder, size_t size) {
   return map;
 }
 
+static int open_locked(const std::string& path) {
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) throw Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+  close(file);
+  throw Error(ErrorKind::kOutput, fmt::format("another ods is at work on '{}'", path));
+}
+
 static void* map_memory(size_t size) {
   check_memory(size, "the picture", "use a machine with more, or a smaller picture");
   void* map = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -62,8 +72,29 @@ Scratch::Scratch(size_t size, const std::string& folder, size_t most_in_memory)
   data_ = static_cast<std::byte*>(on_disk_ ? map_file(folder, size_) : map_memory(size_));
 }
 
+Scratch::Scratch(size_t size, const std::string& file)
+    : size_(std::max<size_t>(size, 1)), on_disk_(true), file_(open_locked(file)) {
+  struct stat info;
+  int code = fstat(file_, &info) == 0 ? 0 : errno;
+  const off_t length = static_cast<off_t>(size_);
+  if (code == 0 && info.st_size != length && ftruncate(file_, 0) != 0) code = errno;
+  if (code == 0) code = posix_fallocate(file_, 0, length);
+  void* map = MAP_FAILED;
+  if (code == 0) {
+    map = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+    if (map == MAP_FAILED) code = errno;
+  }
+  if (map == MAP_FAILED) {
+    if (code == ENOSPC) unlink(file.c_str());
+    close(file_);
+    throw no_room(file, size, code);
+  }
+  data_ = static_cast<std::byte*>(map);
+}
+
 Scratch::~Scratch() {
   munmap(data_, size_);
+  if (file_ >= 0) close(file_);
 }
 
 void Scratch::release() const {

@@ -15,6 +15,9 @@ class Scratch {
   // no folder all is memory. Throws Error(kOutput) where the disk has not the room, Error(kMemory) where the memory has
   // not.
   Scratch(size_t size, const std::string& folder, size_t most_in_memory);
+  // The same in a file that stays when the process ends: its bytes as another process left them where they are as many,
+  // else zeros. Throws Error(kOutput) as above, and where another process has it open.
+  Scratch(size_t size, const std::string& file);
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   ~Scratch();
@@ -30,6 +33,7 @@ class Scratch {
   std::byte* data_ = nullptr;
   size_t size_ = 0;
   bool on_disk_ = false;
+  int file_ = -1;  // locked
 };
 
 }  // namespace ods

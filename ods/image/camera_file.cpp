@@ -12,15 +12,12 @@
 #include "ods/base/atomic_file.h"
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
+#include "ods/base/json_reader.h"
 #include "ods/base/read_file.h"
-#include "ods/base/suggest.h"
 
 namespace ods {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr int kDeepest = 16;                  // levels of brackets; our own files have four
 constexpr int64_t kLargestMap = 1 << 24;      // texels
 constexpr size_t kLargestFile = 512u << 20u;  // bytes; what such a map may take
 
@@ -71,90 +68,7 @@ Json conventions() {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-// One object of the file, and where it lies in it: "merge_top".
-class Reader {
- public:
-  Reader(const Json& json, std::string file, std::string place, std::vector<std::string>& warnings)
-      : json_(json), file_(std::move(file)), place_(std::move(place)), warnings_(warnings) {
-    if (!json_.is_object()) fail("", "is an object {...}");
-  }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-
-  [[noreturn]] void fail(const std::string& key, const std::string& wanted) const {
-    const std::string name = place_ + (place_.empty() || key.empty() ? "" : ".") + key;
-    throw Error(ErrorKind::kInput,
-                fmt::format("'{}' is no camera: {} {}", file_, name.empty() ? "the file" : name, wanted));
-  }
-
-  // The value of a key, nothing when it is missing or null.
-  const Json* find(const std::string& key) {
-    known_.push_back(key);
-    const auto found = json_.find(key);
-    return found == json_.end() || found->is_null() ? nullptr : &*found;
-  }
-
-  void number(const std::string& key, float& value, float low, float high) {
-    if (const Json* json = find(key)) value = number(*json, key, low, high);
-  }
-
-  void integer(const std::string& key, int& value, int low, int high) {
-    const Json* json = find(key);
-    if (!json) return;
-    const bool legal = json->is_number_integer() && *json >= low && *json <= high;
-    if (!legal) fail(key, fmt::format("is a whole number from {} to {}", low, high));
-    value = json->get<int>();
-  }
-
-  void flag(const std::string& key, bool& value) {
-    const Json* json = find(key);
-    if (json && !json->is_boolean()) fail(key, "is true or false");
-    if (json) value = json->get<bool>();
-  }
-
-  // At most 64 letters: what stands in messages.
-  std::string word(const std::string& key) {
-    const Json* json = find(key);
-    if (json && !json->is_string()) fail(key, "is a word in quotes");
-    return json ? json->get<std::string>().substr(0, 64) : "";
-  }
-
-  template <int kCount>
-  bool vector(const std::string& key, glm::vec<kCount, float>& value, float low, float high) {
-    const Json* json = find(key);
-    if (!json) return false;
-    if (!json->is_array() || json->size() != kCount) fail(key, fmt::format("is a list of {} numbers", kCount));
-    for (int i = 0; i < kCount; i++) value[i] = number((*json)[static_cast<size_t>(i)], key, low, high);
-    return true;
-  }
-
-  float number(const Json& json, const std::string& key, float low, float high) const {
-    const double value = json.is_number() ? json.get<double>() : NAN;
-    if (!(value >= static_cast<double>(low) && value <= static_cast<double>(high))) {
-      fail(key, fmt::format("is a number from {:g} to {:g}", low, high));
-    }
-    return static_cast<float>(value);
-  }
-
-  // Names the keys that nobody asked for. They may be anything: shown short.
-  void finish() {
-    for (const auto& [key, value] : json_.items()) {
-      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-      if (warnings_.size() == 16) break;
-      warnings_.push_back(fmt::format("'{}': nothing is known of '{}{}{}'{}", file_, place_, place_.empty() ? "" : ".",
-                                      key.substr(0, 64), did_you_mean(key.substr(0, 64), known_)));
-    }
-  }
-
- private:
-  const Json& json_;
-  std::string file_;
-  std::string place_;
-  std::vector<std::string>& warnings_;
-  std::vector<std::string> known_;
-};
-
-void read_merge(Reader& in, PoleMergeSetting& merge) {
+void read_merge(JsonReader& in, PoleMergeSetting& merge) {
   const std::string mode = in.word("mode");
   if (!mode.empty()) {
     const auto known = merge_of(mode);
@@ -167,22 +81,22 @@ void read_merge(Reader& in, PoleMergeSetting& merge) {
   if (merge.start >= merge.end) in.fail("start", "is below its end");
 }
 
-void read_projection(Reader& in, ProjectionSetting& setting) {
+void read_projection(JsonReader& in, ProjectionSetting& setting) {
   const std::string name = in.word("name");
   const NamedProjection* named = find_projection(name.empty() ? "lat-long" : name);
   if (!named) in.fail("name", fmt::format("is no projection '{}'", name));
   setting = named->setting;
   in.vector("longitude", setting.longitude, -36000.0f, 36000.0f);
   in.vector("latitude", setting.latitude, -90.0f, 90.0f);
-  in.number("fov", setting.fov, 1.0f, 360.0f);
-  in.number("aspect", setting.aspect, 0.0f, 100.0f);
+  in.number("fov", setting.fov, 0.001f, 360.0f);
+  in.number("aspect", setting.aspect, 0.0f, 10000.0f);
   in.number("pan", setting.pan, -36000.0f, 36000.0f);
   in.number("tilt", setting.tilt, -90.0f, 90.0f);
   const std::string fault = projection_fault(setting);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);
 }
 
-void read_convergence(Reader& in, CameraRig& rig) {
+void read_convergence(JsonReader& in, CameraRig& rig) {
   const std::string mode = in.word("mode");
   bool known = mode.empty();
   for (int convergence : kConvergences) {
@@ -192,21 +106,21 @@ void read_convergence(Reader& in, CameraRig& rig) {
   in.number("distance", rig.convergence_distance, 1e-3f, 1e6f);
 }
 
-void read_map(Reader& in, CameraRig& rig) {
+void read_map(JsonReader& in, CameraRig& rig) {
   int width = 0, height = 0;
   in.integer("width", width, 1, 1 << 15);
   in.integer("height", height, 1, 1 << 15);
-  const Json* values = in.find("values");
   const int64_t texels = int64_t{width} * height;
-  const bool legal = values && values->is_array() && texels > 0 && texels <= kLargestMap &&
-                     values->size() == static_cast<size_t>(texels);
-  if (!legal) in.fail("values", "are width times height numbers");
+  std::vector<float> values;
+  if (texels < 1 || texels > kLargestMap || !in.numbers("values", values, static_cast<size_t>(texels), 0.0f, 1.0f)) {
+    in.fail("values", "are width times height numbers");
+  }
   auto map = std::make_shared<Image>(width, height, 1);
-  for (size_t i = 0; i < map->pixels.size(); i++) map->pixels[i] = in.number((*values)[i], "values", 0.0f, 1.0f);
+  map->pixels = std::move(values);
   rig.merge_map = map;
 }
 
-void read_picture(Reader& in, CameraFile& file) {
+void read_picture(JsonReader& in, CameraFile& file) {
   in.integer("eye_width", file.eye.width, 0, 1 << 20);
   in.integer("eye_height", file.eye.height, 0, 1 << 20);
   const std::string layout = in.word("layout");
@@ -227,7 +141,7 @@ void read_picture(Reader& in, CameraFile& file) {
   in.fail("eyes", R"(are ["left", "right"], ["left"], ["right"] or ["mono"])");
 }
 
-void read_rig(Reader& in, CameraRig& rig) {
+void read_rig(JsonReader& in, CameraRig& rig) {
   in.vector("position", rig.position, -1e6f, 1e6f);
   in.number("yaw", rig.yaw, -36000.0f, 36000.0f);
   in.number("pitch", rig.pitch, -36000.0f, 36000.0f);
@@ -242,23 +156,9 @@ void read_rig(Reader& in, CameraRig& rig) {
   }
 }
 
-void read_lens(Reader& in, CameraRig& rig) {
+void read_lens(JsonReader& in, CameraRig& rig) {
   in.number("radius", rig.lens_radius, 0.0f, 10.0f);
   in.number("focus_distance", rig.focus_distance, 1e-3f, 1e6f);
-}
-
-Json parse(std::string_view text, const std::string& name) {
-  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw Error(ErrorKind::kInput, fmt::format("'{}' is no camera: too many brackets", name));
-    return true;
-  };
-  try {
-    return Json::parse(text, shallow);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' is not JSON (byte {} of {})", name, error.byte, text.size()));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' is no camera: a number in it is too large", name));
-  }
 }
 
 }  // namespace
@@ -294,8 +194,8 @@ std::string write_camera(const CameraFile& file) {
 }
 
 CameraFile read_camera(std::string_view text, const std::string& name, std::vector<std::string>& warnings) {
-  const Json json = parse(text, name);
-  Reader in(json, name, "", warnings);
+  const Json json = parse_json(text, name, "camera");
+  JsonReader in(json, name, "camera", "", warnings);
   int version = 0;
   in.integer("omnistereo_camera", version, 1, 1 << 30);
   if (version == 0) in.fail("", R"(lacks its mark, "omnistereo_camera": 1)");
@@ -307,21 +207,14 @@ CameraFile read_camera(std::string_view text, const std::string& name, std::vect
   in.find("conventions");
   CameraFile file;
   CameraRig& rig = file.rig;
-  const auto part = [&](const std::string& key, const auto& read) {
-    const Json* found = in.find(key);
-    if (!found) return;
-    Reader reader(*found, name, key, warnings);
-    read(reader);
-    reader.finish();
-  };
   read_rig(in, rig);
-  part("picture", [&](Reader& reader) { read_picture(reader, file); });
-  part("projection", [&](Reader& reader) { read_projection(reader, rig.projection); });
-  part("merge_top", [&](Reader& reader) { read_merge(reader, rig.top); });
-  part("merge_bottom", [&](Reader& reader) { read_merge(reader, rig.bottom); });
-  part("merge_map", [&](Reader& reader) { read_map(reader, rig); });
-  part("convergence", [&](Reader& reader) { read_convergence(reader, rig); });
-  part("lens", [&](Reader& reader) { read_lens(reader, rig); });
+  in.part("picture", [&](JsonReader& reader) { read_picture(reader, file); });
+  in.part("projection", [&](JsonReader& reader) { read_projection(reader, rig.projection); });
+  in.part("merge_top", [&](JsonReader& reader) { read_merge(reader, rig.top); });
+  in.part("merge_bottom", [&](JsonReader& reader) { read_merge(reader, rig.bottom); });
+  in.part("merge_map", [&](JsonReader& reader) { read_map(reader, rig); });
+  in.part("convergence", [&](JsonReader& reader) { read_convergence(reader, rig); });
+  in.part("lens", [&](JsonReader& reader) { read_lens(reader, rig); });
   in.finish();
   if (!rig.merge_map && (rig.top.mode == kMergeMap || rig.bottom.mode == kMergeMap)) {
     in.fail("merge_map", "is missing, and a merge is its");

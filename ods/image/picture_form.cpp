@@ -156,6 +156,7 @@ static std::optional<CameraFile> find_sidecar(const FileInfo& info, const std::s
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const KnownForm& known,
                                const std::optional<CameraFile>& sidecar) {
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
+  if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
   if (sidecar && !said_layout(info)) {
     const bool is_one = sidecar->eyes.size() == 1;

@@ -44,6 +44,7 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
 
 // What the caller knows goes before all that the file says.
 struct KnownForm {
+  bool one_eye = false;  // whatever its shape and name may say
   std::optional<Layout> layout;
   std::optional<CameraRig> camera;
   std::optional<ProjectionSetting> projection;  // of the camera, too

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_views.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/console.h"
+#include "cli/long_job.h"
+#include "ods/cpu/render.h"
+#include "ods/kernel/random.h"
+#include "ods/scene/motion.h"
+#include "ods/stitch/slit_file.h"
+#include "ods/stitch/view_files.h"
+
+namespace {
+
+ods::SlitRig open_rig(const std::string& path) {
+  std::vector<std::string> warnings;
+  ods::SlitRig rig = ods::load_slit_rig(path, warnings);
+  for (const std::string& warning : warnings) warn(warning);
+  return rig;
+}
+
+bool is_there(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  return !error && size > 0;
+}
+
+}  // namespace
+
+void render_views(const RenderJob& job, ProgressLines& lines) {
+  const ods::SlitRig rig = open_rig(job.rig);
+  const ods::ViewFiles files{job.output};
+  const std::string fault = names_fault(rig, files);
+  if (!fault.empty()) throw UsageError(fault);
+  ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
+  ods::Scene scene = open_scene(job.scene);
+  add_environment(scene, job.scene);
+  TimeOptions time = job.time;
+  start_clock(time, scene);
+  ods::set_time(scene, static_cast<double>(time.time.value_or(0.0f)));
+  ods::RenderOptions options = job.render;
+  options.width = rig.view.width, options.height = rig.view.height, options.eyes = ods::Eyes::kMonoEye;
+  const auto start = std::chrono::steady_clock::now();
+  ods::CpuRenderer renderer(scene, options.threads);
+  for (size_t i = 0; i < rig.views.size(); i++) {
+    const std::string path = view_path(rig, files, i);
+    if (time.skip_existing && is_there(path)) continue;
+    options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // or noise would repeat, slit by slit
+    ods::Progress progress;
+    progress.report = [&](double part) {
+      lines.report((static_cast<double>(i) + part) / static_cast<double>(rig.views.size()), seconds_since(start));
+    };
+    const ods::Picture picture = renderer.render({rig.views[i]}, options, progress);
+    save_picture(picture, rig.views[i], job.save, path);
+    lines.clear();
+    std::cout << path << std::endl;
+  }
+  note(fmt::format("{} views in {}", rig.views.size(), duration_text(seconds_since(start))));
+}

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods rig: the perspective cameras that any renderer can take an ODS picture with, and how far it would be off.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "cli/camera_source.h"
+#include "cli/console.h"
+#include "cli/scene_source.h"
+#include "ods/cpu/render.h"
+#include "ods/stitch/slit_error.h"
+#include "ods/stitch/slit_file.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
+    "  ods rig --scene room --max-error 0.25 -o rig.json   how near things are is measured\n"
+    "  ods rig --from picture.camera.json --slits 360      says how far that would be off";
+
+struct RigJob {
+  CameraSource source;
+  SceneSource scene;
+  ods::SlitOptions slits;
+  std::optional<int> count;
+  std::optional<float> nearest;
+  float max_error = 0.5f;
+  std::string output;
+};
+
+void add_slit_options(Options& options, RigJob& job) {
+  options.group("Slits");
+  options.number("--max-error", job.max_error, 0.001f, 1000.0f,
+                 "pixels that the nearest thing may be off: chooses how many slits");
+  options.number("--nearest", job.nearest, 0.01f, 1e6f, "metres to the nearest thing; by default 1, or as measured");
+  options.text("--scene", "SCENE", job.scene.name, "measure it in this scene, and stand where its camera does");
+  options.number("--slits", job.count, 3, 32768, "of each eye, whatever their error");
+  options.number("--pitches", job.slits.pitches, 1, 64, "views above each other");
+  options.number("--blend", job.slits.blend, 0.0f, 1.0f, "the part of a slit that fades into the next");
+  options.number("--padding", job.slits.padding, 0, 4096,
+                 "pixels around what is used of a view; as many as effects after the render (bloom) reach");
+  options.number("--scale", job.slits.scale, 0.01f, 16.0f, "a view's pixels over the picture's");
+  options.choice("--depth", job.slits.depth, ods::kViewDepths, ods::view_depth_name,
+                 "what depth the views will have: along the ray, or a depth buffer's; a tenth of the slits will do");
+}
+
+bool read_options(RigJob& job, int argc, char** argv) {
+  Options options("rig", "Plans perspective cameras for an ODS picture, for renderers that know no other camera.",
+                  kExamples);
+  options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; without it, the plan alone");
+  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  add_slit_options(options, job);
+  add_camera_source(options, job.source);
+  if (!options.parse(argc, argv)) return false;
+  if (job.count && options.given("--max-error")) throw UsageError("--slits is instead of --max-error");
+  if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest is instead of --scene");
+  return true;
+}
+
+// The depth of the nearest thing, as the eyes see it.
+float measure(const ods::Scene& scene, ods::CameraRig camera) {
+  ods::RenderOptions options;
+  options.width = 1024, options.height = 512, options.samples = 1, options.bounces = 0;
+  camera.projection = {};
+  float nearest = ods::kFarDepth;
+  for (const ods::EyeImage& eye : render_cpu(scene, camera, options).eyes) {
+    for (const float depth : eye.depth.pixels) nearest = std::min(nearest, depth > 0.0f ? depth : nearest);
+  }
+  if (nearest >= ods::kFarDepth) throw UsageError("--scene: the camera sees nothing there; say --nearest M");
+  return nearest;
+}
+
+// The camera and the nearest distance.
+std::pair<ods::CameraFile, float> survey(RigJob& job) {
+  ods::CameraFile file = read_camera_source(job.source);
+  if (job.scene.name.empty()) return {file, job.nearest.value_or(1.0f)};
+  ods::Scene scene = open_scene(job.scene);
+  file.rig = place_camera(job.source.camera, scene);
+  return {file, measure(scene, file.rig)};
+}
+
+void print_errors(const ods::SlitRig& rig, float nearest) {
+  const float distances[] = {nearest, 2.0f * nearest, 10.0f * nearest};
+  std::string line = "at most, in pixels (minutes of arc):\n  elevation";
+  for (const float distance : distances) {
+    line += fmt::format("   {:>31}", fmt::format("at {:.3g} m: across  up/down  step", distance));
+  }
+  fmt::print("{}\n", line);
+  for (const float elevation : {90.0f, 60.0f, 30.0f, 0.0f, -30.0f, -60.0f, -90.0f}) {
+    const ods::vec2 seen = rig.camera.projection.latitude;
+    if (elevation < seen.x || elevation > seen.y) continue;
+    line = fmt::format("  {:9}", elevation);
+    for (const float distance : distances) {
+      const ods::SlitError error = slit_error(rig, glm::radians(elevation), distance);
+      const auto pixels = [&](float angle) { return picture_pixels(rig, angle); };
+      line +=
+          fmt::format("   {:>31}", fmt::format("{:.3f}  {:.3f}  {:.3f} ({:.2f}')", pixels(error.across),
+                                               pixels(error.along), pixels(error.step), ods::arc_minutes(error.step)));
+    }
+    fmt::print("{}\n", line);
+  }
+}
+
+std::string cost_text(const ods::SlitRig& rig) {
+  const double pixels = static_cast<double>(rig.views.size()) * rig.view.width * rig.view.height;
+  const double picture = static_cast<double>(rig.eyes.size()) * rig.eye.width * rig.eye.height;
+  return fmt::format("{} slits of {} views for {} eye{}: {} views of {}x{}, {:.3g} Mpixels, {:.2g} times the picture's",
+                     rig.options.slits, rig.options.pitches, rig.eyes.size(), rig.eyes.size() == 1 ? "" : "s",
+                     rig.views.size(), rig.view.width, rig.view.height, pixels * 1e-6, pixels / picture);
+}
+
+void print_plan(const ods::SlitRig& rig, float nearest) {
+  fmt::print("{}\n", cost_text(rig));
+  print_errors(rig, nearest);
+  if (rig.options.depth != ods::ViewDepth::kNone) {
+    fmt::print("that is where one thing hides another; by their depth things themselves are put right\n");
+  }
+  ods::SlitOptions every = rig.options;
+  every.slits = rig.eye.width;
+  if (!slit_fault(rig.camera, rig.eye, every).empty()) return;
+  const ods::SlitRig all = make_slit_rig(rig.camera, rig.eye, rig.eyes, every);
+  const ods::SlitError error = largest_slit_error(all, nearest);
+  fmt::print("a slit for every column would be off by {:.3f} pixels at most: {}\n",
+             picture_pixels(all, std::max(error.whole, error.step)), cost_text(all));
+}
+
+void rig(int argc, char** argv) {
+  RigJob job;
+  if (!read_options(job, argc, argv)) return;
+  const auto [file, nearest] = survey(job);
+  if (!job.scene.name.empty()) note(fmt::format("the nearest thing is {:.3g} m away", nearest));
+  job.slits.slits = job.count ? *job.count : ods::slits_for(file.rig, file.eye, job.slits, nearest, job.max_error);
+  const std::string fault = slit_fault(file.rig, file.eye, job.slits);
+  if (!fault.empty()) throw UsageError(fault);
+  const ods::SlitRig made = make_slit_rig(file.rig, file.eye, file.eyes, job.slits);
+  print_plan(made, nearest);
+  if (job.output.empty()) return;
+  save_slit_rig(made, job.output);
+  std::cout << job.output << std::endl;
+}
+
+}  // namespace
+
+extern "C" int ods_rig(int argc, char** argv) {
+  return run_command([=] { rig(argc, argv); });
+}

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods stitch is asked to do.
+#pragma once
+#include <string>
+
+#include "cli/progress.h"
+#include "ods/image/save.h"
+#include "ods/stitch/view_files.h"
+
+struct StitchJob {
+  std::string rig_file;
+  ods::ViewFiles views;
+  std::string output;
+  std::string report;
+  ods::SaveOptions save;
+  std::string frames;
+  bool has_tone = false;
+  bool partial = false;
+  bool list_missing = false;
+  bool skip_existing = false;
+  int threads = 0;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+// False when help was asked for. Throws UsageError.
+bool read_stitch_job(StitchJob& job, int argc, char** argv);

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/json_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ods/base/error.h"
+#include "ods/base/suggest.h"
+
+namespace ods {
+
+Json parse_json(std::string_view text, const std::string& name, const std::string& noun) {
+  constexpr int kDeepest = 16;  // levels of brackets; our own files have four
+  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeepest) throw Error(ErrorKind::kInput, fmt::format("'{}' is no {}: too many brackets", name, noun));
+    return true;
+  };
+  try {
+    return Json::parse(text, shallow);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw Error(ErrorKind::kInput, fmt::format("'{}' is not JSON (byte {} of {})", name, error.byte, text.size()));
+  } catch (const nlohmann::json::exception&) {
+    throw Error(ErrorKind::kInput, fmt::format("'{}' is no {}: a number in it is too large", name, noun));
+  }
+}
+
+JsonReader::JsonReader(const Json& json, std::string file, std::string noun, std::string place,
+                       std::vector<std::string>& warnings)
+    : json_(json), file_(std::move(file)), noun_(std::move(noun)), place_(std::move(place)), warnings_(warnings) {
+  if (!json_.is_object()) fail("", "is an object {...}");
+}
+
+void JsonReader::fail(const std::string& key, const std::string& wanted) const {
+  const std::string name = place_ + (place_.empty() || key.empty() ? "" : ".") + key;
+  throw Error(ErrorKind::kInput,
+              fmt::format("'{}' is no {}: {} {}", file_, noun_, name.empty() ? "the file" : name, wanted));
+}
+
+const Json* JsonReader::find(const std::string& key) {
+  known_.push_back(key);
+  const auto found = json_.find(key);
+  return found == json_.end() || found->is_null() ? nullptr : &*found;
+}
+
+float JsonReader::checked(const Json& json, const std::string& key, float low, float high) const {
+  const double value = json.is_number() ? json.get<double>() : NAN;
+  if (!(value >= static_cast<double>(low) && value <= static_cast<double>(high))) {
+    fail(key, fmt::format("is a number from {:g} to {:g}", low, high));
+  }
+  return static_cast<float>(value);
+}
+
+void JsonReader::number(const std::string& key, float& value, float low, float high) {
+  if (const Json* json = find(key)) value = checked(*json, key, low, high);
+}
+
+void JsonReader::integer(const std::string& key, int& value, int low, int high) {
+  const Json* json = find(key);
+  if (!json) return;
+  const bool legal = json->is_number_integer() && *json >= low && *json <= high;
+  if (!legal) fail(key, fmt::format("is a whole number from {} to {}", low, high));
+  value = json->get<int>();
+}
+
+void JsonReader::flag(const std::string& key, bool& value) {
+  const Json* json = find(key);
+  if (json && !json->is_boolean()) fail(key, "is true or false");
+  if (json) value = json->get<bool>();
+}
+
+bool JsonReader::numbers(const std::string& key, std::vector<float>& values, size_t count, float low, float high) {
+  const Json* json = find(key);
+  if (!json) return false;
+  if (!json->is_array() || json->size() != count) fail(key, fmt::format("is a list of {} numbers", count));
+  values.clear();
+  for (const Json& value : *json) values.push_back(checked(value, key, low, high));
+  return true;
+}
+
+bool JsonReader::vector(const std::string& key, glm::vec2& value, float low, float high) {
+  std::vector<float> found;
+  if (!numbers(key, found, 2, low, high)) return false;
+  value = {found[0], found[1]};
+  return true;
+}
+
+bool JsonReader::vector(const std::string& key, glm::vec3& value, float low, float high) {
+  std::vector<float> found;
+  if (!numbers(key, found, 3, low, high)) return false;
+  value = {found[0], found[1], found[2]};
+  return true;
+}
+
+std::string JsonReader::word(const std::string& key) {
+  const Json* json = find(key);
+  if (json && !json->is_string()) fail(key, "is a word in quotes");
+  return json ? json->get<std::string>().substr(0, 64) : "";
+}
+
+// They may be anything: shown short.
+void JsonReader::finish() {
+  for (const auto& [key, value] : json_.items()) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    if (warnings_.size() == 16) break;
+    warnings_.push_back(fmt::format("'{}': nothing is known of '{}{}{}'{}", file_, place_, place_.empty() ? "" : ".",
+                                    key.substr(0, 64), did_you_mean(key.substr(0, 64), known_)));
+  }
+}
+
+}  // namespace ods

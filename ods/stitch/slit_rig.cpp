@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/stitch/slit_rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ods/image/image_file.h"
+
+namespace ods {
+
+std::string_view view_depth_name(ViewDepth depth) {
+  switch (depth) {
+    case ViewDepth::kNone:
+      return "none";
+    case ViewDepth::kRay:
+      return "ray";
+    case ViewDepth::kPlane:
+      return "plane";
+  }
+  return "";
+}
+
+size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch) {
+  const size_t slits = static_cast<size_t>(rig.options.slits), pitches = static_cast<size_t>(rig.options.pitches);
+  return (eye * slits + static_cast<size_t>(slit)) * pitches + static_cast<size_t>(pitch);
+}
+
+// --- angles ---------------------------------------------------------------------------------------------------------
+
+static vec2 low_and_high(vec2 degrees) {
+  return glm::radians(degrees);
+}
+
+float slit_width(const SlitRig& rig) {
+  const vec2 range = low_and_high(rig.camera.projection.longitude);
+  return (range.y - range.x) / static_cast<float>(rig.options.slits);
+}
+
+float slit_longitude(const SlitRig& rig, int slit) {
+  return low_and_high(rig.camera.projection.longitude).x + (static_cast<float>(slit) + 0.5f) * slit_width(rig);
+}
+
+float pitch_border(const SlitRig& rig, int pitch) {
+  const vec2 range = low_and_high(rig.camera.projection.latitude);
+  return mix(range.y, range.x, static_cast<float>(pitch + 1) / static_cast<float>(rig.options.pitches));
+}
+
+float pitch_fade(const SlitRig& rig) {
+  const vec2 range = low_and_high(rig.camera.projection.latitude);
+  const float height = (range.y - range.x) / static_cast<float>(rig.options.pitches);
+  return 0.5f * rig.options.blend * std::min(slit_width(rig), 0.5f * height);
+}
+
+bool goes_round(const SlitRig& rig) {
+  const vec2 range = rig.camera.projection.longitude;
+  return range.y - range.x == 360.0f;
+}
+
+Ray ray_at(const Camera& camera, int eye, float longitude, float latitude) {
+  const Projection& projection = camera.projection;
+  return camera_ray(camera, eye,
+                    vec2(0.5f + (longitude - projection.center.x) / projection.span.x,
+                         0.5f - (latitude - projection.center.y) / projection.span.y));
+}
+
+// --- views ----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr float kWidestTangent = 11.4f;  // of half of 170 degrees
+
+// The tangents of half the angles that a view must see.
+struct Window {
+  float x = 0.0f;
+  float y = 0.0f;
+};
+
+CameraRig view_of_ray(const Ray& ray, vec3 axis) {
+  CameraRig view;
+  view.ipd = 0.0f;
+  view.position = ray.origin;
+  const glm::dvec3 forward = normalize(glm::dvec3(ray.direction));
+  const glm::dvec3 right = normalize(cross(forward, glm::dvec3(axis)));
+  const ViewAngles angles = view_angles(forward, cross(right, forward));
+  view.yaw = angles.yaw, view.pitch = angles.pitch, view.roll = angles.roll;
+  view.projection.kind = kPerspective;
+  view.projection.fov = 90.0f;
+  return view;
+}
+
+vec3 axis_of(const Camera& camera) {
+  return camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
+}
+
+// Widens the window to what a view shows of its slit: the corners and edges of its part of the picture.
+void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitch, const CameraRig& view,
+           Window& window) {
+  constexpr int kSteps = 8;
+  const Camera own = make_camera(view);
+  const float half = 0.5f * slit_width(rig) * (1.0f + rig.options.blend);
+  const float fade = pitch_fade(rig);
+  const float top = pitch_border(rig, pitch - 1) + (pitch == 0 ? 0.0f : fade);
+  const float bottom = pitch_border(rig, pitch) - (pitch + 1 == rig.options.pitches ? 0.0f : fade);
+  for (int i = -1; i <= 1; i++) {
+    for (int j = 0; j <= kSteps; j++) {
+      const float latitude = mix(top, bottom, static_cast<float>(j) / kSteps);
+      const vec3 d = ray_at(camera, eye, slit_longitude(rig, slit) + static_cast<float>(i) * half, latitude).direction;
+      const float ahead = -dot(d, own.back);
+      const float x = std::abs(dot(d, own.right)), y = std::abs(dot(d, own.up));
+      window.x = std::max(window.x, ahead > 0.0f ? x / ahead : 1e9f);
+      window.y = std::max(window.y, ahead > 0.0f ? y / ahead : 1e9f);
+    }
+  }
+}
+
+struct Views {
+  std::vector<CameraRig> views;
+  Window window;
+};
+
+Views place_views(const SlitRig& rig) {
+  Views all;
+  const Camera camera = make_camera(rig.camera);
+  for (const int eye : rig.eyes) {
+    for (int slit = 0; slit < rig.options.slits; slit++) {
+      for (int pitch = 0; pitch < rig.options.pitches; pitch++) {
+        const float latitude = 0.5f * (pitch_border(rig, pitch - 1) + pitch_border(rig, pitch));
+        all.views.push_back(view_of_ray(ray_at(camera, eye, slit_longitude(rig, slit), latitude), axis_of(camera)));
+        widen(rig, camera, eye, slit, pitch, all.views.back(), all.window);
+      }
+    }
+  }
+  return all;
+}
+
+// The picture's pixel in the middle of a view, as the tangent of its angle.
+float pixel_of(const SlitRig& rig) {
+  const ProjectionSetting& setting = rig.camera.projection;
+  const vec2 across = low_and_high(setting.longitude), up = low_and_high(setting.latitude);
+  return std::min((across.y - across.x) / static_cast<float>(rig.eye.width),
+                  (up.y - up.x) / static_cast<float>(rig.eye.height)) /
+         rig.options.scale;
+}
+
+int pixels_for(float tangent, const SlitRig& rig) {
+  const double pixels = std::ceil(static_cast<double>(tangent / pixel_of(rig)) - 1e-4);
+  return 2 * static_cast<int>(std::min(pixels + rig.options.padding, double{kMaxSide}));
+}
+
+}  // namespace
+
+std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& options) {
+  if (camera.projection.kind != kLatLong) {
+    return fmt::format("slits make a lat-long picture, whole or a part; ods convert makes {} of it",
+                       projection_name(camera.projection));
+  }
+  if (camera.lens_radius > 0.0f) return "the views' own renderer makes the blur of a lens: leave --lens away";
+  if (options.slits < 3 || options.slits > eye.width) {
+    return fmt::format("{} slits: it takes 3, and more than the picture has columns ({}) make no sense", options.slits,
+                       eye.width);
+  }
+  if (options.pitches < 1 || options.pitches > 64) return "there are 1 to 64 views above each other";
+  const SlitRig rig{camera, eye, {camera.ipd == 0.0f ? kMono : kRight}, options, {}, {}};
+  const Window window = place_views(rig).window;
+  if (!(window.x < kWidestTangent && window.y < kWidestTangent)) {
+    return "a view would have to see more than 170 degrees: more slits, more pitches, or eyes toed in on a farther "
+           "place";
+  }
+  if (pixels_for(window.x, rig) > kMaxSide || pixels_for(window.y, rig) > kMaxSide) {
+    return fmt::format("views would have more than {} pixels a side", kMaxSide);
+  }
+  return "";
+}
+
+SlitRig make_slit_rig(const CameraRig& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options) {
+  assert(slit_fault(camera, eye, options).empty());
+  SlitRig rig{camera, eye, eyes, options, {}, {}};
+  Views all = place_views(rig);
+  rig.views = std::move(all.views);
+  rig.view = {pixels_for(all.window.x, rig), pixels_for(all.window.y, rig)};
+  const double half = 0.5 * rig.view.width * static_cast<double>(pixel_of(rig));
+  for (CameraRig& view : rig.views) {
+    view.projection.fov = static_cast<float>(glm::degrees(2.0 * std::atan(half)));
+    view.projection.aspect = static_cast<float>(rig.view.width) / static_cast<float>(rig.view.height);
+  }
+  return rig;
+}
+
+}  // namespace ods

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the views of a rig lie on the disk: a file each, by its number.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ods/stitch/stitch.h"
+
+namespace ods {
+
+// Names with a place for the view's number (ods/base/frames.h), from 1, in the rig's order: views/####.exr. With %V,
+// for the eye's name, every eye's views count from 1: %V/####.exr.
+struct ViewFiles {
+  std::string names;
+};
+
+// What is wrong with such names, in words for a message; empty: nothing.
+std::string names_fault(const SlitRig& rig, const ViewFiles& files);
+
+// Precondition: no names_fault().
+std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view);
+
+// Opens views for stitch().
+OpenView open_view_files(const SlitRig& rig, const ViewFiles& files);
+
+// The views whose files are not there or are empty, or, with `thorough`, cannot be opened or have another size.
+std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough);
+
+// Tells rigs with their views from others: another number where the rig or a view's file is another one.
+uint64_t views_key(const SlitRig& rig, const ViewFiles& files);
+
+// The numbers of views in their files' names, of one eye or of all, as frame ranges: "12-15,80". With %V in the names:
+// "left 12-15,80 right 3".
+std::string view_ranges(const SlitRig& rig, const ViewFiles& files, const std::vector<ViewFault>& faults);
+
+}  // namespace ods
