@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a scene to a stitched picture, as its user goes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ods/image/load_eyes.h"
+#include "tests/cli_runner.h"
+
+namespace {
+
+class CliStitch : public Cli {
+ protected:
+  std::string rig = folder.path("rig.json");
+  std::string views = folder.path("views/####.exr");
+
+  int plan(const std::string& words = "--slits 12 --width 64") {
+    return run("rig --position 0,1.6,0 " + words + " -o " + rig);
+  }
+  int render() { return run("render axis -q --samples 4 --rig " + rig + " -o " + views); }
+  int stitch(const std::string& name, const std::string& words = "") {
+    return run("stitch " + rig + " " + views + " -o " + folder.path(name) + " -q " + words);
+  }
+};
+
+TEST_F(CliStitch, ARigBecomesAPicture) {
+  ASSERT_EQ(plan(), 0) << err;
+  EXPECT_NE(out.find("12 slits of 2 views for 2 eyes: 48 views"), std::string::npos) << out;
+  ASSERT_EQ(render(), 0) << err;
+  ASSERT_EQ(stitch("picture.exr", "--report " + folder.path("seams.png")), 0) << err;
+  EXPECT_EQ(err, "");
+  EXPECT_EQ(out, folder.path("picture.exr") + "\n" + folder.path("seams.png") + "\n");
+  const ods::StoredPicture made = ods::open_picture(folder.path("picture.exr"));
+  EXPECT_EQ(made.size.width, 64);
+  EXPECT_EQ(made.eyes.size(), 2u);
+  EXPECT_FLOAT_EQ(made.rig.position.y, 1.6f);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr.stitching")));
+}
+
+TEST_F(CliStitch, ViewsThatAreMissingAreSaidTogether) {
+  ASSERT_EQ(plan(), 0) << err;
+  ASSERT_EQ(render(), 0) << err;
+  for (const char* name : {"views/0003.exr", "views/0004.exr", "views/0020.exr"}) {
+    std::filesystem::remove(folder.path(name));
+  }
+  folder.write("views/0040.exr", "damaged");
+  EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 0) << err;
+  EXPECT_EQ(out, "3-4,20,40\n");
+  EXPECT_EQ(stitch("picture.exr"), 3);
+  EXPECT_NE(err.find("3 of 48 views"), std::string::npos) << err;
+  EXPECT_NE(err.find("3-4,20"), std::string::npos) << err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr")));
+  EXPECT_EQ(stitch("picture.png", "--partial"), 0) << err;
+  EXPECT_EQ(run("render axis -q --samples 4 --skip-existing --rig " + rig + " -o " + views), 0) << err;
+  EXPECT_EQ(stitch("picture.exr"), 3);
+  EXPECT_NE(err.find("40"), std::string::npos) << err;
+}
+
+TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {
+  EXPECT_EQ(run("rig --slits 12 --width 66 --projection cube-3x2"), 2);
+  EXPECT_NE(err.find("lat-long"), std::string::npos) << err;
+  EXPECT_EQ(run("rig --width 64 --merge cosine,60,90 --max-error 0.01"), 3);
+  EXPECT_EQ(run("stitch " + rig + " x.exr -o y.exr"), 3);
+  folder.write("rig.json", "{\"omnistereo_slits\": 1}");
+  EXPECT_EQ(stitch("y.exr"), 3);
+  ASSERT_EQ(plan(), 0) << err;
+  EXPECT_EQ(run("stitch " + rig + " x.exr -o y.exr"), 2);
+  EXPECT_NE(err.find("####"), std::string::npos) << err;
+  EXPECT_EQ(stitch("y.exr"), 3);  // no view is there
+  EXPECT_EQ(run("render axis --rig " + rig + " -o " + views + " --width 100"), 2);
+}
+
+}  // namespace
