@@ -22,31 +22,6 @@ namespace ods {
 
 namespace {
 
-// --- what a pixel is put together of
-// -----------------------------------------------------------------------------------
-
-// Two neighbours, and how much the second one counts.
-struct Fade {
-  int first = 0;
-  int second = 0;
-  float part = 0.0f;
-};
-
-// `at`: 0 in the middle of the first of `count`, 1 in that of the second. `width`: of the fade between two, of 1.
-Fade fade_at(float at, int count, float width) {
-  const int before = static_cast<int>(std::floor(at));
-  const float beyond = at - static_cast<float>(before) - 0.5f;
-  const float part = width > 0.0f ? std::clamp(beyond / width + 0.5f, 0.0f, 1.0f) : beyond < 0.0f ? 0.0f : 1.0f;
-  return {std::clamp(before, 0, count - 1), std::clamp(before + 1, 0, count - 1), part};
-}
-
-// Where a pixel looks from its place on the circle, and the pixels beside and below it.
-struct Pixel {
-  Ray ray;
-  vec3 right;
-  vec3 down;
-};
-
 // The views of one slit of an eye, from the top; none where one is at fault.
 using Slit = std::vector<std::shared_ptr<const View>>;
 
@@ -54,8 +29,24 @@ using Slit = std::vector<std::shared_ptr<const View>>;
 struct Batch {
   size_t index;  // of both eyes' batches
   int first;
-  int last;  // one behind
-  std::vector<int> columns;
+  int last;   // one behind
+  int left;   // column; those beyond the picture's last go on at its first
+  int right;  // one behind
+};
+
+// What the views add up to for a part of a row.
+struct RowSums {
+  int left = 0;
+  int right = 0;
+  std::vector<float> sums;   // of every pixel's channels
+  std::vector<float> whole;  // of every pixel: the views' weights
+  std::vector<float> most;   // the largest of them, whose view the channels come from that are not averaged
+
+  void start(int from, int to, size_t channels) {
+    const size_t count = static_cast<size_t>(to - from);
+    left = from, right = to;
+    sums.assign(count * channels, 0.0f), whole.assign(count, 0.0f), most.assign(count, 0.0f);
+  }
 };
 
 class Stitcher {
@@ -74,10 +65,12 @@ class Stitcher {
   int slits_at_once() const;
   std::map<int, Slit> open_slits(size_t eye, int first, int last, const std::map<int, Slit>& open);
   std::shared_ptr<const View> open_view(size_t index);
-  void fill_row(size_t eye, const std::map<int, Slit>& slits, const std::vector<int>& columns, int y);
-  void fill_pixel(const Pixel& pixel, const Fade& down, const Slit* const (&slits)[2], float part, float* out);
-  Pixel pixel_at(size_t eye, int x, int y) const;
-  float slit_at(int x) const;
+  void fill_row(size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y);
+  void add_view(const View& view, const PictureRays& rays, int place, float pitch_part, int y, RowSums& row);
+  float slit_weight(int place, int x) const;
+  float pitch_weight(int pitch, int y) const;
+  float place_of(int x) const;
+  int column_at(double place) const;
 
   const SlitRig& rig_;
   const OpenView& open_;
@@ -131,8 +124,14 @@ void Stitcher::choose_form(const StitchOptions& options) {
 
 std::vector<Batch> Stitcher::batches_of(size_t eye) const {
   const int first = goes_round(rig_) ? 0 : -1, end = rig_.options.slits, step = slits_at_once();
+  const auto edge = [&](int place) {
+    return goes_round(rig_) ? column_at(place) : std::clamp(column_at(place), 0, rig_.eye.width);
+  };
   std::vector<Batch> batches;
-  for (int place = first; place < end; place += step) batches.push_back({0, place, std::min(place + step, end), {}});
+  for (int place = first; place < end; place += step) {
+    const int stop = std::min(place + step, end);
+    batches.push_back({0, place, stop, edge(place), edge(stop)});
+  }
   for (size_t i = 0; i < batches.size(); i++) batches[i].index = eye * batches.size() + i;
   return batches;
 }
@@ -196,72 +195,92 @@ int Stitcher::slits_at_once() const {
   return static_cast<int>(std::clamp<size_t>((size_t{64} << 20) / slit, 1, 16));
 }
 
-// --- pixels ---------------------------------------------------------------------------------------------------------
+// --- pixels ----------------------------------------------------------------------------------------------------------
 
-Pixel Stitcher::pixel_at(size_t eye, int x, int y) const {
-  const vec2 size(static_cast<float>(rig_.eye.width), static_cast<float>(rig_.eye.height));
-  const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-  const int which = rig_.eyes[eye];
-  return {camera_ray(camera_, which, middle / size),
-          camera_ray(camera_, which, (middle + vec2(1.0f, 0.0f)) / size).direction,
-          camera_ray(camera_, which, (middle + vec2(0.0f, 1.0f)) / size).direction};
+// How much a slit, or a pitch, counts at a distance from its middle, if they are 1 apart and fade over `blend`.
+float weight_at(float distance, float blend) {
+  if (blend == 0.0f) return distance < 0.5f ? 1.0f : 0.0f;
+  return std::clamp((0.5f - distance) / blend + 0.5f, 0.0f, 1.0f);
 }
 
-// In slits, from the middle of the first; with slits all round, from 0 on.
-float Stitcher::slit_at(int x) const {
-  const double slits = rig_.options.slits;
-  const double at = (x + 0.5) * slits / rig_.eye.width - 0.5;
-  return static_cast<float>(at < 0.0 && goes_round(rig_) ? at + slits : at);
+// Where a column lies, in slits from the middle of the first.
+float Stitcher::place_of(int x) const {
+  return static_cast<float>((x + 0.5) * rig_.options.slits / rig_.eye.width - 0.5);
 }
 
-void Stitcher::fill_pixel(const Pixel& pixel, const Fade& down, const Slit* const (&slits)[2], float part, float* out) {
+// The first column at or behind a place.
+int Stitcher::column_at(double place) const {
+  return static_cast<int>(std::ceil((place + 0.5) * rig_.eye.width / rig_.options.slits - 0.5));
+}
+
+float Stitcher::slit_weight(int place, int x) const {
+  const float beyond = place_of(x) - static_cast<float>(place);
+  const bool outermost = !goes_round(rig_) && (beyond < 0.0f ? place == 0 : place == rig_.options.slits - 1);
+  return outermost ? 1.0f : weight_at(std::abs(beyond), rig_.options.blend);
+}
+
+float Stitcher::pitch_weight(int pitch, int y) const {
+  const float height = pitch_border(rig_, -1) - pitch_border(rig_, 0);
+  const float at =
+      (static_cast<float>(y) + 0.5f) * static_cast<float>(rig_.options.pitches) / static_cast<float>(rig_.eye.height);
+  const float beyond = at - 0.5f - static_cast<float>(pitch);
+  const bool outermost = beyond < 0.0f ? pitch == 0 : pitch == rig_.options.pitches - 1;
+  return outermost ? 1.0f : weight_at(std::abs(beyond), 2.0f * pitch_fade(rig_) / height);
+}
+
+// What one view adds to a row of a batch.
+void Stitcher::add_view(const View& view, const PictureRays& rays, int place, float pitch_part, int y, RowSums& row) {
+  const double reach = 0.5 * (1.0 + static_cast<double>(rig_.options.blend));
+  int left = std::max(row.left, column_at(place - reach)), right = std::min(row.right, column_at(place + reach));
+  if (!goes_round(rig_) && place == 0) left = row.left;
+  if (!goes_round(rig_) && place == rig_.options.slits - 1) right = row.right;
+  if (left >= right) return;
+  const size_t channels = form_.channels;
   thread_local std::vector<float> seen;
-  seen.resize(form_.channels);
-  float whole = 0.0f, most = 0.0f;
-  bool hidden = false;
-  for (int i = 0; i < 4; i++) {
-    const bool second = i % 2 == 1, lower = i / 2 == 1;
-    const float weight = (second ? part : 1.0f - part) * (lower ? down.part : 1.0f - down.part);
-    const View* view = (*slits[i % 2])[static_cast<size_t>(lower ? down.second : down.first)].get();
-    if (!(weight > 0.0f) || !view) continue;
-    if (!view->look(pixel.ray, pixel.right, pixel.down, seen)) hidden = true;
-    for (size_t c = 0; c < form_.channels; c++) {
-      if (!form_.is_nearest[c]) out[c] += weight * seen[c];
-      if (form_.is_nearest[c] && weight > most) out[c] = seen[c];
+  seen.resize(static_cast<size_t>(right - left) * channels);
+  unseen_ += view.fill(rays, y, left, seen);
+  for (int x = left; x < right; x++) {
+    const size_t i = static_cast<size_t>(x - row.left);
+    const float weight = pitch_part * slit_weight(place, x);
+    const float* from = &seen[static_cast<size_t>(x - left) * channels];
+    float* sums = &row.sums[i * channels];
+    for (size_t c = 0; c < channels; c++) {
+      if (!form_.is_nearest[c]) sums[c] += weight * from[c];
+      if (form_.is_nearest[c] && weight > row.most[i]) sums[c] = from[c];
     }
-    whole += weight, most = std::max(most, weight);
-  }
-  if (hidden) unseen_++;
-  for (size_t c = 0; c < form_.channels && whole > 0.0f && whole < 1.0f; c++) {
-    if (!form_.is_nearest[c]) out[c] /= whole;
+    row.whole[i] += weight;
+    row.most[i] = std::max(row.most[i], weight);
   }
 }
 
-void Stitcher::fill_row(size_t eye, const std::map<int, Slit>& slits, const std::vector<int>& columns, int y) {
-  const float height = static_cast<float>(rig_.eye.height), pitches = static_cast<float>(rig_.options.pitches);
-  const float pitch_height = (pitch_border(rig_, -1) - pitch_border(rig_, 0));
-  const Fade down = fade_at((static_cast<float>(y) + 0.5f) * pitches / height - 0.5f, rig_.options.pitches,
-                            2.0f * pitch_fade(rig_) / pitch_height);
-  float* row = reinterpret_cast<float*>(picture_->data() + pixels_from_) +
-               (eye * static_cast<size_t>(rig_.eye.height) + static_cast<size_t>(y)) *
-                   static_cast<size_t>(rig_.eye.width) * form_.channels;
-  for (const int x : columns) {
-    const float at = slit_at(x);
-    const int place = static_cast<int>(std::floor(at));
-    const Fade across = fade_at(at - static_cast<float>(place), 2, rig_.options.blend);
-    const Slit* const two[] = {&slits.at(slit_of(place)), &slits.at(slit_of(place + 1))};
-    fill_pixel(pixel_at(eye, x, y), down, two, across.part, row + static_cast<size_t>(x) * form_.channels);
+void Stitcher::fill_row(size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y) {
+  const size_t width = static_cast<size_t>(rig_.eye.width), channels = form_.channels;
+  const PictureRays rays{camera_, rig_.eyes[eye], {rig_.eye.width, rig_.eye.height}};
+  thread_local RowSums row;
+  row.start(batch.left, batch.right, channels);
+  for (int place = batch.first; place <= batch.last; place++) {
+    if (!goes_round(rig_) && slit_of(place) != place) continue;
+    for (int pitch = 0; pitch < rig_.options.pitches; pitch++) {
+      const float part = pitch_weight(pitch, y);
+      const View* view = part > 0.0f ? slits.at(slit_of(place))[static_cast<size_t>(pitch)].get() : nullptr;
+      if (view) add_view(*view, rays, place, part, y, row);
+    }
+  }
+  float* pixels = reinterpret_cast<float*>(picture_->data() + pixels_from_) +
+                  (eye * static_cast<size_t>(rig_.eye.height) + static_cast<size_t>(y)) * width * channels;
+  for (int x = batch.left; x < batch.right; x++) {
+    const size_t i = static_cast<size_t>(x - batch.left);
+    float* out = pixels + static_cast<size_t>(x) % width * channels;
+    for (size_t c = 0; c < channels; c++) {
+      const bool is_sum = !form_.is_nearest[c] && row.whole[i] > 0.0f;
+      out[c] = row.sums[i * channels + c] / (is_sum ? row.whole[i] : 1.0f);
+    }
   }
 }
 
 // From the middle of one slit to that of another at a time; while these are filled, the next are read.
 void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
   std::vector<Batch> batches = batches_of(eye);
-  for (int x = 0; x < rig_.eye.width; x++) {
-    const int place =
-        std::clamp(static_cast<int>(std::floor(slit_at(x))), batches.front().first, batches.back().last - 1);
-    batches[static_cast<size_t>((place - batches.front().first) / slits_at_once())].columns.push_back(x);
-  }
   batches.erase(std::remove_if(batches.begin(), batches.end(), [&](const Batch& batch) { return was_done(batch); }),
                 batches.end());
   if (batches.empty()) return;
@@ -275,7 +294,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
       if (i + 1 < batches.size()) next = open_slits(eye, batches[i + 1].first, batches[i + 1].last, open);
     });
     unseen_ = 0;
-    tbb::parallel_for(0, rig_.eye.height, [&](int y) { fill_row(eye, slits, batches[i].columns, y); });
+    tbb::parallel_for(0, rig_.eye.height, [&](int y) { fill_row(eye, slits, batches[i], y); });
     ahead.wait();
     set_done(batches[i]);
     slits = std::move(next);

@@ -64,33 +64,94 @@ void View::measure_along_rays(size_t index) {
   layer.row_stride = layer.pixel_stride * size.width;
 }
 
-bool View::look(const Ray& ray, vec3 right, vec3 down, std::span<float> out) const {
-  const Place straight = place_of_line(source_, 0, ray.direction);
-  const Footprint footprint{place_of_line(source_, 0, right).at - straight.at,
-                            place_of_line(source_, 0, down).at - straight.at};
-  SurfaceHit met{straight, kFarDepth};
-  bool sees = true;
-  if (surfaces_) {
-    const SurfaceHit found = meet_surface(*surfaces_, 0, {ray.origin - place_, ray.direction});
-    sees = found.place.seen;
-    if (sees) met = found;
-  }
-  std::fill(out.begin(), out.end(), 0.0f);
+// --- pixels ----------------------------------------------------------------------------------------------------------
+
+// Where a ray of the picture lies in the view, and the one a pixel beside it, away from the picture's nearer edge.
+struct View::Look {
+  vec2 at;
+  vec2 beside;
+  float nearer;  // metres by which the view stands nearer than the ray's origin to what it meets
+};
+
+static float way_from_edge(const PictureRays& rays, float y) {
+  return 2.0f * y < rays.size.y ? 1.0f : -1.0f;
+}
+
+View::Look View::look(const PictureRays& rays, float x, float y) const {
+  const Ray ray = rays.at(x, y), beside = rays.at(x, y + way_from_edge(rays, y));
+  return {place_of_line(source_, 0, ray.direction).at, place_of_line(source_, 0, beside.direction).at,
+          dot(place_ - ray.origin, ray.direction)};
+}
+
+void View::filter(const Footprint& footprint, const Place& place, float* out) const {
   const Cell cell{0, 0, picture_.size.width, picture_.size.height};
+  std::fill(out, out + form_.channels, 0.0f);
   TexelFilter filter;
-  if (!texel_filter(footprint, met.place.at, filter) || !resampler_.add(0, filter, cell, out.data())) {
+  if (!texel_filter(footprint, place.at, filter) || !resampler_.add(0, filter, cell, out)) {
     thread_local std::vector<FilterPoint> points;
     filter_points(footprint, points);
     for (const FilterPoint& point : points) {
-      resampler_.add({0, met.place.at + point.texels, true}, cell, point.weight, out.data());
+      resampler_.add({0, place.at + point.texels, true}, cell, point.weight, out);
     }
   }
-  resampler_.finish(met.place, out.data());
-  if (form_.depth < 0) return sees;
-  float& depth = out[static_cast<size_t>(form_.depth)];
-  if (surfaces_ && sees) depth = met.depth;
-  if (!surfaces_ && depth < 0.1f * kFarDepth) depth += dot(place_ - ray.origin, ray.direction);
-  return sees;
+  resampler_.finish(place, out);
+}
+
+// Pixels whose places follow a parabola through those of the first, the middle and the last.
+void View::fill_alike(const Look (&looks)[3], int count, float way, std::span<float> out) const {
+  const auto along = [&](auto a, auto b, auto c, float t) {
+    return a + (b - a) * t + (c - 2.0f * b + a) * (0.5f * t * (t - 1.0f));
+  };
+  const float per_pixel = count > 1 ? 2.0f / static_cast<float>(count - 1) : 0.0f;
+  const vec2 step = looks[1].at - looks[0].at, bend = looks[2].at - 2.0f * looks[1].at + looks[0].at;
+  for (int i = 0; i < count; i++) {
+    const float t = static_cast<float>(i) * per_pixel;
+    const Place place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true};
+    const vec2 beside = along(looks[0].beside, looks[1].beside, looks[2].beside, t);
+    float* pixel = &out[static_cast<size_t>(i) * form_.channels];
+    filter({(step + bend * (t - 0.5f)) * per_pixel, (beside - place.at) * way}, place, pixel);
+    if (form_.depth < 0 || pixel[form_.depth] >= 0.1f * kFarDepth) continue;
+    pixel[form_.depth] += along(looks[0].nearer, looks[1].nearer, looks[2].nearer, t);
+  }
+}
+
+// Each by itself, through the view's surfaces if they are known.
+bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
+  const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
+  const Look own = look(rays, px, py), right = look(rays, px + 1.0f, py);
+  const Footprint footprint{right.at - own.at, (own.beside - own.at) * way_from_edge(rays, py)};
+  const Ray ray = rays.at(px, py);
+  const SurfaceHit met =
+      surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - place_, ray.direction}) : SurfaceHit{{}, kFarDepth};
+  filter(footprint, met.place.seen ? met.place : Place{0, own.at, true}, out);
+  if (form_.depth < 0) return met.place.seen || !surfaces_;
+  float& depth = out[form_.depth];
+  if (met.place.seen) {
+    depth = met.depth;
+  } else if (depth < 0.1f * kFarDepth) {
+    depth += own.nearer;
+  }
+  return met.place.seen || !surfaces_;
+}
+
+int View::fill(const PictureRays& rays, int y, int left, std::span<float> out) const {
+  const int count = static_cast<int>(out.size() / form_.channels);
+  const float py = static_cast<float>(y) + 0.5f, from = static_cast<float>(left) + 0.5f;
+  if (!surfaces_ && count > 2) {
+    const float way = static_cast<float>(count - 1);
+    const Look looks[] = {look(rays, from, py), look(rays, from + 0.5f * way, py), look(rays, from + way, py)};
+    const vec2 bend = looks[2].at - 2.0f * looks[1].at + looks[0].at;
+    const vec2 turn = looks[2].beside - 2.0f * looks[1].beside + looks[0].beside;
+    if (length(bend) < 1.0f && length(turn) < 1.0f) {
+      fill_alike(looks, count, way_from_edge(rays, py), out);
+      return 0;
+    }
+  }
+  int unseen = 0;
+  for (int i = 0; i < count; i++) {
+    unseen += fill_pixel(rays, left + i, y, &out[static_cast<size_t>(i) * form_.channels]) ? 0 : 1;
+  }
+  return unseen;
 }
 
 }  // namespace ods

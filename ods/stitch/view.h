@@ -24,6 +24,16 @@ struct ViewForm {
 ViewForm form_of(const StoredPicture& picture);
 bool same_layers(const ViewForm& a, const ViewForm& b);
 
+// The rays of one eye of the picture that is put together.
+struct PictureRays {
+  Camera camera;
+  int eye = kMono;
+  vec2 size{1.0f};  // pixels
+
+  // Places in pixels from the left and top edge; the middle of the first is 0.5.
+  Ray at(float x, float y) const { return camera_ray(camera, eye, vec2(x, y) / size); }
+};
+
 class View {
  public:
   // `pose`: where it stood and looked. Its depth, if it has any and the rig says which, becomes that along its rays.
@@ -31,13 +41,18 @@ class View {
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  // All channels of what a ray meets, averaged over a pixel: `right` and `down` are where the pixels beside it and
-  // below it look. Depth is along the ray. False: the view does not show what the ray meets, and what is far behind
-  // stands in.
-  bool look(const Ray& ray, vec3 right, vec3 down, std::span<float> out) const;
+  // All channels of the picture's pixels in row y from column `left` on, as many as `out` has room for: what their rays
+  // meet, averaged over them; depth is along their rays. Columns beyond the last one go on at the first. Returns the
+  // number of those that the view does not show what their ray meets; what is far behind stands in.
+  int fill(const PictureRays& rays, int y, int left, std::span<float> out) const;
 
  private:
+  struct Look;
+  Look look(const PictureRays& rays, float x, float y) const;
   void measure_along_rays(size_t layer);
+  void filter(const Footprint& footprint, const Place& place, float* out) const;
+  void fill_alike(const Look (&looks)[3], int count, float way, std::span<float> out) const;
+  bool fill_pixel(const PictureRays& rays, int x, int y, float* out) const;
 
   StoredPicture picture_;
   ViewForm form_;
