@@ -34,7 +34,8 @@ bool is_there(const std::string& path) {
 
 void render_views(const RenderJob& job, ProgressLines& lines) {
   const ods::SlitRig rig = open_rig(job.rig);
-  const ods::ViewFiles files{job.output};
+  ods::ViewFiles files;
+  files.names = job.output;
   const std::string fault = names_fault(rig, files);
   if (!fault.empty()) throw UsageError(fault);
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);

@@ -98,7 +98,9 @@ void stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const Report& 
     const std::string output = outputs.path(frames[i]);
     std::error_code ignored;
     if (job.skip_existing && std::filesystem::exists(output, ignored)) continue;
-    stitch_picture(job, rig, {folders.path(frames[i]) + "/" + file}, output,
+    ViewFiles views = job.views;
+    views.names = folders.path(frames[i]) + "/" + file;
+    stitch_picture(job, rig, views, output,
                    [&](double part) { report((static_cast<double>(i) + part) / static_cast<double>(frames.size())); });
   }
 }

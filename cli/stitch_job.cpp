@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stitch_job.h"
 
+#include <cstdio>
+
 #include "cli/console.h"
 #include "cli/form_options.h"
 #include "cli/long_job.h"
@@ -11,6 +13,13 @@ static constexpr const char* kExamples =
     "  ods stitch rig.json 'views/####.exr' --list-missing       what is to be rendered (again)\n"
     "  ods stitch rig.json 'views/####.png' -o look.png --partial\n"
     "  ods stitch rig.json 'views/####/####.exr' -o 'shot.####.exr' --frames 1-100   folders are frames";
+
+static void set_sheet(const std::string& word, ods::ViewFiles& views) {
+  char rest = 0;
+  const int found = std::sscanf(word.c_str(), "%6dx%6d%c", &views.columns, &views.rows, &rest);
+  const bool legal = found == 2 && views.columns > 0 && views.rows > 0;
+  if (!legal) throw UsageError("--sheet is COLUMNSxROWS, as 8x4, not '" + word + "'");
+}
 
 bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   Options options("stitch", "Puts the views of a rig (ods rig) together to a stereo 360 picture.", kExamples);
@@ -27,6 +36,10 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.text("--frames", "RANGE", job.frames,
                "a film: a mark in the name of the views' folder is the frame's number");
   options.flag("--skip-existing", job.skip_existing, "frames that are there stay");
+  options.custom(
+      "--sheet", "CxR", "", [&](const std::string& word) { set_sheet(word, job.views); },
+      "every file holds so many columns and rows of views, row by row");
+  options.flag("--by-columns", job.views.by_columns, "column by column: a strip for every eye, or pieces of one");
   options.flag("--partial", job.partial, "what views are missing stays black");
   options.flag("--list-missing", job.list_missing, "only say which views to render again, as a range of frames");
   options.text("--report", "FILE", job.report, "a picture of what borders of slits show, and its measure");

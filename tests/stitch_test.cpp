@@ -14,6 +14,7 @@
 #include "ods/kernel/camera/project.h"
 #include "ods/stitch/slit_error.h"
 #include "ods/stitch/slit_file.h"
+#include "ods/stitch/view_files.h"
 #include "tests/stored_pictures.h"
 #include "tests/temporary_folder.h"
 
@@ -349,8 +350,44 @@ TEST(Stitch, GoesOnWhereAProcessWasKilled) {
   const std::vector<Image> images = images_of(rest.rows), direct = images_of(stitch(rig, open, {}).rows);
   for (size_t eye : {0u, 1u}) EXPECT_EQ(images[eye].pixels, direct[eye].pixels);
   opened = 0;
-  options.journal_key = 8;  // other views
+  options.journal_key = 8;                          // other views
   EXPECT_THROW(stitch(rig, open, options), Error);  // while the first picture is still open
+}
+
+// Four views of 8x16 in a sheet of two columns: each is of one grey.
+TEST(ViewFiles, SheetsHoldSeveralViews) {
+  const TemporaryFolder folder;
+  SlitRig rig = make_rig(4, {32, 16});
+  rig.view = {8, 16};
+  ViewFiles files{folder.path("sheet.##.png"), 2, 2};
+  for (int number = 1; number <= 4; number++) {
+    PictureRows rows;
+    rows.eye = {16, 32}, rows.eyes = {kMono}, rows.layers = {{{"R", "G", "B"}}};
+    rows.fill = [=](int, int y, std::span<float> row) {
+      for (size_t i = 0; i < row.size(); i++) row[i] = 0.1f * static_cast<float>(2 * (y / 16) + (i / 3 < 8 ? 0 : 1));
+    };
+    SaveOptions save;
+    save.tone = ToneCurve::kLinear;
+    save_picture(rows, nullptr, save, folder.path("sheet.0" + std::to_string(number) + ".png"));
+  }
+  ASSERT_EQ(names_fault(rig, files), "");
+  EXPECT_TRUE(missing_views(rig, files, true).empty());
+  for (const bool by_columns : {false, true}) {
+    files.by_columns = by_columns;
+    const OpenView open = open_view_files(rig, files);
+    for (size_t i = 0; i < rig.views.size(); i++) {
+      const StoredPicture view = open(i);
+      EXPECT_EQ(view.size.width, 8);
+      const size_t at[2][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}};
+      const float light = 0.1f * static_cast<float>(at[by_columns][i % 4]);
+      const float code = 255.0f * (light <= 0.0f ? 0.0f : 1.055f * std::pow(light, 1.0f / 2.4f) - 0.055f);
+      EXPECT_NEAR(static_cast<float>(*view.eyes[0].layers[0].first), code, 1.0f) << i;
+    }
+  }
+  std::filesystem::remove(folder.path("sheet.02.png"));
+  EXPECT_EQ(view_ranges(rig, files, missing_views(rig, files, false)), "2");
+  files.columns = 100;
+  EXPECT_NE(names_fault(rig, files), "");
 }
 
 // --- files ----------------------------------------------------------------------------------------------------------

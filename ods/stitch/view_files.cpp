@@ -5,7 +5,12 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 #include "ods/base/error.h"
 #include "ods/base/frames.h"
@@ -21,10 +26,18 @@ struct Named {
   int number = 0;
 };
 
+size_t views_of_sheet(const ViewFiles& files) {
+  return static_cast<size_t>(files.columns) * static_cast<size_t>(files.rows);
+}
+
+// A view's place among those that are numbered together: all, or its eye's.
+size_t place_of(const SlitRig& rig, const ViewFiles& files, size_t view) {
+  return names_eye(files.names) ? view % (rig.views.size() / rig.eyes.size()) : view;
+}
+
 Named named(const SlitRig& rig, const ViewFiles& files, size_t view) {
   const size_t of_eye = rig.views.size() / rig.eyes.size();
-  const bool by_eye = names_eye(files.names);
-  return {rig.eyes[view / of_eye], static_cast<int>(by_eye ? view % of_eye : view) + 1};
+  return {rig.eyes[view / of_eye], static_cast<int>(place_of(rig, files, view) / views_of_sheet(files)) + 1};
 }
 
 StoredPicture open_file(const std::string& path, const CameraRig& pose) {
@@ -33,6 +46,69 @@ StoredPicture open_file(const std::string& path, const CameraRig& pose) {
   options.form.camera = pose;
   return open_picture(path, options);
 }
+
+void check_size(Extent is, Extent should, const std::string& path) {
+  if (is.width == should.width && is.height == should.height) return;
+  throw Error(ErrorKind::kInput,
+              fmt::format("'{}' is {}x{}, not {}x{}", path, is.width, is.height, should.width, should.height));
+}
+
+// The part of a sheet that is its view of an index.
+StoredPicture part_of(StoredPicture sheet, const ViewFiles& files, Extent view, size_t index) {
+  const size_t across = static_cast<size_t>(files.columns), down = static_cast<size_t>(files.rows);
+  const size_t column = files.by_columns ? index / down : index % across;
+  const size_t row = files.by_columns ? index % down : index / across;
+  sheet.size = view;
+  for (LayerPixels& layer : sheet.eyes[0].layers) {
+    layer.first += static_cast<ptrdiff_t>(column) * view.width * layer.pixel_stride +
+                   static_cast<ptrdiff_t>(row) * view.height * layer.row_stride;
+  }
+  return sheet;
+}
+
+// Sheets of which some views are still to come.
+class Sheets {
+ public:
+  Sheets(const SlitRig& rig, ViewFiles files) : rig_(rig), files_(std::move(files)) {}
+
+  StoredPicture view(size_t index) {
+    const std::string path = view_path(rig_, files_, index);
+    const size_t in_sheet = place_of(rig_, files_, index) % views_of_sheet(files_);
+    std::shared_ptr<Sheet> sheet;
+    {
+      const std::lock_guard lock(mutex_);
+      sheet = sheets_[path] ? sheets_[path] : (sheets_[path] = std::make_shared<Sheet>());
+    }
+    StoredPicture part;
+    {
+      const std::lock_guard lock(sheet->mutex);
+      if (!sheet->picture) sheet->picture = open_whole(path, index);
+      part = part_of(*sheet->picture, files_, rig_.view, in_sheet);
+      sheet->given++;
+    }
+    const std::lock_guard lock(mutex_);
+    if (sheet->given == views_of_sheet(files_)) sheets_.erase(path);
+    return part;
+  }
+
+ private:
+  struct Sheet {
+    std::mutex mutex;
+    std::optional<StoredPicture> picture;
+    std::atomic<size_t> given{0};
+  };
+
+  StoredPicture open_whole(const std::string& path, size_t index) {
+    StoredPicture whole = open_file(path, rig_.views[index]);
+    check_size(whole.size, {rig_.view.width * files_.columns, rig_.view.height * files_.rows}, path);
+    return whole;
+  }
+
+  const SlitRig& rig_;
+  ViewFiles files_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Sheet>> sheets_;
+};
 
 }  // namespace
 
@@ -43,6 +119,10 @@ std::string names_fault(const SlitRig& rig, const ViewFiles& files) {
   if (names_eye(files.names) && rig.eyes.size() < 2) {
     return fmt::format("'{}' is for two eyes, and the rig has one", files.names);
   }
+  if (views_of_sheet(files) > rig.views.size()) {
+    return fmt::format("a sheet of {}x{} has more views than the rig ({})", files.columns, files.rows,
+                       rig.views.size());
+  }
   return "";
 }
 
@@ -52,12 +132,7 @@ std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view) {
 }
 
 OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
-  return [&rig, files](size_t view) {
-    const std::string path = view_path(rig, files, view);
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) throw Error(ErrorKind::kInput, fmt::format("'{}' is not there", path));
-    return open_file(path, rig.views[view]);
-  };
+  return [sheets = std::make_shared<Sheets>(rig, files)](size_t view) { return sheets->view(view); };
 }
 
 std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough) {
@@ -72,10 +147,8 @@ std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files,
     }
     if (!thorough) return;
     try {
-      const Extent is = open_file(path, rig.views[i]).size, should = rig.view;
-      if (is.width != should.width || is.height != should.height) {
-        found[i] = fmt::format("'{}' is {}x{}, not {}x{}", path, is.width, is.height, should.width, should.height);
-      }
+      check_size(open_file(path, rig.views[i]).size, {rig.view.width * files.columns, rig.view.height * files.rows},
+                 path);
     } catch (const Error& fault) {
       found[i] = fault.what();
     }
@@ -114,7 +187,8 @@ std::string view_ranges(const SlitRig& rig, const ViewFiles& files, const std::v
     std::vector<int> numbers;
     for (const ViewFault& fault : faults) {
       const Named name = named(rig, files, fault.view);
-      if (name.eye == eye || !names_eye(files.names)) numbers.push_back(name.number);
+      const bool counts = name.eye == eye || !names_eye(files.names);
+      if (counts && (numbers.empty() || numbers.back() != name.number)) numbers.push_back(name.number);
     }
     if (!names_eye(files.names)) return frames_text(numbers);
     if (!numbers.empty()) text += fmt::format("{}{} {}", text.empty() ? "" : " ", eye_name(eye), frames_text(numbers));

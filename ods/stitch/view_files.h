@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the views of a rig lie on the disk: a file each, by its number.
+// Where the views of a rig lie on the disk: a file each, or several in a sheet, by number.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,14 +13,20 @@ namespace ods {
 
 // Names with a place for the view's number (ods/base/frames.h), from 1, in the rig's order: views/####.exr. With %V,
 // for the eye's name, every eye's views count from 1: %V/####.exr.
+//
+// A sheet has views of one size beside and above each other, without gaps: contact sheets row by row, strips, of which
+// a column is a slit and its rows the pitches, column by column. Then sheets are what is numbered.
 struct ViewFiles {
   std::string names;
+  int columns = 1;  // of a sheet
+  int rows = 1;
+  bool by_columns = false;
 };
 
 // What is wrong with such names, in words for a message; empty: nothing.
 std::string names_fault(const SlitRig& rig, const ViewFiles& files);
 
-// Precondition: no names_fault().
+// The file that a view is in. Precondition: no names_fault().
 std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view);
 
 // Opens views for stitch().
