@@ -14,6 +14,7 @@
 #include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "cli/render_frames.h"
+#include "cli/stitch_frames.h"
 
 using ods::Layout;
 
@@ -23,7 +24,8 @@ constexpr const char* kExamples =
     "  ods film scene.glb -o film_360_TB.mp4\n"
     "  ods film scene.glb -o film_360_TB.mp4 --target quest --width 4096 --fps 60 --audio sound.wav\n"
     "  ods film room -o room_360_TB.mp4 --quality draft --turntable 1 --duration 20\n"
-    "  ods film scene.glb -o master.mov --target master --frames 1-250 --keep-frames";
+    "  ods film scene.glb -o master.mov --target master --frames 1-250 --keep-frames\n"
+    "  ods film 'views/####/####.exr' --rig rig.json -o film_360_TB.mp4 --frames 1-250   as ods stitch";
 
 constexpr const char* kSummary =
     "Renders a scene frame by frame, encodes the frames and says in the film what it is. The frames lie in\n"
@@ -34,6 +36,7 @@ struct FilmJob {
   RenderJob render;
   ods::Development development;
   FilmWishes film;
+  std::string rig;  // of slits: frames are stitched of its views, in place of being rendered
   bool keep_frames = false, restart = false;
 };
 
@@ -44,6 +47,7 @@ bool read_options(FilmJob& job, int argc, char** argv) {
   add_scene_argument(options, render.scene);
   add_light_options(options, render.scene);
   add_film_options(options, job.film);
+  options.text("--rig", "FILE", job.rig, "stitch the views of this rig (ods rig); SCENE is then their names");
   options.flag("--keep-frames", job.keep_frames, "leave FILM.frames, which ods encode reads, where it is");
   options.flag("--restart", job.restart, "render the frames anew that are there of other options");
   options.group("Picture");
@@ -67,26 +71,44 @@ bool read_options(FilmJob& job, int argc, char** argv) {
   return true;
 }
 
-// What the frames will be like.
-ods::FilmPlan expect(const RenderJob& render) {
+// What the frames will be like, of eyes of this size.
+ods::FilmPlan expect(const RenderJob& render, const std::vector<int>& eyes, ods::Extent size,
+                     const ods::ProjectionSetting& projection) {
   const Layout layout = render.save.layout;
   const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
-  const size_t count = ods::eye_list(render.render.eyes).size();
+  const size_t count = eyes.size();
   if (count == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
     throw UsageError(
         fmt::format("a film's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
   }
-  const ods::Extent eye =
-      ods::squeezed_eye(layout, {render.render.width, render.render.height}, static_cast<int>(count));
-  const ods::FilmPlan plan = ods::plan_eyes(eye, count, layout, render.camera.rig.projection);
+  const ods::Extent eye = ods::squeezed_eye(layout, size, static_cast<int>(count));
+  const ods::FilmPlan plan = ods::plan_eyes(eye, count, layout, projection);
   for (const std::string& each : plan.notes) warn(each);
   return plan;
+}
+
+// Frames of the views of a rig.
+std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, const StitchReport& report) {
+  StitchJob stitch;
+  stitch.views.names = job.render.scene.name;
+  stitch.output = job.render.output;
+  stitch.frames = job.render.time.frames;
+  stitch.save = job.render.save;
+  stitch.skip_existing = true, stitch.says_files = false;
+  if (stitch.frames.empty()) throw UsageError("--rig: --frames says which folders of views there are");
+  return stitch_frames(stitch, rig, report);
 }
 
 void make_film(FilmJob job, const std::vector<std::string>& words, ProgressLines& lines) {
   const double kRendering = 0.95;  // of the time
   const auto start = std::chrono::steady_clock::now();
-  const ods::FilmPlan expected = expect(job.render);
+  const RenderJob& render = job.render;
+  std::optional<ods::SlitRig> rig;
+  if (!job.rig.empty()) rig = open_rig(job.rig);
+  const ods::FilmPlan expected =
+      rig ? expect(render, rig->eyes, rig->eye, rig->camera.projection)
+          : expect(render, ods::eye_list(render.render.eyes), {render.render.width, render.render.height},
+                   render.camera.rig.projection);
   const ods::EncodeOptions options = encode_options(job.film, expected.size, job.render.render.threads);
   ods::check_packing(expected, options.packing);
   say_what_players_need(job.film, expected, options);
@@ -94,7 +116,8 @@ void make_film(FilmJob job, const std::vector<std::string>& words, ProgressLines
   const FilmJournal journal(job.film.output, words, job.restart);
   job.render.output = journal.pattern();
   const auto report = [&](double done) { lines.report(done, seconds_since(start)); };
-  const std::vector<int> frames = render_frames(job.render, [&](double done) { report(kRendering * done); });
+  const auto rendered = [&](double done) { report(kRendering * done); };
+  const std::vector<int> frames = rig ? stitch_views(job, *rig, rendered) : render_frames(render, rendered);
 
   const ods::FrameFiles files = ods::find_frames(journal.pattern(), frames);
   const ods::FilmPlan plan = ods::plan_film(files, {}, {});

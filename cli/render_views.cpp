@@ -9,20 +9,13 @@
 
 #include "cli/console.h"
 #include "cli/long_job.h"
+#include "cli/stitch_frames.h"
 #include "ods/cpu/render.h"
 #include "ods/kernel/random.h"
 #include "ods/scene/motion.h"
-#include "ods/stitch/slit_file.h"
 #include "ods/stitch/view_files.h"
 
 namespace {
-
-ods::SlitRig open_rig(const std::string& path) {
-  std::vector<std::string> warnings;
-  ods::SlitRig rig = ods::load_slit_rig(path, warnings);
-  for (const std::string& warning : warnings) warn(warning);
-  return rig;
-}
 
 bool is_there(const std::string& path) {
   std::error_code error;

@@ -18,6 +18,7 @@ struct StitchJob {
   std::string frames;
   bool has_tone = false;
   bool partial = false;
+  bool says_files = true;
   bool list_missing = false;
   bool skip_existing = false;
   int threads = 0;

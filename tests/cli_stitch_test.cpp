@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "ods/image/load_eyes.h"
+#include "ods/video/film.h"
 #include "tests/cli_runner.h"
 
 namespace {
@@ -56,6 +57,23 @@ TEST_F(CliStitch, ViewsThatAreMissingAreSaidTogether) {
   EXPECT_EQ(run("render axis -q --samples 4 --skip-existing --rig " + rig + " -o " + views), 0) << err;
   EXPECT_EQ(stitch("picture.exr"), 3);
   EXPECT_NE(err.find("40"), std::string::npos) << err;
+}
+
+TEST_F(CliStitch, FramesBecomeAFilm) {
+  ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
+  for (const char* frame : {"1", "2"}) {
+    const std::string to = folder.path(std::string("views.") + frame + "/####.png");
+    ASSERT_EQ(run("render axis -q --samples 1 --rig " + rig + " -o " + to), 0) << err;
+  }
+  const std::string of = folder.path("views.#/####.png") + " ";
+  ASSERT_EQ(run("stitch " + rig + " " + of + "--frames 1-2 -q -o " + folder.path("shot.#.png")), 0) << err;
+  EXPECT_EQ(out, folder.path("shot.1.png") + "\n" + folder.path("shot.2.png") + "\n");
+  ASSERT_EQ(run("film " + of + "--rig " + rig + " --frames 1-2 -q -o " + folder.path("film_360_TB.mkv")), 0) << err;
+  const ods::FilmInfo film = ods::read_film(folder.path("film_360_TB.mkv"));
+  ASSERT_EQ(film.video.size(), 1u);
+  EXPECT_EQ(film.video[0].size.height, 64);
+  EXPECT_EQ(form_text(*film.video[0].v2), "top-bottom, lat-long");
+  EXPECT_EQ(run("film " + of + "--rig " + rig + " -q -o " + folder.path("b.mkv")), 2);
 }
 
 TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {

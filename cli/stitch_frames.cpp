@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/stitch_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/console.h"
+#include "cli/form_options.h"
+#include "ods/base/error.h"
+#include "ods/stitch/seams.h"
+#include "ods/stitch/slit_file.h"
+
+using ods::Error, ods::ErrorKind, ods::FrameNames, ods::ViewFault, ods::ViewFiles;
+
+ods::SlitRig open_rig(const std::string& path) {
+  std::vector<std::string> warnings;
+  ods::SlitRig rig = ods::load_slit_rig(path, warnings);
+  for (const std::string& warning : warnings) warn(warning);
+  return rig;
+}
+
+// --- views that are missing -----------------------------------------------------------------------------------------
+
+void tell_faults(const std::vector<ViewFault>& faults, const std::function<void(const std::string&)>& say) {
+  constexpr size_t kMostSaid = 5;
+  for (size_t i = 0; i < std::min(faults.size(), kMostSaid); i++) say(faults[i].what);
+  if (faults.size() > kMostSaid) say(fmt::format("and {} views more", faults.size() - kMostSaid));
+}
+
+[[noreturn]] static void refuse(const ods::SlitRig& rig, const ViewFiles& views, const std::vector<ViewFault>& faults) {
+  tell_faults(faults, warn);
+  throw Error(ErrorKind::kInput, fmt::format("{} of {} views cannot be used: render {} again, or --partial",
+                                             faults.size(), rig.views.size(), view_ranges(rig, views, faults)));
+}
+
+// --- a picture ------------------------------------------------------------------------------------------------------
+
+void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFiles& views, const std::string& output,
+                    const StitchReport& report) {
+  if (!job.partial) {
+    const std::vector<ViewFault> missing = missing_views(rig, views, false);
+    if (!missing.empty()) refuse(rig, views, missing);
+  }
+  ods::StitchOptions options;
+  const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+  std::error_code ignored;  // it is said when the journal cannot be made
+  if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
+  options.journal = output + ".stitching";
+  options.journal_key = views_key(rig, views);
+  std::atomic<bool> shows_codes{false};
+  const ods::OpenView open_file = open_view_files(rig, views);
+  const ods::OpenView open = [&](size_t view) {
+    ods::StoredPicture picture = open_file(view);
+    if (!picture.is_float) shows_codes = true;
+    return picture;
+  };
+  const ods::Stitched stitched = stitch(rig, open, options, [&](double part) { report(0.9 * part); });
+  if (!stitched.faults.empty() && !job.partial) {
+    std::filesystem::remove(options.journal);
+    refuse(rig, views, stitched.faults);
+  }
+  if (!stitched.faults.empty()) {
+    tell_faults(stitched.faults, note);
+    note(fmt::format("{} of {} views are missing: black", stitched.faults.size(), rig.views.size()));
+  }
+  ods::SaveOptions save = job.save;
+  if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
+  const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);
+  if (stitched.unseen > 0) {
+    note(fmt::format("{} pixels show what is far behind: no view sees what is hidden there", stitched.unseen));
+  }
+  std::filesystem::remove(options.journal);
+  if (!job.says_files) return;
+  for (const std::string& file : files) std::cout << file << std::endl;
+  if (job.report.empty()) return;
+  const ods::SeamReport seams = measure_seams(rig, stitched.rows);
+  note(fmt::format("borders of slits show {:.3f} of what the rest does; 1 is as much", seams.ratio));
+  for (const std::string& file : save_picture(seams.picture, {}, job.report)) std::cout << file << std::endl;
+}
+
+// --- pictures of a film ---------------------------------------------------------------------------------------------
+
+static FrameNames folder_names(const std::string& views) {
+  const std::filesystem::path path(views);
+  if (const auto names = ods::frame_names(path.parent_path().string())) return *names;
+  throw UsageError("--frames: the views' folder has no mark for the frame: 'views/####/####.exr'");
+}
+
+std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StitchReport& report) {
+  const FrameNames folders = folder_names(job.views.names), outputs = film_names(job.output);
+  const std::string file = std::filesystem::path(job.views.names).filename().string();
+  const std::vector<int> frames = ods::parse_frames(job.frames);
+  for (size_t i = 0; i < frames.size(); i++) {
+    const std::string output = outputs.path(frames[i]);
+    std::error_code ignored;
+    if (job.skip_existing && std::filesystem::exists(output, ignored)) continue;
+    ViewFiles views = job.views;
+    views.names = folders.path(frames[i]) + "/" + file;
+    stitch_picture(job, rig, views, output,
+                   [&](double part) { report((static_cast<double>(i) + part) / static_cast<double>(frames.size())); });
+  }
+  return frames;
+}
