@@ -2,17 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How long conversions take, over a yardstick that is measured in the same run: reading and writing the same files with
-// OpenImageIO alone, and its own resizing. Wall clock, and CPU seconds for machines that have other work. The pictures
-// have gradients, edges and grain, so that they take about as long to pack as photographs.
+// OpenImageIO alone, its own resizing, and the ffmpeg program's v360 where it is installed. Wall clock, and CPU seconds
+// for machines that have other work. The pictures have gradients, edges and grain, so that they take about as long to
+// pack as photographs.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -45,11 +49,17 @@ struct Seconds {
   double cpu = 0.0;
 };
 
+// Of this process and those it waited for.
 double cpu_seconds() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  double sum = 0.0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage;
+    getrusage(who, &usage);
+    for (const timeval& t : {usage.ru_utime, usage.ru_stime}) {
+      sum += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    }
+  }
+  return sum;
 }
 
 Seconds seconds_of(const std::function<void()>& work) {
@@ -166,6 +176,30 @@ void cubes(benchmark::State& state, const std::string& extension) {
   }
 }
 
+// The same against the ffmpeg program's v360, from file to file too, by its widest filter. It only interpolates: where
+// a face is coarser than the picture, it leaves out texels.
+void v360(benchmark::State& state, const std::string& extension) {
+  const Folder folder;
+  const std::string from = folder.path("from." + extension), to = folder.path("to." + extension);
+  make_picture(from, {kLeft, kRight}, {8192, 4096});
+  for (auto _ : state) {
+    const Seconds ours =
+        seconds_of([&] { convert_file(from, to, find_projection("cube-3x2")->setting, {}, folder.path()); });
+    const OIIO::ImageSpec size = read_bare(to).spec;
+    const std::string command =
+        fmt::format("ffmpeg -v error -i {} -vf v360=e:c3x2:in_stereo=tb:out_stereo=tb:interp=lanczos:w={}:h={} {}",
+                    from, size.width, size.height / 2, folder.path("theirs." + extension));
+    int failed = 0;
+    const Seconds theirs = seconds_of([&] { failed = std::system(command.c_str()); });
+    if (failed) return state.SkipWithError("ffmpeg failed");
+    say(state, ours, theirs);
+  }
+}
+
+bool has_ffmpeg() {
+  return std::system("ffmpeg -version > /dev/null 2>&1") == 0;
+}
+
 // Mono 8192x4096 to 4096x2048, against a lanczos resize of the whole picture. Target: below 1.
 void halved(benchmark::State& state, const std::string& extension) {
   const Folder folder;
@@ -214,6 +248,12 @@ int main(int argc, char** argv) {
           ->Iterations(1)
           ->Unit(benchmark::kSecond);
     }
+  }
+  if (has_ffmpeg()) {
+    const auto run = [](benchmark::State& state) { v360(state, "png"); };
+    benchmark::RegisterBenchmark("v360/png", run)->Iterations(1)->Unit(benchmark::kSecond);
+  } else {
+    std::puts("v360/png: skipped, as there is no ffmpeg program");
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -98,8 +98,10 @@ struct Mapping {
     return cell_of(source.camera.projection, source.picture->size, place.at);
   }
   vec2 home_of(int x, int y) const { return uv_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); }
-  // The target has something there, if the source does.
-  bool wants(int x, int y) const { return look_of(camera.projection, home_of(x, y), home_of(x, y)).seen; }
+  // The target has something there, if the source does: only a fisheye has corners.
+  bool wants(int x, int y) const {
+    return !is_fisheye(camera.projection.kind) || look_of(camera.projection, home_of(x, y), home_of(x, y)).seen;
+  }
 };
 
 // uv may lie outside the home's cell: the target's own filter reaches there.
@@ -125,14 +127,30 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // --- pixels --------------------------------------------------------------------------------------------------------
 
+// A row of a cell of the target, which is filled from its left to its right.
+struct CellRow {
+  int index;  // of the eye
+  int y;
+  Cell cell;
+  std::span<float> pixels;  // of the whole row of the eye
+};
+
+// Where the middle of a pixel lies, and that of its neighbour away from the nearer edge of the cell: over a pole begins
+// another picture.
+struct Node {
+  Place at;
+  Place beside;
+  Cell cell;  // of the source
+};
+
 // A stretch of a row in which places follow a parabola to a hundredth of a texel, known at its ends and in its middle.
 // Then no pixel needs its own trigonometry.
-constexpr int kLongStretch = 32;
+constexpr int kLongStretch = 64;
 constexpr int kShortStretch = 8;
 struct Stretch {
-  int pixels;
   int eye;
-  Cell cell;  // of the source
+  Cell cell;        // of the source
+  float per_pixel;  // of the way to the middle
   vec2 start;
   vec2 step;     // to the middle
   vec2 bend;     // by how much the next step differs
@@ -160,19 +178,22 @@ class Converter {
   int fill(int index, int y, std::span<float> row) const;
 
  private:
-  std::optional<Stretch> find_stretch(int index, const Cell& cell, int x, int y, int pixels) const;
-  int fill_pixels(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const;
-  int fill_some(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const;
+  Node find_node(const CellRow& row, int x) const;
+  int fill_cell(const CellRow& row) const;
+  int fill_between(const CellRow& row, int x, int pixels, const Node& first, const Node& last) const;
+  int fill_pixels(const CellRow& row, int x, int end) const;
   Footprint find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const;
-  void fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const;
-  bool fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
-  bool fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const;
+  void fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const;
+  bool fill_pixel(const CellRow& row, int x) const;
+  bool fill_moved_pixel(const CellRow& row, int x) const;
   SurfaceHit meet(int index, vec2 home, vec2 uv) const;
   void sum_near(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points, float* sums) const;
   void sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const;
   bool stays_in_cell(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points) const;
   bool is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const;
-  void put(const Place& place, const float* sums, int x, std::span<float> row) const;
+  float* pixel_of(const CellRow& row, int x) const {
+    return row.pixels.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
+  }
 
   Mapping mapping_;
   Resampler resampler_;
@@ -185,29 +206,37 @@ bool same_cell(const Cell& a, const Cell& b) {
   return a.left == b.left && a.top == b.top;
 }
 
-std::optional<Stretch> Converter::find_stretch(int index, const Cell& cell, int x, int y, int pixels) const {
-  const int count = std::min(pixels, cell.right - x);
-  const int middle = x + count / 2;
-  const vec2 home = mapping_.home_of(middle, y);
-  if (!mapping_.wants(x, y) || !mapping_.wants(x + count - 1, y)) return {};
-  // Away from the nearer edge of the cell: over a pole begins another picture.
-  const int down = 2 * y < cell.top + cell.bottom ? 1 : -1;
-  Place at[3], below[3];
-  Cell first;
-  for (int i = 0; i < 3; i++) {
-    const float px = static_cast<float>(x + i * pixels / 2) + 0.5f, py = static_cast<float>(y) + 0.5f;
-    at[i] = mapping_.find(index, home, mapping_.uv_of(px, py));
-    below[i] = mapping_.find(index, home, mapping_.uv_of(px, py + static_cast<float>(down)));
-    if (!at[i].seen || !below[i].seen || at[i].eye != at[0].eye || below[i].eye != at[0].eye) return {};
-    const Cell here = mapping_.source_cell(at[i]);
-    if (i == 0) first = here;
-    if (!same_cell(here, first)) return {};
+// Away from the nearer edge.
+int way_down(const CellRow& row) {
+  return 2 * row.y < row.cell.top + row.cell.bottom ? 1 : -1;
+}
+
+Node Converter::find_node(const CellRow& row, int x) const {
+  const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(row.y) + 0.5f;
+  const vec2 home = mapping_.home_of((row.cell.left + row.cell.right) / 2, (row.cell.top + row.cell.bottom) / 2);
+  const Place at = mapping_.find(row.index, home, mapping_.uv_of(px, py));
+  const Place beside = mapping_.find(row.index, home, mapping_.uv_of(px, py + static_cast<float>(way_down(row))));
+  return {at, beside, mapping_.source_cell(at)};
+}
+
+std::optional<Stretch> find_stretch(const Node& first, const Node& middle, const Node& last, int pixels, int way) {
+  Stretch stretch{first.at.eye,
+                  first.cell,
+                  2.0f / static_cast<float>(pixels),
+                  first.at.at,
+                  middle.at.at - first.at.at,
+                  last.at.at - 2.0f * middle.at.at + first.at.at,
+                  {}};
+  vec2* down = stretch.down;
+  for (const Node* node : {&first, &middle, &last}) {
+    if (!node->at.seen || !node->beside.seen || node->at.eye != stretch.eye || node->beside.eye != stretch.eye ||
+        !same_cell(node->cell, stretch.cell))
+      return {};
+    *down++ = (node->beside.at - node->at.at) * static_cast<float>(way);
   }
-  Stretch stretch{pixels, at[0].eye, first, at[0].at, at[1].at - at[0].at, at[2].at - 2.0f * at[1].at + at[0].at, {}};
-  for (int i = 0; i < 3; i++) stretch.down[i] = (below[i].at - at[i].at) * static_cast<float>(down);
-  const float texels = length(stretch.step) * 2.0f / static_cast<float>(pixels);  // per pixel
+  const float texels = length(stretch.step) * stretch.per_pixel;
   const float turn = length(stretch.down[1] - stretch.down[0]) + length(stretch.down[2] - stretch.down[1]);
-  const float most = pixels == kLongStretch ? 0.25f : 1.0f;
+  const float most = pixels > 2 * kShortStretch ? 8.0f / static_cast<float>(pixels) : 1.0f;
   if (length(stretch.bend) > most * (1.0f + 0.1f * texels) || turn > most * (0.25f + 0.25f * length(stretch.down[1])))
     return {};
   return stretch;
@@ -276,50 +305,52 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
   for (int c = 0; c < resampler_.channels(); c++) sums[c] /= weight;
 }
 
-void Converter::put(const Place& place, const float* sums, int x, std::span<float> row) const {
-  float* out = row.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
-  std::copy(sums, sums + channels_, out);
-  resampler_.finish(place, out);
-}
-
-void Converter::fill_stretch(int index, const Stretch& stretch, int x, int y, int count, std::span<float> row) const {
-  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
+void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const {
+  constexpr size_t kAtOnce = 32;
+  TexelFilter filters[kAtOnce];
+  size_t waiting = 0;  // filters of the pixels before x + i
+  const auto fill_waiting = [&](int end) {
+    if (waiting > 0) resampler_.fill(stretch.eye, {filters, waiting}, pixel_of(row, end - static_cast<int>(waiting)));
+    waiting = 0;
+  };
   std::vector<FilterPoint> points;
-  TexelFilter filter;
-  const float per_pixel = 2.0f / static_cast<float>(stretch.pixels);
   for (int i = 0; i < count; i++) {
-    const float t = static_cast<float>(i) * per_pixel;
+    if (waiting == kAtOnce) fill_waiting(x + i);
+    const float t = static_cast<float>(i) * stretch.per_pixel;
     const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
-    const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * per_pixel;
+    const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * stretch.per_pixel;
     const vec2 dy =
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
-    std::fill(sums.begin(), sums.end(), 0.0f);
-    const bool is_upright = texel_filter({dx, dy}, place.at, filter);
-    if (!is_upright || !resampler_.add(place.eye, filter, stretch.cell, sums.data())) {
+    float* pixel = pixel_of(row, x + i);
+    if (texel_filter({dx, dy}, place.at, filters[waiting]) && resampler_.has_all(filters[waiting], stretch.cell)) {
+      waiting++;
+    } else {
+      fill_waiting(x + i);
       filter_points({dx, dy}, points);
       if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
-        sum_near(place, stretch.cell, points, sums.data());
+        sum_near(place, stretch.cell, points, pixel);
       } else {
-        sum_exactly(index, mapping_.home_of(x + i, y), points, sums.data());
+        sum_exactly(row.index, mapping_.home_of(x + i, row.y), points, pixel);
       }
     }
-    put(place, sums.data(), x + i, row);
+    resampler_.finish(place, pixel);
   }
+  fill_waiting(x + count);
 }
 
-bool Converter::fill_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
-  const vec2 home = mapping_.home_of(x, y);
-  const Place place = mapping_.find(index, home, home);
+bool Converter::fill_pixel(const CellRow& row, int x) const {
+  const vec2 home = mapping_.home_of(x, row.y);
+  const Place place = mapping_.find(row.index, home, home);
   if (!place.seen) return false;
   std::vector<FilterPoint> points;
-  filter_points(find_footprint(index, cell, x, y, place), points);
-  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
-  if (points.size() == 1 || is_flat(index, home, place, points)) {
-    sum_near(place, mapping_.source_cell(place), points, sums.data());
+  filter_points(find_footprint(row.index, row.cell, x, row.y, place), points);
+  float* pixel = pixel_of(row, x);
+  if (points.size() == 1 || is_flat(row.index, home, place, points)) {
+    sum_near(place, mapping_.source_cell(place), points, pixel);
   } else {
-    sum_exactly(index, home, points, sums.data());
+    sum_exactly(row.index, home, points, pixel);
   }
-  put(place, sums.data(), x, row);
+  resampler_.finish(place, pixel);
   return true;
 }
 
@@ -330,51 +361,66 @@ SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
 }
 
 // The footprint is that of the line of sight alone: parallax changes it by little, but where things end.
-bool Converter::fill_moved_pixel(int index, const Cell& cell, int x, int y, std::span<float> row) const {
-  const vec2 home = mapping_.home_of(x, y), pixel = mapping_.uv_of(1.0f, 1.0f);
-  const SurfaceHit met = meet(index, home, home);
+bool Converter::fill_moved_pixel(const CellRow& row, int x) const {
+  const vec2 home = mapping_.home_of(x, row.y), size = mapping_.uv_of(1.0f, 1.0f);
+  const SurfaceHit met = meet(row.index, home, home);
   if (!met.place.seen) return false;
-  const Place unmoved = mapping_.find(index, home, home);
+  const Place unmoved = mapping_.find(row.index, home, home);
   std::vector<FilterPoint> points;
-  filter_points(unmoved.seen ? find_footprint(index, cell, x, y, unmoved) : Footprint(), points);
-  std::vector<float> sums(static_cast<size_t>(resampler_.channels()));
+  filter_points(unmoved.seen ? find_footprint(row.index, row.cell, x, row.y, unmoved) : Footprint(), points);
+  float* pixel = pixel_of(row, x);
   float weight = 0.0f;
   for (const FilterPoint& point : points) {
-    const SurfaceHit there = points.size() == 1 ? met : meet(index, home, home + point.pixels * pixel);
+    const SurfaceHit there = points.size() == 1 ? met : meet(row.index, home, home + point.pixels * size);
     if (!there.place.seen) continue;
-    resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, sums.data());
+    resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, pixel);
     weight += point.weight;
   }
   if (weight <= 0.0f) return false;
-  for (float& sum : sums) sum /= weight;
-  put(met.place, sums.data(), x, row);
-  row[static_cast<size_t>(x * channels_ + depth_channel_)] = met.depth;
+  for (int c = 0; c < channels_; c++) pixel[c] /= weight;
+  resampler_.finish(met.place, pixel);
+  pixel[depth_channel_] = met.depth;
   return true;
 }
 
 // The number of empty ones, each by itself.
-int Converter::fill_pixels(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const {
+int Converter::fill_pixels(const CellRow& row, int x, int end) const {
   int empty = 0;
-  for (int i = x; i < x + count; i++) {
-    if (!mapping_.wants(i, y)) continue;
-    const bool filled = reprojection_ ? fill_moved_pixel(index, cell, i, y, row) : fill_pixel(index, cell, i, y, row);
+  for (; x < end; x++) {
+    if (!mapping_.wants(x, row.y)) continue;
+    const bool filled = reprojection_ ? fill_moved_pixel(row, x) : fill_pixel(row, x);
     empty += filled ? 0 : 1;
   }
   return empty;
 }
 
-// The same of up to a stretch of pixels of one cell.
-int Converter::fill_some(int index, const Cell& cell, int x, int y, int count, std::span<float> row) const {
-  int pixels = kLongStretch;
-  while (pixels > kShortStretch && pixels / 2 >= count) pixels /= 2;
-  if (reprojection_) return fill_pixels(index, cell, x, y, count, row);
-  if (const std::optional<Stretch> stretch = find_stretch(index, cell, x, y, pixels)) {
-    fill_stretch(index, *stretch, x, y, count, row);
+// The same of up to a stretch of pixels; its end may lie beyond the cell's.
+int Converter::fill_between(const CellRow& row, int x, int pixels, const Node& first, const Node& last) const {
+  if (x >= row.cell.right) return 0;
+  const int end = std::min(x + pixels, row.cell.right), half = pixels / 2;
+  const Node middle = find_node(row, x + half);
+  const bool wanted = mapping_.wants(x, row.y) && mapping_.wants(end - 1, row.y);
+  if (const auto stretch = find_stretch(first, middle, last, pixels, way_down(row)); stretch && wanted) {
+    fill_stretch(row, *stretch, x, end - x);
     return 0;
   }
-  if (pixels == kShortStretch) return fill_pixels(index, cell, x, y, count, row);
-  const int half = pixels / 2;
-  return fill_some(index, cell, x, y, half, row) + fill_some(index, cell, x + half, y, count - half, row);
+  if (pixels == kShortStretch) return fill_pixels(row, x, end);
+  return fill_between(row, x, half, first, middle) + fill_between(row, x + half, half, middle, last);
+}
+
+int Converter::fill_cell(const CellRow& row) const {
+  if (reprojection_) return fill_pixels(row, row.cell.left, row.cell.right);
+  int empty = 0;
+  Node first = find_node(row, row.cell.left);
+  for (int x = row.cell.left; x < row.cell.right;) {
+    int pixels = kLongStretch;
+    while (pixels > kShortStretch && pixels / 2 >= row.cell.right - x) pixels /= 2;
+    const Node last = find_node(row, x + pixels);
+    empty += fill_between(row, x, pixels, first, last);
+    first = last;
+    x += pixels;
+  }
+  return empty;
 }
 
 int Converter::fill(int index, int y, std::span<float> row) const {
@@ -384,9 +430,8 @@ int Converter::fill(int index, int y, std::span<float> row) const {
   int empty = 0;
   for (int x = 0; x < mapping_.size.width;) {
     const Cell cell = mapping_.cell_at(x, y);
-    const int count = std::min(kLongStretch, cell.right - x);
-    empty += fill_some(index, cell, x, y, count, row);
-    x += count;
+    empty += fill_cell({index, y, cell, row});
+    x = cell.right;
   }
   return empty;
 }

@@ -217,16 +217,10 @@ Image read_image(const std::string& path) {
 
 // In a file of floats whole numbers are as large as floats, and become such.
 static Sample sample_of(const OIIO::TypeDesc& type, bool is_float) {
-  switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8:
-      return Sample::kUint8;
-    case OIIO::TypeDesc::HALF:
-      return Sample::kHalf;
-    case OIIO::TypeDesc::UINT16:
-      return Sample::kUint16;
-    default:
-      return is_float ? Sample::kFloat : Sample::kUint16;
+  for (const Sample sample : {Sample::kUint8, Sample::kUint16, Sample::kHalf}) {
+    if (type == type_of(sample)) return sample;
   }
+  return is_float ? Sample::kFloat : Sample::kUint16;
 }
 
 static FileInfo info_of(const OIIO::ImageSpec& spec) {
@@ -273,9 +267,7 @@ CodeImage decode_image(std::span<const std::byte> file, const std::string& name)
   if (!reader.input->read_image(0, 0, 0, count, OIIO::TypeDesc::UINT8, values.data())) {
     throw cannot_read(name, one_line(reader.input->geterror()));
   }
-  CodeImage image;
-  image.width = reader.spec.width;
-  image.height = reader.spec.height;
+  CodeImage image{reader.spec.width, reader.spec.height, {}};
   image.pixels.resize(values.size() / static_cast<size_t>(count));
   const bool grey = count < 3;
   const bool has_alpha = count == 2 || count == 4;
@@ -341,9 +333,7 @@ bool RowReader::is_whole_number(size_t channel) const {
 }
 
 int RowReader::band_rows() const {
-  const OIIO::ImageSpec& spec = state_->reader.spec;
-  const int kBand = 64;
-  const int together = spec.tile_height > 0 ? spec.tile_height : 1;
+  const int kBand = 64, together = std::max(state_->reader.spec.tile_height, 1);
   return (kBand + together - 1) / together * together;
 }
 
@@ -447,12 +437,22 @@ class Sink final : public OIIO::Filesystem::IOProxy {
 static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, const RowSource& rows,
                        const std::function<void()>& band_done) {
   const int kBand = 64;
-  const size_t row_size = static_cast<size_t>(header.width) * header.channels.size();
-  std::vector<float> made, written(row_size * static_cast<size_t>(std::min(kBand, header.height)));
-  made.resize(written.size());
+  // OpenImageIO makes integers of floats well, and halves slowly.
+  std::vector<Sample> samples;
+  size_t pixel_size = 0;
+  for (const Channel& channel : header.channels) {
+    samples.push_back(channel.sample == Sample::kHalf ? Sample::kHalf : Sample::kFloat);
+    pixel_size += bytes_of(samples.back());
+  }
+  const bool floats = pixel_size == samples.size() * sizeof(float);  // else as the file has them
+  const OIIO::TypeDesc type = floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc();
+  const size_t width = static_cast<size_t>(header.width), row_size = width * pixel_size;
+  std::vector<std::byte> made(row_size * static_cast<size_t>(std::min(kBand, header.height))), written(made.size());
   const auto make = [&](int begin) {
     tbb::parallel_for(begin, std::min(begin + kBand, header.height), [&](int y) {
-      rows(y, {&made[static_cast<size_t>(y - begin) * row_size], row_size});
+      std::vector<float> row(width * samples.size());
+      rows(y, row);
+      pack_floats(samples, row, &made[static_cast<size_t>(y - begin) * row_size]);
     });
     if (band_done) band_done();
   };
@@ -463,7 +463,7 @@ static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, cons
     std::swap(made, written);
     tbb::task_group next;
     if (end < header.height) next.run([&] { make(end); });
-    good = output.write_scanlines(begin, end, 0, OIIO::TypeDesc::FLOAT, written.data());
+    good = output.write_scanlines(begin, end, 0, type, written.data());
     next.wait();
   }
   return good;

@@ -102,7 +102,8 @@ struct FileHeader {
   std::vector<Attribute> attributes;  // names as OpenImageIO has them; GPano:* becomes XMP
 };
 
-// Fills row y with width * channels floats: 0..1 of the code range for integers, the value itself otherwise.
+// Fills row y with width * channels floats: 0..1 of the code range for integers, the value itself otherwise, of which
+// floats_to_halves() makes halves.
 // Called by several threads at once, every row once.
 using RowSource = std::function<void(int y, std::span<float> row)>;
 

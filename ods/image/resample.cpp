@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <climits>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -21,36 +22,30 @@ namespace ods {
 static const float kLeastRadius = 0.15f;
 static const int kMostPoints = 65;  // along one axis
 
+// Points an equal step apart. Their weights, 1 together, rise and fall by equal steps.
 struct Tent {
   int count = 1;
   float offset = 0.0f;  // of the first point
   float step = 0.0f;
-  float share = 1.0f;  // of a point's weight
-  float radius = 0.0f;
+  float first_weight = 1.0f;
 
   float at(int i) const { return offset + step * static_cast<float>(i); }
-  float weight(int i) const {
-    const float t = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(count) - 1.0f;
-    return (1.0f - std::abs(t)) * share;
-  }
+  float weight(int i) const { return first_weight * static_cast<float>(std::min(2 * i + 1, 2 * (count - i) - 1)); }
 };
 
-// Points whose variance is the tent's own, radius^2 / 6.
+// Points whose variance is the tent's own, radius^2 / 6. Those of a tent of radius 1 have a somewhat larger one, by the
+// sums of 1, 3, 5, ... and their squares and cubes: a sixth of `variance`.
 static Tent make_tent(float variance_of_6) {
   Tent tent;
   if (variance_of_6 < kLeastRadius * kLeastRadius) return tent;
-  const float radius = std::sqrt(variance_of_6);
-  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * radius)), kMostPoints);
-  float sum = 0.0f, squares = 0.0f;
-  for (int i = 0; i < tent.count; i++) {
-    const float t = (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(tent.count) - 1.0f;
-    sum += 1.0f - std::abs(t);
-    squares += (1.0f - std::abs(t)) * t * t;
-  }
-  const float scale = radius * std::sqrt(sum / (6.0f * squares));
-  tent.share = 1.0f / sum;
-  tent.step = 2.0f * scale / static_cast<float>(tent.count);
-  tent.offset = 0.5f * tent.step - scale;
+  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * std::sqrt(variance_of_6))), kMostPoints);
+  const bool even = tent.count % 2 == 0;
+  const float n = static_cast<float>(tent.count), nn = n * n;
+  const float variance = even ? 1.0f + 2.0f / nn : (nn - 1.0f) * (nn + 3.0f) / (nn * (nn + 1.0f));
+  const float radius = std::sqrt(variance_of_6 / variance);
+  tent.first_weight = 2.0f / (even ? nn : nn + 1.0f);
+  tent.step = 2.0f * radius / n;
+  tent.offset = 0.5f * tent.step - radius;
   return tent;
 }
 
@@ -149,17 +144,34 @@ static Four read_light(const float* table, const std::byte* texel) {
   return value * share;
 }
 
-// What is between texels is not beyond them: the cubic's overshoot is cut.
-template <class Samples, int kCount, bool kAlpha, class Block>
-static void add_texels(const Block& block, const TexelFilter& filter, float weight, float* sums) {
+// Texels as they lie in a picture.
+struct Block {
+  const std::byte* first;
+  ptrdiff_t pixel_stride;
+  ptrdiff_t row_stride;
+};
+
+template <class Samples, int kCount, bool kAlpha>
+static void read_lights(const Block& block, int width, int height, Four* out) {
   const float* table = Samples::table();
-  Four low = read_light<Samples, kCount, kAlpha>(table, block.first), high = low, sum{};
   const std::byte* start = block.first;
-  for (int y = 0; y < filter.down.count; y++, start += block.row_stride) {
-    Four row{};
+  for (int y = 0; y < height; y++, start += block.row_stride) {
     const std::byte* texel = start;
-    for (int x = 0; x < filter.across.count; x++, texel += block.pixel_stride) {
-      const Four value = read_light<Samples, kCount, kAlpha>(table, texel);
+    for (int x = 0; x < width; x++, texel += block.pixel_stride) {
+      *out++ = read_light<Samples, kCount, kAlpha>(table, texel);
+    }
+  }
+}
+
+// What is between texels is not beyond them: the cubic's overshoot is cut. kAcross: columns of the filter; 0: any.
+template <int kAcross>
+static Four mix_texels(const Four* texels, int width, const TexelFilter& filter) {
+  const int across = kAcross > 0 ? kAcross : filter.across.count;
+  Four low = *texels, high = low, sum{};
+  for (int y = 0; y < filter.down.count; y++, texels += width) {
+    Four row{};
+    for (int x = 0; x < across; x++) {
+      const Four value = texels[x];
       row += value * filter.across.weights[x];
       low = value < low ? value : low;
       high = value > high ? value : high;
@@ -167,8 +179,7 @@ static void add_texels(const Block& block, const TexelFilter& filter, float weig
     sum += row * filter.down.weights[y];
   }
   sum = sum > low ? sum : low;  // NaN too, of numbers near the largest
-  sum = sum < high ? sum : high;
-  for (int c = 0; c < kCount; c++) sums[c] += weight * sum[c];
+  return sum < high ? sum : high;
 }
 
 template <class Samples>
@@ -176,33 +187,33 @@ static void read_numbers(const std::byte* texel, int count, float* out) {
   for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
 }
 
-template <class Block>
-using AddTexels = void (*)(const Block&, const TexelFilter&, float, float*);
+using ReadLights = void (*)(const Block& block, int width, int height, Four* out);
 
-template <class Samples, class Block>
-static AddTexels<Block> adder(int count, bool alpha) {
-  if (alpha) return count == 4 ? add_texels<Samples, 4, true, Block> : add_texels<Samples, 2, true, Block>;
-  if (count == 1) return add_texels<Samples, 1, false, Block>;
-  if (count == 2) return add_texels<Samples, 2, false, Block>;
-  return count == 3 ? add_texels<Samples, 3, false, Block> : add_texels<Samples, 4, false, Block>;
+template <class Samples>
+static ReadLights light_reader(int count, bool alpha) {
+  if (alpha) return count == 4 ? read_lights<Samples, 4, true> : read_lights<Samples, 2, true>;
+  if (count == 1) return read_lights<Samples, 1, false>;
+  if (count == 2) return read_lights<Samples, 2, false>;
+  return count == 3 ? read_lights<Samples, 3, false> : read_lights<Samples, 4, false>;
 }
 
-template <class Block>
-static AddTexels<Block> adder_of(Sample sample, int count, bool alpha) {
+static ReadLights light_reader_of(Sample sample, int count, bool alpha) {
   switch (sample) {
     case Sample::kUint8:
-      return adder<Codes<uint8_t>, Block>(count, alpha);
+      return light_reader<Codes<uint8_t>>(count, alpha);
     case Sample::kUint16:
-      return adder<Codes<uint16_t>, Block>(count, alpha);
+      return light_reader<Codes<uint16_t>>(count, alpha);
     case Sample::kHalf:
-      return adder<Halves, Block>(count, alpha);
+      return light_reader<Halves>(count, alpha);
     case Sample::kFloat:
       break;
   }
-  return adder<Floats, Block>(count, alpha);
+  return light_reader<Floats>(count, alpha);
 }
 
-static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
+using ReadNumbers = void (*)(const std::byte* texel, int count, float* out);
+
+static ReadNumbers number_reader_of(Sample sample) {
   switch (sample) {
     case Sample::kUint8:
       return read_numbers<Codes<uint8_t>>;
@@ -218,6 +229,21 @@ static void (*reader_of(Sample sample))(const std::byte*, int, float*) {
 
 // --- layers --------------------------------------------------------------------------------------------------------
 
+struct Resampler::Group {
+  ReadLights read_lights;
+  ReadNumbers read_numbers;  // of layers that must not be averaged
+  size_t layer;
+  ptrdiff_t offset;  // bytes, in a texel
+  int first;         // channel of the whole
+  int count;
+  ptrdiff_t size;  // bytes
+
+  Block block(const Source& source, int eye, int x, int y) const {
+    const LayerPixels& from = source.picture->eyes[static_cast<size_t>(eye)].layers[layer];
+    return {from.first + y * from.row_stride + x * from.pixel_stride + offset, from.pixel_stride, from.row_stride};
+  }
+};
+
 Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
   const std::vector<LayerPixels>& layers = source.picture->eyes[0].layers;
   for (size_t i = 0; i < layers.size(); i++) {
@@ -227,8 +253,8 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
     const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
     for (int first = 0; first < all; first += 4) {
       const int count = std::min(all - first, 4);
-      const Group group{adder_of<Block>(layer.sample, count, alpha),
-                        reader_of(layer.sample),
+      const Group group{light_reader_of(layer.sample, count, alpha),
+                        number_reader_of(layer.sample),
                         i,
                         first * static_cast<ptrdiff_t>(bytes_of(layer.sample)),
                         channels_ + first,
@@ -241,16 +267,13 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
   }
 }
 
-static const std::byte* address(const LayerPixels& layer, int x, int y) {
-  return layer.first + y * layer.row_stride + x * layer.pixel_stride;
-}
+Resampler::~Resampler() = default;
 
 // Catmull-Rom, for the texels at -1, 0, 1 and 2.
-static void cubic_weights(float t, float* w) {
-  w[0] = t * (-0.5f + t * (1.0f - 0.5f * t));
-  w[1] = 1.0f + t * t * (-2.5f + 1.5f * t);
-  w[2] = t * (0.5f + t * (2.0f - 1.5f * t));
-  w[3] = t * t * (-0.5f + 0.5f * t);
+static Four cubic_weights(float t) {
+  const Four once{-0.5f, 0.0f, 0.5f, 0.0f}, squared{1.0f, -2.5f, 2.0f, -0.5f}, cubed{-0.5f, 1.5f, -1.5f, 0.5f};
+  const Four middle{0.0f, 1.0f, 0.0f, 0.0f};
+  return middle + t * (once + t * (squared + t * cubed));
 }
 
 struct Position {
@@ -269,39 +292,29 @@ static Position split(float at) {
   return {whole, beyond};
 }
 
-// Whether a filter's texels are all of a cell's. A fisheye's circle has them if it has their corners.
-static bool has_all(const Source& source, const Cell& cell, const TexelFilter& filter) {
-  const int left = filter.across.first, right = left + filter.across.count - 1;
-  const int top = filter.down.first, bottom = top + filter.down.count - 1;
-  if (left < cell.left || right >= cell.right || top < cell.top || bottom >= cell.bottom) return false;
-  if (!is_fisheye(source.camera.projection.kind)) return true;
-  return has_texel(source, cell, left, top) && has_texel(source, cell, right, top) &&
-         has_texel(source, cell, left, bottom) && has_texel(source, cell, right, bottom);
-}
-
-Resampler::Block Resampler::block_at(const Group& group, int eye, const TexelFilter& filter) const {
-  const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(eye)].layers[group.layer];
-  return {address(layer, filter.across.first, filter.down.first) + group.offset, layer.pixel_stride, layer.row_stride};
-}
-
 static void set_weights(float at, const Tent& tent, TexelWeights& to) {
   if (tent.count == 1) {
     const Position position = split(at);
     to.first = position.texel - 1;
     to.count = 4;
-    cubic_weights(position.beyond, to.weights);
+    const Four weights = cubic_weights(position.beyond);
+    std::memcpy(to.weights, &weights, sizeof weights);
     return;
   }
-  to.first = split(at + tent.at(0)).texel - 1;
-  to.count = split(at + tent.at(tent.count - 1)).texel + 2 - to.first + 1;
-  std::fill_n(to.weights, to.count, 0.0f);
-  for (int i = 0; i < tent.count; i++) {
-    const Position position = split(at + tent.at(i));
-    float cubic[4];
-    cubic_weights(position.beyond, cubic);
-    float* weights = to.weights + (position.texel - 1 - to.first);
-    for (int k = 0; k < 4; k++) weights[k] += cubic[k] * tent.weight(i);
+  Position position = split(at + tent.at(0));
+  to.first = position.texel - 1;
+  to.count = 0;
+  Four sums{};  // of the four weights from to.count on, to which points still add
+  for (int i = 0, texel = position.texel; i < tent.count; i++) {
+    position = split(at + tent.at(i));
+    for (; texel < position.texel; texel++) {
+      to.weights[to.count++] = sums[0];
+      sums = Four{sums[1], sums[2], sums[3], 0.0f};
+    }
+    sums += cubic_weights(position.beyond) * tent.weight(i);
   }
+  std::memcpy(to.weights + to.count, &sums, sizeof sums);
+  to.count += 4;
 }
 
 bool texel_filter(const Footprint& footprint, vec2 at, TexelFilter& filter) {
@@ -309,13 +322,26 @@ bool texel_filter(const Footprint& footprint, vec2 at, TexelFilter& filter) {
   const float kMostLean = 0.1f;
   // A filter this wide has fewer texels than there is room for.
   const float kMostRadius = 12.0f;
+  // An ellipse within this circle is only interpolated, however it leans.
+  const float kSharp = 1.0f + kLeastRadius * kLeastRadius;
   const vec2 dx = footprint.dx, dy = footprint.dy;
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  const bool sharp = xx < kSharp && yy < kSharp && xy * xy < (kSharp - xx) * (kSharp - yy);
   const bool fits = xx + yy < kMostRadius * kMostRadius && xy * xy <= kMostLean * kMostLean * xx * yy;
-  if (!fits) return false;
-  set_weights(at.x, make_tent(xx - 1.0f), filter.across);
-  set_weights(at.y, make_tent(yy - 1.0f), filter.down);
+  if (!sharp && !fits) return false;
+  set_weights(at.x, sharp ? Tent() : make_tent(xx - 1.0f), filter.across);
+  set_weights(at.y, sharp ? Tent() : make_tent(yy - 1.0f), filter.down);
   return true;
+}
+
+// A fisheye's circle has them if it has their corners.
+bool Resampler::has_all(const TexelFilter& filter, const Cell& cell) const {
+  const int left = filter.across.first, right = left + filter.across.count - 1;
+  const int top = filter.down.first, bottom = top + filter.down.count - 1;
+  if (left < cell.left || right >= cell.right || top < cell.top || bottom >= cell.bottom) return false;
+  if (!is_fisheye(source_.camera.projection.kind)) return true;
+  return has_texel(source_, cell, left, top) && has_texel(source_, cell, right, top) &&
+         has_texel(source_, cell, left, bottom) && has_texel(source_, cell, right, bottom);
 }
 
 void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
@@ -323,31 +349,67 @@ void Resampler::add(const Place& place, const Cell& cell, float weight, float* s
   set_weights(place.at.x, Tent(), filter.across);
   set_weights(place.at.y, Tent(), filter.down);
   const int left = filter.across.first, top = filter.down.first;
-  const bool inside = has_all(source_, cell, filter);
+  const bool inside = has_all(filter, cell);
   Texel around[16];
   for (int i = 0; i < 16 && !inside; i++) {
     around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
   }
   for (const Group& group : mixed_) {
-    if (inside) {
-      group.add(block_at(group, place.eye, filter), filter, weight, sums + group.first);
-      continue;
-    }
-    std::byte gathered[16 * 4 * sizeof(float)];
+    Four texels[16];
+    std::byte gathered[16 * sizeof(Four)];
     const ptrdiff_t size = group.size;
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 16 && !inside; i++) {
       const Texel& t = around[i];
-      const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(t.eye)].layers[group.layer];
-      std::memcpy(gathered + i * size, address(layer, t.x, t.y) + group.offset, static_cast<size_t>(size));
+      std::memcpy(gathered + i * size, group.block(source_, t.eye, t.x, t.y).first, static_cast<size_t>(size));
     }
-    group.add({gathered, size, 4 * size}, filter, weight, sums + group.first);
+    const Block block = inside ? group.block(source_, place.eye, left, top) : Block{gathered, size, 4 * size};
+    group.read_lights(block, 4, 4, texels);
+    const Four value = mix_texels<4>(texels, 4, filter);
+    for (int c = 0; c < group.count; c++) sums[group.first + c] += weight * value[c];
   }
 }
 
-bool Resampler::add(int eye, const TexelFilter& filter, const Cell& cell, float* sums) const {
-  if (!has_all(source_, cell, filter)) return false;
-  for (const Group& group : mixed_) group.add(block_at(group, eye, filter), filter, 1.0f, sums + group.first);
-  return true;
+// The texels of filters as a cell has them, and how many they are if every filter reads its own.
+struct Reach {
+  Cell box;
+  int texels = 0;
+};
+
+static Reach reach_of(std::span<const TexelFilter> filters) {
+  Reach reach{{INT_MAX, INT_MAX, INT_MIN, INT_MIN}};
+  for (const TexelFilter& filter : filters) {
+    const TexelWeights &across = filter.across, &down = filter.down;
+    reach.box.left = std::min(reach.box.left, across.first);
+    reach.box.top = std::min(reach.box.top, down.first);
+    reach.box.right = std::max(reach.box.right, across.first + across.count);
+    reach.box.bottom = std::max(reach.box.bottom, down.first + down.count);
+    reach.texels += across.count * down.count;
+  }
+  return reach;
+}
+
+// Neighbours share most of their texels, which are read once for all: of as many pixels as have them in a small box.
+void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) const {
+  const int kMostTexels = 1024;  // of one filter
+  const Reach reach = reach_of(filters);
+  const int left = reach.box.left, top = reach.box.top, width = reach.box.right - left, height = reach.box.bottom - top;
+  if (filters.size() > 1 && width * height > std::min(reach.texels, kMostTexels)) {
+    const size_t half = filters.size() / 2;
+    fill(eye, filters.first(half), out);
+    return fill(eye, filters.subspan(half), out + half * static_cast<size_t>(channels_));
+  }
+  Four texels[kMostTexels];
+  for (const Group& group : mixed_) {
+    group.read_lights(group.block(source_, eye, left, top), width, height, texels);
+    float* pixel = out + group.first;
+    for (const TexelFilter& filter : filters) {
+      const Four* first = texels + (filter.down.first - top) * width + (filter.across.first - left);
+      const Four value =
+          filter.across.count == 4 ? mix_texels<4>(first, width, filter) : mix_texels<0>(first, width, filter);
+      for (int c = 0; c < group.count; c++) pixel[c] = value[c];
+      pixel += channels_;
+    }
+  }
 }
 
 void Resampler::finish(const Place& place, float* out) const {
@@ -355,8 +417,7 @@ void Resampler::finish(const Place& place, float* out) const {
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
   for (const Group& group : nearest_) {
-    const LayerPixels& layer = source_.picture->eyes[static_cast<size_t>(place.eye)].layers[group.layer];
-    group.read(address(layer, x, y) + group.offset, group.count, out + group.first);
+    group.read_numbers(group.block(source_, place.eye, x, y).first, group.count, out + group.first);
   }
   if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
 }

@@ -9,8 +9,7 @@
 // the picture is interpolated by Catmull and Rom's cubic, kept within the range of its 4x4 texels. So a pixel that
 // covers one texel or less is interpolated only, and one in the middle of a texel is that texel, bit for bit.
 #pragma once
-#include <array>
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "ods/image/source.h"
@@ -50,40 +49,25 @@ class Resampler {
   // With adds_alpha there is one more channel, behind the colour's, for who sees more than the picture does.
   // Precondition: every eye of the picture has the same layers; adds_alpha: its colour has no alpha.
   explicit Resampler(const Source& source, bool adds_alpha = false);
+  ~Resampler();
 
   int channels() const { return channels_; }
 
   // Adds what a place of a cell shows, by its weight. Layers that must not be averaged are left alone.
   void add(const Place& place, const Cell& cell, float weight, float* sums) const;
 
-  // The same of a pixel with a filter of its own. False, and nothing added: the filter leaves the cell.
-  bool add(int eye, const TexelFilter& filter, const Cell& cell, float* sums) const;
+  // Whether a filter's texels are all of a cell's.
+  bool has_all(const TexelFilter& filter, const Cell& cell) const;
 
-  // Sets what add() leaves alone: those layers, to the texel of the place, and an alpha that is added to 1.
+  // Sets pixels beside each other, each with a filter of its own, to what they show; `out` is the first's. The same
+  // layers are left alone. Precondition: has_all() of each.
+  void fill(int eye, std::span<const TexelFilter> filters, float* out) const;
+
+  // Sets what add() and fill() leave alone: those layers, to the texel of the place, and an alpha that is added to 1.
   void finish(const Place& place, float* out) const;
 
  private:
-  // Texels that lie as in a picture.
-  struct Block {
-    const std::byte* first;
-    ptrdiff_t pixel_stride;
-    ptrdiff_t row_stride;
-  };
-  // Adds those of up to 4 channels, by the weights of columns and rows.
-  using AddTexels = void (*)(const Block& block, const TexelFilter& filter, float weight, float* sums);
-  using ReadTexel = void (*)(const std::byte* texel, int count, float* out);
-
-  struct Group {
-    AddTexels add;
-    ReadTexel read;  // of layers that must not be averaged
-    size_t layer;
-    ptrdiff_t offset;  // bytes, in a texel
-    int first;         // channel of the whole
-    int count;
-    ptrdiff_t size;  // bytes
-  };
-
-  Block block_at(const Group& group, int eye, const TexelFilter& filter) const;
+  struct Group;  // up to 4 channels of a layer
 
   const Source& source_;
   std::vector<Group> mixed_;

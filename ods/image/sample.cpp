@@ -3,12 +3,14 @@
 #include "ods/image/sample.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <limits>
+#include <vector>
 
 namespace ods {
 
@@ -63,8 +65,40 @@ static void divide(std::span<std::byte> pixels, size_t channels, size_t alpha, f
   }
 }
 
-float finite(float value, float lowest, float highest) {
-  return std::isnan(value) ? 0.0f : std::clamp(value, lowest, highest);
+// Added to a power of two that has as many digits more than a half, a float is rounded where a half ends; what is added
+// to the power's bits counts the half's steps. No branches, so that compilers do several at once.
+static uint16_t nearest_half(float value) {
+  const int32_t kLeast = 127 - 14, kLargest = std::bit_cast<int32_t>(65504.0f);  // the exponent as floats store it
+  const int32_t bits = std::bit_cast<int32_t>(value), magnitude = bits & 0x7fffffff;
+  const int32_t size = magnitude > 0x7f800000 ? 0 : std::min(magnitude, kLargest);
+  const int32_t exponent = std::max(size >> 23, kLeast);
+  const int32_t power = (exponent + 13) << 23;
+  const int32_t steps = std::bit_cast<int32_t>(std::bit_cast<float>(size) + std::bit_cast<float>(power)) - power;
+  return static_cast<uint16_t>(((exponent - kLeast) << 10) + steps + (bits >> 16 & 0x8000));
+}
+
+void floats_to_halves(std::span<const float> from, uint16_t* to) {
+  for (size_t i = 0; i < from.size(); i++) to[i] = nearest_half(from[i]);
+}
+
+void pack_floats(std::span<const Sample> channels, std::span<const float> pixels, std::byte* to) {
+  const auto halves_in_pixel = std::count(channels.begin(), channels.end(), Sample::kHalf);
+  if (halves_in_pixel == 0) {
+    std::memcpy(to, pixels.data(), pixels.size_bytes());
+    return;
+  }
+  std::vector<uint16_t> halves(pixels.size());
+  floats_to_halves(pixels, halves.data());
+  if (halves_in_pixel == static_cast<ptrdiff_t>(channels.size())) {
+    std::memcpy(to, halves.data(), halves.size() * sizeof(uint16_t));
+    return;
+  }
+  for (size_t i = 0; i < pixels.size(); i++) {
+    const bool half = channels[i % channels.size()] == Sample::kHalf;
+    const size_t size = half ? sizeof(uint16_t) : sizeof(float);
+    std::memcpy(to, half ? static_cast<const void*>(&halves[i]) : &pixels[i], size);
+    to += size;
+  }
 }
 
 void divide_by_alpha(Sample sample, std::span<std::byte> pixels, size_t channels, size_t alpha, float power) {

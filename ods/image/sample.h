@@ -3,7 +3,10 @@
 //
 // The numbers that pixels are made of, as files have them.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace ods {
@@ -15,7 +18,16 @@ size_t bytes_of(Sample sample);
 float sample_value(Sample sample, const std::byte* at);
 
 // A number between two others; NaN becomes 0.
-float finite(float value, float lowest, float highest);
+inline float finite(float value, float lowest, float highest) {
+  return std::isnan(value) ? 0.0f : std::clamp(value, lowest, highest);
+}
+
+// The nearest half of each float, of two as near the even one, as IEEE 754 has it. As finite(): NaN becomes 0, what is
+// larger than the largest half becomes that.
+void floats_to_halves(std::span<const float> from, uint16_t* to);
+
+// Pixels of these channels, one behind the other: those that are kHalf become halves, the others stay floats.
+void pack_floats(std::span<const Sample> channels, std::span<const float> pixels, std::byte* to);
 
 // Code values of `channels` a pixel, the colours multiplied by (alpha / largest)^power: undone, as far as rounding
 // left anything. kUint8 or kUint16.

@@ -204,14 +204,11 @@ static std::vector<float> read_row(const File& file, int index, int y) {
   return squeezed;
 }
 
-// All layers; `stride` floats from pixel to pixel.
+// All layers; `stride` floats from pixel to pixel. Halves have a limit of their own, where they are made.
 static void put_exr_row(const File& file, const std::vector<float>& row, float* out, size_t stride) {
+  const float kLimit = std::numeric_limits<float>::max();
   for (size_t at = 0; at < row.size(); at += file.channels, out += stride) {
-    size_t c = 0;
-    for (const RowLayer& layer : file.picture.layers) {
-      const float limit = layer.sample == Sample::kFloat ? std::numeric_limits<float>::max() : 65504.0f;
-      for (size_t end = c + layer.channels.size(); c < end; c++) out[c] = finite(row[at + c], -limit, limit);
-    }
+    for (size_t c = 0; c < file.channels; c++) out[c] = finite(row[at + c], -kLimit, kLimit);
   }
 }
 

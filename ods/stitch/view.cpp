@@ -87,7 +87,9 @@ void View::filter(const Footprint& footprint, const Place& place, float* out) co
   const Cell cell{0, 0, picture_.size.width, picture_.size.height};
   std::fill(out, out + form_.channels, 0.0f);
   TexelFilter filter;
-  if (!texel_filter(footprint, place.at, filter) || !resampler_.add(0, filter, cell, out)) {
+  if (texel_filter(footprint, place.at, filter) && resampler_.has_all(filter, cell)) {
+    resampler_.fill(0, {&filter, 1}, out);
+  } else {
     thread_local std::vector<FilterPoint> points;
     filter_points(footprint, points);
     for (const FilterPoint& point : points) {
