@@ -179,4 +179,15 @@ TEST_F(EncodeCommand, ATitleGoesOverAFilm) {
   }
 }
 
+TEST_F(EncodeCommand, TheTestCardIsAFilm) {
+  const std::string film = folder.path("card_360_TB.mp4");
+  ASSERT_EQ(run("testcard --film --width 128 --duration 0.2 -o " + film), 0) << err;
+  EXPECT_EQ(out, film + "\n");
+  EXPECT_NE(err.find("128x128, 6 frames at 30 a second"), std::string::npos) << err;
+  EXPECT_EQ(run("testcard --film --layout anaglyph -o " + film), 2);
+  expect_one_line("a film's layout is");
+  EXPECT_EQ(run("testcard --film -o " + folder.path("card.png")), 2);
+  expect_one_line("no name of a film");
+}
+
 }  // namespace
