@@ -4,7 +4,8 @@
 // How fast frames become a film, over the ffmpeg program on the same frames with the same encoder and settings,
 // measured in turns in the same run. The frames have gradients, edges and grain that moves, so that they take about as
 // long to pack as photographs. above_ffmpeg: 1 is as fast, more is faster;
-// by wall clock and, for machines that have other work, by CPU seconds.
+// by wall clock and, for machines that have other work, by CPU seconds. And how fast a title is laid over a film, over
+// the ffmpeg program decoding and encoding it alone.
 #include <benchmark/benchmark.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -17,6 +18,7 @@
 #include <sstream>
 
 #include "ods/image/save.h"
+#include "ods/video/film_over.h"
 #include "ods/video/make_film.h"
 
 namespace {
@@ -139,6 +141,62 @@ void encode(benchmark::State& state) {
                                         static_cast<double>(std::filesystem::file_size(folder.path("theirs.mp4")));
 }
 BENCHMARK(encode)->ArgsProduct({{0, 1, 2, 3}, {1024}})->Iterations(3)->Unit(benchmark::kSecond)->UseRealTime();
+
+// A title: white, 40 degrees wide and 8 high, its edges soft.
+PictureRows title(int width) {
+  PictureRows rows;
+  rows.eye = {width, width / 2};
+  rows.eyes = {kLeft, kRight};
+  rows.layers = {{{"R", "G", "B", "A"}}};
+  rows.fill = [=](int, int y, std::span<float> row) {
+    for (int x = 0; x < width; x++) {
+      const float theta = 360.0f * (static_cast<float>(x) / static_cast<float>(width) - 0.5f),
+                  phi = 180.0f * (2.0f * static_cast<float>(y) / static_cast<float>(width) - 0.5f);
+      const float alpha = std::clamp(5.0f * std::min(20.0f - std::abs(theta), 4.0f - std::abs(phi)), 0.0f, 1.0f);
+      for (size_t c = 0; c < 4; c++) row[4 * static_cast<size_t>(x) + c] = alpha;
+    }
+  };
+  return rows;
+}
+
+void over(benchmark::State& state) {
+  const int width = static_cast<int>(state.range(0)), frames = 12;
+  if (std::system("command -v ffmpeg > /dev/null") != 0) return state.SkipWithError("skipped: ffmpeg is not installed");
+  if (!has_encoder("libx264")) return state.SkipWithError("skipped: this machine has no libx264");
+  const Folder folder;
+  EncodeOptions options;
+  options.packing = {FilmCodec::kH264, 8, Chroma::k420, 24};
+  options.encoder = "libx264";
+  options.preset = "ultrafast";
+  SaveOptions save;
+  save.tone = ToneCurve::kLinear;
+  for (int i = 1; i <= frames; i++) {
+    save_picture(frame(width, i), nullptr, save, frame_names(folder.path("frame.####.png"))->path(i));
+  }
+  const FrameFiles files = find_frames(folder.path("frame.####.png"));
+  make_film(files, plan_film(files, {}, {}), {}, options, folder.path("film.mp4"));
+  const CameraRig rig;
+  save_picture(title(width), &rig, save, folder.path("title.exr"));
+  const std::string command = "ffmpeg -v error -y -i " + folder.path("film.mp4") +
+                              " -c:v libx264 -preset ultrafast -crf 24 -g 30 -flags +cgop -movflags +faststart " +
+                              folder.path("theirs.mp4");
+  Seconds ours, theirs;
+  for (auto round : state) {
+    static_cast<void>(round);
+    measure(theirs, RUSAGE_CHILDREN, [&] {
+      if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
+    });
+    measure(ours, RUSAGE_SELF, [&] {
+      Footage back(folder.path("film.mp4"), {}), front(folder.path("title.exr"), {});
+      over_film(back, front, 0, frames, {}, options, folder.path("ours.mp4"));
+    });
+  }
+  const double pixels = 1.0 * width * width * frames;
+  state.counters["Mpixel/s"] = pixels / ours.wall * 1e-6;
+  state.counters["above_decode_encode"] = theirs.wall / ours.wall;
+  state.counters["above_decode_encode_cpu"] = theirs.cpu / ours.cpu;
+}
+BENCHMARK(over)->Arg(4096)->Iterations(3)->Unit(benchmark::kSecond)->UseRealTime();
 
 }  // namespace
 

@@ -35,12 +35,6 @@ void parse_encoder(const std::string& name, FilmWishes& wishes) {
   throw UsageError(fmt::format("--encoder is one of {}, not '{}'", encoder_list(), name));
 }
 
-Container container_for(const std::string& path) {
-  if (path.empty()) throw UsageError("where to? -o film.mp4");
-  if (const std::optional<Container> container = ods::container_of_path(path)) return *container;
-  throw UsageError(fmt::format("'{}' is no name of a film: it ends in .mp4, .mov, .mkv or .webm", path));
-}
-
 // What the target says, but for what was asked for.
 ods::Packing packing_for(const FilmWishes& wishes, Container container, Extent size) {
   ods::Packing packing = ods::packing_for(wishes.target, size, wishes.rate.value());
@@ -133,6 +127,12 @@ void warn_of_hardware(const ods::Packing& packing) {
 
 }  // namespace
 
+Container container_for(const std::string& path) {
+  if (path.empty()) throw UsageError("where to? -o film.mp4");
+  if (const std::optional<Container> container = ods::container_of_path(path)) return *container;
+  throw UsageError(fmt::format("'{}' is no name of a film: it ends in .mp4, .mov, .mkv or .webm", path));
+}
+
 ods::FrameRate parse_rate(const std::string& text) {
   const size_t stroke = text.find('/');
   const std::vector<float> parts = parse_numbers(text.substr(0, stroke));
@@ -155,6 +155,10 @@ ods::FrameRate parse_rate(const std::string& text) {
 void add_film_options(Options& options, FilmWishes& wishes) {
   options.group("Film");
   options.text("-o,--output", "FILE", wishes.output, ".mp4 .mov .mkv .webm");
+  add_packing_options(options, wishes);
+}
+
+void add_packing_options(Options& options, FilmWishes& wishes) {
   options.choice("--target", wishes.target, ods::kFilmTargets, ods::film_target_name,
                  "whom it is for; what follows goes before it");
   options.choice("--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name, "by default as the target has it");
@@ -182,6 +186,8 @@ ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int thr
   options.rate = wishes.rate;
   options.threads = threads;
   options.sound = wishes.sound;
+  options.copies_sound = wishes.copies_sound;
+  options.sound_cut = wishes.sound_cut;
   check_container(container, options.packing.codec);
   check_quality(options);
   ods::check_encoder(container, options);

@@ -17,6 +17,8 @@ struct FilmWishes {
   std::optional<ods::Chroma> chroma;
   std::optional<float> bitrate;
   std::string encoder, preset, sound;
+  bool copies_sound = false;
+  ods::SoundCut sound_cut;
   ods::FrameRate rate;
 };
 
@@ -25,6 +27,11 @@ ods::FrameRate parse_rate(const std::string& text);
 
 // -o and what follows, in groups of their own; not the rate.
 void add_film_options(Options& options, FilmWishes& wishes);
+// The same without -o, in a group that is open already.
+void add_packing_options(Options& options, FilmWishes& wishes);
+
+// Of a film's name. Throws UsageError.
+ods::Container container_for(const std::string& path);
 
 // How a film of that size is encoded. Throws UsageError where the wishes do not fit together, ods::Error where this
 // machine cannot. Nothing is written, but that the file could be is found out.

@@ -116,6 +116,12 @@ void Options::text(const std::string& name, const std::string& unit, std::string
       text);
 }
 
+void Options::texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
+                    const std::string& text) {
+  explain(name, unit, text + "; may be given again");
+  app_->add_option(name, values)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
+}
+
 void Options::number(const std::string& name, int& value, int low, int high, const std::string& text) {
   auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
   custom(name, "N", fmt::format("{}", value), set, text);

@@ -32,6 +32,9 @@ class Options {
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
   void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
+  // One that may be given several times: every word counts.
+  void texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
+             const std::string& text);
   void number(const std::string& name, int& value, int low, int high, const std::string& text);
   void number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text);
   void number(const std::string& name, float& value, float low, float high, const std::string& text);

@@ -28,6 +28,8 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.text("--rig", "FILE", job.rig, "render the views of this rig of slits (ods rig), for ods stitch");
   options.flag("--transparent", job.render.transparent,
                "the sky lights the scene and is left out: alpha, for ods over (.exr .png .tif .webp)");
+  options.texts("--catch", "NAME", job.scene.catchers,
+                "an object or material of a transparent picture of which only the shadows on it are seen");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
 }
@@ -83,6 +85,9 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
     note("--exposure leaves .exr and .hdr as the scene is lit");
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
+  }
+  if (!job.scene.catchers.empty() && !job.render.transparent) {
+    throw UsageError("--catch leaves shadows to lay over something: it needs --transparent");
   }
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_source.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/console.h"
 #include "ods/base/error.h"
+#include "ods/base/suggest.h"
+#include "ods/scene/catchers.h"
 #include "ods/scene/environment.h"
 #include "ods/scene/load.h"
 
@@ -25,9 +30,24 @@ void add_light_options(Options& options, SceneSource& source) {
       "own. A scene without lamps gets 1");
 }
 
+// What may have been meant, or else what there is.
+static std::string suggestion(const Scene& scene, const std::string& name) {
+  const std::vector<std::string> names = ods::object_names(scene);
+  if (names.empty()) return "; it names no objects and materials";
+  const std::string near = ods::did_you_mean(name, names);
+  if (!near.empty()) return near;
+  const size_t kMost = 12;
+  const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMost));
+  return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
+}
+
 Scene open_scene(const SceneSource& source) {
   Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1)});
   for (const std::string& warning : scene.warnings) warn(warning);
+  for (const std::string& name : source.catchers) {
+    if (make_catchers(scene, name)) continue;
+    throw UsageError(fmt::format("--catch: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
+  }
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/options.h"
 #include "ods/scene/scene.h"
@@ -13,12 +14,13 @@ struct SceneSource {
   std::string name;          // a file, or a built-in scene
   std::optional<int> scene;  // which of the file's scenes, when not the one it opens with
   std::string environment;
+  std::vector<std::string> catchers;
 };
 
 void add_scene_argument(Options& options, SceneSource& source);
 void add_light_options(Options& options, SceneSource& source);
 
-// Reads the scene and notes what of it is not rendered.
+// Reads the scene, makes catchers of what is named so, and notes what of it is not rendered.
 ods::Scene open_scene(const SceneSource& source);
 
 // Puts the environment asked for around the scene. A scene without lamps gets a white sky, and a note.

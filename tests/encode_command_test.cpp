@@ -156,4 +156,38 @@ TEST_F(EncodeCommand, NamesThatPlayersGoByAreSuggested) {
   EXPECT_EQ(err.find("its name says"), std::string::npos) << err;
 }
 
+TEST_F(EncodeCommand, ATitleGoesOverAFilm) {
+  ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
+  folder.write("sound.wav", ods::made::wav(2, 0.2));
+  const std::string film = folder.path("film_360_TB.mp4"), made = folder.path("made_360_TB.mp4");
+  const std::string title = folder.path("title.exr"), over = "over " + title + " " + film + " -q -o ";
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --audio " + folder.path("sound.wav") + " -q -o " + film), 0);
+  ASSERT_EQ(run("title End --at 0,0,2 --height 1 --width 64 -o " + title), 0) << err;
+  ASSERT_EQ(run("over " + title + " " + film + " -o " + made), 0) << err;
+  EXPECT_EQ(out, made + "\n");
+  EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 6 frames at 30 a second"), std::string::npos) << err;
+  EXPECT_EQ(ods::read_film(made).sound.size(), 1u);
+  ASSERT_EQ(run(over + folder.path("x.#.png") + " --frames 2-4x2"), 0) << err;
+  EXPECT_EQ(out, folder.path("x.2.png") + "\n" + folder.path("x.4.png") + "\n");
+  const std::pair<std::string, const char*> kWrong[] = {{made + " --frames 1-5x2", "follow each other"},
+                                                        {made + " --frames 3-1", "rise"},
+                                                        {film, "overwritten"},
+                                                        {folder.path("x.png"), "place for the number"}};
+  for (const auto& [words, fault] : kWrong) {
+    EXPECT_EQ(run(over + words), 2) << words;
+    expect_one_line(fault);
+  }
+}
+
+TEST_F(EncodeCommand, TheTestCardIsAFilm) {
+  const std::string film = folder.path("card_360_TB.mp4");
+  ASSERT_EQ(run("testcard --film --width 128 --duration 0.2 -o " + film), 0) << err;
+  EXPECT_EQ(out, film + "\n");
+  EXPECT_NE(err.find("128x128, 6 frames at 30 a second"), std::string::npos) << err;
+  EXPECT_EQ(run("testcard --film --layout anaglyph -o " + film), 2);
+  expect_one_line("a film's layout is");
+  EXPECT_EQ(run("testcard --film -o " + folder.path("card.png")), 2);
+  expect_one_line("no name of a film");
+}
+
 }  // namespace

@@ -19,6 +19,7 @@
 #include "ods/base/memory.h"
 #include "ods/cpu/embree_scene.h"
 #include "ods/kernel/path.h"
+#include "ods/scene/catchers.h"
 #include "ods/scene/lights.h"
 
 namespace ods {
@@ -90,7 +91,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   PathTracer& tracer = job.tracer;
   tracer.ray_time = 0.5f;
   tracer.start_path(ray, job.media, seed, 0u);
-  while (tracer.path.alive) {
+  while (tracer.path.alive && !tracer.path.caught) {
     tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
   }
   const float depth = tracer.path.depth;
@@ -103,6 +104,8 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   const PathState& path = job.tracer.path;
   const vec2 home = pixel_center(job, x, y);
   Pixel pixel;
+  int caught = 0;
+  double light_with = 0.0, light_without = 0.0;  // at catchers
   for (int i = 0; i < job.options.samples; i++) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
@@ -115,17 +118,25 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
     job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
     if (job.options.transparent && path.depth < 0.0f) continue;  // it met nothing
+    if (path.caught) {
+      caught++;
+      light_with += double{path.light_with}, light_without += double{path.light_without};
+      continue;
+    }
     pixel.alpha += 1.0f;
     pixel.radiance += path.radiance;
     pixel.normal += path.normal;
     pixel.albedo += path.albedo;
   }
+  if (light_without > 0.0) pixel.alpha += static_cast<float>(caught * (1.0 - light_with / light_without));
   const float share = 1.0f / static_cast<float>(job.options.samples);
   pixel.radiance *= share;
   pixel.normal *= share;
   pixel.albedo *= share;
   pixel.alpha *= share;
-  if (job.options.layers) pixel.depth = center_depth(job, eye, x, y, seed);
+  if (!job.options.layers) return pixel;
+  pixel.depth = center_depth(job, eye, x, y, seed);
+  if (path.caught && !(pixel.alpha > 0.0f)) pixel.depth = kFarDepth;
   return pixel;
 }
 
@@ -262,6 +273,7 @@ Picture CpuRenderer::render(const CameraRig& rig, const RenderOptions& options, 
 Picture CpuRenderer::render(std::span<const CameraRig> rigs, const RenderOptions& wanted,
                             const Progress& progress) const {
   assert(rigs.size() % 2 == 1);
+  assert(wanted.transparent || !has_catchers(parts_->scene));
   const CameraRig& rig = rigs[rigs.size() / 2];
   const RenderOptions options = with_height(wanted, rig);
   std::vector<Camera> cameras;

@@ -130,6 +130,24 @@ Overlay lay_over(const StoredPicture& foreground, const StoredPicture& backgroun
   return overlay;
 }
 
+PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPicture& background,
+                              const OverOptions& options) {
+  assert(over_fault(foreground, background, options).empty());
+  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.rig));
+  const auto front = std::make_shared<const Rows>(*moved, own_form(background));
+  PictureRows rows = front->rows;
+  rows.layers = {{{"R", "G", "B", "A"}}};
+  rows.fill = [moved, front, opacity = options.opacity](int index, int y, std::span<float> row) {
+    const std::vector<float> all = front->row(index, y);
+    for (size_t x = 0; x < row.size() / 4; x++) {
+      const float* in = &all[x * front->channels];
+      for (size_t c = 0; c < 3; c++) row[4 * x + c] = in[c] * opacity;
+      row[4 * x + 3] = (front->alpha < 0 ? 1.0f : in[front->alpha]) * opacity;
+    }
+  };
+  return rows;
+}
+
 std::string behind_warning(const Overlay& overlay) {
   if (*overlay.behind == 0) return {};
   return fmt::format("{:.3g} % of the foreground stands behind what it covers: bring it nearer, or --by-depth",

@@ -38,6 +38,11 @@ struct Overlay {
 // Both pictures stay where they are until the last row is filled. Precondition: no over_fault().
 Overlay lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options);
 
+// The foreground alone as it comes before the background, of which only the form counts: R, G, B, A, light multiplied
+// by alpha, and both by the opacity. Likewise; the background's pixels are not asked for.
+PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPicture& background,
+                              const OverOptions& options);
+
 // In words for people, once its rows are filled; empty: nothing stands behind what it covers.
 std::string behind_warning(const Overlay& overlay);
 

@@ -9,63 +9,11 @@
 #include <cctype>
 #include <cmath>
 
-#include "ods/image/tone.h"
+#include "ods/image/testcard_view.h"
 
 namespace ods {
 
-static vec3 code(int r, int g, int b) {
-  const auto linear = [](int value) { return srgb_decode(static_cast<float>(value) / 255.0f); };
-  return vec3(linear(r), linear(g), linear(b));
-}
-
-static const vec3 kWhite(1.0f), kBlack(0.0f), kPlateColor = code(24, 26, 32);
-static const vec3 kLeftColor = code(90, 190, 255), kRightColor = code(255, 120, 90);
-static const vec3 kSafe = code(110, 220, 120), kNotSafe = code(255, 80, 70), kAmber = code(255, 200, 80);
-
 // --- what stands on the card -----------------------------------------------------------------------------------------
-
-namespace {
-
-// One view: what somebody sees who looks that way. Places and sizes are degrees in it.
-class View {
- public:
-  View(std::vector<Card>& cards, float yaw, float pitch)
-      : cards_(cards), frame_(attitude(glm::radians(yaw), glm::radians(pitch), 0.0)) {}
-
-  Card& add(CardPattern pattern, float x, float y, float width, float height) {
-    const double theta = glm::radians(x), phi = glm::radians(y);
-    const auto world = [&](double right, double up, double ahead) {
-      return vec3(frame_[0] * right + frame_[1] * up - frame_[2] * ahead);
-    };
-    Card& card = cards_.emplace_back();
-    card.pattern = pattern;
-    card.middle = world(std::sin(theta) * std::cos(phi), std::sin(phi), std::cos(theta) * std::cos(phi));
-    card.right = world(std::cos(theta), 0.0, -std::sin(theta));
-    card.up = cross(card.right, card.middle);
-    card.half = vec2(std::tan(0.5f * glm::radians(width)), std::tan(0.5f * glm::radians(height)));
-    return card;
-  }
-
-  // The letters fill the plate's height, or its width where they would be wider.
-  Card& letter(std::string_view text, float x, float y, float width, float height, vec3 color = kWhite) {
-    Card& card = add(CardPattern::kPlate, x, y, width, height);
-    const float letters = 6.0f * static_cast<float>(text.size());
-    const float unit = std::min(1.2f * card.half.y / 6.0f, 1.8f * card.half.x / letters);
-    std::string capitals(text);
-    for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    card.strokes = text_strokes(capitals);
-    for (Stroke& stroke : card.strokes) stroke = {stroke.from * unit, stroke.to * unit};
-    card.stroke = 0.45f * unit;
-    card.color = color;
-    return card;
-  }
-
- private:
-  std::vector<Card>& cards_;
-  std::array<glm::dvec3, 3> frame_;  // right, up, back
-};
-
-}  // namespace
 
 // Each line is for one eye alone.
 static void add_eyes(View& view, float y) {
@@ -127,6 +75,16 @@ static void add_degrees(std::vector<Card>& cards) {
   }
 }
 
+void set_reach(std::vector<Card>& cards, const CameraRig& rig, Extent eye) {
+  // A pixel more than the corner, and as much as the eye stands beside the middle.
+  const float step = 2.0f * kPi / static_cast<float>(std::max(8, std::min(eye.width, eye.height)));
+  const float away = std::hypot(0.5f * rig.ipd, rig.neck);
+  for (Card& each : cards) {
+    const float angle = std::atan(length(each.half)) + std::asin(std::min(1.0f, away * each.nearness)) + step;
+    each.reach = std::cos(std::min(angle, 1.5f));
+  }
+}
+
 Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::string>& lines) {
   assert(eye.width > 0 && eye.height > 0);
   Testcard card;
@@ -144,13 +102,7 @@ Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::
   View front(card.cards, 0.0f, 0.0f);
   float y = 31.0f;
   for (const std::string& line : lines) front.letter(line, 0.0f, y -= 2.6f, 44.0f, 2.4f);
-  // A pixel more than the corner, and as much as the eye stands beside the middle.
-  const float step = 2.0f * kPi / static_cast<float>(std::max(8, std::min(eye.width, eye.height)));
-  const float away = std::hypot(0.5f * rig.ipd, rig.neck);
-  for (Card& each : card.cards) {
-    const float angle = std::atan(length(each.half)) + std::asin(std::min(1.0f, away * each.nearness)) + step;
-    each.reach = std::cos(std::min(angle, 1.5f));
-  }
+  set_reach(card.cards, rig, eye);
   const auto nearer = [](const Card& a, const Card& b) { return a.nearness < b.nearness; };
   std::stable_sort(card.cards.begin(), card.cards.end(), nearer);
   return card;
@@ -221,6 +173,22 @@ static void paint_greys(const Card& card, const Spot& spot, float edge, vec3& co
   color = mix(color, code(value, value, value), inside(edge, spot.pixel));
 }
 
+static void paint_cells(const Card& card, const Spot& spot, float edge, vec3& color) {
+  const float width = 2.0f * card.half.x / static_cast<float>(card.count);
+  const float place = (spot.at.x + card.half.x) / width;
+  const int cell = std::clamp(static_cast<int>(std::floor(place)), 0, card.count - 1);
+  const float from_gap = (0.5f - std::abs(place - static_cast<float>(cell) - 0.5f)) * width - 0.06f * width;
+  const float inner = std::min(from_gap, edge - 0.1f * card.half.y);
+  color = mix(color, kBlack, inside(edge, spot.pixel));
+  color = mix(color, cell == card.lit ? kWhite : kPlateColor, inside(inner, spot.pixel));
+}
+
+static void paint_sweep(const Card& card, const Spot& spot, float edge, vec3& color) {
+  const float half = 0.03f * card.half.x, middle = (2.0f * card.phase - 1.0f) * (card.half.x - half);
+  color = mix(color, kBlack, inside(edge, spot.pixel));
+  color = mix(color, kWhite, inside(std::min(edge, half - std::abs(spot.at.x - middle)), spot.pixel));
+}
+
 static void paint(const Card& card, const Spot& spot, int eye, vec3& color) {
   const float edge = std::min(card.half.x - std::abs(spot.at.x), card.half.y - std::abs(spot.at.y));  // to the border
   if (edge < -spot.pixel - 0.01f) return;
@@ -235,6 +203,10 @@ static void paint(const Card& card, const Spot& spot, int eye, vec3& color) {
       return paint_bars(card, spot, edge, color);
     case CardPattern::kGreys:
       return paint_greys(card, spot, edge, color);
+    case CardPattern::kCells:
+      return paint_cells(card, spot, edge, color);
+    case CardPattern::kSweep:
+      return paint_sweep(card, spot, edge, color);
   }
 }
 
@@ -255,6 +227,14 @@ static vec3 background(vec3 d, float pixel) {
   return mix(color, code(190, 195, 200), bold);
 }
 
+bool is_on_card(const Card& card, vec3 direction, float margin) {
+  assert(card.nearness == 0.0f);
+  const float toward = dot(direction, card.middle);
+  if (toward < card.reach) return false;
+  const vec2 at = vec2(dot(direction, card.right), dot(direction, card.up)) / toward, beyond = abs(at) - card.half;
+  return std::max(beyond.x, beyond.y) <= margin / toward;
+}
+
 static vec3 testcard_color(const Testcard& testcard, const Ray& ray, int eye, float angle, int x, int y) {
   vec3 color = background(ray.direction, angle);
   for (const Card& card : testcard.cards) {
@@ -270,8 +250,13 @@ static vec3 testcard_color(const Testcard& testcard, const Ray& ray, int eye, fl
 }
 
 void fill_testcard_row(const Testcard& card, int eye, int y, std::span<float> row) {
+  fill_testcard_pixels(card, eye, 0, y, row);
+}
+
+void fill_testcard_pixels(const Testcard& card, int eye, int first, int y, std::span<float> row) {
   const float width = static_cast<float>(card.eye.width), height = static_cast<float>(card.eye.height);
-  for (int x = 0; x < card.eye.width; x++) {
+  for (size_t i = 0; i < row.size() / 3; i++) {
+    const int x = first + static_cast<int>(i);
     const vec2 uv((static_cast<float>(x) + 0.5f) / width, (static_cast<float>(y) + 0.5f) / height);
     const Ray ray = camera_ray(card.camera, eye, uv);
     const Ray below = camera_ray(card.camera, eye, uv, uv + vec2(0.0f, 1.0f / height), vec2(0.0f));
@@ -279,7 +264,7 @@ void fill_testcard_row(const Testcard& card, int eye, int y, std::span<float> ro
     const float pixel = std::max(length(below.direction - ray.direction), length(beside.direction - ray.direction));
     const bool empty = ray.direction == vec3(0.0f);
     const vec3 color = empty ? kBlack : testcard_color(card, ray, eye, pixel, x, y);
-    for (int c = 0; c < 3; c++) row[static_cast<size_t>(x) * 3 + static_cast<size_t>(c)] = color[c];
+    for (int c = 0; c < 3; c++) row[3 * i + static_cast<size_t>(c)] = color[c];
   }
 }
 

@@ -23,6 +23,8 @@ enum class CardPattern {
   kStar,   // spokes: what is blurred or doubled goes grey from the middle
   kBars,   // `pixels` bright, then as many dark, of the picture itself; the upper half upright, the lower level
   kGreys,  // eleven steps of the display's code, the first and last with a patch that differs by 4 of 255
+  kCells,  // `count` dark ones beside each other, of which that number `lit` is white
+  kSweep,  // a white bar on black: at the left with `phase` 0, at the right with 1
 };
 
 // Seen from the middle of the viewing circle a card lies about `middle`, `half` wide and high as tangents.
@@ -34,6 +36,8 @@ struct Card {
   float reach = -1.0f;  // cosine of the angle from its middle that no ray to it exceeds
   vec3 color{1.0f};
   int pixels = 0;
+  int count = 1, lit = -1;
+  float phase = 0.0f;
   int eye = kMono;  // kLeft, kRight: the lettering is for this eye alone
   std::vector<Stroke> strokes;
   float stroke = 0.0f;  // half the thickness
@@ -51,5 +55,23 @@ Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::
 
 // Row y of one eye: R, G, B of every pixel, linear; black where the projection is empty.
 void fill_testcard_row(const Testcard& card, int eye, int y, std::span<float> row);
+
+// The pixels from column `first` on, as many as `row` has room for.
+void fill_testcard_pixels(const Testcard& card, int eye, int first, int y, std::span<float> row);
+
+// What moves on the card of a film: in four directions, half way down, the number of the frame for each eye (L 0123, R
+// 0123), as many cells as there are frames a second (at most 60), of which the frame's is lit, a bar that crosses in a
+// second, and a flash with which every second begins. The cards stand in the same places in every frame.
+std::vector<Card> testcard_marks(const CameraRig& rig, Extent eye, int frame, double fps);
+
+// The frame with which a second of the film begins, and for how many the flash is seen.
+int first_frame_of(int second, double fps);
+int flash_frames(double fps);
+
+// Whether a ray meets a card, or passes within `margin` radians of its border. Precondition: a card at infinity.
+bool is_on_card(const Card& card, vec3 direction, float margin);
+
+// Fills in how far from their middles cards are seen.
+void set_reach(std::vector<Card>& cards, const CameraRig& rig, Extent eye);
 
 }  // namespace ods

@@ -14,6 +14,15 @@
 // and returned by value, as a first version did, its copies cost a third of the time on the CPU.) A path gathers light
 // in two ways, a ray towards a picked light and the scattered ray that happens to meet one, weighted by the power
 // heuristic (Veach 1997).
+//
+// A catcher (Instance::catcher) is seen only by its shadows. A path whose first surface is one ends there and brings no
+// radiance: it goes on straight towards a light, of a direction picked as for a white Lambert surface, and tells how
+// much of that light arrives with all that is there, and how much would if only catchers and what glows were there.
+// What stands between stops the light whole, glass too. The sums over a pixel's paths give
+//
+//   alpha = 1 - light_with / light_without
+//
+// To all other paths, mirrors' and those that scatter, a catcher is the surface that it is.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/medium.h"
@@ -47,6 +56,11 @@ struct PathState {
   float shadow_length;
   vec3 shadow_light;
   bool shadow_pending;
+
+  bool caught;          // the first surface is a catcher; the three below are of such a path
+  bool blocked;         // something that counts stands between it and the light
+  float light_without;  // luminance that arrives where only catchers and lamps are
+  float light_with;     // and with all that is there
 
   // First hit, for the layers beside the picture.
   float depth;  // along the camera's ray from its own origin; negative: nothing was met
@@ -105,6 +119,7 @@ struct PathTracer : MediumReader {
     path.seed = seed;
     path.index = index;
     path.shadow_pending = false;
+    path.caught = false;
     path.depth = -1.0f;
     path.normal = vec3(0.0f);
     path.albedo = vec3(0.0f);
@@ -244,8 +259,65 @@ struct PathTracer : MediumReader {
     path.albedo = surface.base_color;
   }
 
+  // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is no light of the table.
+  inline void catch_shadows(Surface surface, PathSettings settings, int medium) {
+    surface.base_color = vec3(1.0f);
+    surface.metallic = 0.0f;
+    surface.roughness = 1.0f;
+    surface.transmission = 0.0f;
+    surface.ior = 1.0f;
+    surface.volume = false;
+    Bsdf white = make_bsdf(surface, path.ray.direction, 1.0f);
+    bool lamps = scene_light_pick_count() > 0;
+    bool sky = scene_environment().light < 0 && luminance(scene_environment().uniform_radiance) > 0.0f;
+    bool to_sky = sky && (!lamps || path_random(kScatterPair).x < 0.5f);
+    if (to_sky) {
+      BsdfSample found = sample_bsdf(white, 0.0f, path_random(kDirectionPair));
+      path.shadow_light = path.throughput * found.weight * scene_environment().uniform_radiance;
+      shadow_towards(surface, found.direction, kFarAway, vec3(0.0f));
+    } else {
+      settings.light_sampling = kLightSamplingLightsOnly;
+      aim_at_light(settings, surface, white, medium, medium);
+    }
+    path.caught = true;
+    path.blocked = false;
+    path.light_without = 0.0f;
+    path.light_with = 0.0f;
+    path.alive = path.shadow_pending;
+    path.shadow_pending = false;
+    path.ray = path.shadow_ray;
+    path.passed = 0;
+    path.bounce = 1;
+    if (sky && lamps) path.shadow_light = path.shadow_light * 2.0f;
+  }
+
+  // One step of it: it ends at the light, a catcher or the lamp's own back, and goes through all else.
+  inline void go_to_light(Hit hit) {
+    bool arrived = hit.t < 0.0f || hit.t >= path.shadow_length;
+    if (arrived) {
+      path.light_without = luminance(path.shadow_light);
+      path.light_with = path.blocked ? 0.0f : path.light_without;
+    }
+    path.alive = !arrived && scene_instance(hit.instance).catcher == 0 && scene_instance(hit.instance).first_light < 0;
+    if (!path.alive) return;
+    path.blocked = true;
+    vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * path.shadow_length;
+    pass_through(surface_at(hit, path.ray.direction, true), hit.t);
+    path.shadow_ray.origin = path.ray.origin;
+    if (path.shadow_length < kFarAway) {
+      vec3 to_light = end - path.ray.origin;
+      path.shadow_length = length(to_light);
+      path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
+    }
+    path.ray = path.shadow_ray;
+  }
+
   inline void shade(Hit hit, PathSettings settings) {
     path.shadow_pending = false;
+    if (path.caught) {
+      go_to_light(hit);
+      return;
+    }
     int medium = current_medium(path.media);
     if (hit.t < 0.0f) {
       path.throughput = path.throughput * medium_transmittance(medium, kFarAway);
@@ -259,6 +331,11 @@ struct PathTracer : MediumReader {
     bool volume = surface.volume;
     if (path.bounce == 0 && !surface.front && scene_material(material_index).double_sided == 0 && !volume) {
       pass_through(surface, hit.t);
+      return;
+    }
+    if (path.bounce == 0 && scene_instance(hit.instance).catcher == 1) {
+      path.depth = path.travelled + hit.t;
+      catch_shadows(surface, settings, medium);
       return;
     }
 

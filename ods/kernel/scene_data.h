@@ -36,6 +36,7 @@ struct Instance {
   int mesh;
   int first_light;  // index of the light of its first triangle, -1 when the mesh does not glow; made by make_lights()
   int motion;       // of one that moves while the shutter is open, its first MotionPose; else -1
+  int catcher;      // 1: not seen, but for the shadows of what is none (ods/kernel/path.h)
 };
 
 // Where an instance stands, and a vertex of a mesh that bends, at each of the shutter's keys: evenly spaced times from
@@ -162,7 +163,7 @@ struct Hit {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 60 && sizeof(Texture) == 28);
+static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 28);
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 64);
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
 }  // namespace ods

@@ -31,7 +31,8 @@ struct RenderOptions {
   Eyes eyes = Eyes::kBothEyes;
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // 1.5 pixels radius; the box is 1 pixel wide
   bool layers = true;        // depth, normal and albedo beside radiance; without them their images are empty
-  bool transparent = false;  // the sky lights the scene and is not seen: where nothing is met, alpha is 0
+  bool transparent = false;  // the sky lights the scene and is not seen: where nothing is met, alpha is 0;
+                             // asked for where the scene has catchers (ods/scene/catchers.h)
   uint32_t seed = 0;
   int threads = 0;  // 0: all of the machine's
   LightSampling light_sampling = LightSampling::kBoth;

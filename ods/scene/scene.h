@@ -47,6 +47,13 @@ struct ViewPoint {
 inline constexpr float kThinnestWall = 1.0f / 32768.0f;
 inline constexpr float kFirmReach = 3000.0f;  // metres: walls of 10 cm are safe
 
+// What stands at a node of the file: a run of instances.
+struct NamedObject {
+  std::string name;
+  size_t first_instance = 0;
+  size_t count = 0;
+};
+
 struct Scene {
   std::string name;
 
@@ -64,6 +71,9 @@ struct Scene {
   Environment environment;
 
   std::vector<ViewPoint> view_points;
+
+  std::vector<NamedObject> objects;         // those that have a name, which several may share
+  std::vector<std::string> material_names;  // by material; empty, or left out at the end: it has none
 
   Animation animation;       // what moves: set_time() (ods/scene/motion.h) writes the lists above anew
   std::vector<char> hidden;  // 1: the instance is not there at this time; empty: all are

@@ -7,21 +7,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <mutex>
-#include <new>
 
 #include "ods/base/error.h"
-#include "ods/base/read_file.h"
+#include "ods/video/av.h"
+#include "ods/video/sound.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
-#include <libavutil/audio_fifo.h>
 #include <libavutil/opt.h>
-#include <libswresample/swresample.h>
 }
 
 namespace ods {
+
+using av::checked, av::made, av::Owned;
 
 // --- the encoders ----------------------------------------------------------------------------------------------------
 
@@ -55,59 +54,6 @@ static AVPixelFormat pixel_format(const Packing& packing) {
                                            {AV_PIX_FMT_YUV444P, AV_PIX_FMT_YUV444P10}};
   return kFormats[static_cast<size_t>(packing.chroma)][packing.bits > 8 ? 1 : 0];
 }
-
-// --- what goes wrong -------------------------------------------------------------------------------------------------
-
-// The last complaint of the library, which would go to the console.
-static std::mutex complaint_mutex;
-static std::string complaint;
-
-static void listen(void* source, int level, const char* format, va_list words) {
-  if (level > AV_LOG_ERROR) return;
-  char line[512];
-  int start_of_line = 1;
-  av_log_format_line2(source, level, format, words, line, sizeof(line), &start_of_line);
-  const std::lock_guard<std::mutex> lock(complaint_mutex);
-  complaint = line;
-  while (complaint.ends_with('\n')) complaint.pop_back();
-}
-
-static std::string words_for(int code) {
-  const std::lock_guard<std::mutex> lock(complaint_mutex);
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  av_strerror(code, text, sizeof(text));
-  std::string words = complaint.empty() ? text : fmt::format("{} ({})", text, complaint);
-  complaint.clear();
-  return words;
-}
-
-// Zero and above is well.
-static int checked(int code, ErrorKind kind, const std::string& what) {
-  if (code >= 0) return code;
-  if (code == AVERROR(ENOMEM)) kind = ErrorKind::kMemory;
-  throw Error(kind, fmt::format("{}: {}", what, words_for(code)));
-}
-
-template <typename T>
-static T* made(T* object) {
-  if (object == nullptr) throw std::bad_alloc();
-  return object;
-}
-
-struct Free {
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(SwrContext* context) const { swr_free(&context); }
-  void operator()(AVAudioFifo* fifo) const { av_audio_fifo_free(fifo); }
-  void operator()(AVFormatContext* context) const {
-    if (context->iformat != nullptr) return avformat_close_input(&context);
-    avio_closep(&context->pb);
-    avformat_free_context(context);
-  }
-};
-template <typename T>
-using Owned = std::unique_ptr<T, Free>;
 
 // --- the frames ------------------------------------------------------------------------------------------------------
 
@@ -186,7 +132,7 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
 }
 
 static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& options, bool header_apart) {
-  av_log_set_callback(listen);
+  av::keep_complaints();
   const EncoderFacts& facts = choose_encoder(options);
   const AVCodec* codec = avcodec_find_encoder_by_name(std::string(facts.name).c_str());
   Owned<AVCodecContext> context(made(avcodec_alloc_context3(codec)));
@@ -214,167 +160,6 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   return context;
 }
 
-// --- sound -----------------------------------------------------------------------------------------------------------
-
-constexpr int kSoundRate = 48000;
-constexpr int64_t kSoundBitRate = 128000;  // of a channel
-
-struct SoundFile {
-  Owned<AVFormatContext> file;
-  Owned<AVCodecContext> decoder;
-  const AVStream* stream = nullptr;
-};
-
-static SoundFile open_sound(const std::string& path) {
-  av_log_set_callback(listen);
-  const std::string what = fmt::format("cannot read the sound of '{}'", path);
-  static_cast<void>(file_size(path));  // that it is a file, and no address
-  SoundFile sound;
-  AVFormatContext* file = nullptr;
-  AVDictionary* only_files = nullptr;
-  av_dict_set(&only_files, "protocol_whitelist", "file", 0);
-  const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only_files);
-  av_dict_free(&only_files);
-  checked(opened, ErrorKind::kInput, what);
-  sound.file.reset(file);
-  checked(avformat_find_stream_info(file, nullptr), ErrorKind::kInput, what);
-  const AVCodec* codec = nullptr;
-  const int index = av_find_best_stream(file, AVMEDIA_TYPE_AUDIO, -1, -1, &codec, 0);
-  checked(index, ErrorKind::kInput, what);
-  sound.stream = file->streams[index];
-  sound.decoder.reset(made(avcodec_alloc_context3(codec)));
-  sound.decoder->pkt_timebase = sound.stream->time_base;
-  checked(avcodec_parameters_to_context(sound.decoder.get(), sound.stream->codecpar), ErrorKind::kInput, what);
-  checked(avcodec_open2(sound.decoder.get(), codec, nullptr), ErrorKind::kInput, what);
-  const int channels = sound.decoder->ch_layout.nb_channels;
-  if (channels != 1 && channels != 2 && channels != 4) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: it has {} channels; films have 1, 2, or 4 of first-order "
-                                               "ambisonics",
-                                               what, channels));
-  }
-  return sound;
-}
-
-SoundInfo read_sound_info(const std::string& path) {
-  const SoundFile sound = open_sound(path);
-  SoundInfo info{sound.decoder->ch_layout.nb_channels, 0.0};
-  if (sound.stream->duration > 0) {
-    info.seconds = static_cast<double>(sound.stream->duration) * av_q2d(sound.stream->time_base);
-  } else if (sound.file->duration > 0) {
-    info.seconds = static_cast<double>(sound.file->duration) / AV_TIME_BASE;
-  }
-  return info;
-}
-
-// AAC in mp4, unpacked in mov, Opus in Matroska.
-static Owned<AVCodecContext> open_sound_encoder(Container container, int channels) {
-  const char* name = container == Container::kMp4 ? "aac" : container == Container::kMov ? "pcm_s24le" : "libopus";
-  const AVCodec* codec = avcodec_find_encoder_by_name(name);
-  if (codec == nullptr) {
-    throw Error(ErrorKind::kInput, fmt::format("this machine's libavcodec has no {}, which sound in {} takes", name,
-                                               container_name(container)));
-  }
-  Owned<AVCodecContext> context(made(avcodec_alloc_context3(codec)));
-  context->sample_rate = kSoundRate;
-  context->sample_fmt = container == Container::kMp4   ? AV_SAMPLE_FMT_FLTP
-                        : container == Container::kMov ? AV_SAMPLE_FMT_S32
-                                                       : AV_SAMPLE_FMT_FLT;
-  context->bit_rate = kSoundBitRate * channels;
-  context->time_base = {1, kSoundRate};
-  context->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
-  av_channel_layout_default(&context->ch_layout, channels);
-  if (channels == 4 && container != Container::kMp4 && container != Container::kMov) {
-    set(*context, "mapping_family", "2");  // which is that of ambisonics (RFC 8486)
-  }
-  checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kInput,
-          fmt::format("{} cannot encode the sound", name));
-  return context;
-}
-
-// Of a file, in the samples of an encoder.
-class Sound {
- public:
-  Sound(const std::string& path, Container container)
-      : path_(path),
-        source_(open_sound(path)),
-        encoder_(open_sound_encoder(container, source_.decoder->ch_layout.nb_channels)) {
-    AVCodecContext &in = *source_.decoder, &out = *encoder_;
-    SwrContext* converter = nullptr;
-    // The channels keep their order whatever the file calls them.
-    checked(swr_alloc_set_opts2(&converter, &out.ch_layout, out.sample_fmt, out.sample_rate, &out.ch_layout,
-                                in.sample_fmt, in.sample_rate, 0, nullptr),
-            ErrorKind::kInput, what());
-    converter_.reset(converter);
-    checked(swr_init(converter), ErrorKind::kInput, what());
-    fifo_.reset(made(av_audio_fifo_alloc(out.sample_fmt, out.ch_layout.nb_channels, kSoundRate)));
-  }
-
-  AVCodecContext& encoder() const { return *encoder_; }
-
-  // The next samples up to a position; none at the end. Encoders take no fewer than they like but the last time.
-  Owned<AVFrame> next(int64_t until, bool is_end) {
-    const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, most = until - position_;
-    if (most < size && !is_end) return nullptr;
-    while (!ended_ && av_audio_fifo_size(fifo_.get()) < size) decode();
-    const int64_t count = std::min<int64_t>({size, most, av_audio_fifo_size(fifo_.get())});
-    if (count <= 0) return nullptr;
-    Owned<AVFrame> frame = make_frame(static_cast<int>(count));
-    av_audio_fifo_read(fifo_.get(), reinterpret_cast<void**>(frame->data), static_cast<int>(count));
-    frame->pts = position_;
-    position_ += count;
-    return frame;
-  }
-
- private:
-  std::string what() const { return fmt::format("cannot read the sound of '{}'", path_); }
-
-  Owned<AVFrame> make_frame(int samples) const {
-    Owned<AVFrame> frame(made(av_frame_alloc()));
-    frame->nb_samples = samples;
-    frame->format = encoder_->sample_fmt;
-    frame->sample_rate = encoder_->sample_rate;
-    checked(av_channel_layout_copy(&frame->ch_layout, &encoder_->ch_layout), ErrorKind::kMemory, what());
-    checked(av_frame_get_buffer(frame.get(), 0), ErrorKind::kMemory, what());
-    return frame;
-  }
-
-  // null: what the converter still holds.
-  void convert(const AVFrame* in) {
-    const int count = in == nullptr ? 0 : in->nb_samples;
-    const Owned<AVFrame> out = make_frame(std::max(swr_get_out_samples(converter_.get(), count), 1));
-    const auto from = in == nullptr ? nullptr : const_cast<const uint8_t**>(in->extended_data);
-    const int got =
-        checked(swr_convert(converter_.get(), out->data, out->nb_samples, from, count), ErrorKind::kInput, what());
-    checked(av_audio_fifo_write(fifo_.get(), reinterpret_cast<void**>(out->data), got), ErrorKind::kMemory, what());
-  }
-
-  void decode() {
-    const Owned<AVFrame> frame(made(av_frame_alloc()));
-    const int code = avcodec_receive_frame(source_.decoder.get(), frame.get());
-    if (code == AVERROR(EAGAIN)) return feed();
-    ended_ = code == AVERROR_EOF;
-    if (!ended_) checked(code, ErrorKind::kInput, what());
-    convert(ended_ ? nullptr : frame.get());
-  }
-
-  void feed() {
-    const Owned<AVPacket> packet(made(av_packet_alloc()));
-    const int code = av_read_frame(source_.file.get(), packet.get());
-    if (code != AVERROR_EOF) checked(code, ErrorKind::kInput, what());
-    if (code >= 0 && packet->stream_index != source_.stream->index) return;
-    checked(avcodec_send_packet(source_.decoder.get(), code == AVERROR_EOF ? nullptr : packet.get()), ErrorKind::kInput,
-            what());
-  }
-
-  std::string path_;
-  SoundFile source_;
-  Owned<AVCodecContext> encoder_;
-  Owned<SwrContext> converter_;
-  Owned<AVAudioFifo> fifo_;
-  int64_t position_ = 0;
-  bool ended_ = false;
-};
-
 // --- the film --------------------------------------------------------------------------------------------------------
 
 // Ends an encoder whose film is given up. SVT-AV1 waits for ever when it is closed before it has seen an end, and it
@@ -392,7 +177,7 @@ static void abandon(AVCodecContext& encoder, const Packing& packing, bool is_new
 void check_encoder(Container container, const EncodeOptions& options) {
   assert(can_hold(container, options.packing.codec));
   abandon(*open_encoder({256, 256}, options, false), options.packing, true);
-  if (!options.sound.empty()) Sound(options.sound, container);
+  open_sound(options, container);
 }
 
 struct FilmEncoder::State {
@@ -418,33 +203,32 @@ struct FilmEncoder::State {
   }
 
   // null: there are no more.
-  void encode(AVCodecContext& encoder, const AVFrame* frame, int stream) {
+  void encode(const AVFrame* frame) {
+    AVCodecContext& encoder = *pictures;
     checked(avcodec_send_frame(&encoder, frame), ErrorKind::kOutput, fmt::format("cannot encode '{}'", path));
     const Owned<AVPacket> packet(made(av_packet_alloc()));
     for (;;) {
       const int code = avcodec_receive_packet(&encoder, packet.get());
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
       checked(code, ErrorKind::kOutput, fmt::format("cannot encode '{}'", path));
-      if (stream == 0 && packet->duration == 0) packet->duration = 1;
-      packet->stream_index = stream;
-      av_packet_rescale_ts(packet.get(), encoder.time_base, file->streams[stream]->time_base);
+      if (packet->duration == 0) packet->duration = 1;
+      packet->stream_index = 0;
+      av_packet_rescale_ts(packet.get(), encoder.time_base, file->streams[0]->time_base);
       written(av_interleaved_write_frame(file.get(), packet.get()));
     }
   }
 
   // Sound goes along with the pictures.
-  void encode_sound(bool is_end) {
+  void add_sound(bool is_end) {
     if (!sound) return;
-    const int64_t until = std::llround(static_cast<double>(count) / options.rate.value() * kSoundRate);
-    while (const Owned<AVFrame> frame = sound->next(until, is_end)) {
-      encode(sound->encoder(), frame.get(), 1);
+    const double until = static_cast<double>(count) / options.rate.value();
+    while (const Owned<AVPacket> packet = sound->next(until, is_end)) {
+      packet->stream_index = 1;
+      av_packet_rescale_ts(packet.get(), packet->time_base, file->streams[1]->time_base);
+      written(av_interleaved_write_frame(file.get(), packet.get()));
     }
   }
 };
-
-static const char* format_name(Container container) {
-  return container == Container::kMatroska ? "matroska" : container_name(container).data();
-}
 
 FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size, const EncodeOptions& options)
     : state_(std::make_unique<State>()) {
@@ -465,10 +249,8 @@ FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size,
   if (has_boxes && options.packing.codec == FilmCodec::kHevc) {
     stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // Apple plays no other
   }
-  if (!options.sound.empty()) {
-    state.sound = std::make_unique<Sound>(options.sound, container);
-    state.add_stream(state.sound->encoder());
-  }
+  state.sound = open_sound(options, container);
+  if (state.sound) state.sound->describe(*made(avformat_new_stream(file, nullptr)));
   if (has_boxes) av_opt_set(file->priv_data, "movflags", "+faststart+write_colr", 0);
   state.written(avio_open(&file->pb, address.c_str(), AVIO_FLAG_WRITE));
   state.written(avformat_write_header(file, nullptr));
@@ -478,17 +260,16 @@ FilmEncoder::~FilmEncoder() = default;
 
 void FilmEncoder::add(std::shared_ptr<const FilmFrame> frame) {
   State& state = *state_;
-  state.encode(*state.pictures, wrapped(frame, *state.pictures, state.count).get(), 0);
+  state.encode(wrapped(frame, *state.pictures, state.count).get());
   state.count++;
-  state.encode_sound(false);
+  state.add_sound(false);
 }
 
 void FilmEncoder::finish() {
   State& state = *state_;
-  state.encode(*state.pictures, nullptr, 0);
+  state.encode(nullptr);
   state.finished = true;
-  state.encode_sound(true);
-  if (state.sound) state.encode(state.sound->encoder(), nullptr, 1);
+  state.add_sound(true);
   state.written(av_write_trailer(state.file.get()));
   state.written(avio_closep(&state.file->pb));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames and sound into a film file, by way of libavcodec and libavformat, which encode.cpp alone knows. Which encoders
+// Frames and sound into a film file, by way of libavcodec and libavformat. Which encoders
 // there are is the machine's affair; SVT-AV1 alone speaks to the console, unless SVT_LOG=0 is in the environment. The
 // film says that it is BT.709 of limited range; what it shows of the sphere, it does not say yet (film.h).
 #pragma once
@@ -23,14 +23,22 @@ struct FrameRate {
   double value() const { return static_cast<double>(count) / seconds; }
 };
 
+// What of a file's sound is copied.
+struct SoundCut {
+  double start = 0.0;   // the second of the file with which the film begins
+  bool is_cut = false;  // what begins before it, or after the pictures' end, is left out
+};
+
 struct EncodeOptions {
   Packing packing;
   std::string encoder;            // one of known_encoders(); empty: the first of them that there is
   std::string preset;             // how hard it tries, in its own words; empty: its usual
   std::optional<double> bitrate;  // million bits a second, in place of packing.quality
   FrameRate rate;
-  int threads = 0;    // 0: the encoder's own choice
-  std::string sound;  // a file that has sound in it; empty: a silent film
+  int threads = 0;            // 0: the encoder's own choice
+  std::string sound;          // a file that has sound in it; empty: a silent film
+  bool copies_sound = false;  // its packets as they are, in any number of channels; else it is packed anew
+  SoundCut sound_cut;
 };
 
 bool has_encoder(std::string_view name);

@@ -18,7 +18,7 @@ void FilmFrame::Free::operator()(std::byte* bytes) const {
   operator delete[](bytes, kAlign);
 }
 
-FilmFrame::FilmFrame(Extent size, const Packing& packing) {
+FilmFrame::FilmFrame(Extent size, const Packing& packing) : size_(size) {
   const size_t align = static_cast<size_t>(kAlign);
   planes_.bits = packing.bits;
   planes_.chroma = packing.chroma;
@@ -60,7 +60,7 @@ class SrgbTable {
   std::array<float, 12 * 512 + 1> codes_{};
 };
 
-static float encoded(float linear) {
+float film_code(float linear) {
   static const SrgbTable table;
   return table(linear);
 }
@@ -84,7 +84,7 @@ static void develop(const RowOfCodes& row, const Development& development) {
     vec3 light;
     for (size_t c = 0; c < 3; c++) light[static_cast<int>(c)] = sample_value(row.layer.sample, in + c * step);
     const vec3 shown = tone_map(light, development.exposure, development.tone);
-    row.put(x, {encoded(shown.x), encoded(shown.y), encoded(shown.z)});
+    row.put(x, {film_code(shown.x), film_code(shown.y), film_code(shown.z)});
   }
 }
 
@@ -107,7 +107,7 @@ static void put_before_black(const RowOfCodes& row) {
     if (alpha >= 1.0f) continue;
     for (size_t c = 0; c < 3; c++) {
       float& code = row.out[x + c * row.width()];
-      code = encoded(srgb_decode(code) * alpha);
+      code = film_code(srgb_decode(code) * alpha);
     }
   }
 }

@@ -19,11 +19,13 @@ class FilmFrame {
   FilmFrame(Extent size, const Packing& packing);
   const Planes& planes() const { return planes_; }
   size_t bytes() const { return bytes_; }
+  Extent extent() const { return size_; }
 
  private:
   struct Free {
     void operator()(std::byte* bytes) const;
   };
+  Extent size_;
   Planes planes_;
   size_t bytes_ = 0;
   std::unique_ptr<std::byte[], Free> memory_;
@@ -34,6 +36,9 @@ struct Development {
   float exposure = 0.0f;  // EV
   ToneCurve tone = ToneCurve::kNeutral;
 };
+
+// srgb_encode() of what is between 0 and 1, fast: exact to a millionth.
+float film_code(float linear);
 
 // The layouts that a film can have, by that of its pictures: kTopBottom or kSideBySide, squeezed or not.
 Layout film_layout(const StoredPicture& picture);

@@ -97,6 +97,56 @@ static void put_blocks(const CodeRows& rows, Extent size, const Planes& planes) 
   });
 }
 
+// --- the way back ----------------------------------------------------------------------------------------------------
+
+// One colour of row y at columns first, first + 1 ..., still as numbers.
+template <typename T>
+static void get_color(const Planes& planes, Extent size, size_t plane, int y, int first, std::span<float> out) {
+  const Extent block = chroma_block(planes.chroma);
+  const Extent whole{size.width / block.width, size.height / block.height};
+  const auto row_of = [&](int row) {
+    row = std::clamp(row, 0, whole.height - 1);
+    return reinterpret_cast<const T*>(planes.first[plane] + static_cast<size_t>(row) * planes.stride[plane]);
+  };
+  const T* near = row_of(y / block.height);
+  const T* far = block.height == 1 ? near : row_of(y / 2 + (y % 2 == 0 ? -1 : 1));
+  const float share = block.height == 1 ? 1.0f : 0.75f;
+  const auto at = [&](int column) {
+    const int x = std::min(column, whole.width - 1);
+    return share * static_cast<float>(near[x]) + (1.0f - share) * static_cast<float>(far[x]);
+  };
+  for (size_t i = 0; i < out.size(); i++) {
+    const int x = first + static_cast<int>(i), column = x / block.width;
+    out[i] = x % block.width == 0 ? at(column) : 0.5f * (at(column) + at(column + 1));
+  }
+}
+
+template <typename T>
+static void get_row(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row) {
+  const size_t width = row.size() / 3;
+  const std::span<float> red = row.first(width), green = row.subspan(width, width), blue = row.subspan(2 * width);
+  get_color<T>(planes, size, 1, y, first, blue);
+  get_color<T>(planes, size, 2, y, first, red);
+  const T* luma = reinterpret_cast<const T*>(planes.first[0] + static_cast<size_t>(y) * planes.stride[0]) + first;
+  const float unit = static_cast<float>(1 << (planes.bits - 8)), most = static_cast<float>((1 << planes.bits) - 1);
+  const float black = color.has_full_range ? 0.0f : 16.0f * unit, grey = 128.0f * unit;
+  const float luma_scale = 1.0f / (color.has_full_range ? most : 219.0f * unit);
+  const float color_scale = 1.0f / (color.has_full_range ? most : 224.0f * unit);
+  const float kr = color.is_601 ? 0.299f : kRed, kb = color.is_601 ? 0.114f : kBlue, kg = 1.0f - kr - kb;
+  for (size_t i = 0; i < width; i++) {
+    const float y_code = (static_cast<float>(luma[i]) - black) * luma_scale;
+    const float b = y_code + 2.0f * (1.0f - kb) * (blue[i] - grey) * color_scale;
+    const float r = y_code + 2.0f * (1.0f - kr) * (red[i] - grey) * color_scale;
+    red[i] = r, blue[i] = b, green[i] = (y_code - kr * r - kb * b) / kg;
+  }
+}
+
+void get_codes(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row) {
+  assert(first >= 0 && first + static_cast<int>(row.size() / 3) <= size.width);
+  if (planes.bits == 8) return get_row<uint8_t>(planes, size, color, y, first, row);
+  get_row<uint16_t>(planes, size, color, y, first, row);
+}
+
 void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes) {
   const Extent block = chroma_block(planes.chroma);
   assert(size.width % block.width == 0 && size.height % block.height == 0);

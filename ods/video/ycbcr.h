@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From what a display shows to the numbers of a film: Y'CbCr with the matrix of BT.709, of limited range (black is 16,
-// white 235 of 8 bits), rounded to the nearest. Source: ITU-R BT.709-6, 3.2 to 4.6.
+// white 235 of 8 bits), rounded to the nearest. Source: ITU-R BT.709-6, 3.2 to 4.6. And the way back, of other films
+// too. Source of their matrix: ITU-R BT.601-7, 2.5.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -38,5 +39,16 @@ using CodeRows = std::function<void(int y, std::span<float> row)>;
 
 // An image into its planes; colours are shared within it alone. Precondition: `size` is of whole blocks.
 void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes);
+
+// What the numbers of a film mean.
+struct ColorCode {
+  bool is_601 = false;          // the matrix of BT.601, else that of BT.709
+  bool has_full_range = false;  // black is 0, white the largest number
+  bool operator==(const ColorCode&) const = default;
+};
+
+// The pixels from column `first` on of row y of an image: as many as `row` has room for, as CodeRows has them; values
+// may lie outside of 0..1. Shared colours, which lie as Chroma says, are interpolated linearly within the image.
+void get_codes(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row);
 
 }  // namespace ods

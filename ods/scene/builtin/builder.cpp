@@ -73,8 +73,12 @@ Material textured(Material material, int texture, vec2 size) {
   return material;
 }
 
-int add_material(Scene& scene, const Material& material) {
+int add_material(Scene& scene, const Material& material, const std::string& name) {
   scene.materials.push_back(material);
+  if (!name.empty()) {
+    scene.material_names.resize(scene.materials.size());
+    scene.material_names.back() = name;
+  }
   return static_cast<int>(scene.materials.size()) - 1;
 }
 

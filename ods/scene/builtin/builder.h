@@ -36,7 +36,7 @@ int add_texture(Scene& scene, int width, int height, const std::function<vec3(ve
 // The material with its base colour multiplied by a texture that repeats every size metres.
 Material textured(Material material, int texture, vec2 size);
 
-int add_material(Scene& scene, const Material& material);
+int add_material(Scene& scene, const Material& material, const std::string& name = {});
 
 // Makes a mesh of the shape and stands it in the world once. Returns the mesh.
 int add(Scene& scene, const Shape& shape, int material, const glm::mat4& object_to_world = glm::mat4(1.0f));

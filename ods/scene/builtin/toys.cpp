@@ -32,8 +32,8 @@ static float wave(float turns) {
 
 static void add_ground(Scene& scene) {
   const int planks = add_texture(scene, 512, 512, wood_planks), bricks = add_texture(scene, 512, 256, brick);
-  const int floor = add_material(scene, textured(paint(vec3(0.8f), 0.5f), planks, vec2(1.2f)));
-  const int wall = add_material(scene, textured(paint(vec3(0.9f)), bricks, vec2(1.0f, 1.0f)));
+  const int floor = add_material(scene, textured(paint(vec3(0.8f), 0.5f), planks, vec2(1.2f)), "floor");
+  const int wall = add_material(scene, textured(paint(vec3(0.9f)), bricks, vec2(1.0f, 1.0f)), "wall");
   add(scene, make_floor(9.0f, 9.0f), floor);
   for (int side = 0; side < 4; side++) {
     add(scene, make_box(vec3(9.2f, 0.9f, 0.2f)), wall, facing(90.0f * float(side), 4.5f, 0.45f));

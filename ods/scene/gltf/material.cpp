@@ -279,6 +279,7 @@ void read_materials(const GltfFile& file, Scene& scene) {
   TextureTable textures(file, scene);
   for (const tinygltf::Material& material : file.model->materials) {
     scene.materials.push_back(read_material(material, scene, textures));
+    scene.material_names.push_back(printable(material.name));
   }
   scene.materials.push_back(read_material(tinygltf::Material(), scene, textures));
   textures.decode_images();

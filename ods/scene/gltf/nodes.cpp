@@ -278,9 +278,11 @@ void Placer::place_meshes(int index, const dmat4& world) {
   const LoadedMeshes& meshes = load_mesh(index);
   if (meshes.empty()) return;
   const int row = places_.nodes[static_cast<size_t>(index)];
+  const size_t first = scene_.instances.size();
   for (const dmat4& matrix : instance_matrices(node)) {
     for (const LoadedMesh& mesh : meshes) place(mesh, row, world, matrix);
   }
+  if (!node.name.empty()) scene_.objects.push_back({printable(node.name), first, scene_.instances.size() - first});
 }
 
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_lights_punctual

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/av.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+
+#include "ods/base/read_file.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/audio_fifo.h>
+#include <libswresample/swresample.h>
+}
+
+namespace ods::av {
+
+void Free::operator()(AVCodecContext* context) const {
+  avcodec_free_context(&context);
+}
+void Free::operator()(AVFrame* frame) const {
+  av_frame_free(&frame);
+}
+void Free::operator()(AVPacket* packet) const {
+  av_packet_free(&packet);
+}
+void Free::operator()(SwrContext* context) const {
+  swr_free(&context);
+}
+void Free::operator()(AVAudioFifo* fifo) const {
+  av_audio_fifo_free(fifo);
+}
+void Free::operator()(AVFormatContext* context) const {
+  if (context->iformat != nullptr) return avformat_close_input(&context);
+  avio_closep(&context->pb);
+  avformat_free_context(context);
+}
+
+// The last complaint of the library, which would go to the console.
+static std::mutex complaint_mutex;
+static std::string complaint;
+
+static void listen(void* source, int level, const char* format, va_list words) {
+  if (level > AV_LOG_ERROR) return;
+  char line[512];
+  int start_of_line = 1;
+  av_log_format_line2(source, level, format, words, line, sizeof(line), &start_of_line);
+  const std::lock_guard<std::mutex> lock(complaint_mutex);
+  complaint = line;
+  while (complaint.ends_with('\n')) complaint.pop_back();
+}
+
+void keep_complaints() {
+  av_log_set_callback(listen);
+}
+
+static std::string words_for(int code) {
+  const std::lock_guard<std::mutex> lock(complaint_mutex);
+  char text[AV_ERROR_MAX_STRING_SIZE] = {};
+  av_strerror(code, text, sizeof(text));
+  std::string words = complaint.empty() ? text : fmt::format("{} ({})", text, complaint);
+  complaint.clear();
+  return words;
+}
+
+int checked(int code, ErrorKind kind, const std::string& what) {
+  if (code >= 0) return code;
+  if (code == AVERROR(ENOMEM)) kind = ErrorKind::kMemory;
+  throw Error(kind, fmt::format("{}: {}", what, words_for(code)));
+}
+
+Owned<AVFormatContext> open_file(const std::string& path, const std::string& what) {
+  keep_complaints();
+  static_cast<void>(file_size(path));  // that it is a file
+  AVFormatContext* file = nullptr;
+  AVDictionary* only_files = nullptr;
+  av_dict_set(&only_files, "protocol_whitelist", "file", 0);
+  const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only_files);
+  av_dict_free(&only_files);
+  checked(opened, ErrorKind::kInput, what);
+  Owned<AVFormatContext> owned(file);
+  checked(avformat_find_stream_info(file, nullptr), ErrorKind::kInput, what);
+  return owned;
+}
+
+}  // namespace ods::av
