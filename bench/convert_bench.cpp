@@ -8,20 +8,14 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
-#include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <sstream>
 
+#include "bench/measure.h"
 #include "ods/base/error.h"
 #include "ods/base/scratch.h"
 #include "ods/image/convert.h"
@@ -30,66 +24,6 @@ namespace {
 
 using namespace ods;
 namespace fs = std::filesystem;
-
-// A folder that goes with the process, beside where it runs: temporary folders may be memory.
-class Folder {
- public:
-  Folder() { path_ = mkdtemp(name_); }
-  ~Folder() { fs::remove_all(path_); }
-  std::string path(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  char name_[32] = "ods-convert-bench-XXXXXX";
-  std::string path_;
-};
-
-struct Seconds {
-  double wall = 0.0;
-  double cpu = 0.0;
-};
-
-// Of this process and those it waited for.
-double cpu_seconds() {
-  double sum = 0.0;
-  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-    rusage usage;
-    getrusage(who, &usage);
-    for (const timeval& t : {usage.ru_utime, usage.ru_stime}) {
-      sum += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    }
-  }
-  return sum;
-}
-
-Seconds seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  const double cpu = cpu_seconds();
-  work();
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), cpu_seconds() - cpu};
-}
-
-void say(benchmark::State& state, const Seconds& ours, const Seconds& theirs) {
-  state.counters["ours_s"] = ours.wall;
-  state.counters["theirs_s"] = theirs.wall;
-  state.counters["ratio"] = ours.wall / theirs.wall;
-  state.counters["cpu_ratio"] = ours.cpu / theirs.cpu;
-}
-
-void forget_peak() {
-  std::ofstream("/proc/self/clear_refs") << "5";
-}
-
-double peak_megabytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    std::istringstream words(line);
-    std::string word;
-    double kilobytes = 0.0;
-    if (words >> word >> kilobytes && word == "VmHWM:") return kilobytes / 1024.0;
-  }
-  return 0.0;
-}
 
 float grain(int x, int y) {
   uint32_t n = static_cast<uint32_t>(x) * 374761393u + static_cast<uint32_t>(y) * 668265263u;

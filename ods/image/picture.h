@@ -44,7 +44,7 @@ struct EyeImage {
   Image depth;     // 1 channel: metres along the pixel centre's ray from its own origin; kFarDepth where it met nothing
   Image normal;    // 3 channels: world space, first hit, averaged over the pixel; 0 where nothing was met
   Image albedo;    // 3 channels: first hit, averaged over the pixel
-  Image alpha;  // 1 channel: the share of the pixel that met something; radiance is multiplied by it. Empty: all is 1
+  Image alpha{};  // 1 channel: the share of the pixel that met something; radiance is multiplied by it. Empty: all is 1
 };
 
 // One eye, or two in the order left, right. All of one size; depth, normal and albedo are empty where nobody asked for

@@ -83,20 +83,17 @@ View::Look View::look(const PictureRays& rays, float x, float y) const {
           dot(place_ - ray.origin, ray.direction)};
 }
 
-void View::filter(const Footprint& footprint, const Place& place, float* out) const {
-  const Cell cell{0, 0, picture_.size.width, picture_.size.height};
+static Cell all_of(const StoredPicture& picture) {
+  return {0, 0, picture.size.width, picture.size.height};
+}
+
+void View::sum_points(const Footprint& footprint, const Place& place, float* out) const {
+  thread_local std::vector<FilterPoint> points;
+  filter_points(footprint, points);
   std::fill(out, out + form_.channels, 0.0f);
-  TexelFilter filter;
-  if (texel_filter(footprint, place.at, filter) && resampler_.has_all(filter, cell)) {
-    resampler_.fill(0, {&filter, 1}, out);
-  } else {
-    thread_local std::vector<FilterPoint> points;
-    filter_points(footprint, points);
-    for (const FilterPoint& point : points) {
-      resampler_.add({0, place.at + point.texels, true}, cell, point.weight, out);
-    }
+  for (const FilterPoint& point : points) {
+    resampler_.add({0, place.at + point.texels, true}, all_of(picture_), point.weight, out);
   }
-  resampler_.finish(place, out);
 }
 
 // Pixels whose places follow a parabola through those of the first, the middle and the last.
@@ -106,14 +103,33 @@ void View::fill_alike(const Look (&looks)[3], int count, float way, std::span<fl
   };
   const float per_pixel = count > 1 ? 2.0f / static_cast<float>(count - 1) : 0.0f;
   const vec2 step = looks[1].at - looks[0].at, bend = looks[2].at - 2.0f * looks[1].at + looks[0].at;
+  thread_local std::vector<TexelFilter> filters;  // of the pixels before this one that are not filled
+  filters.clear();
+  const auto pixel_at = [&](size_t i) { return &out[i * form_.channels]; };
+  const auto fill_waiting = [&](size_t end) {
+    if (!filters.empty()) resampler_.fill(0, filters, pixel_at(end - filters.size()));
+    filters.clear();
+  };
+  std::vector<Place> places;
   for (int i = 0; i < count; i++) {
     const float t = static_cast<float>(i) * per_pixel;
-    const Place place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true};
+    const Place& place = places.emplace_back(Place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true});
     const vec2 beside = along(looks[0].beside, looks[1].beside, looks[2].beside, t);
-    float* pixel = &out[static_cast<size_t>(i) * form_.channels];
-    filter({(step + bend * (t - 0.5f)) * per_pixel, (beside - place.at) * way}, place, pixel);
+    const Footprint footprint{(step + bend * (t - 0.5f)) * per_pixel, (beside - place.at) * way};
+    TexelFilter filter;
+    if (texel_filter(footprint, place.at, filter) && resampler_.has_all(filter, all_of(picture_))) {
+      filters.push_back(filter);
+      continue;
+    }
+    fill_waiting(static_cast<size_t>(i));
+    sum_points(footprint, place, pixel_at(static_cast<size_t>(i)));
+  }
+  fill_waiting(static_cast<size_t>(count));
+  for (size_t i = 0; i < places.size(); i++) {
+    float* pixel = pixel_at(i);
+    resampler_.finish(places[i], pixel);
     if (form_.depth < 0 || pixel[form_.depth] >= 0.1f * kFarDepth) continue;
-    pixel[form_.depth] += along(looks[0].nearer, looks[1].nearer, looks[2].nearer, t);
+    pixel[form_.depth] += along(looks[0].nearer, looks[1].nearer, looks[2].nearer, static_cast<float>(i) * per_pixel);
   }
 }
 
@@ -125,7 +141,14 @@ bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
   const Ray ray = rays.at(px, py);
   const SurfaceHit met =
       surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - place_, ray.direction}) : SurfaceHit{{}, kFarDepth};
-  filter(footprint, met.place.seen ? met.place : Place{0, own.at, true}, out);
+  const Place place = met.place.seen ? met.place : Place{0, own.at, true};
+  TexelFilter filter;
+  if (texel_filter(footprint, place.at, filter) && resampler_.has_all(filter, all_of(picture_))) {
+    resampler_.fill(0, {&filter, 1}, out);
+  } else {
+    sum_points(footprint, place, out);
+  }
+  resampler_.finish(place, out);
   if (form_.depth < 0) return met.place.seen || !surfaces_;
   float& depth = out[form_.depth];
   if (met.place.seen) {

@@ -50,7 +50,7 @@ class View {
   struct Look;
   Look look(const PictureRays& rays, float x, float y) const;
   void measure_along_rays(size_t layer);
-  void filter(const Footprint& footprint, const Place& place, float* out) const;
+  void sum_points(const Footprint& footprint, const Place& place, float* out) const;
   void fill_alike(const Look (&looks)[3], int count, float way, std::span<float> out) const;
   bool fill_pixel(const PictureRays& rays, int x, int y, float* out) const;
 
