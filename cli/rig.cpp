@@ -6,20 +6,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "cli/camera_source.h"
 #include "cli/console.h"
+#include "cli/rig_scripts.h"
 #include "cli/scene_source.h"
 #include "ods/cpu/render.h"
 #include "ods/stitch/slit_error.h"
-#include "ods/stitch/slit_file.h"
 
 namespace {
 
 constexpr const char* kExamples =
     "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
-    "  ods rig --scene room --max-error 0.25 -o rig.json   how near things are is measured\n"
+    "  ods rig --scene room --max-error 0.25 -o rig.json --for blender,povray   scripts for these, beside it\n"
     "  ods rig --from picture.camera.json --slits 360      says how far that would be off";
 
 struct RigJob {
@@ -30,6 +29,7 @@ struct RigJob {
   std::optional<float> nearest;
   float max_error = 0.5f;
   std::string output;
+  std::vector<ods::RigTarget> targets;
 };
 
 void add_slit_options(Options& options, RigJob& job) {
@@ -52,11 +52,13 @@ bool read_options(RigJob& job, int argc, char** argv) {
   Options options("rig", "Plans perspective cameras for an ODS picture, for renderers that know no other camera.",
                   kExamples);
   options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; without it, the plan alone");
+  add_script_option(options, job.targets);
   options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   add_slit_options(options, job);
   add_camera_source(options, job.source);
   if (!options.parse(argc, argv)) return false;
   if (job.count && options.given("--max-error")) throw UsageError("--slits is instead of --max-error");
+  if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes beside the rig: where? -o rig.json");
   if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest is instead of --scene");
   return true;
 }
@@ -138,9 +140,7 @@ void rig(int argc, char** argv) {
   if (!fault.empty()) throw UsageError(fault);
   const ods::SlitRig made = make_slit_rig(file.rig, file.eye, file.eyes, job.slits);
   print_plan(made, nearest);
-  if (job.output.empty()) return;
-  save_slit_rig(made, job.output);
-  std::cout << job.output << std::endl;
+  if (!job.output.empty()) write_rig(made, job.targets, job.output);
 }
 
 }  // namespace

@@ -40,6 +40,19 @@ TEST_F(CliStitch, ARigBecomesAPicture) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr.stitching")));
 }
 
+TEST_F(CliStitch, ScriptsStandBesideTheRig) {
+  ASSERT_EQ(plan("--slits 12 --width 64 --depth plane --for povray,csv"), 0) << err;
+  const std::string base = folder.path("rig");
+  EXPECT_TRUE(out.ends_with("\n" + rig + "\n" + base + ".povray.inc\n" + base + ".povray.ini\n" + base + ".csv\n"))
+      << out;
+  EXPECT_EQ(folder.names().size(), 4u);
+  EXPECT_NE(err.find("--for povray: this writes no depth"), std::string::npos) << err;
+  EXPECT_EQ(run("rig --slits 12 --width 64 --for csv"), 2);
+  EXPECT_NE(err.find("-o rig.json"), std::string::npos) << err;
+  EXPECT_EQ(plan("--for blender,max"), 2);
+  EXPECT_NE(err.find("'max' is none of blender, povray"), std::string::npos) << err;
+}
+
 TEST_F(CliStitch, ViewsThatAreMissingAreSaidTogether) {
   ASSERT_EQ(plan(), 0) << err;
   ASSERT_EQ(render(), 0) << err;

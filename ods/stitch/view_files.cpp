@@ -14,6 +14,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/frames.h"
+#include "ods/image/reproject.h"
 #include "ods/stitch/slit_file.h"
 
 namespace ods {
@@ -40,11 +41,23 @@ Named named(const SlitRig& rig, const ViewFiles& files, size_t view) {
   return {rig.eyes[view / of_eye], static_cast<int>(place_of(rig, files, view) / views_of_sheet(files)) + 1};
 }
 
+// Blender's files of many layers call the depth ViewLayer.Depth.Z, in others it is Z.
+void call_depth_z(StoredPicture& picture) {
+  if (depth_layer(picture)) return;
+  for (LayerPixels& layer : picture.eyes[0].layers) {
+    if (layer.channels.size() != 1 || !layer.channels[0].ends_with(".Depth.Z")) continue;
+    layer.channels[0] = "Z";
+    return;
+  }
+}
+
 StoredPicture open_file(const std::string& path, const CameraRig& pose) {
   OpenOptions options;
   options.form.one_eye = true;
   options.form.camera = pose;
-  return open_picture(path, options);
+  StoredPicture picture = open_picture(path, options);
+  call_depth_z(picture);
+  return picture;
 }
 
 void check_size(Extent is, Extent should, const std::string& path) {

@@ -29,7 +29,7 @@ std::string names_fault(const SlitRig& rig, const ViewFiles& files);
 // The file that a view is in. Precondition: no names_fault().
 std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view);
 
-// Opens views for stitch().
+// Opens views for stitch(). Their depth is the layer Z, or NAME.Depth.Z of Blender's files of many layers.
 OpenView open_view_files(const SlitRig& rig, const ViewFiles& files);
 
 // The views whose files are not there or are empty, or, with `thorough`, cannot be opened or have another size.

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A rig of slits, ready for another renderer: scripts that render its views under the names that ods stitch looks for,
+// or cameras that a program can read. docs/slits.md leads through each of them.
+//
+// View n of the rig is frame n of a script, and the scene stands still meanwhile. Where a world has other axes than
+// ours, the views are turned as that program's glTF importer turns a scene.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ods/stitch/slit_rig.h"
+
+namespace ods {
+
+enum class RigTarget {
+  kBlender,  // Python for 2.83 to 5.x: renders all views
+  kPovray,   // POV-Ray 3.7: a file to include, and options
+  kThree,    // a module for a three.js page
+  kUsd,      // a camera that moves: time code n is view n
+  kGltf,     // likewise: view n is shown at n/24 s
+  kUnity,    // C# for the editor
+  kUnreal,   // Python for the editor
+  kCsv,      // for spreadsheets and what we have not thought of: a line a view
+};
+
+inline constexpr RigTarget kRigTargets[] = {RigTarget::kBlender, RigTarget::kPovray, RigTarget::kThree,
+                                            RigTarget::kUsd,     RigTarget::kGltf,   RigTarget::kUnity,
+                                            RigTarget::kUnreal,  RigTarget::kCsv};
+
+// blender, povray, three, usd, ...
+std::string_view rig_target_name(RigTarget target);
+
+struct RigScript {
+  std::string ending;  // of its file, behind the rig's name: ".blender.py"
+  std::string text;
+};
+
+struct RigExport {
+  std::vector<RigScript> scripts;
+  std::vector<std::string> warnings;  // what the target cannot do for this rig, a line each; it stands in a text, too
+};
+
+// `name`: of the rig's file, without a folder and without .json. Scripts speak of it and of each other by it.
+RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& name);
+
+}  // namespace ods
