@@ -105,7 +105,8 @@ TEST(House, HeadersShowNoLibraryButGlm) {
       const std::string header = included(line, '<', '>');
       const bool standard = header.find_first_of("./") == std::string::npos;
       const bool names_only = header.ends_with("_fwd.hpp");
-      EXPECT_TRUE(standard || names_only || header.starts_with("glm/")) << source.path << " includes <" << header << ">";
+      EXPECT_TRUE(standard || names_only || header.starts_with("glm/"))
+          << source.path << " includes <" << header << ">";
     }
   }
 }
