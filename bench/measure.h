@@ -34,11 +34,16 @@ struct Seconds {
   double cpu = 0.0;
 };
 
+// Of this process and of those that it has run.
 inline double cpu_seconds() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  double sum = 0.0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage;
+    getrusage(who, &usage);
+    sum += seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+  return sum;
 }
 
 inline Seconds seconds_of(const std::function<void()>& work) {

@@ -87,6 +87,9 @@ class Stitcher {
   int64_t unseen_all_ = 0;
 };
 
+constexpr size_t kMostResident = size_t{256}
+                                 << 20;  // bytes of the picture; each that returns to memory is a page fault
+
 // --- views ----------------------------------------------------------------------------------------------------------
 
 bool is_views_fault(const Error& error) {
@@ -298,7 +301,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
     ahead.wait();
     set_done(batches[i]);
     slits = std::move(next);
-    picture_->release();
+    if (picture_->size() > kMostResident) picture_->release();
     if (done) done(batches[i].last);
   }
 }

@@ -110,7 +110,8 @@ void View::fill_alike(const Look (&looks)[3], int count, float way, std::span<fl
     if (!filters.empty()) resampler_.fill(0, filters, pixel_at(end - filters.size()));
     filters.clear();
   };
-  std::vector<Place> places;
+  thread_local std::vector<Place> places;
+  places.clear();
   for (int i = 0; i < count; i++) {
     const float t = static_cast<float>(i) * per_pixel;
     const Place& place = places.emplace_back(Place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true});
