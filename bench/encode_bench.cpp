@@ -7,16 +7,14 @@
 // by wall clock and, for machines that have other work, by CPU seconds. And how fast a title is laid over a film, over
 // the ffmpeg program decoding and encoding it alone.
 #include <benchmark/benchmark.h>
-#include <stdlib.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <sstream>
 
+#include "bench/measure.h"
 #include "ods/image/save.h"
 #include "ods/video/film_over.h"
 #include "ods/video/make_film.h"
@@ -26,18 +24,6 @@ namespace {
 using namespace ods;
 
 constexpr int kFrames = 48;
-
-// A folder that goes with the process, beside where it runs: temporary folders may be memory.
-class Folder {
- public:
-  Folder() { path_ = mkdtemp(name_); }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string path(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  char name_[32] = "ods-encode-bench-XXXXXX";
-  std::string path_;
-};
 
 PictureRows frame(int width, int number) {
   PictureRows rows;
@@ -60,26 +46,20 @@ PictureRows frame(int width, int number) {
   return rows;
 }
 
-struct Seconds {
-  double wall = 1e9;
-  double cpu = 1e9;
+// Ours and theirs in turns, the least of each: a machine has other work too.
+struct Race {
+  Seconds ours{1e9, 1e9}, theirs{1e9, 1e9};
+
+  void round(benchmark::State& state, const std::string& command, const std::function<void()>& work) {
+    keep_least(theirs, seconds_of([&] {
+                 if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
+               }));
+    keep_least(ours, seconds_of(work));
+  }
+  static void keep_least(Seconds& least, const Seconds& now) {
+    least = {std::min(least.wall, now.wall), std::min(least.cpu, now.cpu)};
+  }
 };
-
-double cpu_seconds(int who) {
-  rusage usage;
-  getrusage(who, &usage);
-  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-// The least so far.
-void measure(Seconds& least, int who, const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  const double cpu = cpu_seconds(who);
-  work();
-  least.wall = std::min(least.wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  least.cpu = std::min(least.cpu, cpu_seconds(who) - cpu);
-}
 
 struct Settings {
   const char* encoder;
@@ -122,21 +102,18 @@ void encode(benchmark::State& state) {
   options.encoder = settings.encoder;
   options.preset = settings.preset;
   const std::string command = ffmpeg_words(settings, folder.path("frame.%04d.png"), folder.path("theirs.mp4"));
-  Seconds ours, theirs;
+  Race race;
   for (auto round : state) {
     static_cast<void>(round);
-    measure(theirs, RUSAGE_CHILDREN, [&] {
-      if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
-    });
-    measure(ours, RUSAGE_SELF, [&] {
+    race.round(state, command, [&] {
       const FrameFiles files = find_frames(folder.path("frame.####.png"));
       make_film(files, plan_film(files, {}, {}), {}, options, folder.path("ours.mp4"));
     });
   }
   state.SetLabel(std::string(settings.encoder) + " " + settings.preset);
-  state.counters["frames/s"] = kFrames / ours.wall;
-  state.counters["above_ffmpeg"] = theirs.wall / ours.wall;
-  state.counters["above_ffmpeg_cpu"] = theirs.cpu / ours.cpu;
+  state.counters["frames/s"] = kFrames / race.ours.wall;
+  state.counters["above_ffmpeg"] = race.theirs.wall / race.ours.wall;
+  state.counters["above_ffmpeg_cpu"] = race.theirs.cpu / race.ours.cpu;
   state.counters["bytes_over_ffmpeg"] = static_cast<double>(std::filesystem::file_size(folder.path("ours.mp4"))) /
                                         static_cast<double>(std::filesystem::file_size(folder.path("theirs.mp4")));
 }
@@ -180,21 +157,18 @@ void over(benchmark::State& state) {
   const std::string command = "ffmpeg -v error -y -i " + folder.path("film.mp4") +
                               " -c:v libx264 -preset ultrafast -crf 24 -g 30 -flags +cgop -movflags +faststart " +
                               folder.path("theirs.mp4");
-  Seconds ours, theirs;
+  Race race;
   for (auto round : state) {
     static_cast<void>(round);
-    measure(theirs, RUSAGE_CHILDREN, [&] {
-      if (std::system(command.c_str()) != 0) state.SkipWithError("ffmpeg failed");
-    });
-    measure(ours, RUSAGE_SELF, [&] {
+    race.round(state, command, [&] {
       Footage back(folder.path("film.mp4"), {}), front(folder.path("title.exr"), {});
       over_film(back, front, 0, frames, {}, options, folder.path("ours.mp4"));
     });
   }
   const double pixels = 1.0 * width * width * frames;
-  state.counters["Mpixel/s"] = pixels / ours.wall * 1e-6;
-  state.counters["above_decode_encode"] = theirs.wall / ours.wall;
-  state.counters["above_decode_encode_cpu"] = theirs.cpu / ours.cpu;
+  state.counters["Mpixel/s"] = pixels / race.ours.wall * 1e-6;
+  state.counters["above_decode_encode"] = race.theirs.wall / race.ours.wall;
+  state.counters["above_decode_encode_cpu"] = race.theirs.cpu / race.ours.cpu;
 }
 BENCHMARK(over)->Arg(4096)->Iterations(3)->Unit(benchmark::kSecond)->UseRealTime();
 

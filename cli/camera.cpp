@@ -45,9 +45,7 @@ void camera(int argc, char** argv) {
   if (ods::format_of_path(output)) {
     throw UsageError(fmt::format("'{}' would be a picture; what a camera is said in is text", output));
   }
-  ods::AtomicFile file(output);
-  std::fwrite(result.text.data(), 1, result.text.size(), file.stream());
-  file.commit();
+  ods::write_file(output, result.text);
   std::puts(output.c_str());
 }
 

@@ -26,15 +26,6 @@ constexpr std::array kOptions = {"-o",         "--output", "--target",  "--codec
                                  "--exposure", "--frames", "--threads", "--progress"};
 constexpr std::array kFlags = {"-q", "--quiet", "--no-color", "--keep-frames", "--restart", "--skip-existing"};
 
-// What of a file would have to change with it.
-std::string identity(const std::string& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return "";
-  const auto size = fs::file_size(path, error);
-  const auto time = fs::last_write_time(path, error).time_since_epoch().count();
-  return error ? "" : fmt::format(" ({} bytes, of {})", size, time);
-}
-
 std::string note_of(const std::vector<std::string>& words) {
   std::string note = "ods " ODS_VERSION "\n";
   for (size_t i = 0; i < words.size(); i++) {
@@ -44,7 +35,8 @@ std::string note_of(const std::vector<std::string>& words) {
       if (name == words[i]) i++;  // its value
       continue;
     }
-    note += words[i] + identity(words[i]) + "\n";
+    const std::string file = ods::file_identity(words[i]);
+    note += words[i] + (file.empty() ? "" : fmt::format(" ({})", file)) + "\n";
   }
   return note;
 }
@@ -84,9 +76,7 @@ FilmJournal::FilmJournal(const std::string& film, const std::vector<std::string>
   } else if (fs::exists(folder_, ignored) && !fs::is_empty(folder_, ignored)) {
     throw UsageError(fmt::format("'{}' is where the frames would lie, and it is not empty", folder_));
   }
-  ods::AtomicFile note(path);
-  std::fwrite(now.data(), 1, now.size(), note.stream());
-  note.commit();
+  ods::write_file(path, now);
 }
 
 FilmJournal::~FilmJournal() {

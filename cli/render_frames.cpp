@@ -35,16 +35,6 @@ Frame make_frame(const RenderJob& job, const FrameNames& names, int number) {
           changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
 }
 
-// Whether all files of a frame are there; some farms make empty ones beforehand.
-bool exists(const std::string& path) {
-  std::error_code error;
-  for (const int eye : {ods::kLeft, ods::kRight}) {
-    const auto size = std::filesystem::file_size(ods::path_for_eye(path, eye), error);
-    if (error || size == 0) return false;
-  }
-  return true;
-}
-
 std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) {
   if (!asks_for_film(time)) return {{static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
   const FrameNames names = film_names(job.output);
@@ -52,7 +42,7 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
   size_t skipped = 0;
   for (const int number : film_frames(time)) {
     Frame frame = make_frame(job, names, number);
-    time.skip_existing&& exists(frame.path) ? skipped++ : (frames.push_back(std::move(frame)), 0);
+    time.skip_existing&& ods::is_saved(frame.path) ? skipped++ : (frames.push_back(std::move(frame)), 0);
   }
   if (skipped > 0) note(fmt::format("{} of {} frames are there already", skipped, skipped + frames.size()));
   return frames;

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <iostream>
 
 #include "cli/console.h"
@@ -14,16 +13,6 @@
 #include "ods/kernel/random.h"
 #include "ods/scene/motion.h"
 #include "ods/stitch/view_files.h"
-
-namespace {
-
-bool is_there(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  return !error && size > 0;
-}
-
-}  // namespace
 
 void render_views(const RenderJob& job, ProgressLines& lines) {
   const ods::SlitRig rig = open_rig(job.rig);
@@ -43,7 +32,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::CpuRenderer renderer(scene, options.threads);
   for (size_t i = 0; i < rig.views.size(); i++) {
     const std::string path = view_path(rig, files, i);
-    if (time.skip_existing && is_there(path)) continue;
+    if (time.skip_existing && ods::is_saved(path)) continue;
     options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // or noise would repeat, slit by slit
     ods::Progress progress;
     progress.report = [&](double part) {

@@ -42,13 +42,6 @@ void add_script_option(Options& options, std::vector<RigTarget>& targets) {
       fmt::format("scripts that render the views, beside the rig, for any of: {}", fmt::join(all_names(), ", ")));
 }
 
-static void write_text(const std::string& path, const std::string& text) {
-  ods::AtomicFile file(path);
-  std::fwrite(text.data(), 1, text.size(), file.stream());
-  file.commit();
-  std::cout << path << std::endl;
-}
-
 void write_rig(const ods::SlitRig& rig, const std::vector<RigTarget>& targets, const std::string& output) {
   const std::filesystem::path path(output);
   const std::filesystem::path base = path.extension() == ".json" ? path.parent_path() / path.stem() : path;
@@ -59,6 +52,10 @@ void write_rig(const ods::SlitRig& rig, const std::vector<RigTarget>& targets, c
     for (const std::string& warning : made.warnings) {
       note(fmt::format("--for {}: {}", ods::rig_target_name(target), warning));
     }
-    for (const ods::RigScript& script : made.scripts) write_text(base.native() + script.ending, script.text);
+    for (const ods::RigScript& script : made.scripts) {
+      const std::string script_path = base.native() + script.ending;
+      ods::write_file(script_path, script.text);
+      std::cout << script_path << std::endl;
+    }
   }
 }

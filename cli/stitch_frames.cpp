@@ -97,8 +97,7 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
   const std::vector<int> frames = ods::parse_frames(job.frames);
   for (size_t i = 0; i < frames.size(); i++) {
     const std::string output = outputs.path(frames[i]);
-    std::error_code ignored;
-    if (job.skip_existing && std::filesystem::exists(output, ignored)) continue;
+    if (job.skip_existing && ods::is_saved(output)) continue;
     ViewFiles views = job.views;
     views.names = folders.path(frames[i]) + "/" + file;
     stitch_picture(job, rig, views, output,

@@ -67,9 +67,7 @@ inline void add_colour(MadePicture& made, const PixelFunction& value) {
 }
 
 inline int channels_of(const PictureRows& rows) {
-  size_t count = 0;
-  for (const RowLayer& layer : rows.layers) count += layer.channels.size();
-  return static_cast<int>(count);
+  return static_cast<int>(count_channels(rows.layers));
 }
 
 inline std::vector<Image> images_of(const PictureRows& rows) {

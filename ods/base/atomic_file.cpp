@@ -149,6 +149,12 @@ void AtomicFile::commit() {
   forget(temporary_);
 }
 
+void write_file(const std::string& path, std::string_view bytes) {
+  AtomicFile file(path);
+  std::fwrite(bytes.data(), 1, bytes.size(), file.stream());
+  file.commit();
+}
+
 void commit_all(std::list<AtomicFile>& files) {
   for (AtomicFile& file : files) file.finish();
   for (AtomicFile& file : files) file.commit();

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <list>
 #include <string>
+#include <string_view>
 
 namespace ods {
 
@@ -40,6 +41,9 @@ class AtomicFile {
   std::string temporary_;
   std::FILE* stream_ = nullptr;
 };
+
+// A whole file of these bytes. Throws as AtomicFile.
+void write_file(const std::string& path, std::string_view bytes);
 
 // Files that belong together: none gets its final name before the last one is on the disk.
 void commit_all(std::list<AtomicFile>& files);

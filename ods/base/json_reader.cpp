@@ -40,6 +40,15 @@ void JsonReader::fail(const std::string& key, const std::string& wanted) const {
               fmt::format("'{}' is no {}: {} {}", file_, noun_, name.empty() ? "the file" : name, wanted));
 }
 
+void JsonReader::version(const std::string& mark, int newest) {
+  int version = 0;
+  integer(mark, version, 1, 1 << 30);
+  if (version == 0) fail("", fmt::format("lacks its mark, \"{}\": 1", mark));
+  if (version <= newest) return;
+  throw Error(ErrorKind::kInput, fmt::format("'{}' was written by a newer ods ({} version {}, this one reads {})",
+                                             file_, noun_, version, newest));
+}
+
 const Json* JsonReader::find(const std::string& key) {
   known_.push_back(key);
   const auto found = json_.find(key);

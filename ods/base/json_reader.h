@@ -30,6 +30,9 @@ class JsonReader {
   // "'file' is no noun: place.key wanted"
   [[noreturn]] void fail(const std::string& key, const std::string& wanted) const;
 
+  // A file's mark and version, which stand first: "omnistereo_camera": 1. Refuses what is newer than `newest`.
+  void version(const std::string& mark, int newest);
+
   // The value of a key; nullptr: it is missing or null.
   const Json* find(const std::string& key);
 

@@ -30,6 +30,14 @@ size_t file_size(const std::string& path) {
   return static_cast<size_t>(size);
 }
 
+std::string file_identity(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return "";
+  const auto size = std::filesystem::file_size(path, error);
+  const auto time = std::filesystem::last_write_time(path, error).time_since_epoch().count();
+  return error ? "" : fmt::format("{} bytes, of {}", size, time);
+}
+
 std::vector<unsigned char> read_start(const std::string& path, size_t count) {
   count = std::min(count, file_size(path));
   const size_t available = available_memory();

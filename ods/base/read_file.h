@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file's bytes. Everything here throws Error(kInput): there is no such file, it is a folder or a device, or it may
-// not be read.
+// A file's bytes. What does not say otherwise throws Error(kInput): there is no such file, it is a folder or a device,
+// or it may not be read.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -12,6 +12,9 @@
 namespace ods {
 
 size_t file_size(const std::string& path);
+
+// What would have to change with a file's contents, "517 bytes, of 1700000000123"; empty: there is no such file.
+std::string file_identity(const std::string& path);
 
 // The whole file. One with more than `most` bytes, or more than there is memory for, is an Error before it is read.
 std::vector<unsigned char> read_file(const std::string& path, size_t most);

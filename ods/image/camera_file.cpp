@@ -196,13 +196,7 @@ std::string write_camera(const CameraFile& file) {
 CameraFile read_camera(std::string_view text, const std::string& name, std::vector<std::string>& warnings) {
   const Json json = parse_json(text, name, "camera");
   JsonReader in(json, name, "camera", "", warnings);
-  int version = 0;
-  in.integer("omnistereo_camera", version, 1, 1 << 30);
-  if (version == 0) in.fail("", R"(lacks its mark, "omnistereo_camera": 1)");
-  if (version > kCameraFileVersion) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' was written by a newer ods (camera version {}, this one reads {})",
-                                               name, version, kCameraFileVersion));
-  }
+  in.version("omnistereo_camera", kCameraFileVersion);
   in.find("made_by");
   in.find("conventions");
   CameraFile file;
@@ -228,10 +222,7 @@ CameraFile load_camera(const std::string& path, std::vector<std::string>& warnin
 }
 
 void save_camera(const CameraFile& file, const std::string& path) {
-  AtomicFile out(path);
-  const std::string text = write_camera(file);
-  std::fwrite(text.data(), 1, text.size(), out.stream());
-  out.commit();
+  write_file(path, write_camera(file));
 }
 
 std::string sidecar_path(const std::string& picture) {

@@ -94,6 +94,10 @@ Camera make_camera(const CameraRig& rig) {
   return camera;
 }
 
+vec3 axis_in_world(const Camera& camera) {
+  return camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
+}
+
 ViewAngles view_angles(glm::dvec3 forward, glm::dvec3 up) {
   const double pitch = std::asin(std::clamp(forward.y, -1.0, 1.0));
   const glm::dvec3 right = glm::cross(forward, up);

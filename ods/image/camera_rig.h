@@ -58,6 +58,9 @@ struct CameraRig {
 // Precondition: every field finite, ipd >= 0, the projection without fault. The camera reads the rig's merge map.
 Camera make_camera(const CameraRig& rig);
 
+// What the viewing circle lies square to, in the world. Unit length.
+vec3 axis_in_world(const Camera& camera);
+
 // Degrees, as in CameraRig.
 struct ViewAngles {
   float yaw;

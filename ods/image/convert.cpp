@@ -23,8 +23,13 @@ ConvertTarget own_form(const StoredPicture& picture) {
   return form;
 }
 
-static vec3 axis_in_world(const Camera& camera) {
-  return camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
+std::vector<RowLayer> row_layers(const StoredPicture& picture) {
+  std::vector<RowLayer> layers;
+  for (const LayerPixels& layer : picture.eyes[0].layers) {
+    const Sample sample = layer.sample == Sample::kFloat ? Sample::kFloat : Sample::kHalf;
+    layers.push_back({layer.channels, layer.rule, sample});
+  }
+  return layers;
 }
 
 static bool is_tilted(const CameraRig& from, const CameraRig& to) {
@@ -306,26 +311,16 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
 }
 
 void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const {
-  constexpr size_t kAtOnce = 32;
-  TexelFilter filters[kAtOnce];
-  size_t waiting = 0;  // filters of the pixels before x + i
-  const auto fill_waiting = [&](int end) {
-    if (waiting > 0) resampler_.fill(stretch.eye, {filters, waiting}, pixel_of(row, end - static_cast<int>(waiting)));
-    waiting = 0;
-  };
+  PixelRun run(resampler_, stretch.eye, stretch.cell);
   std::vector<FilterPoint> points;
   for (int i = 0; i < count; i++) {
-    if (waiting == kAtOnce) fill_waiting(x + i);
     const float t = static_cast<float>(i) * stretch.per_pixel;
     const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
     const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * stretch.per_pixel;
     const vec2 dy =
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
     float* pixel = pixel_of(row, x + i);
-    if (texel_filter({dx, dy}, place.at, filters[waiting]) && resampler_.has_all(filters[waiting], stretch.cell)) {
-      waiting++;
-    } else {
-      fill_waiting(x + i);
+    if (!run.add({dx, dy}, place.at, pixel)) {
       filter_points({dx, dy}, points);
       if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
         sum_near(place, stretch.cell, points, pixel);
@@ -335,7 +330,7 @@ void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, 
     }
     resampler_.finish(place, pixel);
   }
-  fill_waiting(x + count);
+  run.fill();
 }
 
 bool Converter::fill_pixel(const CellRow& row, int x) const {
@@ -456,10 +451,7 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   Conversion conversion;
   conversion.rows.eye = target.eye;
   conversion.rows.eyes = target.eyes;
-  for (const LayerPixels& layer : picture.eyes[0].layers) {
-    const Sample sample = layer.sample == Sample::kFloat ? Sample::kFloat : Sample::kHalf;
-    conversion.rows.layers.push_back({layer.channels, layer.rule, sample});
-  }
+  conversion.rows.layers = row_layers(picture);
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
   conversion.sees_around = sees_around(picture, target);
   const bool adds_alpha = colour.back() != "A" && (conversion.sees_around || sees_more(picture, target));

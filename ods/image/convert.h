@@ -28,6 +28,9 @@ struct ConvertTarget {
 // A picture's own form: what converts it to itself.
 ConvertTarget own_form(const StoredPicture& picture);
 
+// A picture's layers as rows of it have them: floats stay floats, all else is halves.
+std::vector<RowLayer> row_layers(const StoredPicture& picture);
+
 struct Conversion {
   PictureRows rows;
   bool sees_around = false;  // the eyes stand elsewhere than the picture's

@@ -412,6 +412,22 @@ void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) 
   }
 }
 
+bool PixelRun::add(const Footprint& footprint, vec2 at, float* pixel) {
+  if (waiting_ == std::size(filters_)) fill();
+  TexelFilter& filter = filters_[waiting_];
+  if (!texel_filter(footprint, at, filter) || !resampler_.has_all(filter, cell_)) {
+    fill();
+    return false;
+  }
+  if (waiting_++ == 0) first_ = pixel;
+  return true;
+}
+
+void PixelRun::fill() {
+  if (waiting_ > 0) resampler_.fill(eye_, {filters_, waiting_}, first_);
+  waiting_ = 0;
+}
+
 void Resampler::finish(const Place& place, float* out) const {
   const Extent size = source_.picture->size;
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);

@@ -76,4 +76,25 @@ class Resampler {
   int added_alpha_ = -1;  // its channel; below 0: there is none
 };
 
+// Pixels of a row that are filled together, because neighbours share texels.
+class PixelRun {
+ public:
+  PixelRun(const Resampler& resampler, int eye, const Cell& cell) : resampler_(resampler), eye_(eye), cell_(cell) {}
+
+  // Takes the pixel beside the last one; false: it has no texel_filter() whose texels are all of the cell, and is left
+  // alone.
+  bool add(const Footprint& footprint, vec2 at, float* pixel);
+
+  // Fills those that still wait.
+  void fill();
+
+ private:
+  const Resampler& resampler_;
+  int eye_;
+  Cell cell_;
+  TexelFilter filters_[32];
+  size_t waiting_ = 0;
+  float* first_ = nullptr;  // of those that wait
+};
+
 }  // namespace ods

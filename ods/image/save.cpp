@@ -131,6 +131,15 @@ static bool keeps_alpha(FileFormat format, Layout layout) {
   return keeps_alpha(format) && !is_anaglyph(layout);
 }
 
+bool is_saved(const std::string& path) {
+  std::error_code error;
+  for (const int eye : {kLeft, kRight}) {
+    const auto size = std::filesystem::file_size(path_for_eye(path, eye), error);
+    if (error || size == 0) return false;
+  }
+  return true;
+}
+
 bool has_alpha(const std::string& path) {
   return keeps_alpha(format_for(path));
 }
@@ -154,7 +163,7 @@ struct File {
   }
 };
 
-static size_t count_channels(const std::vector<RowLayer>& layers) {
+size_t count_channels(const std::vector<RowLayer>& layers) {
   size_t count = 0;
   for (const RowLayer& layer : layers) count += layer.channels.size();
   return count;
@@ -297,7 +306,7 @@ static FileHeader make_header(const File& file, const CameraRig* rig) {
   return header;
 }
 
-static void write_file(AtomicFile& out, const File& file, const CameraRig* rig) {
+static void write_picture(AtomicFile& out, const File& file, const CameraRig* rig) {
   const FileHeader header = make_header(file, rig);
   const int count = static_cast<int>(file.indices.size());
   const Extent eye = stored_eye(file);
@@ -332,7 +341,7 @@ std::vector<std::string> save_picture(const PictureRows& picture, const CameraRi
   const auto write = [&](const std::string& name, const std::vector<int>& indices) {
     const Extent squeeze = squeeze_of(layout, static_cast<int>(indices.size()));
     const File file{picture, indices, format, layout, options, count_channels(picture.layers), squeeze};
-    write_file(files.emplace_back(name), file, rig);
+    write_picture(files.emplace_back(name), file, rig);
     names.push_back(name);
   };
   std::vector<int> all;

@@ -52,6 +52,9 @@ bool keeps_layers(const std::string& path);
 // Whether a file of this name can hold alpha: not of jpg and hdr.
 bool has_alpha(const std::string& path);
 
+// Whether a picture's files, one or one per eye, are there and not empty: some farms make empty ones beforehand.
+bool is_saved(const std::string& path);
+
 // Writes one file, or one per eye, and the sidecar behind them; all of them complete, or none. Creates missing folders.
 // Returns the names written.
 // Layers that are empty are left out. Throws Error(kOutput). Precondition: one eye or two, all of one size, with light.
@@ -77,6 +80,9 @@ struct PictureRows {
   std::function<void(int index, int y, std::span<float> row)> fill;
   std::function<void()> band_done;  // called between some rows, to give memory back; may be empty
 };
+
+// Of a pixel of a row.
+size_t count_channels(const std::vector<RowLayer>& layers);
 
 // The same of such a picture. No rig: the file says nothing of one. Squeezed eyes take of a kNearest layer, of the
 // pixels that become one, that whose first channel is least. Throws Error(kOutput), and what `fill` throws.

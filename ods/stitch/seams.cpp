@@ -28,8 +28,7 @@ static std::vector<char> border_columns(const SlitRig& rig) {
 }
 
 SeamReport measure_seams(const SlitRig& rig, const PictureRows& rows) {
-  size_t channels = 0;
-  for (const RowLayer& layer : rows.layers) channels += layer.channels.size();
+  const size_t channels = count_channels(rows.layers);
   const std::vector<char> borders = border_columns(rig);
   std::vector<float> row(static_cast<size_t>(rig.eye.width) * channels);
   double sum[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};

@@ -11,7 +11,7 @@
 
 namespace ods {
 
-SlitError max_of(const SlitError& a, const SlitError& b) {
+static SlitError max_of(const SlitError& a, const SlitError& b) {
   return {std::max(a.across, b.across), std::max(a.along, b.along), std::max(a.whole, b.whole),
           std::max(a.step, b.step)};
 }
@@ -37,9 +37,7 @@ struct Judge {
   Camera camera;
   vec3 axis;
 
-  explicit Judge(const SlitRig& of) : rig(of), camera(make_camera(of.camera)) {
-    axis = camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
-  }
+  explicit Judge(const SlitRig& of) : rig(of), camera(make_camera(of.camera)), axis(axis_in_world(camera)) {}
 
   vec3 origin(size_t eye, int slit, int pitch) const {
     const int last = rig.options.slits - 1;
@@ -74,14 +72,12 @@ struct Judge {
   }
 };
 
-// Those that show a latitude; two, where one fades into the next.
+// Those that show a latitude of the picture; two, where one fades into the next.
 std::vector<int> pitches_at(const SlitRig& rig, float latitude) {
-  const float fade = pitch_fade(rig);
   std::vector<int> found;
   for (int pitch = 0; pitch < rig.options.pitches; pitch++) {
-    const bool below_top = pitch == 0 || latitude <= pitch_border(rig, pitch - 1) + fade;
-    const bool above_bottom = pitch + 1 == rig.options.pitches || latitude >= pitch_border(rig, pitch) - fade;
-    if (below_top && above_bottom) found.push_back(pitch);
+    const vec2 reach = pitch_reach(rig, pitch);
+    if (latitude >= reach.x && latitude <= reach.y) found.push_back(pitch);
   }
   return found;
 }
@@ -137,7 +133,7 @@ SlitError largest_slit_error(const SlitRig& rig, float distance) {
 // Wherever the rig stands: near the middle of the world numbers tell places apart best.
 static float pixels_off(CameraRig camera, Extent eye, const SlitOptions& options, float nearest) {
   camera.position = vec3(0.0f);
-  const SlitRig rig = make_slit_rig(camera, eye, {camera.ipd == 0.0f ? kMono : kRight}, options);
+  const SlitRig rig = make_slit_rig(camera, eye, {kRight}, options);
   const SlitError error = largest_slit_error(rig, nearest);
   return picture_pixels(rig, std::max(error.whole, error.step));
 }

@@ -19,7 +19,6 @@ struct SlitError {
   float whole = 0.0f;   // both together
   float step = 0.0f;    // from a view to its neighbour where they meet: as far do fading edges stand apart
 };
-SlitError max_of(const SlitError& a, const SlitError& b);
 
 // The largest that a surface at this distance (metres, along its ray) can have at this latitude of the picture
 // (radians). Of surfaces that have a depth, this is where they hide another: those themselves are put right.

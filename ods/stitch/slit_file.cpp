@@ -141,16 +141,10 @@ void read_options(JsonReader& in, SlitOptions& options) {
 
 }  // namespace
 
-SlitRig read_slit_rig(const std::string& text, const std::string& name, std::vector<std::string>& warnings) {
+SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vector<std::string>& warnings) {
   const Json json = parse_json(text, name, "rig");
   JsonReader in(json, name, "rig", "", warnings);
-  int version = 0;
-  in.integer("omnistereo_slits", version, 1, 1 << 30);
-  if (version == 0) in.fail("", R"(lacks its mark, "omnistereo_slits": 1)");
-  if (version > kSlitFileVersion) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' was written by a newer ods (rig version {}, this one reads {})",
-                                               name, version, kSlitFileVersion));
-  }
+  in.version("omnistereo_slits", kSlitFileVersion);
   for (const char* known : {"made_by", "conventions"}) in.find(known);
   SlitOptions options;
   read_options(in, options);
@@ -182,14 +176,11 @@ SlitRig read_slit_rig(const std::string& text, const std::string& name, std::vec
 
 SlitRig load_slit_rig(const std::string& path, std::vector<std::string>& warnings) {
   const std::vector<unsigned char> bytes = read_file(path, kLargestFile);
-  return read_slit_rig({bytes.begin(), bytes.end()}, path, warnings);
+  return read_slit_rig({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, warnings);
 }
 
 void save_slit_rig(const SlitRig& rig, const std::string& path) {
-  AtomicFile out(path);
-  const std::string text = write_slit_rig(rig);
-  std::fwrite(text.data(), 1, text.size(), out.stream());
-  out.commit();
+  write_file(path, write_slit_rig(rig));
 }
 
 }  // namespace ods

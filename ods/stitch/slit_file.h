@@ -5,6 +5,7 @@
 // docs/slits.md has the schema.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ods/stitch/slit_rig.h"
@@ -22,7 +23,7 @@ std::string write_slit_rig(const SlitRig& rig);
 // have made of it; its number and place in the list may not. Keys that we do not know are named in `warnings`.
 // Throws Error(kInput): not JSON, no rig, a newer version, a value out of range, views that are missing, a matrix that
 // is no place and attitude.
-SlitRig read_slit_rig(const std::string& text, const std::string& name, std::vector<std::string>& warnings);
+SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vector<std::string>& warnings);
 SlitRig load_slit_rig(const std::string& path, std::vector<std::string>& warnings);
 
 // Complete or not at all. Throws Error(kOutput).

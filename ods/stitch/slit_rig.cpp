@@ -31,28 +31,33 @@ size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch) {
 
 // --- angles ---------------------------------------------------------------------------------------------------------
 
-static vec2 low_and_high(vec2 degrees) {
-  return glm::radians(degrees);
-}
-
 float slit_width(const SlitRig& rig) {
-  const vec2 range = low_and_high(rig.camera.projection.longitude);
+  const vec2 range = glm::radians(rig.camera.projection.longitude);
   return (range.y - range.x) / static_cast<float>(rig.options.slits);
 }
 
 float slit_longitude(const SlitRig& rig, int slit) {
-  return low_and_high(rig.camera.projection.longitude).x + (static_cast<float>(slit) + 0.5f) * slit_width(rig);
+  return glm::radians(rig.camera.projection.longitude).x + (static_cast<float>(slit) + 0.5f) * slit_width(rig);
 }
 
 float pitch_border(const SlitRig& rig, int pitch) {
-  const vec2 range = low_and_high(rig.camera.projection.latitude);
+  const vec2 range = glm::radians(rig.camera.projection.latitude);
   return mix(range.y, range.x, static_cast<float>(pitch + 1) / static_cast<float>(rig.options.pitches));
 }
 
+float pitch_height(const SlitRig& rig) {
+  const vec2 range = glm::radians(rig.camera.projection.latitude);
+  return (range.y - range.x) / static_cast<float>(rig.options.pitches);
+}
+
 float pitch_fade(const SlitRig& rig) {
-  const vec2 range = low_and_high(rig.camera.projection.latitude);
-  const float height = (range.y - range.x) / static_cast<float>(rig.options.pitches);
-  return 0.5f * rig.options.blend * std::min(slit_width(rig), 0.5f * height);
+  return 0.5f * rig.options.blend * std::min(slit_width(rig), 0.5f * pitch_height(rig));
+}
+
+vec2 pitch_reach(const SlitRig& rig, int pitch) {
+  const float fade = pitch_fade(rig);
+  return {pitch_border(rig, pitch) - (pitch + 1 == rig.options.pitches ? 0.0f : fade),
+          pitch_border(rig, pitch - 1) + (pitch == 0 ? 0.0f : fade)};
 }
 
 bool goes_round(const SlitRig& rig) {
@@ -92,22 +97,16 @@ CameraRig view_of_ray(const Ray& ray, vec3 axis) {
   return view;
 }
 
-vec3 axis_of(const Camera& camera) {
-  return camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
-}
-
 // Widens the window to what a view shows of its slit: the corners and edges of its part of the picture.
 void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitch, const CameraRig& view,
            Window& window) {
   constexpr int kSteps = 8;
   const Camera own = make_camera(view);
   const float half = 0.5f * slit_width(rig) * (1.0f + rig.options.blend);
-  const float fade = pitch_fade(rig);
-  const float top = pitch_border(rig, pitch - 1) + (pitch == 0 ? 0.0f : fade);
-  const float bottom = pitch_border(rig, pitch) - (pitch + 1 == rig.options.pitches ? 0.0f : fade);
+  const vec2 reach = pitch_reach(rig, pitch);
   for (int i = -1; i <= 1; i++) {
     for (int j = 0; j <= kSteps; j++) {
-      const float latitude = mix(top, bottom, static_cast<float>(j) / kSteps);
+      const float latitude = mix(reach.y, reach.x, static_cast<float>(j) / kSteps);
       const vec3 d = ray_at(camera, eye, slit_longitude(rig, slit) + static_cast<float>(i) * half, latitude).direction;
       const float ahead = -dot(d, own.back);
       const float x = std::abs(dot(d, own.right)), y = std::abs(dot(d, own.up));
@@ -129,7 +128,8 @@ Views place_views(const SlitRig& rig) {
     for (int slit = 0; slit < rig.options.slits; slit++) {
       for (int pitch = 0; pitch < rig.options.pitches; pitch++) {
         const float latitude = 0.5f * (pitch_border(rig, pitch - 1) + pitch_border(rig, pitch));
-        all.views.push_back(view_of_ray(ray_at(camera, eye, slit_longitude(rig, slit), latitude), axis_of(camera)));
+        all.views.push_back(
+            view_of_ray(ray_at(camera, eye, slit_longitude(rig, slit), latitude), axis_in_world(camera)));
         widen(rig, camera, eye, slit, pitch, all.views.back(), all.window);
       }
     }
@@ -140,7 +140,7 @@ Views place_views(const SlitRig& rig) {
 // The picture's pixel in the middle of a view, as the tangent of its angle.
 float pixel_of(const SlitRig& rig) {
   const ProjectionSetting& setting = rig.camera.projection;
-  const vec2 across = low_and_high(setting.longitude), up = low_and_high(setting.latitude);
+  const vec2 across = glm::radians(setting.longitude), up = glm::radians(setting.latitude);
   return std::min((across.y - across.x) / static_cast<float>(rig.eye.width),
                   (up.y - up.x) / static_cast<float>(rig.eye.height)) /
          rig.options.scale;
@@ -164,7 +164,7 @@ std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& o
                        eye.width);
   }
   if (options.pitches < 1 || options.pitches > 64) return "there are 1 to 64 views above each other";
-  const SlitRig rig{camera, eye, {camera.ipd == 0.0f ? kMono : kRight}, options, {}, {}};
+  const SlitRig rig{camera, eye, {kRight}, options, {}, {}};
   const Window window = place_views(rig).window;
   if (!(window.x < kWidestTangent && window.y < kWidestTangent)) {
     return "a view would have to see more than 170 degrees: more slits, more pitches, or eyes toed in on a farther "

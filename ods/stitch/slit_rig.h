@@ -66,8 +66,13 @@ float slit_longitude(const SlitRig& rig, int slit);
 float slit_width(const SlitRig& rig);
 float pitch_border(const SlitRig& rig, int pitch);
 
+float pitch_height(const SlitRig& rig);
+
 // Over so many radians on either side of their border pitches fade into each other.
 float pitch_fade(const SlitRig& rig);
+
+// The lowest and the highest latitude that a pitch shows, with what of it fades.
+vec2 pitch_reach(const SlitRig& rig, int pitch);
 
 // The slits go round: the last one's neighbour is the first.
 bool goes_round(const SlitRig& rig);

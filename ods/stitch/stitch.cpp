@@ -87,8 +87,8 @@ class Stitcher {
   int64_t unseen_all_ = 0;
 };
 
-constexpr size_t kMostResident = size_t{256}
-                                 << 20;  // bytes of the picture; each that returns to memory is a page fault
+// Bytes of a picture that stays in memory as a whole: what returns to it costs a page fault.
+constexpr size_t kMostResident = size_t{256} << 20;
 
 // --- views ----------------------------------------------------------------------------------------------------------
 
@@ -116,7 +116,7 @@ void Stitcher::choose_form(const StitchOptions& options) {
   const size_t pixels = rig_.eyes.size() * static_cast<size_t>(rig_.eye.width) * static_cast<size_t>(rig_.eye.height);
   const size_t size = pixels_from_ + pixels * form_.channels * sizeof(float);
   if (options.journal.empty()) {
-    picture_ = std::make_shared<Scratch>(size, options.scratch_folder, options.most_in_memory);
+    picture_ = std::make_shared<Scratch>(size, "", 0);
     return;
   }
   picture_ = std::make_shared<Scratch>(size, options.journal);
@@ -223,12 +223,11 @@ float Stitcher::slit_weight(int place, int x) const {
 }
 
 float Stitcher::pitch_weight(int pitch, int y) const {
-  const float height = pitch_border(rig_, -1) - pitch_border(rig_, 0);
   const float at =
       (static_cast<float>(y) + 0.5f) * static_cast<float>(rig_.options.pitches) / static_cast<float>(rig_.eye.height);
   const float beyond = at - 0.5f - static_cast<float>(pitch);
   const bool outermost = beyond < 0.0f ? pitch == 0 : pitch == rig_.options.pitches - 1;
-  return outermost ? 1.0f : weight_at(std::abs(beyond), 2.0f * pitch_fade(rig_) / height);
+  return outermost ? 1.0f : weight_at(std::abs(beyond), 2.0f * pitch_fade(rig_) / pitch_height(rig_));
 }
 
 // What one view adds to a row of a batch.

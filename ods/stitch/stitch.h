@@ -25,13 +25,11 @@
 namespace ods {
 
 struct StitchOptions {
-  // A file in which the picture lies instead until it is saved, so that a process that was killed is gone on with by
-  // the next one that has the same key: whatever says what the picture is made of. Who has saved the picture removes
-  // it.
+  // Empty: the picture is in memory until it is saved. Else a file in which it lies until then, so that a process that
+  // was killed is gone on with by the next one that has the same key: whatever says what the picture is made of. Who
+  // has saved the picture removes it.
   std::string journal;
   uint64_t journal_key = 0;
-  std::string scratch_folder;                // where the picture lies until it is saved; empty: in memory
-  size_t most_in_memory = size_t{64} << 20;  // bytes, of the picture
 };
 
 struct ViewFault {

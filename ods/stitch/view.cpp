@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/image/convert.h"
+
 namespace ods {
 
 ViewForm form_of(const StoredPicture& picture) {
   ViewForm form;
+  form.layers = row_layers(picture);
   const std::optional<size_t> depth = depth_layer(picture);
-  for (size_t i = 0; i < picture.eyes[0].layers.size(); i++) {
-    const LayerPixels& layer = picture.eyes[0].layers[i];
-    form.layers.push_back(
-        {layer.channels, layer.rule, layer.sample == Sample::kFloat ? Sample::kFloat : Sample::kHalf});
+  for (size_t i = 0; i < form.layers.size(); i++) {
+    const RowLayer& layer = form.layers[i];
     if (depth == i) form.depth = static_cast<int>(form.channels);
     form.channels += layer.channels.size();
     form.is_nearest.resize(form.channels, layer.rule == LayerRule::kNearest);
@@ -103,52 +104,34 @@ void View::fill_alike(const Look (&looks)[3], int count, float way, std::span<fl
   };
   const float per_pixel = count > 1 ? 2.0f / static_cast<float>(count - 1) : 0.0f;
   const vec2 step = looks[1].at - looks[0].at, bend = looks[2].at - 2.0f * looks[1].at + looks[0].at;
-  thread_local std::vector<TexelFilter> filters;  // of the pixels before this one that are not filled
-  filters.clear();
-  const auto pixel_at = [&](size_t i) { return &out[i * form_.channels]; };
-  const auto fill_waiting = [&](size_t end) {
-    if (!filters.empty()) resampler_.fill(0, filters, pixel_at(end - filters.size()));
-    filters.clear();
-  };
-  thread_local std::vector<Place> places;
-  places.clear();
+  PixelRun run(resampler_, 0, all_of(picture_));
   for (int i = 0; i < count; i++) {
     const float t = static_cast<float>(i) * per_pixel;
-    const Place& place = places.emplace_back(Place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true});
+    const Place place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true};
     const vec2 beside = along(looks[0].beside, looks[1].beside, looks[2].beside, t);
     const Footprint footprint{(step + bend * (t - 0.5f)) * per_pixel, (beside - place.at) * way};
-    TexelFilter filter;
-    if (texel_filter(footprint, place.at, filter) && resampler_.has_all(filter, all_of(picture_))) {
-      filters.push_back(filter);
-      continue;
-    }
-    fill_waiting(static_cast<size_t>(i));
-    sum_points(footprint, place, pixel_at(static_cast<size_t>(i)));
-  }
-  fill_waiting(static_cast<size_t>(count));
-  for (size_t i = 0; i < places.size(); i++) {
-    float* pixel = pixel_at(i);
-    resampler_.finish(places[i], pixel);
+    float* pixel = &out[static_cast<size_t>(i) * form_.channels];
+    if (!run.add(footprint, place.at, pixel)) sum_points(footprint, place, pixel);
+    resampler_.finish(place, pixel);
     if (form_.depth < 0 || pixel[form_.depth] >= 0.1f * kFarDepth) continue;
-    pixel[form_.depth] += along(looks[0].nearer, looks[1].nearer, looks[2].nearer, static_cast<float>(i) * per_pixel);
+    pixel[form_.depth] += along(looks[0].nearer, looks[1].nearer, looks[2].nearer, t);
   }
+  run.fill();
 }
 
 // Each by itself, through the view's surfaces if they are known.
 bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
   const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
-  const Look own = look(rays, px, py), right = look(rays, px + 1.0f, py);
-  const Footprint footprint{right.at - own.at, (own.beside - own.at) * way_from_edge(rays, py)};
+  const Look own = look(rays, px, py);
+  const vec2 right = place_of_line(source_, 0, rays.at(px + 1.0f, py).direction).at;
+  const Footprint footprint{right - own.at, (own.beside - own.at) * way_from_edge(rays, py)};
   const Ray ray = rays.at(px, py);
   const SurfaceHit met =
       surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - place_, ray.direction}) : SurfaceHit{{}, kFarDepth};
   const Place place = met.place.seen ? met.place : Place{0, own.at, true};
-  TexelFilter filter;
-  if (texel_filter(footprint, place.at, filter) && resampler_.has_all(filter, all_of(picture_))) {
-    resampler_.fill(0, {&filter, 1}, out);
-  } else {
-    sum_points(footprint, place, out);
-  }
+  PixelRun run(resampler_, 0, all_of(picture_));
+  if (!run.add(footprint, place.at, out)) sum_points(footprint, place, out);
+  run.fill();
   resampler_.finish(place, out);
   if (form_.depth < 0) return met.place.seen || !surfaces_;
   float& depth = out[form_.depth];

@@ -3,10 +3,11 @@
 #include "ods/stitch/view_files.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/frames.h"
+#include "ods/base/read_file.h"
 #include "ods/image/reproject.h"
 #include "ods/stitch/slit_file.h"
 
@@ -148,23 +150,29 @@ OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
   return [sheets = std::make_shared<Sheets>(rig, files)](size_t view) { return sheets->view(view); };
 }
 
+// What is wrong with a file, in words; empty: nothing.
+static std::string fault_of(const std::string& path, const CameraRig& pose, Extent size, bool thorough) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  if (error || bytes == 0) return fmt::format("'{}' is {}", path, error ? "not there" : "empty");
+  if (!thorough) return "";
+  try {
+    check_size(open_file(path, pose).size, size, path);
+  } catch (const Error& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
 std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough) {
+  std::map<std::string, std::vector<size_t>> views_of;  // a file's
+  for (size_t i = 0; i < rig.views.size(); i++) views_of[view_path(rig, files, i)].push_back(i);
+  const Extent size{rig.view.width * files.columns, rig.view.height * files.rows};
   std::vector<std::string> found(rig.views.size());
-  tbb::parallel_for(size_t{0}, rig.views.size(), [&](size_t i) {
-    const std::string path = view_path(rig, files, i);
-    std::error_code error;
-    const auto size = std::filesystem::file_size(path, error);
-    if (error || size == 0) {
-      found[i] = fmt::format("'{}' is {}", path, error ? "not there" : "empty");
-      return;
-    }
-    if (!thorough) return;
-    try {
-      check_size(open_file(path, rig.views[i]).size, {rig.view.width * files.columns, rig.view.height * files.rows},
-                 path);
-    } catch (const Error& fault) {
-      found[i] = fault.what();
-    }
+  tbb::parallel_for_each(views_of, [&](const auto& file) {
+    const auto& [path, views] = file;
+    const std::string fault = fault_of(path, rig.views[views.front()], size, thorough);
+    for (const size_t view : views) found[view] = fault;
   });
   std::vector<ViewFault> faults;
   for (size_t i = 0; i < found.size(); i++) {
@@ -173,25 +181,10 @@ std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files,
   return faults;
 }
 
-// FNV-1a. Source: Fowler, Noll, Vo; RFC 9923.
-static void add_to_key(const void* data, size_t size, uint64_t& key) {
-  const unsigned char* bytes = static_cast<const unsigned char*>(data);
-  for (size_t i = 0; i < size; i++) key = (key ^ bytes[i]) * 0x100000001b3u;
-}
-
 uint64_t views_key(const SlitRig& rig, const ViewFiles& files) {
-  uint64_t key = 0xcbf29ce484222325u;
-  const std::string text = write_slit_rig(rig);
-  add_to_key(text.data(), text.size(), key);
-  for (size_t i = 0; i < rig.views.size(); i++) {
-    const std::string path = view_path(rig, files, i);
-    std::error_code ignored;
-    const uint64_t size = std::filesystem::file_size(path, ignored);
-    const auto time = std::filesystem::last_write_time(path, ignored).time_since_epoch().count();
-    add_to_key(&size, sizeof size, key);
-    add_to_key(&time, sizeof time, key);
-  }
-  return key;
+  std::string all = write_slit_rig(rig);
+  for (size_t i = 0; i < rig.views.size(); i++) all += file_identity(view_path(rig, files, i)) + "\n";
+  return std::hash<std::string>{}(all);
 }
 
 std::string view_ranges(const SlitRig& rig, const ViewFiles& files, const std::vector<ViewFault>& faults) {
