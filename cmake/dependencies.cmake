@@ -10,6 +10,8 @@ find_package(TBB REQUIRED CONFIG)
 # OpenImageIO's own CMake file asks for packages of its tools (OpenCV, Python) on Debian 12; pkg-config's does not.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
+pkg_check_modules(OpenEXR REQUIRED IMPORTED_TARGET OpenEXR>=3.1)
+pkg_check_modules(Deflate REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat libavutil libswresample)
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)
 find_package(glm REQUIRED CONFIG)

@@ -35,6 +35,8 @@ const std::set<std::string> kAvFiles = {"ods/video/av.cpp", "ods/video/decode.cp
 const std::map<std::string, std::set<std::string>> kHidden = {{"OpenImageIO/", {"ods/image/image_file.cpp"}},
                                                               {"embree", {"ods/cpu/embree_scene.cpp"}},
                                                               {"CLI/", {"cli/options.cpp"}},
+                                                              {"OpenEXR/", {"ods/image/exr_rows.cpp"}},
+                                                              {"libdeflate", {"ods/image/exr_rows.cpp"}},
                                                               {"libavcodec/", kAvFiles},
                                                               {"libavformat/", kAvFiles},
                                                               {"pango/", {"ods/image/lettering.cpp"}}};

@@ -111,8 +111,9 @@ TEST(Filter, PixelsOfARowAreWhatTheyAreAlone) {
     const vec2 start = vec2(32.3f, 16.1f) - 10.0f * step;
     std::vector<TexelFilter> filters(20);
     for (size_t i = 0; i < 20; i++) {
-      ASSERT_TRUE(
-          texel_filter({vec2(length(step), 0.0f), vec2(0.0f, 1.7f)}, start + static_cast<float>(i) * step, filters[i]));
+      const auto tents = texel_tents({vec2(length(step), 0.0f), vec2(0.0f, 1.7f)});
+      ASSERT_TRUE(tents);
+      texel_filter(*tents, start + static_cast<float>(i) * step, filters[i]);
       ASSERT_TRUE(resampler.has_all(filters[i], cell));
     }
     std::vector<float> row(20 * 14), alone(14);
@@ -139,8 +140,10 @@ TEST(Filter, ColumnsAndRowsAreThePointsTogether) {
       const vec2 at(30.3f, 15.8f);
       TexelFilter filter;
       const bool leans = turn != 0.0f && size > 1.1f;
-      ASSERT_EQ(texel_filter(footprint, at, filter), !leans) << size << " " << turn;
+      const auto tents = texel_tents(footprint);
+      ASSERT_EQ(tents.has_value(), !leans) << size << " " << turn;
       if (leans) continue;
+      texel_filter(*tents, at, filter);
       float together[3], apart[3] = {};
       resampler.fill(0, {&filter, 1}, together);
       filter_points(footprint, points);

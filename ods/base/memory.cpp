@@ -83,6 +83,7 @@ size_t available_memory(const std::string& root) {
 }
 
 void check_memory(size_t bytes, const std::string& what, const std::string& advice) {
+  if (bytes <= kSmallMemory) return;
   const size_t available = available_memory();
   if (bytes <= available) return;
   throw Error(ErrorKind::kMemory, fmt::format("{} needs {} of memory, and {} are free; {}", what, bytes_text(bytes),

@@ -13,6 +13,9 @@ namespace ods {
 // least. SIZE_MAX where none of them says. Files are looked for below root, which is for tests.
 size_t available_memory(const std::string& root = "");
 
+// So little can be asked for unasked: finding out takes longer than it is worth for thousands of small pictures.
+inline constexpr size_t kSmallMemory = size_t{8} << 20;
+
 // Throws Error(kMemory) where `what` needs more bytes than are available: how much, of how much, and what to try.
 void check_memory(size_t bytes, const std::string& what, const std::string& advice);
 

@@ -40,7 +40,7 @@ std::string file_identity(const std::string& path) {
 
 std::vector<unsigned char> read_start(const std::string& path, size_t count) {
   count = std::min(count, file_size(path));
-  const size_t available = available_memory();
+  const size_t available = count > kSmallMemory ? available_memory() : count;
   if (count > available) {
     throw cannot_read(
         path, fmt::format("{} of it are needed, and {} of memory are free", bytes_text(count), bytes_text(available)));

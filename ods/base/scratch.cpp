@@ -57,19 +57,17 @@ static int open_locked(const std::string& path) {
   throw Error(ErrorKind::kOutput, fmt::format("another ods is at work on '{}'", path));
 }
 
-static void* map_memory(size_t size) {
+// By the heap, which has the pages of pictures that are gone for the next ones.
+static void* allocate(size_t size) {
   check_memory(size, "the picture", "use a machine with more, or a smaller picture");
-  void* map = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (map == MAP_FAILED) {
-    throw Error(ErrorKind::kMemory,
-                fmt::format("the picture needs {} of memory: {}", bytes_text(size), std::strerror(errno)));
-  }
-  return map;
+  void* memory = std::calloc(size, 1);
+  if (!memory) throw Error(ErrorKind::kMemory, fmt::format("the picture needs {} of memory", bytes_text(size)));
+  return memory;
 }
 
 Scratch::Scratch(size_t size, const std::string& folder, size_t most_in_memory)
     : size_(std::max<size_t>(size, 1)), on_disk_(size > most_in_memory && !folder.empty()) {
-  data_ = static_cast<std::byte*>(on_disk_ ? map_file(folder, size_) : map_memory(size_));
+  data_ = static_cast<std::byte*>(on_disk_ ? map_file(folder, size_) : allocate(size_));
 }
 
 Scratch::Scratch(size_t size, const std::string& file)
@@ -93,7 +91,7 @@ Scratch::Scratch(size_t size, const std::string& file)
 }
 
 Scratch::~Scratch() {
-  munmap(data_, size_);
+  on_disk_ ? static_cast<void>(munmap(data_, size_)) : std::free(data_);
   if (file_ >= 0) close(file_);
 }
 

@@ -20,6 +20,7 @@
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
 #include "ods/image/exr_header.h"
+#include "ods/image/exr_rows.h"
 #include "ods/image/jpeg_segments.h"
 #include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
@@ -27,21 +28,8 @@
 namespace ods {
 
 static const char* plugin_name(FileFormat format) {
-  switch (format) {
-    case FileFormat::kPng:
-      return "png";
-    case FileFormat::kJpeg:
-      return "jpeg";
-    case FileFormat::kTiff:
-      return "tiff";
-    case FileFormat::kWebp:
-      return "webp";
-    case FileFormat::kHdr:
-      return "hdr";
-    case FileFormat::kExr:
-      return "openexr";
-  }
-  return "";
+  constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // as FileFormat counts
+  return kNames[static_cast<size_t>(format)];
 }
 
 // Debian builds OpenImageIO so that it comments on broken files on stderr; that is not a library's place. It and
@@ -286,7 +274,8 @@ struct RowReader::State {
   std::string path;
   Reader reader;
   FileInfo info;
-  OIIO::TypeDesc type;  // of all samples; UNKNOWN: as info.samples has them
+  OIIO::TypeDesc type;           // of all samples; UNKNOWN: as info.samples has them
+  std::unique_ptr<ExrRows> exr;  // for rows of EXRs that it knows
   std::map<size_t, unsigned> beyond_floats;
   float multiplied = 0.0f;  // integers that OpenImageIO hands out multiplied by alpha to this power; 0: not
 };
@@ -295,7 +284,7 @@ static bool says_unassociated(const OIIO::ImageSpec& spec) {
   return spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
 }
 
-RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}, {}}) {
+RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}, {}, {}}) {
   State& state = *state_;
   state.info = info_of(state.reader.spec);
   if (state.info.is_float && says_unassociated(state.reader.spec)) state.reader = open_reader(path, false);
@@ -314,6 +303,7 @@ RowReader::RowReader(const std::string& path) : state_(new State{path, open_read
   if (!as_they_are) {
     for (Sample& sample : state.info.samples) sample = state.info.is_float ? Sample::kFloat : Sample::kUint16;
   }
+  if (state.reader.format == FileFormat::kExr && as_they_are) state.exr = ExrRows::open(path, spec.channelnames);
   // OpenImageIO multiplies WebP whatever it is asked, with a curve of its own.
   if (!state.info.is_float && spec.alpha_channel >= 0 && !says_unassociated(spec)) {
     state.multiplied = state.reader.format == FileFormat::kWebp ? 1.0f / 2.2f : 1.0f;
@@ -342,10 +332,16 @@ void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
   OIIO::ImageInput& input = *state.reader.input;
   const OIIO::ImageSpec& spec = state.reader.spec;
   const int count = static_cast<int>(channels), top = spec.y + begin, bottom = spec.y + end;
-  const bool read = spec.tile_width > 0 ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, 0, 1, 0,
-                                                           count, state.type, to)
-                                        : input.read_scanlines(0, 0, top, bottom, 0, 0, count, state.type, to);
-  if (!read) throw cannot_read(state.path, one_line(input.geterror()));
+  const auto read_by_openimageio = [&] {
+    return spec.tile_width > 0
+               ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, 0, 1, 0, count, state.type, to)
+               : input.read_scanlines(0, 0, top, bottom, 0, 0, count, state.type, to);
+  };
+  if (state.exr) {
+    state.exr->read(begin, end, channels, to);
+  } else if (!read_by_openimageio()) {
+    throw cannot_read(state.path, one_line(input.geterror()));
+  }
   const std::vector<Sample>& samples = state.info.samples;
   size_t stride = 0;
   for (size_t c = 0; c < channels; c++) stride += bytes_of(samples[c]);

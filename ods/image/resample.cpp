@@ -6,7 +6,6 @@
 #include <bit>
 #include <cassert>
 #include <climits>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
@@ -15,64 +14,6 @@
 #include "ods/image/tone.h"
 
 namespace ods {
-
-// --- the filter ----------------------------------------------------------------------------------------------------
-
-// Below this the picture is only interpolated: half a texel's hundredth of blur would cost its sharpness for nothing.
-static const float kLeastRadius = 0.15f;
-static const int kMostPoints = 65;  // along one axis
-
-// Points an equal step apart. Their weights, 1 together, rise and fall by equal steps.
-struct Tent {
-  int count = 1;
-  float offset = 0.0f;  // of the first point
-  float step = 0.0f;
-  float first_weight = 1.0f;
-
-  float at(int i) const { return offset + step * static_cast<float>(i); }
-  float weight(int i) const { return first_weight * static_cast<float>(std::min(2 * i + 1, 2 * (count - i) - 1)); }
-};
-
-// Points whose variance is the tent's own, radius^2 / 6. Those of a tent of radius 1 have a somewhat larger one, by the
-// sums of 1, 3, 5, ... and their squares and cubes: a sixth of `variance`.
-static Tent make_tent(float variance_of_6) {
-  Tent tent;
-  if (variance_of_6 < kLeastRadius * kLeastRadius) return tent;
-  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * std::sqrt(variance_of_6))), kMostPoints);
-  const bool even = tent.count % 2 == 0;
-  const float n = static_cast<float>(tent.count), nn = n * n;
-  const float variance = even ? 1.0f + 2.0f / nn : (nn - 1.0f) * (nn + 3.0f) / (nn * (nn + 1.0f));
-  const float radius = std::sqrt(variance_of_6 / variance);
-  tent.first_weight = 2.0f / (even ? nn : nn + 1.0f);
-  tent.step = 2.0f * radius / n;
-  tent.offset = 0.5f * tent.step - radius;
-  return tent;
-}
-
-void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points) {
-  const vec2 dx = footprint.dx, dy = footprint.dy;
-  // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, and s^2 along them.
-  const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
-  points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
-  if (xx + yy <= 1.0f) return;
-  const float middle = 0.5f * (xx + yy), half = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
-  const float large = middle + half, small = middle - half;
-  const Tent along = make_tent(large - 1.0f), across = make_tent(small - 1.0f);
-  if (along.count == 1 || !std::isfinite(large)) return;
-  vec2 axis = xx >= yy ? vec2(large - yy, xy) : vec2(xy, large - xx);
-  axis = length(axis) > 0.0f ? normalize(axis) : vec2(1.0f, 0.0f);
-  const vec2 other(-axis.y, axis.x);
-  const auto back = [&](vec2 v, float square) { return vec2(dot(dx, v), dot(dy, v)) / square; };
-  const vec2 pixels_along = back(axis, large), pixels_across = small > 0.5f ? back(other, small) : vec2(0.0f);
-  points.clear();
-  for (int j = 0; j < across.count; j++) {
-    for (int i = 0; i < along.count; i++) {
-      const float t = along.at(i), u = across.at(j);
-      points.push_back(
-          {axis * t + other * u, pixels_along * t + pixels_across * u, along.weight(i) * across.weight(j)});
-    }
-  }
-}
 
 // --- texels --------------------------------------------------------------------------------------------------------
 
@@ -269,71 +210,6 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
 
 Resampler::~Resampler() = default;
 
-// Catmull-Rom, for the texels at -1, 0, 1 and 2.
-static Four cubic_weights(float t) {
-  const Four once{-0.5f, 0.0f, 0.5f, 0.0f}, squared{1.0f, -2.5f, 2.0f, -0.5f}, cubed{-0.5f, 1.5f, -1.5f, 0.5f};
-  const Four middle{0.0f, 1.0f, 0.0f, 0.0f};
-  return middle + t * (once + t * (squared + t * cubed));
-}
-
-struct Position {
-  int texel;
-  float beyond;  // its middle
-};
-
-// A place this near to the middle of a texel is meant to be there: angles and their way back leave that much.
-static Position split(float at) {
-  const float kTolerance = 1.0f / 256.0f;
-  const float from = at - 0.5f;
-  const int towards_0 = static_cast<int>(from), whole = towards_0 - (static_cast<float>(towards_0) > from ? 1 : 0);
-  const float beyond = from - static_cast<float>(whole);
-  if (beyond < kTolerance) return {whole, 0.0f};
-  if (beyond > 1.0f - kTolerance) return {whole + 1, 0.0f};
-  return {whole, beyond};
-}
-
-static void set_weights(float at, const Tent& tent, TexelWeights& to) {
-  if (tent.count == 1) {
-    const Position position = split(at);
-    to.first = position.texel - 1;
-    to.count = 4;
-    const Four weights = cubic_weights(position.beyond);
-    std::memcpy(to.weights, &weights, sizeof weights);
-    return;
-  }
-  Position position = split(at + tent.at(0));
-  to.first = position.texel - 1;
-  to.count = 0;
-  Four sums{};  // of the four weights from to.count on, to which points still add
-  for (int i = 0, texel = position.texel; i < tent.count; i++) {
-    position = split(at + tent.at(i));
-    for (; texel < position.texel; texel++) {
-      to.weights[to.count++] = sums[0];
-      sums = Four{sums[1], sums[2], sums[3], 0.0f};
-    }
-    sums += cubic_weights(position.beyond) * tent.weight(i);
-  }
-  std::memcpy(to.weights + to.count, &sums, sizeof sums);
-  to.count += 4;
-}
-
-bool texel_filter(const Footprint& footprint, vec2 at, TexelFilter& filter) {
-  // Beyond it the ellipse leans so far that columns and rows tell another one.
-  const float kMostLean = 0.1f;
-  // A filter this wide has fewer texels than there is room for.
-  const float kMostRadius = 12.0f;
-  // An ellipse within this circle is only interpolated, however it leans.
-  const float kSharp = 1.0f + kLeastRadius * kLeastRadius;
-  const vec2 dx = footprint.dx, dy = footprint.dy;
-  const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
-  const bool sharp = xx < kSharp && yy < kSharp && xy * xy < (kSharp - xx) * (kSharp - yy);
-  const bool fits = xx + yy < kMostRadius * kMostRadius && xy * xy <= kMostLean * kMostLean * xx * yy;
-  if (!sharp && !fits) return false;
-  set_weights(at.x, sharp ? Tent() : make_tent(xx - 1.0f), filter.across);
-  set_weights(at.y, sharp ? Tent() : make_tent(yy - 1.0f), filter.down);
-  return true;
-}
-
 // A fisheye's circle has them if it has their corners.
 bool Resampler::has_all(const TexelFilter& filter, const Cell& cell) const {
   const int left = filter.across.first, right = left + filter.across.count - 1;
@@ -346,8 +222,7 @@ bool Resampler::has_all(const TexelFilter& filter, const Cell& cell) const {
 
 void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
   TexelFilter filter;
-  set_weights(place.at.x, Tent(), filter.across);
-  set_weights(place.at.y, Tent(), filter.down);
+  texel_filter({}, place.at, filter);
   const int left = filter.across.first, top = filter.down.first;
   const bool inside = has_all(filter, cell);
   Texel around[16];
@@ -412,10 +287,11 @@ void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) 
   }
 }
 
-bool PixelRun::add(const Footprint& footprint, vec2 at, float* pixel) {
+bool PixelRun::add(const std::optional<TexelTents>& tents, const vec2& at, float* pixel) {
   if (waiting_ == std::size(filters_)) fill();
   TexelFilter& filter = filters_[waiting_];
-  if (!texel_filter(footprint, at, filter) || !resampler_.has_all(filter, cell_)) {
+  if (tents) texel_filter(*tents, at, filter);
+  if (!tents || !resampler_.has_all(filter, cell_)) {
     fill();
     return false;
   }
@@ -429,13 +305,14 @@ void PixelRun::fill() {
 }
 
 void Resampler::finish(const Place& place, float* out) const {
+  if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
+  if (nearest_.empty()) return;
   const Extent size = source_.picture->size;
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
   for (const Group& group : nearest_) {
     group.read_numbers(group.block(source_, place.eye, x, y).first, group.count, out + group.first);
   }
-  if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
 }
 
 }  // namespace ods

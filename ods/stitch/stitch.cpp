@@ -25,6 +25,14 @@ namespace {
 // The views of one slit of an eye, from the top; none where one is at fault.
 using Slit = std::vector<std::shared_ptr<const View>>;
 
+// The columns of a batch that a slit shows, and how much it counts in each.
+struct Part {
+  int place;  // along the picture, beyond whose last slit is its first
+  int left;
+  int right;  // one behind
+  std::vector<float> weights;
+};
+
 // Places along the picture that are filled at once, each from the middle of a slit to that of the next one.
 struct Batch {
   size_t index;  // of both eyes' batches
@@ -32,6 +40,7 @@ struct Batch {
   int last;   // one behind
   int left;   // column; those beyond the picture's last go on at its first
   int right;  // one behind
+  std::vector<Part> parts;
 };
 
 // What the views add up to for a part of a row.
@@ -51,7 +60,7 @@ struct RowSums {
 
 class Stitcher {
  public:
-  Stitcher(const SlitRig& rig, const OpenView& open) : rig_(rig), open_(open), camera_(make_camera(rig.camera)) {}
+  Stitcher(const SlitRig& rig, const OpenView& open) : rig_(rig), open_(open) {}
   void choose_form(const StitchOptions& options);
   void make_eye(size_t eye, const std::function<void(int slit)>& done);
   Stitched finish();
@@ -65,8 +74,9 @@ class Stitcher {
   int slits_at_once() const;
   std::map<int, Slit> open_slits(size_t eye, int first, int last, const std::map<int, Slit>& open);
   std::shared_ptr<const View> open_view(size_t index);
-  void fill_row(size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y);
-  void add_view(const View& view, const PictureRays& rays, int place, float pitch_part, int y, RowSums& row);
+  std::vector<Part> parts_of(const Batch& batch) const;
+  void fill_row(const SlitRows& rows, size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y);
+  void add_part(const Part& part, const float* seen, float share, RowSums& row) const;
   float slit_weight(int place, int x) const;
   float pitch_weight(int pitch, int y) const;
   float place_of(int x) const;
@@ -74,7 +84,6 @@ class Stitcher {
 
   const SlitRig& rig_;
   const OpenView& open_;
-  Camera camera_;
   ViewForm form_;                        // what all views have
   std::optional<StoredPicture> sample_;  // the view that told it
   size_t sample_index_ = 0;
@@ -133,7 +142,8 @@ std::vector<Batch> Stitcher::batches_of(size_t eye) const {
   std::vector<Batch> batches;
   for (int place = first; place < end; place += step) {
     const int stop = std::min(place + step, end);
-    batches.push_back({0, place, stop, edge(place), edge(stop)});
+    Batch& batch = batches.emplace_back(Batch{0, place, stop, edge(place), edge(stop), {}});
+    batch.parts = parts_of(batch);
   }
   for (size_t i = 0; i < batches.size(); i++) batches[i].index = eye * batches.size() + i;
   return batches;
@@ -230,53 +240,64 @@ float Stitcher::pitch_weight(int pitch, int y) const {
   return outermost ? 1.0f : weight_at(std::abs(beyond), 2.0f * pitch_fade(rig_) / pitch_height(rig_));
 }
 
-// What one view adds to a row of a batch.
-void Stitcher::add_view(const View& view, const PictureRays& rays, int place, float pitch_part, int y, RowSums& row) {
+std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
   const double reach = 0.5 * (1.0 + static_cast<double>(rig_.options.blend));
-  int left = std::max(row.left, column_at(place - reach)), right = std::min(row.right, column_at(place + reach));
-  if (!goes_round(rig_) && place == 0) left = row.left;
-  if (!goes_round(rig_) && place == rig_.options.slits - 1) right = row.right;
-  if (left >= right) return;
-  const size_t channels = form_.channels;
-  thread_local std::vector<float> seen;
-  seen.resize(static_cast<size_t>(right - left) * channels);
-  unseen_ += view.fill(rays, y, left, seen);
-  for (int x = left; x < right; x++) {
-    const size_t i = static_cast<size_t>(x - row.left);
-    const float weight = pitch_part * slit_weight(place, x);
-    const float* from = &seen[static_cast<size_t>(x - left) * channels];
-    float* sums = &row.sums[i * channels];
-    for (size_t c = 0; c < channels; c++) {
-      if (!form_.is_nearest[c]) sums[c] += weight * from[c];
-      if (form_.is_nearest[c] && weight > row.most[i]) sums[c] = from[c];
+  std::vector<Part> parts;
+  for (int place = batch.first; place <= batch.last; place++) {
+    if (!goes_round(rig_) && slit_of(place) != place) continue;
+    Part part{
+        place, std::max(batch.left, column_at(place - reach)), std::min(batch.right, column_at(place + reach)), {}};
+    if (!goes_round(rig_) && place == 0) part.left = batch.left;
+    if (!goes_round(rig_) && place == rig_.options.slits - 1) part.right = batch.right;
+    for (int x = part.left; x < part.right; x++) part.weights.push_back(slit_weight(place, x));
+    if (!part.weights.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+// What one view adds to a row of a batch.
+void Stitcher::add_part(const Part& part, const float* seen, float share, RowSums& row) const {
+  const size_t channels = form_.channels, from = static_cast<size_t>(part.left - row.left);
+  float *sums = &row.sums[from * channels], *whole = &row.whole[from], *most = &row.most[from];
+  for (const float in_slit : part.weights) {
+    const float weight = share * in_slit;
+    for (size_t c = 0; c < form_.first_nearest; c++) sums[c] += weight * seen[c];
+    for (size_t c = form_.first_nearest; c < channels; c++) {
+      if (!form_.is_nearest[c]) sums[c] += weight * seen[c];
+      if (form_.is_nearest[c] && weight > *most) sums[c] = seen[c];
     }
-    row.whole[i] += weight;
-    row.most[i] = std::max(row.most[i], weight);
+    *whole++ += weight;
+    *most = std::max(*most, weight), most++;
+    seen += channels, sums += channels;
   }
 }
 
-void Stitcher::fill_row(size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y) {
+void Stitcher::fill_row(const SlitRows& rows, size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y) {
   const size_t width = static_cast<size_t>(rig_.eye.width), channels = form_.channels;
-  const PictureRays rays{camera_, rig_.eyes[eye], {rig_.eye.width, rig_.eye.height}};
   thread_local RowSums row;
+  thread_local std::vector<float> seen;
   row.start(batch.left, batch.right, channels);
-  for (int place = batch.first; place <= batch.last; place++) {
-    if (!goes_round(rig_) && slit_of(place) != place) continue;
-    for (int pitch = 0; pitch < rig_.options.pitches; pitch++) {
-      const float part = pitch_weight(pitch, y);
-      const View* view = part > 0.0f ? slits.at(slit_of(place))[static_cast<size_t>(pitch)].get() : nullptr;
-      if (view) add_view(*view, rays, place, part, y, row);
+  int unseen = 0;
+  for (int pitch = 0; pitch < rig_.options.pitches; pitch++) {
+    const float share = pitch_weight(pitch, y);
+    if (share <= 0.0f) continue;
+    for (const Part& part : batch.parts) {
+      const int slit = slit_of(part.place);
+      const View* view = slits.at(slit)[static_cast<size_t>(pitch)].get();
+      if (!view) continue;
+      seen.resize(part.weights.size() * channels);
+      unseen += view->fill(rows.rays(), rows.row(part.place, slit, pitch, y), y, part.left, seen);
+      add_part(part, seen.data(), share, row);
     }
   }
   float* pixels = reinterpret_cast<float*>(picture_->data() + pixels_from_) +
                   (eye * static_cast<size_t>(rig_.eye.height) + static_cast<size_t>(y)) * width * channels;
-  for (int x = batch.left; x < batch.right; x++) {
-    const size_t i = static_cast<size_t>(x - batch.left);
-    float* out = pixels + static_cast<size_t>(x) % width * channels;
-    for (size_t c = 0; c < channels; c++) {
-      const bool is_sum = !form_.is_nearest[c] && row.whole[i] > 0.0f;
-      out[c] = row.sums[i * channels + c] / (is_sum ? row.whole[i] : 1.0f);
-    }
+  unseen_ += unseen;
+  const float* sums = row.sums.data();
+  for (int x = batch.left; x < batch.right; x++, sums += channels) {
+    const float whole = row.whole[static_cast<size_t>(x - batch.left)], scale = whole > 0.0f ? 1.0f / whole : 1.0f;
+    float* out = pixels + static_cast<size_t>(x < rig_.eye.width ? x : x - rig_.eye.width) * channels;
+    for (size_t c = 0; c < channels; c++) out[c] = sums[c] * (form_.is_nearest[c] ? 1.0f : scale);
   }
 }
 
@@ -286,6 +307,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
   batches.erase(std::remove_if(batches.begin(), batches.end(), [&](const Batch& batch) { return was_done(batch); }),
                 batches.end());
   if (batches.empty()) return;
+  const SlitRows rows(rig_, eye);
   std::map<int, Slit> slits = open_slits(eye, batches.front().first, batches.front().last, {});
   const std::map<int, Slit> start(slits.begin(), std::next(slits.begin()));  // the last one's neighbour, too
   for (size_t i = 0; i < batches.size(); i++) {
@@ -296,7 +318,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
       if (i + 1 < batches.size()) next = open_slits(eye, batches[i + 1].first, batches[i + 1].last, open);
     });
     unseen_ = 0;
-    tbb::parallel_for(0, rig_.eye.height, [&](int y) { fill_row(eye, slits, batches[i], y); });
+    tbb::parallel_for(0, rig_.eye.height, [&](int y) { fill_row(rows, eye, slits, batches[i], y); });
     ahead.wait();
     set_done(batches[i]);
     slits = std::move(next);

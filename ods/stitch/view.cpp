@@ -19,6 +19,8 @@ ViewForm form_of(const StoredPicture& picture) {
     form.channels += layer.channels.size();
     form.is_nearest.resize(form.channels, layer.rule == LayerRule::kNearest);
   }
+  const auto first = std::find(form.is_nearest.begin(), form.is_nearest.end(), 1);
+  form.first_nearest = static_cast<size_t>(first - form.is_nearest.begin());
   return form;
 }
 
@@ -37,7 +39,7 @@ View::View(StoredPicture picture, const CameraRig& pose, ViewDepth depth)
       form_(form_of(picture_)),
       source_(make_source(picture_)),
       resampler_(source_),
-      place_(pose.position) {
+      camera_(make_camera(pose)) {
   const std::optional<size_t> layer = depth_layer(picture_);
   if (!layer || depth == ViewDepth::kNone) return;
   if (depth == ViewDepth::kPlane) measure_along_rays(*layer);
@@ -67,23 +69,6 @@ void View::measure_along_rays(size_t index) {
 
 // --- pixels ----------------------------------------------------------------------------------------------------------
 
-// Where a ray of the picture lies in the view, and the one a pixel beside it, away from the picture's nearer edge.
-struct View::Look {
-  vec2 at;
-  vec2 beside;
-  float nearer;  // metres by which the view stands nearer than the ray's origin to what it meets
-};
-
-static float way_from_edge(const PictureRays& rays, float y) {
-  return 2.0f * y < rays.size.y ? 1.0f : -1.0f;
-}
-
-View::Look View::look(const PictureRays& rays, float x, float y) const {
-  const Ray ray = rays.at(x, y), beside = rays.at(x, y + way_from_edge(rays, y));
-  return {place_of_line(source_, 0, ray.direction).at, place_of_line(source_, 0, beside.direction).at,
-          dot(place_ - ray.origin, ray.direction)};
-}
-
 static Cell all_of(const StoredPicture& picture) {
   return {0, 0, picture.size.width, picture.size.height};
 }
@@ -97,24 +82,33 @@ void View::sum_points(const Footprint& footprint, const Place& place, float* out
   }
 }
 
-// Pixels whose places follow a parabola through those of the first, the middle and the last.
-void View::fill_alike(const Look (&looks)[3], int count, float way, std::span<float> out) const {
-  const auto along = [&](auto a, auto b, auto c, float t) {
+// Pixels whose places follow the row's parabola. Footprints change so slowly that a few share that of their middle.
+void View::fill_alike(const RowInView& row, float way, int left, std::span<float> out) const {
+  constexpr int kAlike = 8;
+  const RayInView *first = row.rays, *middle = first + 1, *last = first + 2;
+  const auto along = [&](auto RayInView::*part, float t) {
+    const auto a = first->*part, b = middle->*part, c = last->*part;
     return a + (b - a) * t + (c - 2.0f * b + a) * (0.5f * t * (t - 1.0f));
   };
-  const float per_pixel = count > 1 ? 2.0f / static_cast<float>(count - 1) : 0.0f;
-  const vec2 step = looks[1].at - looks[0].at, bend = looks[2].at - 2.0f * looks[1].at + looks[0].at;
+  const vec2 step = middle->at - first->at, bend = last->at - 2.0f * middle->at + first->at;
+  const float per_pixel = 1.0f / row.reach, from = (static_cast<float>(left) + 0.5f - row.middle) * per_pixel + 1.0f;
+  const int count = static_cast<int>(out.size() / form_.channels);
   PixelRun run(resampler_, 0, all_of(picture_));
-  for (int i = 0; i < count; i++) {
-    const float t = static_cast<float>(i) * per_pixel;
-    const Place place{0, along(looks[0].at, looks[1].at, looks[2].at, t), true};
-    const vec2 beside = along(looks[0].beside, looks[1].beside, looks[2].beside, t);
-    const Footprint footprint{(step + bend * (t - 0.5f)) * per_pixel, (beside - place.at) * way};
-    float* pixel = &out[static_cast<size_t>(i) * form_.channels];
-    if (!run.add(footprint, place.at, pixel)) sum_points(footprint, place, pixel);
+  Footprint footprint;
+  std::optional<TexelTents> tents;
+  float* pixel = out.data();
+  for (int i = 0; i < count; i++, pixel += form_.channels) {
+    const float t = from + static_cast<float>(i) * per_pixel;
+    if (i % kAlike == 0) {
+      const float there = t + 0.5f * static_cast<float>(std::min(kAlike, count - i) - 1) * per_pixel;
+      footprint = {(step + bend * (there - 0.5f)) * per_pixel,
+                   (along(&RayInView::beside, there) - along(&RayInView::at, there)) * way};
+      tents = texel_tents(footprint);
+    }
+    const Place place{0, along(&RayInView::at, t), true};
+    if (!run.add(tents, place.at, pixel)) sum_points(footprint, place, pixel);
     resampler_.finish(place, pixel);
-    if (form_.depth < 0 || pixel[form_.depth] >= 0.1f * kFarDepth) continue;
-    pixel[form_.depth] += along(looks[0].nearer, looks[1].nearer, looks[2].nearer, t);
+    if (form_.depth >= 0 && pixel[form_.depth] < 0.1f * kFarDepth) pixel[form_.depth] += along(&RayInView::nearer, t);
   }
   run.fill();
 }
@@ -122,15 +116,15 @@ void View::fill_alike(const Look (&looks)[3], int count, float way, std::span<fl
 // Each by itself, through the view's surfaces if they are known.
 bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
   const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
-  const Look own = look(rays, px, py);
-  const vec2 right = place_of_line(source_, 0, rays.at(px + 1.0f, py).direction).at;
-  const Footprint footprint{right - own.at, (own.beside - own.at) * way_from_edge(rays, py)};
+  const RayInView own = ray_in_view(camera_, picture_.size, rays, px, py);
+  const RayInView right = ray_in_view(camera_, picture_.size, rays, px + 1.0f, py);
+  const Footprint footprint{right.at - own.at, (own.beside - own.at) * rays.way(py)};
   const Ray ray = rays.at(px, py);
   const SurfaceHit met =
-      surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - place_, ray.direction}) : SurfaceHit{{}, kFarDepth};
+      surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - camera_.center, ray.direction}) : SurfaceHit{{}, kFarDepth};
   const Place place = met.place.seen ? met.place : Place{0, own.at, true};
   PixelRun run(resampler_, 0, all_of(picture_));
-  if (!run.add(footprint, place.at, out)) sum_points(footprint, place, out);
+  if (!run.add(texel_tents(footprint), place.at, out)) sum_points(footprint, place, out);
   run.fill();
   resampler_.finish(place, out);
   if (form_.depth < 0) return met.place.seen || !surfaces_;
@@ -143,19 +137,15 @@ bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
   return met.place.seen || !surfaces_;
 }
 
-int View::fill(const PictureRays& rays, int y, int left, std::span<float> out) const {
-  const int count = static_cast<int>(out.size() / form_.channels);
-  const float py = static_cast<float>(y) + 0.5f, from = static_cast<float>(left) + 0.5f;
-  if (!surfaces_ && count > 2) {
-    const float way = static_cast<float>(count - 1);
-    const Look looks[] = {look(rays, from, py), look(rays, from + 0.5f * way, py), look(rays, from + way, py)};
-    const vec2 bend = looks[2].at - 2.0f * looks[1].at + looks[0].at;
-    const vec2 turn = looks[2].beside - 2.0f * looks[1].beside + looks[0].beside;
-    if (length(bend) < 1.0f && length(turn) < 1.0f) {
-      fill_alike(looks, count, way_from_edge(rays, py), out);
-      return 0;
-    }
+int View::fill(const PictureRays& rays, const RowInView& row, int y, int left, std::span<float> out) const {
+  const RayInView* at = row.rays;
+  const vec2 bend = at[2].at - 2.0f * at[1].at + at[0].at;
+  const vec2 turn = at[2].beside - 2.0f * at[1].beside + at[0].beside;
+  if (!surfaces_ && length(bend) < 1.0f && length(turn) < 1.0f) {
+    fill_alike(row, rays.way(static_cast<float>(y) + 0.5f), left, out);
+    return 0;
   }
+  const int count = static_cast<int>(out.size() / form_.channels);
   int unseen = 0;
   for (int i = 0; i < count; i++) {
     unseen += fill_pixel(rays, left + i, y, &out[static_cast<size_t>(i) * form_.channels]) ? 0 : 1;

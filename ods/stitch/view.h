@@ -10,7 +10,7 @@
 #include "ods/image/reproject.h"
 #include "ods/image/resample.h"
 #include "ods/image/save.h"
-#include "ods/stitch/slit_rig.h"
+#include "ods/stitch/slit_rows.h"
 
 namespace ods {
 
@@ -19,20 +19,11 @@ struct ViewForm {
   std::vector<RowLayer> layers;
   size_t channels = 0;
   std::vector<char> is_nearest;  // of every channel: never averaged
+  size_t first_nearest = 0;      // that channel; all, if none is
   int depth = -1;                // the channel of metres; below 0: there is none
 };
 ViewForm form_of(const StoredPicture& picture);
 bool same_layers(const ViewForm& a, const ViewForm& b);
-
-// The rays of one eye of the picture that is put together.
-struct PictureRays {
-  Camera camera;
-  int eye = kMono;
-  vec2 size{1.0f};  // pixels
-
-  // Places in pixels from the left and top edge; the middle of the first is 0.5.
-  Ray at(float x, float y) const { return camera_ray(camera, eye, vec2(x, y) / size); }
-};
 
 class View {
  public:
@@ -44,14 +35,12 @@ class View {
   // All channels of the picture's pixels in row y from column `left` on, as many as `out` has room for: what their rays
   // meet, averaged over them; depth is along their rays. Columns beyond the last one go on at the first. Returns the
   // number of those that the view does not show what their ray meets; what is far behind stands in.
-  int fill(const PictureRays& rays, int y, int left, std::span<float> out) const;
+  int fill(const PictureRays& rays, const RowInView& row, int y, int left, std::span<float> out) const;
 
  private:
-  struct Look;
-  Look look(const PictureRays& rays, float x, float y) const;
   void measure_along_rays(size_t layer);
   void sum_points(const Footprint& footprint, const Place& place, float* out) const;
-  void fill_alike(const Look (&looks)[3], int count, float way, std::span<float> out) const;
+  void fill_alike(const RowInView& row, float way, int left, std::span<float> out) const;
   bool fill_pixel(const PictureRays& rays, int x, int y, float* out) const;
 
   StoredPicture picture_;
@@ -60,7 +49,7 @@ class View {
   Source source_;
   Resampler resampler_;
   std::optional<Reprojection> surfaces_;
-  vec3 place_;
+  Camera camera_;
 };
 
 }  // namespace ods

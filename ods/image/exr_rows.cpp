@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/exr_rows.h"
+
+#include <OpenEXR/openexr.h>
+#include <fmt/format.h>
+#include <libdeflate.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "ods/base/error.h"
+
+namespace ods {
+
+namespace {
+
+// --- what ZIP has packed --------------------------------------------------------------------------------------------
+
+// A register of the processor. Both g++ and clang know it so.
+using Bytes = uint8_t __attribute__((vector_size(16)));
+
+// Every byte became its difference to the one before it, and 128.
+void add_up(uint8_t* bytes, size_t count) {
+  const Bytes zero{}, offset = zero + uint8_t{128};
+  Bytes before = offset;
+  size_t i = 0;
+  for (; i + sizeof(Bytes) <= count; i += sizeof(Bytes)) {
+    Bytes sum;
+    std::memcpy(&sum, bytes + i, sizeof sum);
+    sum += offset;
+    sum += __builtin_shufflevector(zero, sum, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30);
+    sum += __builtin_shufflevector(zero, sum, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29);
+    sum += __builtin_shufflevector(zero, sum, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27);
+    sum += __builtin_shufflevector(zero, sum, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23);
+    sum += before;
+    std::memcpy(bytes + i, &sum, sizeof sum);
+    before = zero + sum[15];
+  }
+  for (uint8_t last = before[0]; i < count; i++) bytes[i] = last = static_cast<uint8_t>(bytes[i] + last + 128);
+}
+
+// Those at even places stand before those at odd ones.
+void interleave(const uint8_t* bytes, size_t count, uint8_t* to) {
+  const uint8_t *even = bytes, *odd = bytes + (count + 1) / 2;
+  for (size_t i = 0; i < count / 2; i++) to[2 * i] = even[i], to[2 * i + 1] = odd[i];
+  if (count % 2 == 1) to[count - 1] = even[count / 2];
+}
+
+struct Inflater {
+  libdeflate_decompressor* state = libdeflate_alloc_decompressor();
+  std::vector<uint8_t> bytes;
+  Inflater() = default;
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+  ~Inflater() { libdeflate_free_decompressor(state); }
+};
+
+exr_result_t unpack_zip(exr_decode_pipeline_t* decode) {
+  thread_local Inflater inflater;
+  const size_t packed = decode->chunk.packed_size, size = decode->chunk.unpacked_size;
+  uint8_t* to = static_cast<uint8_t*>(decode->unpacked_buffer);
+  if (packed == size) {  // it would have grown
+    std::memcpy(to, decode->packed_buffer, size);
+    return EXR_ERR_SUCCESS;
+  }
+  inflater.bytes.resize(size);
+  if (!inflater.state || libdeflate_zlib_decompress(inflater.state, decode->packed_buffer, packed,
+                                                    inflater.bytes.data(), size, nullptr) != LIBDEFLATE_SUCCESS) {
+    return EXR_ERR_CORRUPT_CHUNK;
+  }
+  add_up(inflater.bytes.data(), size);
+  interleave(inflater.bytes.data(), size, to);
+  return EXR_ERR_SUCCESS;
+}
+
+// --- files ----------------------------------------------------------------------------------------------------------
+
+void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
+
+constexpr int64_t kWidest = int64_t{1} << 20;
+constexpr uint64_t kLargestChunk = uint64_t{1} << 28;  // bytes, unpacked
+
+struct Pipeline {
+  exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_const_context_t file;
+  explicit Pipeline(exr_const_context_t of) : file(of) {}
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+  ~Pipeline() { exr_decoding_destroy(file, &decode); }
+};
+
+}  // namespace
+
+struct ExrRows::State {
+  std::string path;
+  exr_context_t file = nullptr;
+  int width = 0;
+  int top = 0;         // the first row as the file counts
+  int chunk_rows = 1;  // that are packed together
+  struct Channel {
+    int index = -1;  // among those that are wanted; below 0: this one is not
+    size_t bytes = 0;
+  };
+  std::vector<Channel> channels;  // as the file has them
+
+  ~State() {
+    if (file) exr_finish(&file);
+  }
+  bool find_channels(const std::vector<std::string>& wanted);
+  void read_chunk(int row, int begin, int end, size_t channels, std::byte* to) const;
+};
+
+bool ExrRows::State::find_channels(const std::vector<std::string>& wanted) {
+  const exr_attr_chlist_t* list = nullptr;
+  if (exr_get_channels(file, 0, &list) != EXR_ERR_SUCCESS) return false;
+  size_t found = 0;
+  uint64_t bytes = 0;
+  for (int i = 0; i < list->num_channels; i++) {
+    const exr_attr_chlist_entry_t& entry = list->entries[i];
+    if (entry.x_sampling != 1 || entry.y_sampling != 1) return false;
+    const auto at = std::find(wanted.begin(), wanted.end(), entry.name.str);
+    const bool is_wanted = at != wanted.end();
+    found += is_wanted ? 1 : 0;
+    channels.push_back(
+        {is_wanted ? static_cast<int>(at - wanted.begin()) : -1, entry.pixel_type == EXR_PIXEL_HALF ? size_t{2} : 4});
+    bytes += channels.back().bytes;
+  }
+  const uint64_t row = bytes * static_cast<uint64_t>(width);
+  return found == wanted.size() && row * static_cast<uint64_t>(chunk_rows) < kLargestChunk;
+}
+
+std::unique_ptr<ExrRows> ExrRows::open(const std::string& path, const std::vector<std::string>& channels) {
+  auto state = std::make_unique<State>();
+  state->path = path;
+  exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  options.error_handler_fn = say_nothing;
+  if (exr_start_read(&state->file, path.c_str(), &options) != EXR_ERR_SUCCESS) return nullptr;
+  exr_storage_t storage;
+  exr_compression_t packing;
+  exr_attr_box2i_t window;
+  int32_t chunk_rows = 0;
+  const auto got = [](exr_result_t result) { return result == EXR_ERR_SUCCESS; };
+  if (!got(exr_get_storage(state->file, 0, &storage)) || storage != EXR_STORAGE_SCANLINE ||
+      !got(exr_get_compression(state->file, 0, &packing)) ||
+      (packing != EXR_COMPRESSION_ZIP && packing != EXR_COMPRESSION_ZIPS) ||
+      !got(exr_get_data_window(state->file, 0, &window)) ||
+      !got(exr_get_scanlines_per_chunk(state->file, 0, &chunk_rows)) || chunk_rows < 1) {
+    return nullptr;
+  }
+  const int64_t width = int64_t{window.max.x} - window.min.x + 1;
+  if (width < 1 || width > kWidest) return nullptr;
+  state->width = static_cast<int>(width);
+  state->top = window.min.y;
+  state->chunk_rows = chunk_rows;
+  if (!state->find_channels(channels)) return nullptr;
+  return std::unique_ptr<ExrRows>(new ExrRows(std::move(state)));
+}
+
+ExrRows::ExrRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ExrRows::~ExrRows() = default;
+
+// The chunk that starts at a row; what of it is wanted, if not all, by way of rows of our own.
+void ExrRows::State::read_chunk(int row, int begin, int end, size_t wanted, std::byte* to) const {
+  size_t stride = 0;
+  std::vector<size_t> offsets(wanted);
+  for (size_t i = 0; i < wanted; i++) {
+    const auto is_it = [&](const Channel& channel) { return channel.index == static_cast<int>(i); };
+    offsets[i] = stride;
+    stride += std::find_if(channels.begin(), channels.end(), is_it)->bytes;
+  }
+  const size_t row_size = stride * static_cast<size_t>(width);
+  const auto failed = [&] {
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': its rows from {} on are damaged", path, row));
+  };
+  Pipeline pipeline(file);
+  exr_chunk_info_t chunk;
+  if (exr_read_scanline_chunk_info(file, 0, top + row, &chunk) != EXR_ERR_SUCCESS || chunk.start_y != top + row ||
+      exr_decoding_initialize(file, 0, &chunk, &pipeline.decode) != EXR_ERR_SUCCESS ||
+      static_cast<size_t>(pipeline.decode.channel_count) != channels.size()) {
+    failed();
+  }
+  const bool whole = begin <= row && row + chunk.height <= end;
+  std::vector<std::byte> own(whole ? 0 : row_size * static_cast<size_t>(chunk.height));
+  std::byte* first = whole ? to + static_cast<size_t>(row - begin) * row_size : own.data();
+  for (size_t i = 0; i < channels.size(); i++) {
+    exr_coding_channel_info_t& channel = pipeline.decode.channels[i];
+    const int index = channels[i].index;
+    channel.decode_to_ptr = nullptr;
+    if (index < 0 || static_cast<size_t>(index) >= wanted) continue;
+    channel.decode_to_ptr = reinterpret_cast<uint8_t*>(first + offsets[static_cast<size_t>(index)]);
+    channel.user_pixel_stride = static_cast<int32_t>(stride);
+    channel.user_line_stride = static_cast<int32_t>(row_size);
+    channel.user_bytes_per_element = channel.bytes_per_element;
+    channel.user_data_type = channel.data_type;
+  }
+  if (exr_decoding_choose_default_routines(file, 0, &pipeline.decode) != EXR_ERR_SUCCESS) failed();
+  pipeline.decode.decompress_fn = unpack_zip;
+  if (exr_decoding_run(file, 0, &pipeline.decode) != EXR_ERR_SUCCESS) failed();
+  if (whole) return;
+  const int from = std::max(begin, row), until = std::min(end, row + chunk.height);
+  std::memcpy(to + static_cast<size_t>(from - begin) * row_size, first + static_cast<size_t>(from - row) * row_size,
+              static_cast<size_t>(until - from) * row_size);
+}
+
+void ExrRows::read(int begin, int end, size_t channels, std::byte* to) const {
+  const int rows = state_->chunk_rows;
+  tbb::parallel_for(begin / rows, (end + rows - 1) / rows,
+                    [&](int chunk) { state_->read_chunk(chunk * rows, begin, end, channels, to); });
+}
+
+}  // namespace ods
