@@ -23,6 +23,8 @@ struct PoleMergeSetting {
   float start = 60.0f;
   float end = 90.0f;
   float exponent = 1.0f;  // the curve raised to this power, > 0
+
+  bool operator==(const PoleMergeSetting&) const = default;
 };
 
 // kMergeNone .. <-> none, linear, cosine, smoothstep, gaussian, power, tilt-brush, map.
@@ -53,6 +55,8 @@ struct CameraRig {
   float lens_radius = 0.0f;           // metres; 0 is a pinhole. Blur does not know of rolling shutters, nor do we
   float focus_distance = 2.0f;        // metres along the ray
   bool mirrored = false;              // front and back change places, as when a left-handed world is taken as it stands
+
+  bool operator==(const CameraRig&) const = default;
 };
 
 // Precondition: every field finite, ipd >= 0, the projection without fault. The camera reads the rig's merge map.

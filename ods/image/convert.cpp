@@ -122,6 +122,16 @@ Place Mapping::find(int index, vec2 home, vec2 uv) const {
   return place_of_line(source, eye, ray.direction);
 }
 
+// Every pixel is a texel of the picture.
+bool is_as_stored(const StoredPicture& picture, const ConvertTarget& target) {
+  CameraRig rig = target.rig;
+  rig.position = picture.rig.position, rig.lens_radius = picture.rig.lens_radius;
+  rig.focus_distance = picture.rig.focus_distance;
+  const auto has_eye = [&](int eye) { return picture.eyes[static_cast<size_t>(eye_index(picture, eye))].eye == eye; };
+  return rig == picture.rig && !is_fisheye(rig.projection.kind) && target.eye.width == picture.size.width &&
+         target.eye.height == picture.size.height && std::all_of(target.eyes.begin(), target.eyes.end(), has_eye);
+}
+
 Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) {
   Mapping mapping{target.rig, make_source(picture), make_camera(target.rig), target.eye, target.eyes, {}};
   mapping.camera.center = vec3(0.0f);
@@ -167,7 +177,8 @@ class Converter {
   Converter(const StoredPicture& picture, const ConvertTarget& target, bool adds_alpha)
       : mapping_(make_mapping(picture, target)),
         resampler_(mapping_.source, adds_alpha),
-        channels_(resampler_.channels()) {
+        channels_(resampler_.channels()),
+        is_as_stored_(ods::is_as_stored(picture, target)) {
     if (sees_around(picture, target)) reprojection_ = make_reprojection(mapping_.source);
     if (const std::optional<size_t> layer = depth_layer(picture)) {
       depth_channel_ = adds_alpha ? 1 : 0;
@@ -205,6 +216,7 @@ class Converter {
   std::optional<Reprojection> reprojection_;
   int channels_;
   int depth_channel_ = -1;  // of a row's pixel; below 0: there is no depth
+  bool is_as_stored_;
 };
 
 bool same_cell(const Cell& a, const Cell& b) {
@@ -419,6 +431,10 @@ int Converter::fill_cell(const CellRow& row) const {
 }
 
 int Converter::fill(int index, int y, std::span<float> row) const {
+  if (is_as_stored_) {
+    resampler_.copy(mapping_.from[static_cast<size_t>(index)], y, row);
+    return 0;
+  }
   std::fill(row.begin(), row.end(), 0.0f);
   const size_t first = static_cast<size_t>(depth_channel_), step = static_cast<size_t>(channels_);
   for (size_t i = first; depth_channel_ >= 0 && i < row.size(); i += step) row[i] = kFarDepth;

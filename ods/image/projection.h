@@ -21,6 +21,8 @@ struct ProjectionSetting {
   float aspect = 1.0f;              // kPerspective: width over height
   float pan = 0.0f;                 // kFisheye..., kPerspective: where the lens points, to the right
   float tilt = 0.0f;                // and up; the viewing circle stays as it is
+
+  bool operator==(const ProjectionSetting&) const = default;
 };
 
 // A projection by the name that users type. Several names may be one kind with other defaults: `vr180` is the front

@@ -287,6 +287,28 @@ void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) 
   }
 }
 
+void Resampler::copy(int eye, int y, std::span<float> out) const {
+  constexpr int kAtOnce = 64;
+  const int width = source_.picture->size.width;
+  const size_t stride = static_cast<size_t>(channels_);
+  for (const Group& group : mixed_) {
+    Four texels[kAtOnce];
+    float* pixel = &out[static_cast<size_t>(group.first)];
+    for (int x = 0; x < width; x += kAtOnce) {
+      const int count = std::min(kAtOnce, width - x);
+      group.read_lights(group.block(source_, eye, x, y), count, 1, texels);
+      for (int i = 0; i < count; i++, pixel += stride) {
+        for (int c = 0; c < group.count; c++) pixel[c] = texels[i][c];
+      }
+    }
+  }
+  if (nearest_.empty() && added_alpha_ < 0) return;
+  for (int x = 0; x < width; x++) {
+    const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    finish({eye, middle, true}, &out[static_cast<size_t>(x) * stride]);
+  }
+}
+
 bool PixelRun::add(const std::optional<TexelTents>& tents, const vec2& at, float* pixel) {
   if (waiting_ == std::size(filters_)) fill();
   TexelFilter& filter = filters_[waiting_];

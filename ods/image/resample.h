@@ -31,6 +31,9 @@ class Resampler {
   // layers are left alone. Precondition: has_all() of each.
   void fill(int eye, std::span<const TexelFilter> filters, float* out) const;
 
+  // Sets the pixels of a row to the texels of a row of the picture.
+  void copy(int eye, int y, std::span<float> out) const;
+
   // Sets what add() and fill() leave alone: those layers, to the texel of the place, and an alpha that is added to 1.
   void finish(const Place& place, float* out) const;
 
