@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "cli/camera_source.h"
 #include "cli/console.h"
@@ -40,6 +39,7 @@ void add_slit_options(Options& options, RigJob& job) {
   options.text("--scene", "SCENE", job.scene.name, "measure it in this scene, and stand where its camera does");
   options.number("--slits", job.count, 3, 32768, "of each eye, whatever their error");
   options.number("--pitches", job.slits.pitches, 1, 64, "views above each other");
+  options.flag("--caps", job.slits.caps, "the first of them looks straight up, the last straight down");
   options.number("--blend", job.slits.blend, 0.0f, 1.0f, "the part of a slit that fades into the next");
   options.number("--padding", job.slits.padding, 0, 4096,
                  "pixels around what is used of a view; as many as effects after the render (bloom) reach");

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blender and POV-Ray render the views of a rig, each by our script for it, and ods stitch makes a picture of them; ods
-// render takes one of the same scene. Both show the same silhouettes to each eye. It takes minutes and both programs,
-// and is disabled in ./run test; ./run peers installs the two and runs it.
+// Blender, POV-Ray and three.js render the views of a rig, each by our script for it, and ods stitch makes a picture of
+// them; ods render takes one of the same scene. Both show the same silhouettes to each eye. It takes minutes and those
+// programs, and is disabled in ./run test; ./run peers installs them and runs it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ const Thing kThings[] = {{{0.35f, 0.05f, -0.5f}, 0.2f, false},  {{-0.4f, 0.3f, -
 // The camera, beside the origin, turned and tilted.
 constexpr const char* kCamera = "--position 0.02,0.03,-0.01 --yaw 25 --pitch 15 --roll -10 --width 1024";
 
-// --- the scene, told three times -------------------------------------------------------------------------------------
+// --- the scene, told four times --------------------------------------------------------------------------------------
 
 // A ball of rings; a box is one of eight corners, flat: each side has four of its own.
 struct Surface {
@@ -128,6 +128,29 @@ void write_povray(const TemporaryFolder& folder) {
   folder.write("scene.pov", text + "#include \"rig.povray.inc\"\n");
 }
 
+// With three.js beside it, as examples/three has pages.
+void write_three(const TemporaryFolder& folder) {
+  std::string text =
+      "<!doctype html>\n<script src=\"three.js\"></script>\n<script type=\"module\">\n"
+      "import { renderViews } from \"./rig.three.js\";\n"
+      "const end = (words = \"\") => fetch(\"/end\", { method: \"POST\", body: words });\n"
+      "addEventListener(\"unhandledrejection\", (event) => end(String(event.reason)));\n"
+      "const scene = new THREE.Scene(), white = new THREE.MeshBasicMaterial({ color: 0xffffff });\n"
+      "function add(shape, x, y, z) {\n"
+      "  const thing = new THREE.Mesh(shape, white);\n  thing.position.set(x, y, z);\n  scene.add(thing);\n}\n";
+  for (const Thing& thing : kThings) {
+    const std::string shape = thing.is_ball
+                                  ? fmt::format("SphereGeometry({}, 96, 48)", 0.5f * thing.size)
+                                  : fmt::format("BoxGeometry({}, {}, {})", thing.size, thing.size, thing.size);
+    text += fmt::format("add(new THREE.{}, {}, {}, {});\n", shape, thing.middle.x, thing.middle.y, thing.middle.z);
+  }
+  text +=
+      "const save = (name, blob) => fetch(\"/views/\" + name, { method: \"PUT\", body: blob });\n"
+      "await renderViews(THREE, new THREE.WebGLRenderer({ antialias: true }), scene, { save });\nawait end();\n"
+      "</script>\n";
+  folder.write("page.html", text);
+}
+
 // --- pictures --------------------------------------------------------------------------------------------------------
 
 class Peers : public ::testing::Test {
@@ -197,6 +220,17 @@ TEST_F(Peers, DISABLED_BlenderShowsTheSame) {
   shell(blender);
   ods("stitch rig.json views/####.exr -o stitched_%V.exr");
   compare("Blender");
+}
+
+TEST_F(Peers, DISABLED_ThreeShowsTheSame) {
+  const std::string three = "/usr/share/javascript/three/three.js";
+  if (!is_there("chromium-headless-shell")) GTEST_SKIP() << "skipped: chromium-headless-shell is not installed";
+  direct_picture();
+  write_three(folder);
+  ods(fmt::format("rig {} --slits 48 -o rig.json --for three", kCamera));
+  shell("cp " + three + " . && node " ODS_SOURCE_DIR "/examples/three/views.mjs page.html");
+  ods("stitch rig.json views/####.png -o stitched_%V.exr");
+  compare("three.js");
 }
 
 // The depth of every pixel's ray; kFarDepth where it met nothing.

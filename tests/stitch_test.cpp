@@ -243,6 +243,30 @@ TEST(Stitch, PartsOfThePicture) {
   EXPECT_GT(stitched_psnr(make_rig(40, {160, 124}, camera)).psnr, 55.0);
 }
 
+// Straight up and straight down, and the others where they leave off.
+TEST(Stitch, CapsAreThePoles) {
+  SlitOptions options;
+  options.slits = 64, options.pitches = 4, options.caps = true;
+  ASSERT_EQ(slit_fault({}, {256, 128}, options), "");
+  const SlitRig rig = make_slit_rig({}, {256, 128}, kBoth, options);
+  const float looks[] = {90.0f, 30.0f, -30.0f, -90.0f}, borders[] = {60.0f, 0.0f, -60.0f, -90.0f};
+  for (int pitch = 0; pitch < 4; pitch++) {
+    EXPECT_NEAR(rig.views[view_index(rig, 1, 5, pitch)].pitch, looks[pitch], 1e-3f);
+    EXPECT_NEAR(glm::degrees(pitch_border(rig, pitch)), borders[pitch], 1e-3f);
+  }
+  EXPECT_GT(stitched_psnr(rig).psnr, 60.0);
+  options.pitches = 2;
+  EXPECT_NE(slit_fault({}, {256, 128}, options), "");
+}
+
+// Without a blend every pixel has one view, and those whose middles lie on borders have not none.
+TEST(Stitch, NothingIsLostOnSharpBorders) {
+  SlitOptions options;
+  options.slits = 20, options.blend = 0.0f;
+  const SlitRig rig = make_slit_rig({}, {250, 125}, kBoth, options);  // 12.5 columns a slit, 62.5 rows a pitch
+  EXPECT_GT(stitched_psnr(rig).psnr, 50.0);
+}
+
 TEST(Stitch, OtherCameras) {
   CameraRig neck, toed, shifted;
   neck.neck = 0.1f;

@@ -16,7 +16,8 @@ import { tmpdir } from "node:os";
 import { basename, dirname, extname, join, resolve, sep } from "node:path";
 
 const browsers = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"];
-const types = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".json": "application/json" };
+const script = "text/javascript";
+const types = { ".html": "text/html", ".js": script, ".mjs": script, ".json": "application/json" };
 const patience = 300; // seconds without a word from the page
 
 const [page, folder = "views", first, last] = process.argv.slice(2);
@@ -72,8 +73,8 @@ function browser() {
   return found;
 }
 
-// Without a graphics card Chromium draws by its own SwiftShader, which it has to be allowed. It is a group of processes,
-// before which a script may stand.
+// Without a graphics card Chromium draws by its own SwiftShader, which it has to be allowed. It is a group of
+// processes, before which a script may stand.
 function open(program, profile, url) {
   const words = ["--headless", "--ignore-gpu-blocklist", "--enable-unsafe-swiftshader", `--user-data-dir=${profile}`];
   if (process.getuid?.() === 0) words.push("--no-sandbox"); // it refuses root otherwise

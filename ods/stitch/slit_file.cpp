@@ -62,6 +62,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                {"conventions", conventions()},
                {"slits", options.slits},
                {"pitches", options.pitches},
+               {"caps", options.caps},
                {"blend", decimal(options.blend)},
                {"padding", options.padding},
                {"scale", decimal(options.scale)},
@@ -133,6 +134,7 @@ void read_options(JsonReader& in, SlitOptions& options) {
   options.slits = 0;
   in.integer("slits", options.slits, 1, kMaxSide);
   in.integer("pitches", options.pitches, 1, 64);
+  in.flag("caps", options.caps);
   in.number("blend", options.blend, 0.0f, 1.0f);
   in.integer("padding", options.padding, 0, 4096);
   in.number("scale", options.scale, 0.01f, 16.0f);

@@ -40,14 +40,26 @@ float slit_longitude(const SlitRig& rig, int slit) {
   return glm::radians(rig.camera.projection.longitude).x + (static_cast<float>(slit) + 0.5f) * slit_width(rig);
 }
 
+// Pitches as high as the picture; two caps are one.
+static float whole_pitches(const SlitRig& rig) {
+  return static_cast<float>(rig.options.pitches - (rig.options.caps ? 1 : 0));
+}
+
 float pitch_border(const SlitRig& rig, int pitch) {
   const vec2 range = glm::radians(rig.camera.projection.latitude);
-  return mix(range.y, range.x, static_cast<float>(pitch + 1) / static_cast<float>(rig.options.pitches));
+  const float above = static_cast<float>(pitch) + (rig.options.caps ? 0.5f : 1.0f);
+  return mix(range.y, range.x, std::clamp(above / whole_pitches(rig), 0.0f, 1.0f));
+}
+
+float pitch_latitude(const SlitRig& rig, int pitch) {
+  const float upper = pitch_border(rig, pitch - 1), lower = pitch_border(rig, pitch);
+  if (rig.options.caps && pitch == 0) return upper;
+  return rig.options.caps && pitch + 1 == rig.options.pitches ? lower : 0.5f * (upper + lower);
 }
 
 float pitch_height(const SlitRig& rig) {
   const vec2 range = glm::radians(rig.camera.projection.latitude);
-  return (range.y - range.x) / static_cast<float>(rig.options.pitches);
+  return (range.y - range.x) / whole_pitches(rig);
 }
 
 float pitch_fade(const SlitRig& rig) {
@@ -84,12 +96,13 @@ struct Window {
   float y = 0.0f;
 };
 
-CameraRig view_of_ray(const Ray& ray, vec3 axis) {
+// `ray`: of the middle of what the view shows. `ahead`: where it looks; a cap, along the axis.
+CameraRig view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
   CameraRig view;
   view.ipd = 0.0f;
   view.position = ray.origin;
-  const glm::dvec3 forward = normalize(glm::dvec3(ray.direction));
-  const glm::dvec3 right = normalize(cross(forward, glm::dvec3(axis)));
+  const glm::dvec3 forward = normalize(glm::dvec3(ahead));
+  const glm::dvec3 right = normalize(cross(normalize(glm::dvec3(ray.direction)), glm::dvec3(axis)));
   const ViewAngles angles = view_angles(forward, cross(right, forward));
   view.yaw = angles.yaw, view.pitch = angles.pitch, view.roll = angles.roll;
   view.projection.kind = kPerspective;
@@ -127,9 +140,10 @@ Views place_views(const SlitRig& rig) {
   for (const int eye : rig.eyes) {
     for (int slit = 0; slit < rig.options.slits; slit++) {
       for (int pitch = 0; pitch < rig.options.pitches; pitch++) {
-        const float latitude = 0.5f * (pitch_border(rig, pitch - 1) + pitch_border(rig, pitch));
-        all.views.push_back(
-            view_of_ray(ray_at(camera, eye, slit_longitude(rig, slit), latitude), axis_in_world(camera)));
+        const float longitude = slit_longitude(rig, slit);
+        const float middle = 0.5f * (pitch_border(rig, pitch - 1) + pitch_border(rig, pitch));
+        const vec3 ahead = ray_at(camera, eye, longitude, pitch_latitude(rig, pitch)).direction;
+        all.views.push_back(view_of_ray(ray_at(camera, eye, longitude, middle), ahead, axis_in_world(camera)));
         widen(rig, camera, eye, slit, pitch, all.views.back(), all.window);
       }
     }
@@ -164,6 +178,7 @@ std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& o
                        eye.width);
   }
   if (options.pitches < 1 || options.pitches > 64) return "there are 1 to 64 views above each other";
+  if (options.caps && options.pitches < 3) return "caps are two of at least 3 pitches";
   const SlitRig rig{camera, eye, {kRight}, options, {}, {}};
   const Window window = place_views(rig).window;
   if (!(window.x < kWidestTangent && window.y < kWidestTangent)) {

@@ -34,6 +34,7 @@ std::string_view view_depth_name(ViewDepth depth);  // none, ray, plane
 struct SlitOptions {
   int slits = 360;     // of each eye, evenly over the picture's longitudes
   int pitches = 2;     // views above each other; 2 look 45 degrees up and down
+  bool caps = false;   // the first pitch looks straight up, the last straight down; they show half as much as others
   float blend = 0.5f;  // 0..1: the part of a slit over which it fades into its neighbours
   int padding = 4;     // pixels of a view on every side beyond what is used, for filters and effects after the render
   float scale = 1.0f;  // a view's pixels over the picture's, in the middle of the view where they are largest
@@ -66,6 +67,8 @@ float slit_longitude(const SlitRig& rig, int slit);
 float slit_width(const SlitRig& rig);
 float pitch_border(const SlitRig& rig, int pitch);
 
+// Where a pitch looks, and how much of the picture it shows; a cap shows half of that, on one side of where it looks.
+float pitch_latitude(const SlitRig& rig, int pitch);
 float pitch_height(const SlitRig& rig);
 
 // Over so many radians on either side of their border pitches fade into each other.

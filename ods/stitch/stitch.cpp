@@ -211,9 +211,10 @@ int Stitcher::slits_at_once() const {
 // --- pixels ----------------------------------------------------------------------------------------------------------
 
 // How much a slit, or a pitch, counts at a distance from its middle, if they are 1 apart and fade over `blend`.
+// What lies on the very border of two belongs to both, or it might belong to none.
 float weight_at(float distance, float blend) {
-  if (blend == 0.0f) return distance < 0.5f ? 1.0f : 0.0f;
-  return std::clamp((0.5f - distance) / blend + 0.5f, 0.0f, 1.0f);
+  constexpr float kSharpest = 1e-4f;
+  return std::clamp((0.5f - distance) / std::max(blend, kSharpest) + 0.5f, 0.0f, 1.0f);
 }
 
 // Where a column lies, in slits from the middle of the first.
@@ -233,9 +234,9 @@ float Stitcher::slit_weight(int place, int x) const {
 }
 
 float Stitcher::pitch_weight(int pitch, int y) const {
-  const float at =
-      (static_cast<float>(y) + 0.5f) * static_cast<float>(rig_.options.pitches) / static_cast<float>(rig_.eye.height);
-  const float beyond = at - 0.5f - static_cast<float>(pitch);
+  const float top = pitch_border(rig_, -1), bottom = pitch_border(rig_, rig_.options.pitches - 1);
+  const float latitude = mix(top, bottom, (static_cast<float>(y) + 0.5f) / static_cast<float>(rig_.eye.height));
+  const float beyond = (pitch_latitude(rig_, pitch) - latitude) / pitch_height(rig_);
   const bool outermost = beyond < 0.0f ? pitch == 0 : pitch == rig_.options.pitches - 1;
   return outermost ? 1.0f : weight_at(std::abs(beyond), 2.0f * pitch_fade(rig_) / pitch_height(rig_));
 }
