@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scripts for what draws by triangles: three.js, Unity, Unreal. Names of their interfaces: three.js r140 and later;
-// Unity's and Unreal's manuals, not run there.
+// Scripts for what draws by triangles: three.js (run with r111 and r187), Unity and Unreal (by their manuals, not run
+// there).
 #include <fmt/format.h>
 
 #include "ods/stitch/export/writers.h"
