@@ -70,8 +70,10 @@ Off off_at(const SlitRig& rig, size_t eye, vec3 point) {
 TEST(SlitError, NoPointIsOffByMoreAndSomeAreByHalf) {
   CameraRig merged;
   merged.top = merged.bottom = {kMergeCosine, 30.0f, 90.0f, 1.0f};
-  for (const CameraRig& camera : {CameraRig(), merged}) {
-    const SlitRig rig = make_rig(24, {1024, 512}, camera);
+  for (const auto& [camera, caps] : {std::pair(CameraRig(), false), {merged, false}, {CameraRig(), true}}) {
+    SlitOptions options;
+    options.slits = 24, options.pitches = caps ? 3 : 2, options.caps = caps;
+    const SlitRig rig = make_slit_rig(camera, {1024, 512}, kBoth, options);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1.0f, 1.0f);
     for (const float distance : {0.4f, 1.0f, 5.0f}) {
@@ -427,8 +429,11 @@ TEST(SlitFile, ComesBack) {
   CameraRig camera;
   camera.position = {1.0f, 2.0f, 3.0f};
   camera.yaw = 30.0f, camera.ipd = 0.07f;
-  const SlitRig rig = make_rig(12, {64, 32}, camera), back = read(write_slit_rig(rig));
+  SlitOptions options;
+  options.slits = 12, options.pitches = 3, options.caps = true;
+  const SlitRig rig = make_slit_rig(camera, {64, 32}, kBoth, options), back = read(write_slit_rig(rig));
   EXPECT_EQ(back.options.slits, 12);
+  EXPECT_TRUE(back.options.caps);
   EXPECT_EQ(back.camera.ipd, 0.07f);
   EXPECT_EQ(back.view.height, rig.view.height);
   ASSERT_EQ(back.views.size(), rig.views.size());
@@ -450,7 +455,8 @@ TEST(SlitFile, EditsThatMakeNoRigAreErrors) {
   for (const std::string& bad :
        {std::string("{}"), std::string("nonsense"), std::string(""), good.substr(0, good.size() / 2),
         with("\"slits\": 12", "\"slits\": 0"), with("\"slits\": 12", "\"slits\": 13"),
-        with("\"pitches\": 2", "\"pitches\": 1000"), with("\"omnistereo_slits\": 1", "\"omnistereo_slits\": 99"),
+        with("\"pitches\": 2", "\"pitches\": 1000"), with("\"caps\": false", "\"caps\": true"),
+        with("\"caps\": false", "\"caps\": 1"), with("\"omnistereo_slits\": 1", "\"omnistereo_slits\": 99"),
         with("\"matrix\":[", "\"matrix\":[5,"), with("\"matrix\":[", "\"matrix\":[null,"),
         with("\"number\":2", "\"number\":3"), with("\"depth\": \"none\"", "\"depth\": \"deep\""),
         with("\"name\": \"lat-long\"", "\"name\": \"cube-3x2\""), with("\"fov\": [", "\"fov\": [\"x\","),
