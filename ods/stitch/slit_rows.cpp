@@ -3,6 +3,7 @@
 #include "ods/stitch/slit_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ods {
 
@@ -52,8 +53,11 @@ RowInView SlitRows::find_row(const Camera& view, int place, int y) const {
 // Looked at where they would differ most: at the ends of what the view shows, and between.
 bool SlitRows::is_alike(int slit, int pitch) const {
   constexpr float kSame = 1.0f / 256.0f;  // pixels of a view: what angles leave of places, but no more
-  const int first = rig_.eye.height * pitch / rig_.options.pitches;
-  const int last = rig_.eye.height * (pitch + 1) / rig_.options.pitches - 1;
+  const float top = pitch_border(rig_, -1), bottom = pitch_border(rig_, rig_.options.pitches - 1);
+  const auto row_below = [&](int border) {
+    return std::lround(static_cast<float>(rig_.eye.height) * (top - pitch_border(rig_, border)) / (top - bottom));
+  };
+  const int first = static_cast<int>(row_below(pitch - 1)), last = static_cast<int>(row_below(pitch)) - 1;
   for (const int y : {first, (first + last) / 2, last}) {
     const RowInView own = find_row(camera_of(slit, pitch), slit, y);
     const RowInView& others = rows_[static_cast<size_t>(pitch * rig_.eye.height + y)];
