@@ -42,7 +42,7 @@ void say_what_is_missing(const ods::Conversion& conversion) {
 }
 
 void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
-  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye);
+  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.rig.projection);
   const std::string fault = ods::conversion_fault(job.picture, job.target);
   if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
   const auto start = std::chrono::steady_clock::now();

@@ -6,20 +6,13 @@
 #include <optional>
 #include <string>
 
+#include "cli/layout_options.h"
 #include "cli/options.h"
 #include "ods/base/frames.h"
 #include "ods/image/save.h"
 #include "ods/image/sizes.h"
 #include "ods/image/stored_picture.h"
 #include "ods/scene/render_options.h"
-
-// --layout LAYOUT, by the names and aliases of ods/image/layout.h. `text` says what it is for.
-void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
-void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
-                       const std::string& name = "--layout");
-
-// By name or alias, as `option` was given it. Throws UsageError with a suggestion.
-ods::Layout layout_by_name(const std::string& option, const std::string& word);
 
 // --size NAME: width, height, layout and mono at once. Options take effect in the order in which they were added, so
 // that those added after it go before it.

@@ -4,8 +4,9 @@
 // The command: a table. Each command is one file beside this one.
 //
 // The commands live in a shared object that is opened when one is run: the image library beneath them takes a quarter
-// of a second to load (hundreds of libraries on Debian). The list of commands, --version and a misspelt command do not
-// wait for that; `ods COMMAND --help` does.
+// of a second to load (hundreds of libraries on Debian), and some 100 MB of memory. The list of commands, --version and
+// a misspelt command do not wait for that; `ods COMMAND --help` does. A command that needs neither that library nor
+// FFmpeg has a shared object of its own.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -23,6 +24,7 @@ struct Command {
   const char* name;
   const char* summary;
   const char* function;  // int function(int argc, char** argv), argv[0] being the command's name
+  const char* library = "ods_commands.so";
 };
 
 constexpr Command kCommands[] = {
@@ -40,7 +42,7 @@ constexpr Command kCommands[] = {
     {"compare", "measure how far one picture is from another", "ods_compare"},
     {"lint", "find what is wrong with a stereo 360 picture", "ods_lint"},
     {"probe", "tell what a film or picture says, and what players take it for", "ods_probe"},
-    {"inject", "make a film say that it is stereo 360", "ods_inject"},
+    {"inject", "make a film or a picture say that it is 360", "ods_inject", "ods_inject.so"},
     {"testcard", "make a picture that judges players", "ods_testcard"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
     {"sizes", "list the sizes that have names", "ods_sizes"},
@@ -62,9 +64,9 @@ void print_help(std::FILE* out) {
       out);
 }
 
-int run(const char* function, int argc, char** argv) {
-  void* commands = dlopen("ods_commands.so", RTLD_NOW | RTLD_LOCAL);  // found beside ods, or where install put it
-  void* symbol = commands ? dlsym(commands, function) : nullptr;
+int run(const Command& command, int argc, char** argv) {
+  void* library = dlopen(command.library, RTLD_NOW | RTLD_LOCAL);  // found beside ods, or where install put it
+  void* symbol = library ? dlsym(library, command.function) : nullptr;
   if (!symbol) {
     std::fprintf(stderr, "ods: error: the commands cannot be loaded: %s\n", dlerror());
     return kExitRenderError;
@@ -105,7 +107,7 @@ int main(int argc, char** argv) {
     return kExitOk;
   }
   for (const Command& command : kCommands) {
-    if (std::strcmp(name, command.name) == 0) return run(command.function, argc - 1, argv + 1);
+    if (std::strcmp(name, command.name) == 0) return run(command, argc - 1, argv + 1);
   }
   return unknown_command(name);
 }

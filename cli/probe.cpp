@@ -8,7 +8,11 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/probe_report.h"
+#include "ods/base/error.h"
+#include "ods/base/memory_file.h"
+#include "ods/image/cardboard.h"
 #include "ods/image/metadata.h"
+#include "ods/image/xmp_file.h"
 
 namespace {
 
@@ -21,6 +25,21 @@ constexpr const char* kSummary =
     "Tells what a film (mp4, mov, mkv, webm) or a picture says of itself: its tracks, Spherical Video V1 and V2, "
     "GPano,\n"
     "the camera; what each kind of player will take it for, and why; and what is wrong with it.";
+
+// A photo whose right eye is damaged is still a picture of the left one.
+void probe_right_eye(PictureReport& report, const std::string& path, std::vector<std::string>& warnings) {
+  try {
+    const ods::MemoryFile file(ods::read_right_eye(path));
+    const ods::FileInfo eye = ods::read_info(file.path());
+    report.right_eye = fmt::format("{}x{}", eye.width, eye.height);
+    if (eye.width == report.info.width && eye.height == report.info.height) return;
+    warnings.push_back(fmt::format("its right eye has {} pixels, the left one {}x{}", report.right_eye,
+                                   report.info.width, report.info.height));
+  } catch (const ods::Error& error) {
+    report.right_eye = "damaged";
+    warnings.push_back(error.what());
+  }
+}
 
 ProbeReport probe(const std::string& path) {
   ProbeReport report;
@@ -36,9 +55,11 @@ ProbeReport probe(const std::string& path) {
   const ods::FileInfo info = ods::read_info(path);
   const ods::PictureForm form = find_form(info, path, {});
   const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
-  report.picture = PictureReport{info, form, ods::gpano_camera(xmp).has_value()};
-  report.views.push_back(picture_views(info, form, report.picture->has_gpano, path));
-  report.warnings.push_back(picture_warnings(info, form, report.picture->has_gpano, path));
+  report.picture = PictureReport{info, form, ods::gpano_camera(xmp), ""};
+  const bool has_gpano = report.picture->gpano.has_value();
+  report.views.push_back(picture_views(info, form, has_gpano, path));
+  report.warnings.push_back(picture_warnings(info, form, has_gpano, path));
+  if (form.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
   return report;
 }
 

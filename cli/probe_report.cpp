@@ -60,9 +60,20 @@ void print_film(const ProbeReport& report) {
         fmt::format("track {}: {}, {}x{}{}", track.id, track.codec, track.size.width, track.size.height, rate));
     if (!is_matroska(film) || track.v1) row("Spherical Video V1", said(track.v1));
     row(is_matroska(film) ? "Projection, Stereo" : "Spherical Video V2", said(track.v2));
+    if (!is_matroska(film)) row("Apple's vexu", said(track.vexu));
     print_views(report, i);
   }
   if (film.video.empty()) row("pictures", "none");
+}
+
+std::string camera_text(const ods::CameraRig& rig) {
+  const glm::vec2 longitude = rig.projection.longitude, latitude = rig.projection.latitude;
+  std::string text = fmt::format("{} {:.4g}x{:.4g} degrees", projection_name(rig.projection), longitude.y - longitude.x,
+                                 latitude.y - latitude.x);
+  if (rig.yaw != 0.0f || rig.pitch != 0.0f || rig.roll != 0.0f) {
+    text += fmt::format(", yaw {:.6g}, pitch {:.6g}, roll {:.6g}", rig.yaw, rig.pitch, rig.roll);
+  }
+  return text;
 }
 
 void print_picture(const ProbeReport& report) {
@@ -70,7 +81,9 @@ void print_picture(const ProbeReport& report) {
   row("picture", fmt::format("{}x{}, {}", picture.info.width, picture.info.height,
                              picture.info.is_float ? "light" : "code values of a display"));
   row("ods:projection", picture.info.text.contains("ods:projection") ? picture.info.text.at("ods:projection") : "none");
-  if (!picture.info.is_float) row("GPano", picture.has_gpano ? "equirectangular" : "none");
+  if (!picture.info.is_float) row("GPano", picture.gpano ? camera_text(*picture.gpano) : "none");
+  if (picture.info.is_float) row("envmap", picture.info.text.contains("textureformat") ? "lat-long" : "none");
+  if (!picture.right_eye.empty()) row("right eye in it", picture.right_eye);
   for (const std::string& guess : picture.form.guesses) row("guess", guess);
   print_views(report, 0);
 }
@@ -101,8 +114,13 @@ Json film_to_json(const ProbeReport& report) {
                {"sound", Json::array()}};
   for (size_t i = 0; i < film.video.size(); i++) {
     const ods::VideoTrack& track = film.video[i];
-    Json video = {{"track", track.id}, {"codec", track.codec},    {"size", {track.size.width, track.size.height}},
-                  {"fps", nullptr},    {"v1", to_json(track.v1)}, {"v2", to_json(track.v2)}};
+    Json video = {{"track", track.id},
+                  {"codec", track.codec},
+                  {"size", {track.size.width, track.size.height}},
+                  {"fps", nullptr},
+                  {"v1", to_json(track.v1)},
+                  {"v2", to_json(track.v2)},
+                  {"vexu", to_json(track.vexu)}};
     if (track.fps > 0.0) video["fps"] = track.fps;
     video.update(views_to_json(report, i));
     json["video"].push_back(video);
@@ -123,11 +141,13 @@ Json picture_to_json(const ProbeReport& report) {
   const PictureReport& picture = *report.picture;
   Json json = {{"size", {picture.info.width, picture.info.height}},
                {"is_light", picture.info.is_float},
-               {"gpano", picture.has_gpano},
+               {"gpano", picture.gpano.has_value()},
+               {"right_eye", nullptr},
                {"layout", nullptr},
                {"projection", projection_name(picture.form.camera.projection)},
                {"because", picture.form.layout.because},
                {"guesses", picture.form.guesses}};
+  if (!picture.right_eye.empty()) json["right_eye"] = picture.right_eye;
   if (picture.form.layout.layout) json["layout"] = layout_name(*picture.form.layout.layout);
   json.update(views_to_json(report, 0));
   return json;

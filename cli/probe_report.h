@@ -12,7 +12,8 @@
 struct PictureReport {
   ods::FileInfo info;
   ods::PictureForm form;
-  bool has_gpano = false;
+  std::optional<ods::CameraRig> gpano;
+  std::string right_eye;  // of a Cardboard photo: "64x32", or what is wrong with it
 };
 
 // Of a film or a picture.

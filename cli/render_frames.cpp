@@ -51,7 +51,7 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
 void check_outputs(const RenderJob& job) {
   const std::string path = asks_for_film(job.time) ? film_names(job.output).path(0) : job.output;
   const std::vector<int> eyes = ods::eye_list(job.render.eyes);
-  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height});
+  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height}, &job.camera.rig.projection);
   note_misleading_name(path, job.save, eyes.size(), job.camera.rig.projection);
 }
 

@@ -245,5 +245,21 @@ TEST_F(Decode, UnevenTimesAreRefused) {
   expect_refused(error_of(uneven), "uneven times");
 }
 
+// Their numbers mean other light than BT.709's: shown or laid over as they are they would be wrong.
+TEST_F(Decode, HdrIsRefused) {
+  if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
+  if (!can_encode(FilmCodec::kHevc, Chroma::k420)) GTEST_SKIP() << "skipped: this machine encodes no HEVC";
+  made::write_frames(folder.path("a.#.png"), {1, 2});
+  const std::string film = make("film.mkv", usual(FilmCodec::kHevc)), hdr = folder.path("hdr.mkv");
+  EXPECT_EQ(error_of(film), "");
+  const char* const kCurves[][2] = {{"16", "smpte2084"}, {"18", "arib-std-b67"}};  // PQ and HLG
+  for (const auto& [number, name] : kCurves) {
+    const std::string command =
+        "ffmpeg -y -v error -i " + film + " -c copy -bsf:v hevc_metadata=transfer_characteristics=";
+    ASSERT_EQ(output_of(command + number + " " + hdr + " 2>&1"), "");
+    EXPECT_EQ(error_of(hdr), fmt::format("cannot read '{}': it is HDR ({}); ods knows BT.709", hdr, name));
+  }
+}
+
 }  // namespace
 }  // namespace ods

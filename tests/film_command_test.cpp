@@ -44,7 +44,8 @@ TEST_F(FilmCommand, InjectGoesByTheNameAndSaysSo) {
   EXPECT_EQ(video["v1"]["stereo"], "top-bottom");
   EXPECT_EQ(video["v2"]["projection"], "lat-long");
   EXPECT_TRUE(video["warnings"].empty());
-  EXPECT_EQ(video["players"].size(), 4u);
+  EXPECT_EQ(video["vexu"]["stereo"], "top-bottom");
+  EXPECT_EQ(video["players"].size(), 5u);
 }
 
 TEST_F(FilmCommand, InjectWritesAnotherFileAndSaysWhatV1CannotHold) {
@@ -121,6 +122,34 @@ TEST_F(FilmCommand, PicturesAreProbedToo) {
   EXPECT_TRUE(probe(folder.path("mono.jpg"))["picture"]["gpano"]);
   EXPECT_EQ(run("probe " + folder.path("mono.jpg")), 0);
   EXPECT_NE(out.find("reads GPano"), std::string::npos) << out;
+}
+
+TEST_F(FilmCommand, PicturesAreTaggedToo) {
+  const std::string mono = folder.path("a.jpg"), both = folder.path("a_360_TB.jpg"), photo = folder.path("a.vr.jpg");
+  ASSERT_EQ(run("render furnace --width 32 --samples 1 -q -o " + both), 0) << err;
+  ASSERT_EQ(run("convert " + both + " -q -o " + photo), 0) << err;
+  const Json picture = probe(photo)["picture"];
+  EXPECT_EQ(picture["right_eye"], "32x16");
+  EXPECT_EQ(picture["players"][0]["takes_it_for"], "both eyes, lat-long");
+  EXPECT_TRUE(picture["warnings"].empty());
+  EXPECT_EQ(run("inject " + both), 3) << "GPano knows no stereo";
+  expect_one_line();
+  ASSERT_EQ(run("convert " + both + " --eyes mono -q -o " + mono), 0) << err;
+  ASSERT_EQ(run("inject --remove " + mono), 0) << err;
+  EXPECT_FALSE(probe(mono)["picture"]["gpano"]);
+  ASSERT_EQ(run("inject --yaw 90 " + mono), 0) << err;
+  EXPECT_EQ(out, mono + "\n");
+  EXPECT_NE(err.find("mono, lat-long: written"), std::string::npos) << err;
+  EXPECT_EQ(run("probe " + mono), 0);
+  EXPECT_NE(out.find("lat-long 360x180 degrees, yaw 90"), std::string::npos) << out;
+  EXPECT_EQ(run("inject --track 1 " + mono), 2);
+  expect_one_line();
+}
+
+// The libraries that all other commands load would take more than that.
+TEST_F(FilmCommand, InjectNeedsLittleMemory) {
+  const std::string path = make("film_360_TB.mp4");
+  EXPECT_EQ(run("inject " + path, RLIM_INFINITY, rlim_t{160} << 20), 0) << err;
 }
 
 // --- other programs --------------------------------------------------------------------------------------------------

@@ -119,7 +119,7 @@ TEST_F(Mp4Film, BoxesStandWhereTheSpecificationsPutThem) {
   const std::string tagged = tag(made::mp4({}), stacked());
   const std::vector<std::string> entry = {"moov", "trak", "mdia", "minf", "stbl", "stsd", "avc1"};
   std::vector<size_t> places;
-  for (const char* type : {"avcC", "st3d", "sv3d", "pasp"}) {
+  for (const char* type : {"avcC", "st3d", "sv3d", "vexu", "hfov", "pasp"}) {
     std::vector<std::string> path = entry;
     path.push_back(type);
     ASSERT_EQ(made::find(tagged, path).size(), 1u) << type;
@@ -166,6 +166,37 @@ TEST_F(Mp4Film, WhatWasThereIsReplaced) {
   EXPECT_EQ(read(tagged).v2, stacked());
   EXPECT_EQ(tagged.find("Somebody"), std::string::npos);
   EXPECT_NE(tagged.find("0123456789abcdefkept"), std::string::npos);
+}
+
+TEST_F(Mp4Film, VexuIsReplacedAndRemoved) {
+  const std::string plain = made::mp4({}), tagged = tag(plain, stacked());
+  EXPECT_TRUE(result.has_vexu);
+  EXPECT_EQ(form_text(*read(tagged).vexu), form_text(stacked()));
+  FilmForm beside = stacked();
+  beside.stereo = FilmStereo::kSideBySide;
+  const std::string again = tag(tagged, beside);
+  EXPECT_EQ(form_text(*read(again).vexu), form_text(beside));
+  EXPECT_EQ(tag(again, std::nullopt), plain);
+  beside.yaw = 5.0;  // which vexu cannot say
+  EXPECT_FALSE(read(tag(tagged, beside)).vexu);
+}
+
+// Eyes that are layers of the stream are not ours to describe.
+TEST_F(Mp4Film, VexuOfLayersStays) {
+  made::Mp4Options options;
+  options.entry_boxes = made::box("lhvC", "layers") +
+                        made::box("vexu", made::box("eyes", made::box("stri", std::string("\0\0\0\0\3", 5))));
+  const std::string film = made::mp4(options), tagged = tag(film, stacked());
+  EXPECT_FALSE(result.has_vexu);
+  EXPECT_FALSE(read(tagged).vexu);
+  EXPECT_NE(tagged.find(options.entry_boxes), std::string::npos);
+}
+
+TEST_F(Mp4Film, ADamagedVexuSaysNothing) {
+  made::Mp4Options options;
+  options.entry_boxes = made::box("vexu", std::string("\xff\xff\xff\xffproj", 8));
+  EXPECT_FALSE(read(made::mp4(options)).vexu);
+  EXPECT_TRUE(read(tag(made::mp4(options), stacked())).vexu);
 }
 
 TEST_F(Mp4Film, FormsThatV1CannotSayHaveNone) {

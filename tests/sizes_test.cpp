@@ -59,28 +59,36 @@ TEST(VideoLevel, KnownFilmsHaveTheirLevels) {
   struct {
     Extent size;
     double fps;
-    std::string_view h264, hevc, av1;
+    std::string_view h264, hevc, av1, vp9;
   } const films[] = {
-      {{1920, 1080}, 30, "4", "4", "4.0"},     {{3840, 2160}, 30, "5.1", "5", "5.0"},
-      {{3840, 2160}, 60, "5.2", "5.1", "5.1"}, {{3840, 3840}, 30, "6", "6", "6.0"},
-      {{4096, 4096}, 30, "6", "6", "6.0"},     {{5760, 5760}, 30, "6", "6", "6.0"},
-      {{5760, 5760}, 60, "6.1", "6.1", "6.1"}, {{2880, 2880}, 60, "5.2", "5.1", "5.1"},
-      {{7680, 7680}, 1, "", "", ""},           {{8192, 8192}, 30, "", "", ""},
-      {{7680, 4320}, 60, "6.1", "6.1", "6.1"}, {{16384, 2048}, 10, "6", "6", "6.0"},
-      {{2048, 16384}, 10, "6", "6", ""},       {{17008, 16}, 1, "", "", ""},
+      {{1920, 1080}, 30, "4", "4", "4.0", "4"},
+      {{3840, 2160}, 30, "5.1", "5", "5.0", "5"},
+      {{3840, 2160}, 60, "5.2", "5.1", "5.1", "5.1"},
+      {{3840, 3840}, 30, "6", "6", "6.0", "6"},
+      {{4096, 4096}, 30, "6", "6", "6.0", "6"},
+      {{5760, 5760}, 30, "6", "6", "6.0", "6"},
+      {{5760, 5760}, 60, "6.1", "6.1", "6.1", "6.1"},
+      {{2880, 2880}, 60, "5.2", "5.1", "5.1", "5.1"},
+      {{7680, 7680}, 1, "", "", "", ""},
+      {{8192, 8192}, 30, "", "", "", ""},
+      {{7680, 4320}, 60, "6.1", "6.1", "6.1", "6.1"},
+      {{16384, 2048}, 10, "6", "6", "6.0", "6"},
+      {{2048, 16384}, 10, "6", "6", "", "6"},
+      {{17008, 16}, 1, "", "", "", ""},
   };
   for (const auto& film : films) {
     SCOPED_TRACE(fmt::format("{}x{} at {}", film.size.width, film.size.height, film.fps));
     EXPECT_EQ(smallest_level(Codec::kH264, film.size, film.fps), film.h264);
     EXPECT_EQ(smallest_level(Codec::kHevc, film.size, film.fps), film.hevc);
     EXPECT_EQ(smallest_level(Codec::kAv1, film.size, film.fps), film.av1);
+    EXPECT_EQ(smallest_level(Codec::kVp9, film.size, film.fps), film.vp9);
   }
 }
 
 // The largest squares: the root of 35,651,584 pixels, in whole blocks.
 TEST(VideoLevel, TheLimitIsWhereItsFactsPutIt) {
   for (Codec codec : kCodecs) {
-    const int largest = codec == Codec::kAv1 ? 5970 : 5968;
+    const int largest = codec == Codec::kAv1 || codec == Codec::kVp9 ? 5970 : 5968;
     EXPECT_NE(smallest_level(codec, {largest, largest}, 1), "") << codec_name(codec);
     EXPECT_EQ(smallest_level(codec, {largest + 1, largest + 1}, 1), "") << codec_name(codec);
   }

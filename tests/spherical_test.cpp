@@ -7,6 +7,7 @@
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/video/apple.h"
 #include "ods/video/film_form.h"
 #include "ods/video/players.h"
 
@@ -87,6 +88,54 @@ TEST(Spherical, EveryFormThatFitsComesBack) {
       EXPECT_EQ(parse_v2(entry), form) << form_text(form);
     }
   }
+}
+
+TEST(Apple, VexuIsTheBytesOfItsSpecification) {
+  FilmForm form = form_of(FilmStereo::kTopBottom, FilmProjection::kEquirect);
+  // vexu { eyes { stri 3, hero 1, cams { blin 65000 } }, proj { prji equi }, pack { pkin over } }
+  EXPECT_EQ(bytes_of(vexu_box(form, 0.065)),
+            from_hex("00000072 76657875 0000003a 65796573 0000000d 73747269 00000000 03 0000000d 6865726f 00000000 01 "
+                     "00000018 63616d73 00000010 626c696e 00000000 0000fde8 00000018 70726f6a 00000010 70726a69 "
+                     "00000000 65717569 00000018 7061636b 00000010 706b696e 00000000 6f766572"));
+  EXPECT_EQ(bytes_of(hfov_box(form)), from_hex("0000000c 68666f76 00057e40"));
+  form.stereo = FilmStereo::kRightLeft;
+  set_projection(form, find_projection("vr180")->setting);
+  EXPECT_EQ(bytes_of(vexu_box(form)),
+            from_hex("0000005a 76657875 00000022 65796573 0000000d 73747269 00000000 0b 0000000d 6865726f 00000000 01 "
+                     "00000018 70726f6a 00000010 70726a69 00000000 68657175 00000018 7061636b 00000010 706b696e "
+                     "00000000 73696465"));
+  EXPECT_EQ(bytes_of(hfov_box(form)), from_hex("0000000c 68666f76 0002bf20"));
+}
+
+TEST(Apple, EveryFormThatFitsComesBack) {
+  int count = 0;
+  for (FilmStereo stereo : kFilmStereos) {
+    for (FilmProjection projection : kFilmProjections) {
+      for (const char* part : {"lat-long", "vr180"}) {
+        FilmForm form = form_of(stereo, projection);
+        form.source = "";
+        if (projection == FilmProjection::kEquirect) set_projection(form, find_projection(part)->setting);
+        if (!fits_vexu(form)) continue;
+        Box entry;
+        entry.children = {vexu_box(form), hfov_box(form)};
+        EXPECT_EQ(parse_vexu(entry), form) << form_text(form);
+        count++;
+      }
+    }
+  }
+  EXPECT_EQ(count, 10);  // mono, and left or right first, on top or beside; the whole sphere and half of it
+}
+
+// As cameras of two layers write it, without a packing.
+TEST(Apple, LayersAreNoPacking) {
+  FilmForm form = form_of(FilmStereo::kTopBottom, FilmProjection::kEquirect);
+  Box entry;
+  entry.children = {vexu_box(form)};
+  entry.children[0].children.pop_back();
+  EXPECT_FALSE(parse_vexu(entry));
+  EXPECT_FALSE(parse_vexu(Box()));
+  entry.children[0].children.clear();
+  EXPECT_EQ(form_text(*parse_vexu(entry)), "mono, flat");
 }
 
 TEST(Spherical, V1OfOthersIsUnderstood) {
@@ -174,11 +223,15 @@ TEST(Players, EveryKindIsAsked) {
   track.codec = "avc1";
   track.v2 = form_of(FilmStereo::kTopBottom, FilmProjection::kEquirect);
   const std::vector<PlayerView> views = film_views(film, track, "a_180_LR.mp4");
-  ASSERT_EQ(views.size(), 4u);
+  ASSERT_EQ(views.size(), 5u);
   EXPECT_EQ(views[0].takes_it_for, "top-bottom, lat-long");
   EXPECT_EQ(views[1].takes_it_for, "mono, flat");
-  EXPECT_EQ(views[2].takes_it_for, "side-by-side, vr180");
-  EXPECT_EQ(views[3].takes_it_for, "top-bottom, lat-long");
+  EXPECT_EQ(views[2].takes_it_for, "mono, flat");
+  EXPECT_EQ(views[3].takes_it_for, "side-by-side, vr180");
+  EXPECT_EQ(views[4].takes_it_for, "top-bottom, lat-long");
+  track.vexu = form_of(FilmStereo::kSideBySide, FilmProjection::kEquirect);
+  EXPECT_EQ(film_views(film, track, "a.mp4")[2].takes_it_for, "side-by-side, lat-long");
+  EXPECT_EQ(film_warnings(film, track, "a.mp4").size(), 2u) << "no V1, and a vexu that contradicts V2";
 }
 
 TEST(Players, WarningsAreForWhatIsWrongAndForNothingElse) {

@@ -2,16 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/image/jpeg_segments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <vector>
+
+#include "ods/base/error.h"
 
 namespace ods {
 
 namespace {
 
-enum Marker : unsigned char { kTemporary = 0x01, kRestart0 = 0xD0, kRestart7 = 0xD7, kStart = 0xD8, kEnd = 0xD9 };
+enum Marker : unsigned char {
+  kTemporary = 0x01,
+  kRestart0 = 0xD0,
+  kRestart7 = 0xD7,
+  kStart = 0xD8,
+  kEnd = 0xD9,
+  kScan = 0xDA
+};
 
 // Those that no length stands behind.
 bool stands_alone(unsigned char marker) {
@@ -76,6 +86,63 @@ bool is_whole_jpeg(size_t file_size, const ByteReader& read) {
     bytes.skip(length < 2 ? 0 : length - 2);
   }
   return false;
+}
+
+std::vector<JpegSegment> read_jpeg_headers(const FileInput& file) {
+  constexpr size_t kMost = 1000000;
+  const auto damaged = [&] {
+    return Error(ErrorKind::kInput, fmt::format("cannot use '{}': the JPEG is cut short or damaged", file.path()));
+  };
+  const auto byte = [](const std::string& bytes, size_t at) { return static_cast<unsigned char>(bytes[at]); };
+  std::vector<JpegSegment> segments;
+  for (uint64_t at = 2; segments.size() < kMost;) {
+    if (at + 4 > file.size()) throw damaged();
+    const std::string start = file.read(at, 4);
+    if (byte(start, 0) != 0xFF) throw damaged();
+    const unsigned char marker = byte(start, 1);
+    if (marker == 0xFF) {  // filling
+      at++;
+      continue;
+    }
+    if (marker == kScan) return segments;
+    const uint64_t length = uint64_t{byte(start, 2)} << 8 | byte(start, 3);
+    if (stands_alone(marker) || marker == kEnd || length < 2 || length > file.size() - at - 2) throw damaged();
+    segments.push_back({marker, at, length + 2, file.read(at + 4, length - 2)});
+    at += length + 2;
+  }
+  throw damaged();
+}
+
+std::string jpeg_segment(unsigned char marker, std::string_view data) {
+  const size_t length = data.size() + 2;
+  const std::string header{'\xff', static_cast<char>(marker), static_cast<char>(length >> 8),
+                           static_cast<char>(length & 0xff)};
+  return header + std::string(data);
+}
+
+uint64_t place_of_packet(const std::vector<JpegSegment>& headers) {
+  uint64_t at = 2;
+  for (const JpegSegment& segment : headers) {
+    const bool goes_before = segment.data.starts_with("JFIF") || segment.data.starts_with("Exif");
+    if (goes_before && segment.offset == at) at += segment.size;
+  }
+  return at;
+}
+
+// SOF0 .. SOF15; among them stand the markers of tables (DHT, DAC) and one that is kept free (JPG).
+static bool is_frame(unsigned char marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+std::optional<Extent> jpeg_size(const std::vector<JpegSegment>& headers) {
+  for (const JpegSegment& segment : headers) {
+    if (!is_frame(segment.marker) || segment.data.size() < 6) continue;
+    const auto number = [&](size_t at) {
+      return static_cast<unsigned char>(segment.data[at]) << 8 | static_cast<unsigned char>(segment.data[at + 1]);
+    };
+    return Extent{number(3), number(1)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace ods

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "ods/base/read_file.h"
+#include "ods/image/xmp.h"
 
 namespace ods {
 
@@ -198,21 +198,8 @@ bool fits_gpano(const ProjectionSetting& projection) {
   return projection.kind == kLatLong && projection.longitude.x >= -180.0f && projection.longitude.y <= 180.0f;
 }
 
-std::string xmp_property(const std::string& xmp, const std::string& name) {
-  for (size_t at = xmp.find(name); at != std::string::npos; at = xmp.find(name, at + 1)) {
-    size_t from = xmp.find_first_not_of(" \t\r\n", at + name.size());
-    if (from == std::string::npos) break;
-    if (xmp[from] == '>') return xmp.substr(from + 1, xmp.find('<', from) - from - 1);
-    if (xmp[from] != '=') continue;
-    from = xmp.find_first_of("\"'", from);
-    if (from == std::string::npos) break;
-    return xmp.substr(from + 1, xmp.find(xmp[from], from + 1) - from - 1);
-  }
-  return {};
-}
-
 static std::string gpano_property(const std::string& xmp, const std::string& name) {
-  return xmp_property(xmp, "GPano:" + name);
+  return std::string(xmp_property(xmp, "GPano:" + name));
 }
 
 static std::optional<double> gpano_number(const std::string& xmp, const std::string& name) {
@@ -242,14 +229,6 @@ std::optional<CameraRig> gpano_camera(const std::string& xmp) {
   rig.pitch = angle("PosePitchDegrees");
   rig.roll = angle("PoseRollDegrees");
   return rig;
-}
-
-// The XMP specification, part 3, lets a packet be found by its marks, whatever stands around it.
-std::string read_xmp(const std::string& path) {
-  const std::vector<unsigned char> bytes = read_start(path, size_t{1} << 20);
-  const std::string text(bytes.begin(), bytes.end());
-  const size_t begin = text.find("<x:xmpmeta"), end = text.find("</x:xmpmeta>");
-  return begin < end && end != std::string::npos ? text.substr(begin, end - begin) : std::string();
 }
 
 }  // namespace ods

@@ -33,13 +33,7 @@ bool fits_gpano(const ProjectionSetting& projection);
 // Of a picture of one eye, `size` large. Precondition: fits_gpano().
 void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent size);
 
-// The value of `name` in XMP: name="value" or <name>value</name>; empty where there is none.
-std::string xmp_property(const std::string& xmp, const std::string& name);
-
 // The projection and attitude of a packet of XMP that has GPano in it, as attributes or as elements.
 std::optional<CameraRig> gpano_camera(const std::string& xmp);
-
-// The XMP packet of a png, jpg or tif; empty where there is none in its first megabyte. Throws Error(kInput).
-std::string read_xmp(const std::string& path);
 
 }  // namespace ods

@@ -10,7 +10,10 @@
 #include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/image/camera_file.h"
+#include "ods/image/cardboard.h"
 #include "ods/image/metadata.h"
+#include "ods/image/xmp.h"
+#include "ods/image/xmp_file.h"
 
 namespace ods {
 
@@ -153,8 +156,13 @@ static std::optional<CameraFile> find_sidecar(const FileInfo& info, const std::s
   return std::nullopt;
 }
 
+static bool is_taken_as_photo(const FileInfo& info, const std::string& path, const KnownForm& known) {
+  return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && is_photo(path);
+}
+
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const KnownForm& known,
-                               const std::optional<CameraFile>& sidecar) {
+                               const std::optional<CameraFile>& sidecar, bool photo) {
+  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo, with the right eye in it"};
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
@@ -221,7 +229,8 @@ static std::optional<CameraRig> find_camera(const FileInfo& info, const std::str
 PictureForm find_form(const FileInfo& info, const std::string& path, const KnownForm& known) {
   PictureForm form;
   const std::optional<CameraFile> sidecar = find_sidecar(info, path, known, form.guesses);
-  form.layout = find_layout(info, path, known, sidecar);
+  form.is_photo = is_taken_as_photo(info, path, known);
+  form.layout = find_layout(info, path, known, sidecar, form.is_photo);
   form.eye = find_eye(info, sidecar);
   const Layout layout = form.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What form a picture file has: which layout, which projection, which camera. From what the caller knows, else from
-// what stands beside it (NAME.camera.json), in it (ods:*, GPano, envmap, the channels of two views) or in its name,
+// what stands beside it (NAME.camera.json), in it (ods:*, GPano, envmap, the channels of two views, a
+// second eye) or in its name,
 // else from its shape. Names end in words with _ or . before them: those of layout_of() (_TB, _LR, _SBS, _OU ...),
 // mono, 180, vr180, 360 and the names of projections, in capitals or not, with numbers behind them.
 #pragma once
@@ -52,7 +53,8 @@ struct KnownForm {
 
 struct PictureForm {
   LayoutGuess layout;
-  int eye = kMono;  // which, of one
+  int eye = kMono;        // which, of one
+  bool is_photo = false;  // a Cardboard photo (ods/image/cardboard.h): layout kSeparate, both eyes in one file
   CameraRig camera;
   bool camera_is_said = false;       // by the caller, the file or its sidecar; else only its projection is a guess
   std::vector<std::string> guesses;  // "top-bottom: its name ends in _TB", to be said to people

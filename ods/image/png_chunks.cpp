@@ -7,55 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <string_view>
+#include <iterator>
+
+#include "ods/base/error.h"
 
 namespace ods {
-
-using namespace std::string_view_literals;
-
-static std::string escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-static std::string text_of(const Attribute& attribute) {
-  if (const int* i = std::get_if<int>(&attribute.value)) return fmt::format("{}", *i);
-  if (const float* f = std::get_if<float>(&attribute.value)) return fmt::format("{}", *f);
-  const std::string* s = std::get_if<std::string>(&attribute.value);
-  return s ? *s : std::string();
-}
-
-bool is_gpano(const Attribute& attribute) {
-  return attribute.name.starts_with("GPano:");
-}
-
-static std::string gpano_packet(const std::vector<Attribute>& attributes) {
-  std::string properties;
-  for (const Attribute& attribute : attributes) {
-    if (is_gpano(attribute)) properties += fmt::format(" {}=\"{}\"", attribute.name, escaped(text_of(attribute)));
-  }
-  return fmt::format(
-      "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
-      "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
-      "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\"{}/>"
-      "</rdf:RDF></x:xmpmeta>\n<?xpacket end=\"r\"?>",
-      properties);
-}
 
 static std::string big_endian(uint32_t value) {
   std::string bytes;
@@ -96,12 +52,19 @@ static uint32_t add_to_crc(uint32_t crc, std::string_view bytes) {
   return crc;
 }
 
+std::string png_chunk(std::string_view type, std::string_view data) {
+  const std::string typed = std::string(type) + std::string(data);
+  return big_endian(static_cast<uint32_t>(data.size())) + typed + big_endian(~add_to_crc(kCrcStart, typed));
+}
+
+std::string xmp_chunk(const std::string& packet) {
+  return png_chunk("iTXt", std::string(kPngXmpKeyword) + std::string(4, '\0') + packet);
+}
+
 std::string gpano_chunk(const std::vector<Attribute>& attributes) {
-  if (std::none_of(attributes.begin(), attributes.end(), is_gpano)) return {};
-  // Keyword, then: not compressed, method 0, no language, no translated keyword.
-  const std::string body = std::string("XML:com.adobe.xmp\0\0\0\0\0"sv) + gpano_packet(attributes);
-  const std::string typed = "iTXt" + body;
-  return big_endian(static_cast<uint32_t>(body.size())) + typed + big_endian(~add_to_crc(kCrcStart, typed));
+  std::vector<Attribute> properties;
+  std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(properties), is_gpano);
+  return properties.empty() ? std::string() : xmp_chunk(make_xmp(properties));
 }
 
 static uint32_t read_big_endian(std::string_view bytes, size_t at) {
@@ -110,13 +73,30 @@ static uint32_t read_big_endian(std::string_view bytes, size_t at) {
   return value;
 }
 
+PngChunk read_png_chunk(const FileInput& file, uint64_t at) {
+  const std::string start = file.read(at, 8);
+  const PngChunk chunk{start.substr(4), read_big_endian(start, 0)};
+  if (chunk.length + 12 > file.size() - at) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': the PNG is cut short or damaged", file.path()));
+  }
+  return chunk;
+}
+
 static bool has_sane_size(std::string_view header) {
   const uint32_t kLongest = 1000000;  // of libpng
   const uint32_t width = read_big_endian(header, 0), height = read_big_endian(header, 4);
   return width > 0 && width <= kLongest && height > 0 && height <= kLongest;
 }
 
-// A chunk of a file: four bytes of length, four of type, the data, four of CRC.
+Extent png_size(const FileInput& file) {
+  const PngChunk header = read_png_chunk(file, 8);
+  const std::string sides = file.read(16, 8);
+  if (header.type != "IHDR" || header.length < 8 || !has_sane_size(sides)) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': the PNG has no header", file.path()));
+  }
+  return {static_cast<int>(read_big_endian(sides, 0)), static_cast<int>(read_big_endian(sides, 4))};
+}
+
 struct Chunk {
   std::string type;
   size_t offset = 0;

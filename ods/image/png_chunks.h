@@ -4,23 +4,43 @@
 // What OpenImageIO does not do for PNG. ISO/IEC 15948 (PNG); Adobe, "XMP Specification Part 3" for the XMP chunk.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "ods/base/file_input.h"
 #include "ods/base/read_file.h"
-#include "ods/image/attribute.h"
+#include "ods/image/layout.h"
+#include "ods/image/xmp.h"
 
 namespace ods {
 
-// Whether an attribute is one of Google's panorama namespace: GPano:FullPanoWidthPixels.
-bool is_gpano(const Attribute& attribute);
+// The bytes of a chunk: length, type, data, CRC.
+std::string png_chunk(std::string_view type, std::string_view data);
+
+// How the data of the iTXt chunk begins that holds a packet of XMP: its keyword and a zero. Behind them stand: not
+// compressed (else 1), method 0, no language, no translated keyword.
+inline constexpr std::string_view kPngXmpKeyword{"XML:com.adobe.xmp\0", 18};
+std::string xmp_chunk(const std::string& packet);
 
 // The bytes of the iTXt chunk that holds those of them that are; empty where none is.
 std::string gpano_chunk(const std::vector<Attribute>& attributes);
 
 // Where a chunk may be put in a PNG: right behind its header chunk.
 inline constexpr size_t kPngAfterHeader = 33;
+
+// A chunk of a file: four bytes of length, four of type, the data, four of CRC. Throws Error(kInput) where the file
+// does not hold it whole.
+struct PngChunk {
+  std::string type;
+  uint64_t length = 0;  // of the data
+};
+PngChunk read_png_chunk(const FileInput& file, uint64_t at);
+
+// In pixels, as its header says. Throws Error(kInput): it has none.
+Extent png_size(const FileInput& file);
 
 struct FileRange {
   size_t offset = 0;

@@ -14,6 +14,7 @@
 #include "ods/base/error.h"
 #include "ods/image/anaglyph.h"
 #include "ods/image/camera_file.h"
+#include "ods/image/cardboard.h"
 #include "ods/image/image_file.h"
 #include "ods/image/metadata.h"
 
@@ -21,8 +22,12 @@ namespace ods {
 
 // --- what will be written ------------------------------------------------------------------------------------------
 
-static Layout layout_for(const std::string& path, const SaveOptions& options) {
-  return names_eye(path) ? Layout::kSeparate : options.layout;
+static bool is_photo_of(const std::string& path, size_t eye_count) {
+  return eye_count == 2 && names_photo(path) && !names_eye(path);
+}
+
+static Layout layout_for(const std::string& path, const SaveOptions& options, size_t eye_count) {
+  return names_eye(path) || is_photo_of(path, eye_count) ? Layout::kSeparate : options.layout;
 }
 
 static Error unfit(const std::string& path, const std::string& why) {
@@ -31,7 +36,7 @@ static Error unfit(const std::string& path, const std::string& why) {
 
 static void check_layout(const std::string& path, FileFormat format, const SaveOptions& options,
                          const std::vector<int>& eyes, Extent eye) {
-  const Layout layout = layout_for(path, options);
+  const Layout layout = layout_for(path, options, eyes.size());
   const bool stereo = eyes.size() == 2;
   if (layout == Layout::kMultiview && format != FileFormat::kExr) throw unfit(path, "only .exr holds multi-view");
   if (layout == Layout::kMultiview && !stereo) throw unfit(path, "multi-view needs both eyes");
@@ -39,7 +44,7 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
   if (is_anaglyph(layout) && is_scene_referred(format)) {
     throw unfit(path, "an anaglyph is what a display shows, and this format holds the scene's light; use .png");
   }
-  if (layout == Layout::kSeparate && stereo && !names_eye(path)) {
+  if (layout == Layout::kSeparate && stereo && !names_eye(path) && !names_photo(path)) {
     throw unfit(path, "separate eyes need %V (left, right) or %v (l, r) in the file name");
   }
   if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v name an eye, and a mono picture has none");
@@ -67,9 +72,17 @@ bool keeps_layers(const std::string& path) {
   return format_of_path(path) == FileFormat::kExr;
 }
 
-void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye) {
+static void check_photo(const std::string& path, const ProjectionSetting& projection) {
+  if (fits_gpano(projection)) return;
+  throw unfit(path,
+              fmt::format("a .vr.jpg holds lat-long or a part of it, and this is {}", projection_name(projection)));
+}
+
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
+                  const ProjectionSetting* projection) {
   assert(eyes.size() == 1 || eyes.size() == 2);
   check_layout(path, format_for(path), options, eyes, eye);
+  if (is_photo_of(path, eyes.size()) && projection != nullptr) check_photo(path, *projection);
   for (int each : eyes) check_writable(names_eye(path) ? path_for_eye(path, each) : path);
 }
 
@@ -330,12 +343,28 @@ static void write_picture(AtomicFile& out, const File& file, const CameraRig* ri
   write_image(out, header, fill, file.picture.band_done);
 }
 
+// Both eyes as JPEGs of their own, which are not kept.
+static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const CameraRig* rig,
+                            const SaveOptions& options) {
+  if (rig == nullptr) throw unfit(out.path(), "a .vr.jpg says how it was taken, and of this nobody knows");
+  check_photo(out.path(), rig->projection);
+  std::list<AtomicFile> eyes;
+  for (const int index : {0, 1}) {
+    const File file{picture, {index}, FileFormat::kJpeg, Layout::kSeparate, options, count_channels(picture.layers),
+                    {1, 1}};
+    write_file(eyes.emplace_back(out.path()), file, nullptr);
+    eyes.back().finish();
+  }
+  const FileInput left(eyes.front().temporary()), right(eyes.back().temporary());
+  write_photo(left, right.read(0, right.size()), *rig, picture.eye, out);
+}
+
 std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
                                       const std::string& path) {
   assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
   const FileFormat format = format_for(path);
   check_layout(path, format, options, picture.eyes, picture.eye);
-  const Layout layout = layout_for(path, options);
+  const Layout layout = layout_for(path, options, picture.eyes.size());
   std::list<AtomicFile> files;
   std::vector<std::string> names;
   const auto write = [&](const std::string& name, const std::vector<int>& indices) {
@@ -348,6 +377,9 @@ std::vector<std::string> save_picture(const PictureRows& picture, const CameraRi
   for (int i = 0; i < static_cast<int>(picture.eyes.size()); i++) all.push_back(i);
   if (names_eye(path)) {
     for (int i : all) write(path_for_eye(path, picture.eyes[static_cast<size_t>(i)]), {i});
+  } else if (is_photo_of(path, picture.eyes.size())) {
+    write_both_eyes(files.emplace_back(path), picture, rig, options);
+    names.push_back(path);
   } else {
     write(path, all);
   }

@@ -18,7 +18,8 @@
 // anaglyphs have the picture before black.
 //
 // A file of one eye that can carry GPano (png, jpg, tif) does; a stereo one does not, because GPano knows no stereo and
-// viewers would wrap both eyes around one sphere.
+// viewers would wrap both eyes around one sphere. But NAME.vr.jpg of two eyes is a Cardboard photo: the left eye with
+// GPano, the right one in it (ods/image/cardboard.h), whatever the layout.
 #pragma once
 #include <functional>
 #include <span>
@@ -43,8 +44,10 @@ struct SaveOptions {
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a
 // folder that is missing its write permission, a name that is a folder, a layout that does not fit, a size too large
-// for the format. `eyes` as in EyeImage, `eye` the size of one. Leaves nothing on the disk.
-void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye);
+// for the format, a projection (where it is known) that a Cardboard photo has no word for. `eyes` as in EyeImage, `eye`
+// the size of one. Leaves nothing on the disk.
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
+                  const ProjectionSetting* projection = nullptr);
 
 // Whether a file of this name would hold depth, normal and albedo: exr does.
 bool keeps_layers(const std::string& path);

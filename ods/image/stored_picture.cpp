@@ -11,8 +11,10 @@
 #include <numeric>
 
 #include "ods/base/error.h"
+#include "ods/base/memory_file.h"
 #include "ods/base/scratch.h"
 #include "ods/base/text.h"
+#include "ods/image/cardboard.h"
 
 namespace ods {
 
@@ -318,6 +320,15 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   return eye;
 }
 
+static void check_pair(const std::vector<RowReader>& readers, const std::string& path) {
+  const FileInfo &one = readers[0].info(), &other = readers[1].info();
+  if (one.width != other.width || one.height != other.height) {
+    throw unreadable(
+        path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
+  }
+  if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
+}
+
 static std::vector<RowReader> open_files(const std::string& path) {
   std::vector<RowReader> readers;
   if (!names_eye(path)) {
@@ -325,13 +336,17 @@ static std::vector<RowReader> open_files(const std::string& path) {
     return readers;
   }
   for (int eye : {kLeft, kRight}) readers.emplace_back(path_for_eye(path, eye));
-  const FileInfo &one = readers[0].info(), &other = readers[1].info();
-  if (one.width != other.width || one.height != other.height) {
-    throw unreadable(
-        path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
-  }
-  if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
+  check_pair(readers, path);
   return readers;
+}
+
+static void open_right_eye(std::vector<RowReader>& readers, const MemoryFile& file, const std::string& path) {
+  try {
+    readers.emplace_back(file.path());
+  } catch (const Error&) {
+    throw unreadable(path, "the JPEG of its right eye is damaged");
+  }
+  check_pair(readers, path);
 }
 
 static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const std::string& path) {
@@ -395,8 +410,10 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
 
 StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
   std::vector<RowReader> readers = open_files(path);
+  PictureForm form = find_form(readers[0].info(), path, options.form);
+  const MemoryFile right(form.is_photo ? read_right_eye(path) : "");
+  if (form.is_photo) open_right_eye(readers, right, path);
   const FileInfo& info = readers[0].info();
-  PictureForm form = find_form(info, path, options.form);
   StoredPicture picture;
   picture.is_float = info.is_float;
   picture.layout = form.layout.layout.value_or(Layout::kSeparate);

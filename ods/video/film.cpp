@@ -81,8 +81,11 @@ const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, cons
 }
 
 TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form,
-                   const std::optional<Ambisonics>& sound) {
-  const FileInput file(path);
+                   const std::optional<Ambisonics>& sound, const std::function<void(double done)>& progress) {
+  FileInput file(path);
+  if (progress) {
+    file.watch([&](uint64_t copied) { progress(static_cast<double>(copied) / static_cast<double>(file.size())); });
+  }
   const bool matroska = is_of_matroska(file);
   AtomicFile output(to);
   TagResult result;

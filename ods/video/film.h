@@ -5,6 +5,7 @@
 // mp4_film.h and matroska_film.h are the containers.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,16 +21,18 @@ std::string_view container_name(Container container);  // mp4, mov, mkv, webm
 
 struct VideoTrack {
   uint64_t id = 0;
-  std::string codec;           // avc1, hvc1, V_VP9: as the container has it
-  Extent size;                 // of a frame
-  double fps = 0.0;            // 0: unknown
-  std::optional<FilmForm> v1;  // what its Spherical Video V1 says
-  std::optional<FilmForm> v2;  // its V2, which Matroska has as StereoMode and Projection
+  std::string codec;             // avc1, hvc1, V_VP9: as the container has it
+  Extent size;                   // of a frame
+  double fps = 0.0;              // 0: unknown
+  std::optional<FilmForm> v1;    // what its Spherical Video V1 says
+  std::optional<FilmForm> v2;    // its V2, which Matroska has as StereoMode and Projection
+  std::optional<FilmForm> vexu;  // what stands there for Apple's players
 };
 
 struct SoundTrack {
   uint64_t id = 0;
   std::string codec;
+  int channels = 0;  // 0: it cannot be told, as in mkv and webm
   std::optional<Ambisonics> ambisonics;
 };
 
@@ -52,14 +55,15 @@ const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, cons
 struct TagResult {
   bool has_v1 = false;  // of what was asked for
   bool has_v2 = false;
+  bool has_vexu = false;
   bool moved = false;  // what lies behind the header was moved, and every offset with it
 };
 
 // Writes the film with another form into `to`, which may be `path` itself: a complete new file takes its place. No
 // form: one that says nothing. Every sample stays bit for bit what it was. Throws Error(kInput), also where the
 // container cannot say such a form; Error(kOutput). With `sound`, the sound of an mp4 or mov says so, too; in Matroska
-// Opus says by itself what its channels are.
+// Opus says by itself what its channels are. `progress` is told now and then which share is copied.
 TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form,
-                   const std::optional<Ambisonics>& sound = {});
+                   const std::optional<Ambisonics>& sound = {}, const std::function<void(double done)>& progress = {});
 
 }  // namespace ods

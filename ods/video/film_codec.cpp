@@ -34,6 +34,7 @@ std::optional<Codec> level_codec(FilmCodec codec) {
     case FilmCodec::kAv1:
       return Codec::kAv1;
     case FilmCodec::kVp9:
+      return Codec::kVp9;
     case FilmCodec::kProRes:
       break;
   }

@@ -263,7 +263,7 @@ FilmInfo read_matroska(const FileInput& file) {
       if (part.id != kTracks || entry.id != kTrackEntry) continue;
       const uint64_t type = child_number(entry, kTrackType);
       if (type == 1) info.video.push_back(read_track(film, entry));
-      if (type == 2) info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), {}});
+      if (type == 2) info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), 0, {}});
     }
   }
   return info;

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "ods/video/apple.h"
 #include "ods/video/box_offsets.h"
+#include "ods/video/sound_entry.h"
 
 namespace ods {
 
@@ -86,6 +88,15 @@ static bool is_v1(const Box& box) {
   return box.type == box_type("uuid") && box.body.starts_with(kV1Id);
 }
 
+// What cannot be read says nothing: it is for one maker's players.
+static std::optional<FilmForm> read_vexu(const Box& entry) {
+  try {
+    return parse_vexu(entry);
+  } catch (const Broken&) {
+    return std::nullopt;
+  }
+}
+
 static VideoTrack read_video(Box& track, Box& moov) {
   VideoTrack video;
   video.id = id_of(track);
@@ -97,18 +108,13 @@ static VideoTrack read_video(Box& track, Box& moov) {
       video.size.height = static_cast<int>(get_number(entry.body, 26, 2));
     }
     if (!video.v2) video.v2 = parse_v2(entry);
+    if (!video.vexu) video.vexu = read_vexu(entry);
   }
   for (const Box& box : track.children) {
     if (is_v1(box) && !video.v1) video.v1 = parse_v1(box.body.substr(kV1Id.size()));
   }
   video.fps = rate_of(track, moov);
   return video;
-}
-
-// Its boxes stand behind a description of three lengths, in QuickTime's reading.
-static void open_sound_entry(Box& entry) {
-  const uint64_t version = get_number(entry.body, 8, 2);
-  open_box(entry, version == 1 ? 44 : version == 2 ? 64 : 28);
 }
 
 // What cannot be read says nothing.
@@ -122,6 +128,7 @@ static SoundTrack read_sound(Box& track) {
     } catch (const Broken&) {
       continue;
     }
+    if (sound.channels == 0) sound.channels = count_channels(entry);
     if (const Box* box = find_child(entry, box_type("SA3D"))) sound.ambisonics = parse_sa3d(box->body);
   }
   return sound;
@@ -160,17 +167,26 @@ FilmInfo read_mp4(const FileInput& file) {
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
-// What is there of V2 goes, what is new stands behind the codec's own boxes.
-static void tag_entry(Box& entry, const std::optional<FilmForm>& form) {
+// What is there of V2 and vexu goes, what is new stands behind the codec's own boxes. Where the eyes are layers of the
+// stream (MV-HEVC), vexu says what they are, and is left as it is. True: it has a vexu of this form.
+static bool tag_entry(Box& entry, const std::optional<FilmForm>& form) {
   open_box(entry, kVisualEntry);
   std::vector<Box>& boxes = entry.children;
-  std::erase_if(boxes, [](const Box& box) { return box.type == box_type("st3d") || box.type == box_type("sv3d"); });
-  if (!form) return;
+  const bool has_layers = find_child(entry, box_type("lhvC")) != nullptr;
+  std::erase_if(boxes, [&](const Box& box) {
+    const bool is_apple = box.type == box_type("vexu") || box.type == box_type("hfov");
+    return box.type == box_type("st3d") || box.type == box_type("sv3d") || (is_apple && !has_layers);
+  });
+  if (!form) return false;
   auto place = std::find_if(boxes.begin(), boxes.end(), [](const Box& box) {
     return box.type == box_type("pasp") || box.type == box_type("clap");
   });
   if (form->projection && form->projection != FilmProjection::kFlat) place = boxes.insert(place, sv3d_box(*form));
-  boxes.insert(place, st3d_box(*form));
+  place = boxes.insert(place, st3d_box(*form));
+  if (has_layers || !fits_vexu(*form)) return false;
+  place += 2;  // behind them: it is a sphere
+  boxes.insert(boxes.insert(place, hfov_box(*form)), vexu_box(*form));
+  return true;
 }
 
 static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
@@ -179,7 +195,7 @@ static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
     throw Broken(fmt::format("mp4 and mov have no words for {}", form_text(*form)));
   }
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
-    tag_entry(entry, form);
+    result.has_vexu = tag_entry(entry, form);
     result.has_v2 = form.has_value();
   }
   if (form && !result.has_v2) throw Broken("its video track does not say what its pictures are like");

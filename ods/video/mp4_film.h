@@ -5,7 +5,8 @@
 // ISO/IEC 14496-12; Apple, "QuickTime File Format"; ods/video/spherical.h.
 //
 // What is written into the video track, in place of what was there: V2 as st3d and sv3d in every sample entry, behind
-// the codec's own boxes and before pasp and clap; V1 as the last box of the track, where it can say the form.
+// the codec's own boxes and before pasp and clap, and vexu and hfov (ods/video/apple.h) behind them; V1 as the last box
+// of the track, where it can say the form.
 #pragma once
 #include <optional>
 

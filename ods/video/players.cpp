@@ -35,6 +35,11 @@ static PlayerView v1_view(const VideoTrack& track) {
   return {"reads only V1", shown_as({}), "it has no V1"};
 }
 
+static PlayerView apple_view(const VideoTrack& track) {
+  if (track.vexu) return {"is Apple's", shown_as(*track.vexu), "vexu says so"};
+  return {"is Apple's", shown_as({}), "it has no vexu"};
+}
+
 static PlayerView name_view(const std::string& path) {
   const NameWords words = read_name(path);
   if (words.layout_word.empty() && words.projection == nullptr) {
@@ -54,6 +59,7 @@ static PlayerView shape_view(Extent size) {
 std::vector<PlayerView> film_views(const FilmInfo& film, const VideoTrack& track, const std::string& path) {
   std::vector<PlayerView> views{v2_view(film, track)};
   if (!is_matroska(film) || track.v1) views.push_back(v1_view(track));
+  if (!is_matroska(film)) views.push_back(apple_view(track));
   views.push_back(name_view(path));
   views.push_back(shape_view(track.size));
   return views;
@@ -70,6 +76,9 @@ static std::optional<Codec> codec_of(const std::string& name) {
   }
   for (const char* word : {"av01", "V_AV1"}) {
     if (name == word) return Codec::kAv1;
+  }
+  for (const char* word : {"vp09", "V_VP9"}) {
+    if (name == word) return Codec::kVp9;
   }
   return std::nullopt;
 }
@@ -124,6 +133,10 @@ std::vector<std::string> film_warnings(const FilmInfo& film, const VideoTrack& t
     warnings.push_back("it has no V1: older players show it flat (ods inject adds it)");
   }
   if (track.v1 && !track.v2) warnings.push_back("it has no V2 (ods inject adds it)");
+  if (track.v2 && track.vexu && !agree(shown_as(*track.vexu), v2.takes_it_for)) {
+    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ (ods inject makes them one)",
+                                   form_text(*track.vexu), form_text(*track.v2)));
+  }
   const NameWords words = read_name(path);
   const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
   if (is_named && !agree(v2.takes_it_for, name.takes_it_for)) {
@@ -138,6 +151,7 @@ std::vector<std::string> film_warnings(const FilmInfo& film, const VideoTrack& t
 // --- pictures --------------------------------------------------------------------------------------------------------
 
 static std::string picture_text(const PictureForm& form) {
+  if (form.is_photo) return fmt::format("both eyes, {}", projection_name(form.camera.projection));
   return fmt::format("{}, {}", form.layout.layout ? layout_name(*form.layout.layout) : "mono",
                      projection_name(form.camera.projection));
 }
@@ -146,14 +160,18 @@ std::vector<PlayerView> picture_views(const FileInfo& info, const PictureForm& f
                                       const std::string& path) {
   PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
   if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.because = "GPano says so, which knows no stereo";
-  return {
-      {"ods", picture_text(form), form.layout.because}, gpano, name_view(path), shape_view({info.width, info.height})};
+  std::vector<PlayerView> views{{"ods", picture_text(form), form.layout.because}, gpano};
+  if (form.is_photo) views.push_back({"reads VR photos", picture_text(form), "GImage has the right eye"});
+  views.push_back(name_view(path));
+  views.push_back(shape_view({info.width, info.height}));
+  return views;
 }
 
 std::vector<std::string> picture_warnings(const FileInfo& info, const PictureForm& form, bool has_gpano,
                                           const std::string& path) {
   std::vector<std::string> warnings;
   const std::string is = picture_text(form);
+  if (form.is_photo) return warnings;
   if (has_gpano && form.layout.layout) {
     warnings.push_back("it has GPano and holds two eyes: many viewers show both as one sphere, stretched");
   }

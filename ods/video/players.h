@@ -15,7 +15,7 @@
 namespace ods {
 
 struct PlayerView {
-  std::string_view player;   // "reads V2", "reads only V1", "goes by the name", "goes by the shape"
+  std::string_view player;   // "reads V2", "reads only V1", "is Apple's", "goes by the name", "goes by the shape"
   std::string takes_it_for;  // "top-bottom, lat-long"
   std::string because;       // "st3d and sv3d say so"
 };

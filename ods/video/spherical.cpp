@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "ods/image/metadata.h"
+#include "ods/image/xmp.h"
 
 namespace ods {
 
@@ -98,7 +98,7 @@ std::string v1_xml(const FilmForm& form) {
 }
 
 static std::string v1_word(const std::string& xml, const std::string& name) {
-  const std::string text = xmp_property(xml, "GSpherical:" + name);
+  const std::string text(xmp_property(xml, "GSpherical:" + name));
   const size_t from = text.find_first_not_of(" \t\r\n");
   return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(" \t\r\n") - from + 1);
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "ods/image/lint/checks.h"
+#include "ods/image/xmp_file.h"
 
 namespace ods {
 
@@ -25,7 +26,7 @@ static void check_gpano(const Subject& subject, LintReport& report) {
   if (report.eye_count < 2 || names_eye(subject.path)) return;
   if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
   add(report, 1.0, "a stereo file carries GPano, which knows no stereo: viewers wrap both eyes around one sphere",
-      "remove GPano from it (exiftool -XMP-GPano:all= FILE)");
+      "remove GPano from it (ods inject --remove FILE)");
 }
 
 static void check_name(const Subject& subject, LintReport& report) {

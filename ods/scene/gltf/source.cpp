@@ -102,26 +102,6 @@ static Json parse_json(const GltfFile& file, Bytes text) {
 
 // --- URIs
 
-// RFC 4648; what is not of the alphabet ends the text.
-static std::vector<unsigned char> decode_base64(std::string_view text) {
-  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<unsigned char> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const size_t value = kAlphabet.find(c);
-    if (value == std::string_view::npos) break;
-    bits = bits << 6 | static_cast<uint32_t>(value);
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      bytes.push_back(static_cast<unsigned char>(bits >> count));
-    }
-  }
-  return bytes;
-}
-
 // RFC 3986: %20 is a space.
 static std::string decode_percent(const std::string& uri) {
   std::string text;
@@ -142,7 +122,8 @@ static std::string uri_key(const std::string& uri) {
 static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
   const size_t comma = uri.find(";base64,");
   if (comma == std::string::npos) fail(file, "has a data URI that is not in base64");
-  return share(decode_base64(std::string_view(uri).substr(comma + 8)));
+  const std::string bytes = decode_base64(std::string_view(uri).substr(comma + 8));
+  return share({bytes.begin(), bytes.end()});
 }
 
 // The file that a URI names.

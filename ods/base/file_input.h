@@ -4,6 +4,7 @@
 // A file that is too large for memory: read here and there, copied in ranges.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "ods/base/atomic_file.h"
@@ -28,6 +29,9 @@ class FileInput {
   // through the file's stream. Throws Error(kInput), Error(kOutput).
   void copy(uint64_t offset, uint64_t count, AtomicFile& file) const;
 
+  // Calls this after every piece that copy() has copied, with the bytes that it has copied in all.
+  void watch(std::function<void(uint64_t copied)> watcher) { watcher_ = std::move(watcher); }
+
   // The file is to be as readable as this one.
   void give_mode(AtomicFile& file) const;
 
@@ -35,6 +39,8 @@ class FileInput {
   std::string path_;
   uint64_t size_ = 0;
   int descriptor_ = -1;
+  std::function<void(uint64_t)> watcher_;
+  mutable uint64_t copied_ = 0;
 };
 
 // Appends bytes where FileInput::copy() does. Throws Error(kOutput).

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/video/file_input.h"
+#include "ods/base/file_input.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -59,20 +59,25 @@ void append(AtomicFile& file, const std::string& bytes) {
 }
 
 void FileInput::copy(uint64_t offset, uint64_t count, AtomicFile& file) const {
-  constexpr uint64_t kAtOnce = uint64_t{1} << 30;
+  constexpr uint64_t kAtOnce = uint64_t{64} << 20;
+  const auto advance = [&](uint64_t bytes) {
+    count -= bytes;
+    copied_ += bytes;
+    if (watcher_) watcher_(copied_);
+  };
   off_t from = static_cast<off_t>(offset);
   while (count > 0) {
     const ssize_t done =
         copy_file_range(descriptor_, &from, fileno(file.stream()), nullptr, std::min(count, kAtOnce), 0);
     if (done <= 0) break;  // other file systems, old kernels, a full disk: the buffer's way, which says what is wrong
-    count -= static_cast<uint64_t>(done);
+    advance(static_cast<uint64_t>(done));
   }
   constexpr uint64_t kBuffer = uint64_t{4} << 20;
   while (count > 0) {
     const std::string bytes = read(static_cast<uint64_t>(from), std::min(count, kBuffer));
     append(file, bytes);
     from += static_cast<off_t>(bytes.size());
-    count -= bytes.size();
+    advance(bytes.size());
   }
 }
 

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "cli/inject_job.h"
+#include "ods/base/suggest.h"
+#include "ods/image/tag_picture.h"
+
+namespace {
+
+ods::KnownForm known_form(const InjectJob& job) {
+  ods::KnownForm known;
+  known.one_eye = job.is_mono;
+  known.layout = job.layout;
+  if (job.projection.empty()) return known;
+  const ods::NamedProjection* named = ods::find_projection(job.projection == "flat" ? "perspective" : job.projection);
+  if (!named) {
+    std::vector<std::string> names;
+    for (const ods::NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
+    throw UsageError(fmt::format("--projection: there is no projection '{}'{} of pictures", job.projection,
+                                 ods::did_you_mean(job.projection, names)));
+  }
+  known.projection = named->setting;
+  return known;
+}
+
+}  // namespace
+
+void inject_picture(const InjectJob& job) {
+  if (job.track || job.ambisonics)
+    throw UsageError(fmt::format("--track and --ambisonics are of films, and '{}' is a picture", job.file));
+  if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
+  std::vector<std::string> guesses;
+  ods::PictureTag tag = ods::complete_tag(known_form(job), job.file, guesses);
+  tag.rig.yaw = job.yaw.value_or(tag.rig.yaw);
+  tag.rig.pitch = job.pitch.value_or(tag.rig.pitch);
+  tag.rig.roll = job.roll.value_or(tag.rig.roll);
+  ods::tag_picture(job.file, job.output, tag);
+  for (const std::string& guess : guesses) note(guess);
+  note(fmt::format("{}, {}: written", tag.layout ? layout_name(*tag.layout) : ods::eye_name(tag.eye),
+                   projection_name(tag.rig.projection)));
+}

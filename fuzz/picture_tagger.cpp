@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// libFuzzer on tagging pictures and on Cardboard photos: any bytes are told what they are, or why not; what was told
+// once can be told again, and be told nothing.
+//   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_picture_tagger
+//   build/fuzz/fuzz_picture_tagger -max_len=16384 folder/of/small/pictures
+#include <cstdlib>
+
+#include "ods/base/error.h"
+#include "ods/base/memory_file.h"
+#include "ods/image/cardboard.h"
+#include "ods/image/tag_picture.h"
+#include "ods/image/xmp_file.h"
+
+static void read_photo(const std::string& path) {
+  try {
+    if (ods::is_photo(path)) ods::read_right_eye(path);
+  } catch (const ods::Error&) {
+  }
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const ods::MemoryFile file({reinterpret_cast<const char*>(data), size});
+  const std::string tagged = "/dev/shm/ods-fuzz/picture";
+  read_photo(file.path());
+  ods::PictureTag tag;
+  tag.rig.yaw = 90.0f;
+  try {
+    std::vector<std::string> guesses;
+    ods::complete_tag({}, file.path(), guesses);
+    ods::tag_picture(file.path(), tagged, tag);
+  } catch (const ods::Error&) {
+    return 0;
+  }
+  ods::tag_picture(tagged, tagged, tag);  // throws nothing now
+  ods::read_xmp(tagged);
+  ods::tag_picture(tagged, tagged, std::nullopt);
+  return 0;
+}

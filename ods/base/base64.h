@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bytes as letters. RFC 4648.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace ods {
+
+std::string encode_base64(std::string_view bytes);
+
+// What is not of the alphabet ends the text.
+std::string decode_base64(std::string_view text);
+
+}  // namespace ods

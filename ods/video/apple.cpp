@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/apple.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace ods {
+
+constexpr uint32_t kQuarter = 0x40000000;  // of 2^32
+constexpr std::array<uint32_t, 4> kFrontHalf = {0, 0, kQuarter, kQuarter};
+
+enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
+
+static bool is_stacked(FilmStereo stereo) {
+  return stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kBottomTop;
+}
+
+static bool is_beside(FilmStereo stereo) {
+  return stereo == FilmStereo::kSideBySide || stereo == FilmStereo::kRightLeft;
+}
+
+static bool has_right_first(FilmStereo stereo) {
+  return stereo == FilmStereo::kBottomTop || stereo == FilmStereo::kRightLeft;
+}
+
+static FilmStereo stereo_of(const FilmForm& form) {
+  return form.stereo.value_or(FilmStereo::kOneView);
+}
+
+bool fits_vexu(const FilmForm& form) {
+  const FilmStereo stereo = stereo_of(form);
+  const bool is_known = stereo == FilmStereo::kOneView || is_stacked(stereo) || is_beside(stereo);
+  const bool is_turned = form.yaw != 0.0 || form.pitch != 0.0 || form.roll != 0.0;
+  return is_known && !is_turned && form.projection == FilmProjection::kEquirect &&
+         (!form.is_partial() || form.bounds == kFrontHalf);
+}
+
+// --- written ---------------------------------------------------------------------------------------------------------
+
+static Box parent(BoxType type, std::vector<Box> children) {
+  Box box;
+  box.type = type;
+  box.children = std::move(children);
+  return box;
+}
+
+// Version and flags, then a number.
+static Box leaf(BoxType type, uint64_t value, size_t bytes) {
+  Box box;
+  box.type = type;
+  append_number(box.body, 0, 4);
+  append_number(box.body, value, bytes);
+  return box;
+}
+
+Box vexu_box(const FilmForm& form, double ipd) {
+  assert(fits_vexu(form));
+  const FilmStereo stereo = stereo_of(form);
+  Box vexu = parent(box_type("vexu"), {});
+  if (stereo != FilmStereo::kOneView) {
+    uint64_t flags = kHasLeft | kHasRight;
+    if (has_right_first(stereo)) flags |= kRightFirst;
+    Box eyes = parent(box_type("eyes"), {leaf(box_type("stri"), flags, 1), leaf(box_type("hero"), 1, 1)});
+    if (ipd > 0.0) {
+      const auto micrometres = static_cast<uint64_t>(std::llround(ipd * 1e6));
+      eyes.children.push_back(parent(box_type("cams"), {leaf(box_type("blin"), micrometres, 4)}));
+    }
+    vexu.children.push_back(std::move(eyes));
+  }
+  const BoxType kind = form.is_partial() ? box_type("hequ") : box_type("equi");
+  vexu.children.push_back(parent(box_type("proj"), {leaf(box_type("prji"), kind, 4)}));
+  if (stereo != FilmStereo::kOneView) {
+    const BoxType packing = is_stacked(stereo) ? box_type("over") : box_type("side");
+    vexu.children.push_back(parent(box_type("pack"), {leaf(box_type("pkin"), packing, 4)}));
+  }
+  return vexu;
+}
+
+Box hfov_box(const FilmForm& form) {
+  assert(fits_vexu(form));
+  Box box;
+  box.type = box_type("hfov");
+  append_number(box.body, form.is_partial() ? 180000 : 360000, 4);
+  return box;
+}
+
+// --- read ------------------------------------------------------------------------------------------------------------
+
+// The number in a box of a box; nothing where there is none.
+static std::optional<uint64_t> find_number(Box& vexu, BoxType outer, BoxType inner, size_t bytes) {
+  Box* holder = find_child(vexu, outer);
+  if (holder == nullptr) return std::nullopt;
+  open_box(*holder, 0);
+  const Box* box = find_child(*holder, inner);
+  return box == nullptr ? std::nullopt : std::optional(get_number(box->body, 4, bytes));
+}
+
+static FilmStereo packed(bool is_over, bool right_first) {
+  if (is_over) return right_first ? FilmStereo::kBottomTop : FilmStereo::kTopBottom;
+  return right_first ? FilmStereo::kRightLeft : FilmStereo::kSideBySide;
+}
+
+std::optional<FilmForm> parse_vexu(const Box& sample_entry) {
+  const Box* found = find_child(sample_entry, box_type("vexu"));
+  if (found == nullptr) return std::nullopt;
+  Box vexu = *found;
+  open_box(vexu, 0);
+  const std::optional<uint64_t> flags = find_number(vexu, box_type("eyes"), box_type("stri"), 1);
+  const std::optional<uint64_t> packing = find_number(vexu, box_type("pack"), box_type("pkin"), 4);
+  const std::optional<uint64_t> kind = find_number(vexu, box_type("proj"), box_type("prji"), 4);
+  FilmForm form;
+  if (flags && (*flags & kHasLeft) != 0 && (*flags & kHasRight) != 0) {
+    if (!packing) return std::nullopt;
+    const bool is_known = *packing == box_type("over") || *packing == box_type("side");
+    form.stereo = is_known ? packed(*packing == box_type("over"), (*flags & kRightFirst) != 0) : FilmStereo::kOther;
+  } else {
+    form.stereo = FilmStereo::kOneView;
+  }
+  form.projection = !kind || *kind == box_type("rect") ? FilmProjection::kFlat : FilmProjection::kOther;
+  if (kind == box_type("equi") || kind == box_type("hequ")) form.projection = FilmProjection::kEquirect;
+  if (kind == box_type("hequ")) form.bounds = kFrontHalf;
+  return form;
+}
+
+}  // namespace ods

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What Apple's players read of a film: `vexu` and `hfov` in a sample entry of mp4 or mov. Sources: Apple, "ISO Base
+// Media File Format and Apple HEVC Stereo Video", and what its "Apple Projected Media Profile" added (proj, pack).
+//
+//   vexu { eyes { stri, hero, cams { blin } }, proj { prji }, pack { pkin } }    hfov
+//
+// stri: 1 there is a left eye, 2 a right one, 8 the right one comes first; hero: 1 left, 2 right; blin: the distance of
+// the eyes in micrometres; prji: equi, hequ (the half in front), rect; pkin: side, over; hfov: thousandths of a degree.
+#pragma once
+#include "ods/video/spherical.h"
+
+namespace ods {
+
+// It knows mono, top-bottom and side-by-side, with the right eye first, too; of projections the whole sphere in
+// lat-long and the half in front.
+bool fits_vexu(const FilmForm& form);
+
+// Preconditions: fits_vexu(). `ipd`: metres; 0: unknown, and no blin.
+Box vexu_box(const FilmForm& form, double ipd = 0.0);
+Box hfov_box(const FilmForm& form);
+
+// From the boxes of a sample entry; nothing where it has no vexu, or one that describes layers of the stream and no
+// packing. Throws Broken.
+std::optional<FilmForm> parse_vexu(const Box& sample_entry);
+
+}  // namespace ods
