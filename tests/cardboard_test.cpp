@@ -14,6 +14,7 @@
 #include "ods/base/md5.h"
 #include "ods/base/read_file.h"
 #include "ods/image/jpeg_segments.h"
+#include "ods/image/lint.h"
 #include "ods/image/load_eyes.h"
 #include "ods/image/metadata.h"
 #include "ods/image/save.h"
@@ -159,6 +160,14 @@ TEST_F(Photo, WhatItHasNoWordForIsRefused) {
   EXPECT_THROW(check_output(path, {}, {kLeft, kRight}, {32, 32}, &fisheye.projection), Error);
   EXPECT_NO_THROW(check_output(path, {}, {kLeft, kRight}, {32, 32}));
   EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_F(Photo, LintSeesBothEyesAndNothingWrongWithItsGpano) {
+  make({256, 128});
+  const LintReport report = lint(path, {});
+  EXPECT_EQ(report.eye_count, 2);
+  EXPECT_EQ(report.eye.width, 256);
+  for (const Finding& finding : report.findings) EXPECT_NE(finding.fault, Fault::kMetadata) << finding.evidence;
 }
 
 // --- packets that lie ------------------------------------------------------------------------------------------------

@@ -94,7 +94,7 @@ static void load(Subject& subject, const LintOptions& options) {
   open.form.projection = options.projection;
   open.only_light = true;
   subject.form = find_form(subject.info, path, open.form);
-  if (names_eye(path) || subject.layout() == Layout::kMultiview) {
+  if (names_eye(path) || subject.form.is_photo || subject.layout() == Layout::kMultiview) {
     subject.eyes = grey_eyes(open_picture(path, open));
     return;
   }

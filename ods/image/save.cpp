@@ -352,7 +352,7 @@ static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const C
   for (const int index : {0, 1}) {
     const File file{picture, {index}, FileFormat::kJpeg, Layout::kSeparate, options, count_channels(picture.layers),
                     {1, 1}};
-    write_file(eyes.emplace_back(out.path()), file, nullptr);
+    write_picture(eyes.emplace_back(out.path()), file, nullptr);
     eyes.back().finish();
   }
   const FileInput left(eyes.front().temporary()), right(eyes.back().temporary());

@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "ods/base/base64.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/read_file.h"

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
+#include "ods/base/base64.h"
 #include "ods/image/layout.h"
 #include "ods/stitch/export/writers.h"
 
@@ -56,18 +57,6 @@ namespace {
 
 constexpr double kFramesPerSecond = 24.0;
 
-// RFC 4648.
-std::string base64(const std::vector<unsigned char>& bytes) {
-  static constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (size_t j = 0; j < 3; j++) group = group << 8u | (i + j < bytes.size() ? bytes[i + j] : 0u);
-    for (size_t j = 0; j < 4; j++) text += i + j > bytes.size() ? '=' : kLetters[group >> (18u - 6u * j) & 63u];
-  }
-  return text;
-}
-
 // The numbers of the animation behind each other.
 struct Keys {
   std::vector<float> times, places, turns;
@@ -103,8 +92,9 @@ void add_buffer(const Keys& keys, nlohmann::ordered_json& json) {
   json["accessors"][0]["min"] = {keys.times.front()}, json["accessors"][0]["max"] = {keys.times.back()};
   add(keys.places, "VEC3", 3);
   add(keys.turns, "VEC4", 4);
+  const std::string_view letters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   json["buffers"].push_back(
-      {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
+      {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + encode_base64(letters)}});
 }
 
 }  // namespace
