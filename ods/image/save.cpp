@@ -92,8 +92,6 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, La
                     const std::vector<int>& eyes) {
   const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
   text("compression", "zip");
-  // OpenImageIO would write the time of day, and the same picture would not be the same bytes.
-  text("DateTime", "");
   // Rec. 709 primaries and D65: red, green, blue, white.
   attributes.push_back({"chromaticities", std::vector<float>{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f}});
   text("colorInteropID", "lin_rec709_scene");
@@ -282,6 +280,9 @@ static FileHeader make_header(const File& file, const CameraRig* rig) {
   header.format = format;
   header.width = size.width;
   header.height = size.height;
+  // Or OpenImageIO would write the time of day, and the same picture would not be the same bytes.
+  if (format == FileFormat::kTiff || format == FileFormat::kExr)
+    header.attributes.push_back({"DateTime", std::string()});
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
   header.attributes.push_back({"oiio:ColorSpace", std::string(is_scene_referred(format) ? "Linear" : "sRGB")});
   if (carries_gpano(format) && count == 1 && rig != nullptr && fits_gpano(rig->projection)) {
