@@ -5,20 +5,13 @@
 // is one again, and says what it was told to.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_film_reader
 //   build/fuzz/fuzz_film_reader -max_len=8192 folder/of/small/films
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <string>
 
 #include "ods/base/error.h"
+#include "ods/base/memory_file.h"
 #include "ods/video/matroska_film.h"
 #include "ods/video/mp4_film.h"
-
-// A file in memory, under a name that every reader opens.
-static std::string path_of(int file) {
-  return "/proc/self/fd/" + std::to_string(file);
-}
 
 static void tag_and_read(const std::string& path, uint64_t track) {
   ods::FilmForm form;
@@ -40,13 +33,11 @@ static void tag_and_read(const std::string& path, uint64_t track) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const int file = memfd_create("film", MFD_CLOEXEC);
-  if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) std::abort();
+  const ods::MemoryFile file({reinterpret_cast<const char*>(data), size});
   try {
-    const ods::FilmInfo film = ods::read_film(path_of(file));
-    if (!film.video.empty()) tag_and_read(path_of(file), film.video[0].id);
+    const ods::FilmInfo film = ods::read_film(file.path());
+    if (!film.video.empty()) tag_and_read(file.path(), film.video[0].id);
   } catch (const ods::Error&) {
   }
-  close(file);
   return 0;
 }

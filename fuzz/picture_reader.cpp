@@ -5,14 +5,12 @@
 // of one has no NaN.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_picture_reader
 //   build/fuzz/fuzz_picture_reader -max_len=16384 folder/of/small/pictures
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "ods/base/error.h"
+#include "ods/base/memory_file.h"
 #include "ods/image/convert.h"
 
 constexpr int kManyPixels = 1 << 16;  // converting more takes too long to try many
@@ -25,9 +23,7 @@ static void convert_picture(const ods::StoredPicture& picture) {
   target.eyes = {ods::kMono};
   if (!ods::conversion_fault(picture, target).empty()) return;
   const ods::Conversion conversion = ods::convert(picture, target);
-  size_t channels = 0;
-  for (const ods::RowLayer& layer : conversion.rows.layers) channels += layer.channels.size();
-  std::vector<float> row(24 * channels);
+  std::vector<float> row(24 * count_channels(conversion.rows.layers));
   for (int y = 0; y < 16; y++) {
     conversion.rows.fill(0, y, row);
     if (std::any_of(row.begin(), row.end(), [](float value) { return std::isnan(value); })) std::abort();
@@ -35,14 +31,12 @@ static void convert_picture(const ods::StoredPicture& picture) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const int file = memfd_create("picture", MFD_CLOEXEC);
-  if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) std::abort();
+  const ods::MemoryFile file({reinterpret_cast<const char*>(data), size});
   try {
-    const std::string path = "/proc/self/fd/" + std::to_string(file);
+    const std::string path = file.path();
     const ods::FileInfo info = ods::read_info(path);
     if (int64_t{info.width} * info.height <= kManyPixels) convert_picture(ods::open_picture(path));
   } catch (const ods::Error&) {
   }
-  close(file);
   return 0;
 }

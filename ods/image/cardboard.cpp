@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "ods/base/base64.h"
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 #include "ods/base/md5.h"
 #include "ods/base/text.h"
@@ -31,22 +32,10 @@ static Error damaged(const std::string& path, const std::string& why) {
 
 // --- extended XMP ----------------------------------------------------------------------------------------------------
 
-static uint32_t number_at(std::string_view bytes, size_t at) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < 4; i++) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
-static std::string big_endian(uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-  return bytes;
-}
-
 // A segment of it.
 struct Piece {
-  uint32_t whole = 0;  // bytes of the packet
-  uint32_t at = 0;
+  uint64_t whole = 0;  // bytes of the packet
+  uint64_t at = 0;
   std::string_view bytes;
 };
 
@@ -58,7 +47,7 @@ static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, st
     if (segment.marker != kJpegApp1 || data.size() < kExtended || !data.starts_with(kJpegExtendedXmp)) continue;
     if (data.substr(kJpegExtendedXmp.size(), kId) != id) continue;
     const size_t numbers = kJpegExtendedXmp.size() + kId;
-    pieces.push_back({number_at(data, numbers), number_at(data, numbers + 4), data.substr(kExtended)});
+    pieces.push_back({get_number(data, numbers, 4), get_number(data, numbers + 4, 4), data.substr(kExtended)});
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.at < b.at; });
   return pieces;
@@ -95,10 +84,8 @@ static std::string extended_xmp(const std::vector<JpegSegment>& segments, std::s
 // --- read ------------------------------------------------------------------------------------------------------------
 
 static std::string_view standard_packet(const std::vector<JpegSegment>& segments) {
-  for (const JpegSegment& segment : segments) {
-    if (segment.data.starts_with(kJpegXmp)) return std::string_view(segment.data).substr(kJpegXmp.size());
-  }
-  return {};
+  const JpegSegment* segment = find_packet(segments);
+  return segment == nullptr ? std::string_view() : std::string_view(segment->data).substr(kJpegXmp.size());
 }
 
 // Other photos have a second picture in them, too: one of a lens that was focused elsewhere, a map of depth. Theirs
@@ -152,9 +139,10 @@ void write_photo(const FileInput& left, const std::string& right, const CameraRi
   append(to, jpeg_segment(kJpegApp1, std::string(kJpegXmp) + make_xmp(properties)));
   constexpr size_t kPiece = kLongestJpegSegment - kExtended;
   for (size_t at = 0; at < extended.size(); at += kPiece) {
-    append(to, jpeg_segment(kJpegApp1, std::string(kJpegExtendedXmp) + id +
-                                           big_endian(static_cast<uint32_t>(extended.size())) +
-                                           big_endian(static_cast<uint32_t>(at)) + extended.substr(at, kPiece)));
+    std::string piece = std::string(kJpegExtendedXmp) + id;
+    append_number(piece, extended.size(), 4);
+    append_number(piece, at, 4);
+    append(to, jpeg_segment(kJpegApp1, piece + extended.substr(at, kPiece)));
   }
   left.copy(place, left.size() - place, to);
 }

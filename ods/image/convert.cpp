@@ -174,11 +174,11 @@ struct Stretch {
 
 class Converter {
  public:
-  Converter(const StoredPicture& picture, const ConvertTarget& target, bool adds_alpha)
+  Converter(const StoredPicture& picture, const ConvertTarget& target, bool is_as_stored, bool adds_alpha)
       : mapping_(make_mapping(picture, target)),
         resampler_(mapping_.source, adds_alpha),
         channels_(resampler_.channels()),
-        is_as_stored_(ods::is_as_stored(picture, target)) {
+        is_as_stored_(is_as_stored) {
     if (sees_around(picture, target)) reprojection_ = make_reprojection(mapping_.source);
     if (const std::optional<size_t> layer = depth_layer(picture)) {
       depth_channel_ = adds_alpha ? 1 : 0;
@@ -470,9 +470,10 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   conversion.rows.layers = row_layers(picture);
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
   conversion.sees_around = sees_around(picture, target);
-  const bool adds_alpha = colour.back() != "A" && (conversion.sees_around || sees_more(picture, target));
+  const bool as_stored = is_as_stored(picture, target);
+  const bool adds_alpha = colour.back() != "A" && !as_stored && (conversion.sees_around || sees_more(picture, target));
   if (adds_alpha) colour.push_back("A");
-  const auto converter = std::make_shared<const Converter>(picture, target, adds_alpha);
+  const auto converter = std::make_shared<const Converter>(picture, target, as_stored, adds_alpha);
   conversion.no_depth = converter->no_depth();
   conversion.rows.fill = [converter, empty = conversion.empty](int index, int y, std::span<float> row) {
     *empty += converter->fill(index, y, row);

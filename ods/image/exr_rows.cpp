@@ -98,13 +98,10 @@ struct ExrRows::State {
   std::string path;
   exr_context_t file = nullptr;
   int width = 0;
-  int top = 0;         // the first row as the file counts
-  int chunk_rows = 1;  // that are packed together
-  struct Channel {
-    int index = -1;  // among those that are wanted; below 0: this one is not
-    size_t bytes = 0;
-  };
-  std::vector<Channel> channels;  // as the file has them
+  int top = 0;                  // the first row as the file counts
+  int chunk_rows = 1;           // that are packed together
+  std::vector<int> channels;    // as the file has them: which of those that are wanted; below 0: none
+  std::vector<size_t> offsets;  // bytes of a pixel before each that is wanted, and of all
 
   ~State() {
     if (file) exr_finish(&file);
@@ -116,20 +113,22 @@ struct ExrRows::State {
 bool ExrRows::State::find_channels(const std::vector<std::string>& wanted) {
   const exr_attr_chlist_t* list = nullptr;
   if (exr_get_channels(file, 0, &list) != EXR_ERR_SUCCESS) return false;
-  size_t found = 0;
+  std::vector<size_t> sizes(wanted.size());
   uint64_t bytes = 0;
   for (int i = 0; i < list->num_channels; i++) {
     const exr_attr_chlist_entry_t& entry = list->entries[i];
     if (entry.x_sampling != 1 || entry.y_sampling != 1) return false;
     const auto at = std::find(wanted.begin(), wanted.end(), entry.name.str);
-    const bool is_wanted = at != wanted.end();
-    found += is_wanted ? 1 : 0;
-    channels.push_back(
-        {is_wanted ? static_cast<int>(at - wanted.begin()) : -1, entry.pixel_type == EXR_PIXEL_HALF ? size_t{2} : 4});
-    bytes += channels.back().bytes;
+    const size_t size = entry.pixel_type == EXR_PIXEL_HALF ? 2 : 4;
+    channels.push_back(at == wanted.end() ? -1 : static_cast<int>(at - wanted.begin()));
+    if (at != wanted.end()) sizes[static_cast<size_t>(channels.back())] = size;
+    bytes += size;
   }
+  offsets = {0};
+  for (const size_t size : sizes) offsets.push_back(offsets.back() + size);
   const uint64_t row = bytes * static_cast<uint64_t>(width);
-  return found == wanted.size() && row * static_cast<uint64_t>(chunk_rows) < kLargestChunk;
+  const bool has_all = std::find(sizes.begin(), sizes.end(), size_t{0}) == sizes.end();
+  return has_all && row * static_cast<uint64_t>(chunk_rows) < kLargestChunk;
 }
 
 std::unique_ptr<ExrRows> ExrRows::open(const std::string& path, const std::vector<std::string>& channels) {
@@ -164,14 +163,7 @@ ExrRows::~ExrRows() = default;
 
 // The chunk that starts at a row; what of it is wanted, if not all, by way of rows of our own.
 void ExrRows::State::read_chunk(int row, int begin, int end, size_t wanted, std::byte* to) const {
-  size_t stride = 0;
-  std::vector<size_t> offsets(wanted);
-  for (size_t i = 0; i < wanted; i++) {
-    const auto is_it = [&](const Channel& channel) { return channel.index == static_cast<int>(i); };
-    offsets[i] = stride;
-    stride += std::find_if(channels.begin(), channels.end(), is_it)->bytes;
-  }
-  const size_t row_size = stride * static_cast<size_t>(width);
+  const size_t stride = offsets[wanted], row_size = stride * static_cast<size_t>(width);
   const auto failed = [&] {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': its rows from {} on are damaged", path, row));
   };
@@ -187,7 +179,7 @@ void ExrRows::State::read_chunk(int row, int begin, int end, size_t wanted, std:
   std::byte* first = whole ? to + static_cast<size_t>(row - begin) * row_size : own.data();
   for (size_t i = 0; i < channels.size(); i++) {
     exr_coding_channel_info_t& channel = pipeline.decode.channels[i];
-    const int index = channels[i].index;
+    const int index = channels[i];
     channel.decode_to_ptr = nullptr;
     if (index < 0 || static_cast<size_t>(index) >= wanted) continue;
     channel.decode_to_ptr = reinterpret_cast<uint8_t*>(first + offsets[static_cast<size_t>(index)]);

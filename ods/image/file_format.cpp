@@ -46,6 +46,11 @@ std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file) {
   return std::nullopt;
 }
 
+std::optional<FileFormat> format_of_file(const FileInput& file) {
+  const std::string start = file.read(0, std::min<uint64_t>(file.size(), 16));
+  return format_of_bytes(std::as_bytes(std::span(start)));
+}
+
 std::string known_extensions() {
   std::string list;
   for (const Extension& known : kExtensions) {

@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 
+#include "ods/base/file_input.h"
+
 namespace ods {
 
 enum class FileFormat { kPng, kJpeg, kTiff, kWebp, kHdr, kExr };
@@ -20,6 +22,8 @@ std::optional<FileFormat> format_of_path(const std::string& path);
 
 // By its first bytes, whatever the name says.
 std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file);
+
+std::optional<FileFormat> format_of_file(const FileInput& file);
 
 // `png, jpg, jpeg, tif, tiff, webp, hdr, exr`, for messages.
 std::string known_extensions();

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 
 namespace ods {
@@ -105,7 +106,7 @@ std::vector<JpegSegment> read_jpeg_headers(const FileInput& file) {
       continue;
     }
     if (marker == kScan) return segments;
-    const uint64_t length = uint64_t{byte(start, 2)} << 8 | byte(start, 3);
+    const uint64_t length = get_number(start, 2, 2);
     if (stands_alone(marker) || marker == kEnd || length < 2 || length > file.size() - at - 2) throw damaged();
     segments.push_back({marker, at, length + 2, file.read(at + 4, length - 2)});
     at += length + 2;
@@ -118,6 +119,12 @@ std::string jpeg_segment(unsigned char marker, std::string_view data) {
   const std::string header{'\xff', static_cast<char>(marker), static_cast<char>(length >> 8),
                            static_cast<char>(length & 0xff)};
   return header + std::string(data);
+}
+
+const JpegSegment* find_packet(const std::vector<JpegSegment>& headers) {
+  const auto found = std::find_if(headers.begin(), headers.end(),
+                                  [](const JpegSegment& segment) { return segment.data.starts_with(kJpegXmp); });
+  return found == headers.end() ? nullptr : &*found;
 }
 
 uint64_t place_of_packet(const std::vector<JpegSegment>& headers) {
@@ -137,9 +144,7 @@ static bool is_frame(unsigned char marker) {
 std::optional<Extent> jpeg_size(const std::vector<JpegSegment>& headers) {
   for (const JpegSegment& segment : headers) {
     if (!is_frame(segment.marker) || segment.data.size() < 6) continue;
-    const auto number = [&](size_t at) {
-      return static_cast<unsigned char>(segment.data[at]) << 8 | static_cast<unsigned char>(segment.data[at + 1]);
-    };
+    const auto number = [&](size_t at) { return static_cast<int>(get_number(segment.data, at, 2)); };
     return Extent{number(3), number(1)};
   }
   return std::nullopt;

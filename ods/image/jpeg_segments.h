@@ -39,6 +39,9 @@ std::vector<JpegSegment> read_jpeg_headers(const FileInput& file);
 
 std::string jpeg_segment(unsigned char marker, std::string_view data);
 
+// The segment that holds a packet of XMP; nullptr: there is none.
+const JpegSegment* find_packet(const std::vector<JpegSegment>& headers);
+
 // Where a packet of XMP belongs: behind what readers look for first, JFIF and Exif.
 uint64_t place_of_packet(const std::vector<JpegSegment>& headers);
 

@@ -9,15 +9,10 @@
 #include <cstdint>
 #include <iterator>
 
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 
 namespace ods {
-
-static std::string big_endian(uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-  return bytes;
-}
 
 // CRC-32 of ISO 3309. The first table is of a byte, the others of one that has so many bytes behind it: eight are
 // looked up at once.
@@ -54,7 +49,11 @@ static uint32_t add_to_crc(uint32_t crc, std::string_view bytes) {
 
 std::string png_chunk(std::string_view type, std::string_view data) {
   const std::string typed = std::string(type) + std::string(data);
-  return big_endian(static_cast<uint32_t>(data.size())) + typed + big_endian(~add_to_crc(kCrcStart, typed));
+  std::string chunk;
+  append_number(chunk, data.size(), 4);
+  chunk += typed;
+  append_number(chunk, ~add_to_crc(kCrcStart, typed), 4);
+  return chunk;
 }
 
 std::string xmp_chunk(const std::string& packet) {
@@ -67,15 +66,9 @@ std::string gpano_chunk(const std::vector<Attribute>& attributes) {
   return properties.empty() ? std::string() : xmp_chunk(make_xmp(properties));
 }
 
-static uint32_t read_big_endian(std::string_view bytes, size_t at) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < 4; i++) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
 PngChunk read_png_chunk(const FileInput& file, uint64_t at) {
   const std::string start = file.read(at, 8);
-  const PngChunk chunk{start.substr(4), read_big_endian(start, 0)};
+  const PngChunk chunk{start.substr(4), get_number(start, 0, 4)};
   if (chunk.length + 12 > file.size() - at) {
     throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': the PNG is cut short or damaged", file.path()));
   }
@@ -84,7 +77,7 @@ PngChunk read_png_chunk(const FileInput& file, uint64_t at) {
 
 static bool has_sane_size(std::string_view header) {
   const uint32_t kLongest = 1000000;  // of libpng
-  const uint32_t width = read_big_endian(header, 0), height = read_big_endian(header, 4);
+  const uint64_t width = get_number(header, 0, 4), height = get_number(header, 4, 4);
   return width > 0 && width <= kLongest && height > 0 && height <= kLongest;
 }
 
@@ -94,7 +87,7 @@ Extent png_size(const FileInput& file) {
   if (header.type != "IHDR" || header.length < 8 || !has_sane_size(sides)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': the PNG has no header", file.path()));
   }
-  return {static_cast<int>(read_big_endian(sides, 0)), static_cast<int>(read_big_endian(sides, 4))};
+  return {static_cast<int>(get_number(sides, 0, 4)), static_cast<int>(get_number(sides, 4, 4))};
 }
 
 struct Chunk {
@@ -113,7 +106,7 @@ static bool is_whole(const Chunk& chunk, const ByteReader& read) {
     crc = add_to_crc(crc, piece);
   }
   std::string stored(4, '\0');
-  return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && read_big_endian(stored, 0) == ~crc;
+  return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && get_number(stored, 0, 4) == ~crc;
 }
 
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read) {
@@ -123,7 +116,7 @@ std::optional<std::vector<FileRange>> essential_png(size_t file_size, const Byte
   for (size_t at = kSignature; at + kFrame <= file_size;) {
     std::string start(8, '\0');
     if (!read(at, start.data(), start.size())) return std::nullopt;
-    const Chunk chunk{start.substr(4), at, read_big_endian(start, 0)};
+    const Chunk chunk{start.substr(4), at, get_number(start, 0, 4)};
     if (chunk.length > file_size - at - kFrame) return std::nullopt;
     if (at == kSignature) {
       std::string header(kHeader, '\0');

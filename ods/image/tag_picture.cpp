@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
 #include "ods/base/error.h"
 #include "ods/image/exr_attributes.h"
@@ -23,8 +22,7 @@ static Error unusable(const std::string& path, const std::string& why) {
 
 // Of the four that can be tagged.
 static FileFormat format_of(const FileInput& file) {
-  const std::string start = file.read(0, std::min<uint64_t>(file.size(), 16));
-  const std::optional<FileFormat> format = format_of_bytes(std::as_bytes(std::span(start)));
+  const std::optional<FileFormat> format = format_of_file(file);
   if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
     throw unusable(file.path(),
                    "it is neither a film (mp4, mov, mkv, webm) nor a picture that can say what it is "

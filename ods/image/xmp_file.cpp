@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 
 #include "ods/base/error.h"
 #include "ods/image/file_format.h"
@@ -22,11 +21,6 @@ static Error unusable(const FileInput& file, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot tag '{}': {}", file.path(), why));
 }
 
-static std::optional<FileFormat> format_of(const FileInput& file) {
-  const std::string start = file.read(0, std::min<uint64_t>(file.size(), 16));
-  return format_of_bytes(std::as_bytes(std::span(start)));
-}
-
 // A range of the file that other bytes take the place of.
 struct Cut {
   uint64_t at = 0;
@@ -40,12 +34,6 @@ static void write_with(const FileInput& file, AtomicFile& to, const Cut& cut, co
 }
 
 // --- JPEG ------------------------------------------------------------------------------------------------------------
-
-static const JpegSegment* find_packet(const std::vector<JpegSegment>& segments) {
-  const auto found = std::find_if(segments.begin(), segments.end(),
-                                  [](const JpegSegment& segment) { return segment.data.starts_with(kJpegXmp); });
-  return found == segments.end() ? nullptr : &*found;
-}
 
 static Cut place_in_jpeg(const std::vector<JpegSegment>& segments) {
   const JpegSegment* old = find_packet(segments);
@@ -106,7 +94,7 @@ static std::string find_by_marks(const FileInput& file) {
 }
 
 static std::string packet_of(const FileInput& file) {
-  const std::optional<FileFormat> format = format_of(file);
+  const std::optional<FileFormat> format = format_of_file(file);
   if (format == FileFormat::kJpeg) {
     const std::vector<JpegSegment> segments = read_jpeg_headers(file);
     const JpegSegment* segment = find_packet(segments);
@@ -135,7 +123,7 @@ std::string read_xmp(const std::string& path) {
 }
 
 void write_xmp(const FileInput& file, AtomicFile& to, const std::string& packet) {
-  const std::optional<FileFormat> format = format_of(file);
+  const std::optional<FileFormat> format = format_of_file(file);
   if (format == FileFormat::kJpeg) {
     write_jpeg(file, to, packet);
   } else if (format == FileFormat::kPng) {

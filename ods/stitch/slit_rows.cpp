@@ -36,10 +36,6 @@ SlitRows::SlitRows(const SlitRig& rig, size_t eye)
   }
 }
 
-size_t SlitRows::index_of(int slit, int pitch) const {
-  return static_cast<size_t>(slit) * static_cast<size_t>(rig_.options.pitches) + static_cast<size_t>(pitch);
-}
-
 float SlitRows::middle_of(int place) const {
   return static_cast<float>((place + 0.5) * rig_.eye.width / rig_.options.slits);
 }
@@ -69,7 +65,7 @@ bool SlitRows::is_alike(int slit, int pitch) const {
 }
 
 RowInView SlitRows::row(int place, int slit, int pitch, int y) const {
-  if (!alike_[index_of(slit, pitch)]) return find_row(camera_of(slit, pitch), place, y);
+  if (!alike_[view_index(rig_, 0, slit, pitch)]) return find_row(camera_of(slit, pitch), place, y);
   RowInView row = rows_[static_cast<size_t>(pitch * rig_.eye.height + y)];
   row.middle = middle_of(place);
   return row;

@@ -52,8 +52,7 @@ class SlitRows {
   float middle_of(int place) const;
   RowInView find_row(const Camera& view, int place, int y) const;
   bool is_alike(int slit, int pitch) const;
-  const Camera& camera_of(int slit, int pitch) const { return cameras_[index_of(slit, pitch)]; }
-  size_t index_of(int slit, int pitch) const;
+  const Camera& camera_of(int slit, int pitch) const { return cameras_[view_index(rig_, 0, slit, pitch)]; }
 
   const SlitRig& rig_;
   PictureRays rays_;

@@ -29,7 +29,6 @@ using Slit = std::vector<std::shared_ptr<const View>>;
 struct Part {
   int place;  // along the picture, beyond whose last slit is its first
   int left;
-  int right;  // one behind
   std::vector<float> weights;
 };
 
@@ -246,11 +245,11 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
   std::vector<Part> parts;
   for (int place = batch.first; place <= batch.last; place++) {
     if (!goes_round(rig_) && slit_of(place) != place) continue;
-    Part part{
-        place, std::max(batch.left, column_at(place - reach)), std::min(batch.right, column_at(place + reach)), {}};
+    Part part{place, std::max(batch.left, column_at(place - reach)), {}};
+    int right = std::min(batch.right, column_at(place + reach));
     if (!goes_round(rig_) && place == 0) part.left = batch.left;
-    if (!goes_round(rig_) && place == rig_.options.slits - 1) part.right = batch.right;
-    for (int x = part.left; x < part.right; x++) part.weights.push_back(slit_weight(place, x));
+    if (!goes_round(rig_) && place == rig_.options.slits - 1) right = batch.right;
+    for (int x = part.left; x < right; x++) part.weights.push_back(slit_weight(place, x));
     if (!part.weights.empty()) parts.push_back(std::move(part));
   }
   return parts;

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/bytes.h"
 #include "ods/base/file_input.h"
-#include "ods/video/bytes.h"
 
 namespace ods {
 

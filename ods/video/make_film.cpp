@@ -11,10 +11,10 @@
 #include <cassert>
 #include <set>
 
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/read_file.h"
-#include "ods/video/bytes.h"
 #include "ods/video/film_form.h"
 
 namespace ods {

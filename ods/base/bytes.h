@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers in the bytes of a film, the high byte first.
+// Numbers in the bytes of a file, the high byte first.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// The bytes of a film make no sense: what() says why, for whoever knows the file's name to pass on.
+// The bytes of a file make no sense: what() says why, for whoever knows the file's name to pass on.
 struct Broken : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
