@@ -113,8 +113,9 @@ TEST(Filter, PixelsOfARowAreWhatTheyAreAlone) {
     for (size_t i = 0; i < 20; i++) {
       const auto tents = texel_tents({vec2(length(step), 0.0f), vec2(0.0f, 1.7f)});
       ASSERT_TRUE(tents);
-      texel_filter(*tents, start + static_cast<float>(i) * step, filters[i]);
-      ASSERT_TRUE(resampler.has_all(filters[i], cell));
+      const vec2 place = start + static_cast<float>(i) * step;
+      texel_filters(*tents, {&place, 1}, &filters[i]);
+      ASSERT_TRUE(resampler.has_all({&filters[i], 1}, cell));
     }
     std::vector<float> row(20 * 14), alone(14);
     resampler.fill(0, filters, row.data());
@@ -143,7 +144,7 @@ TEST(Filter, ColumnsAndRowsAreThePointsTogether) {
       const auto tents = texel_tents(footprint);
       ASSERT_EQ(tents.has_value(), !leans) << size << " " << turn;
       if (leans) continue;
-      texel_filter(*tents, at, filter);
+      texel_filters(*tents, {&at, 1}, &filter);
       float together[3], apart[3] = {};
       resampler.fill(0, {&filter, 1}, together);
       filter_points(footprint, points);

@@ -332,7 +332,7 @@ void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, 
     const vec2 dy =
         t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
     float* pixel = pixel_of(row, x + i);
-    if (!run.add(texel_tents({dx, dy}), place.at, pixel)) {
+    if (!run.add(texel_tents({dx, dy}), {&place.at, 1}, pixel)) {
       filter_points({dx, dy}, points);
       if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
         sum_near(place, stretch.cell, points, pixel);

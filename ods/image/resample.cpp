@@ -210,40 +210,6 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
 
 Resampler::~Resampler() = default;
 
-// A fisheye's circle has them if it has their corners.
-bool Resampler::has_all(const TexelFilter& filter, const Cell& cell) const {
-  const int left = filter.across.first, right = left + filter.across.count - 1;
-  const int top = filter.down.first, bottom = top + filter.down.count - 1;
-  if (left < cell.left || right >= cell.right || top < cell.top || bottom >= cell.bottom) return false;
-  if (!is_fisheye(source_.camera.projection.kind)) return true;
-  return has_texel(source_, cell, left, top) && has_texel(source_, cell, right, top) &&
-         has_texel(source_, cell, left, bottom) && has_texel(source_, cell, right, bottom);
-}
-
-void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
-  TexelFilter filter;
-  texel_filter({}, place.at, filter);
-  const int left = filter.across.first, top = filter.down.first;
-  const bool inside = has_all(filter, cell);
-  Texel around[16];
-  for (int i = 0; i < 16 && !inside; i++) {
-    around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
-  }
-  for (const Group& group : mixed_) {
-    Four texels[16];
-    std::byte gathered[16 * sizeof(Four)];
-    const ptrdiff_t size = group.size;
-    for (int i = 0; i < 16 && !inside; i++) {
-      const Texel& t = around[i];
-      std::memcpy(gathered + i * size, group.block(source_, t.eye, t.x, t.y).first, static_cast<size_t>(size));
-    }
-    const Block block = inside ? group.block(source_, place.eye, left, top) : Block{gathered, size, 4 * size};
-    group.read_lights(block, 4, 4, texels);
-    const Four value = mix_texels<4>(texels, 4, filter);
-    for (int c = 0; c < group.count; c++) sums[group.first + c] += weight * value[c];
-  }
-}
-
 // The texels of filters as a cell has them, and how many they are if every filter reads its own.
 struct Reach {
   Cell box;
@@ -261,6 +227,43 @@ static Reach reach_of(std::span<const TexelFilter> filters) {
     reach.texels += across.count * down.count;
   }
   return reach;
+}
+
+// A fisheye's circle has them if it has the corners of each.
+bool Resampler::has_all(std::span<const TexelFilter> filters, const Cell& cell) const {
+  const Cell box = reach_of(filters).box;
+  if (box.left < cell.left || box.right > cell.right || box.top < cell.top || box.bottom > cell.bottom) return false;
+  if (!is_fisheye(source_.camera.projection.kind)) return true;
+  return std::all_of(filters.begin(), filters.end(), [&](const TexelFilter& filter) {
+    const int left = filter.across.first, right = left + filter.across.count - 1;
+    const int top = filter.down.first, bottom = top + filter.down.count - 1;
+    return has_texel(source_, cell, left, top) && has_texel(source_, cell, right, top) &&
+           has_texel(source_, cell, left, bottom) && has_texel(source_, cell, right, bottom);
+  });
+}
+
+void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
+  TexelFilter filter;
+  texel_filters({}, {&place.at, 1}, &filter);
+  const int left = filter.across.first, top = filter.down.first;
+  const bool inside = has_all({&filter, 1}, cell);
+  Texel around[16];
+  for (int i = 0; i < 16 && !inside; i++) {
+    around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
+  }
+  for (const Group& group : mixed_) {
+    Four texels[16];
+    std::byte gathered[16 * sizeof(Four)];
+    const ptrdiff_t size = group.size;
+    for (int i = 0; i < 16 && !inside; i++) {
+      const Texel& t = around[i];
+      std::memcpy(gathered + i * size, group.block(source_, t.eye, t.x, t.y).first, static_cast<size_t>(size));
+    }
+    const Block block = inside ? group.block(source_, place.eye, left, top) : Block{gathered, size, 4 * size};
+    group.read_lights(block, 4, 4, texels);
+    const Four value = mix_texels<4>(texels, 4, filter);
+    for (int c = 0; c < group.count; c++) sums[group.first + c] += weight * value[c];
+  }
 }
 
 // Neighbours share most of their texels, which are read once for all: of as many pixels as have them in a small box.
@@ -309,15 +312,16 @@ void Resampler::copy(int eye, int y, std::span<float> out) const {
   }
 }
 
-bool PixelRun::add(const std::optional<TexelTents>& tents, const vec2& at, float* pixel) {
-  if (waiting_ == std::size(filters_)) fill();
-  TexelFilter& filter = filters_[waiting_];
-  if (tents) texel_filter(*tents, at, filter);
-  if (!tents || !resampler_.has_all(filter, cell_)) {
+bool PixelRun::add(const std::optional<TexelTents>& tents, std::span<const vec2> places, float* pixels) {
+  if (waiting_ + places.size() > std::size(filters_)) fill();
+  TexelFilter* filters = filters_ + waiting_;
+  if (tents) texel_filters(*tents, places, filters);
+  if (!tents || !resampler_.has_all({filters, places.size()}, cell_)) {
     fill();
     return false;
   }
-  if (waiting_++ == 0) first_ = pixel;
+  if (waiting_ == 0) first_ = pixels;
+  waiting_ += places.size();
   return true;
 }
 

@@ -24,11 +24,11 @@ class Resampler {
   // Adds what a place of a cell shows, by its weight. Layers that must not be averaged are left alone.
   void add(const Place& place, const Cell& cell, float weight, float* sums) const;
 
-  // Whether a filter's texels are all of a cell's.
-  bool has_all(const TexelFilter& filter, const Cell& cell) const;
+  // Whether all texels of filters are a cell's.
+  bool has_all(std::span<const TexelFilter> filters, const Cell& cell) const;
 
   // Sets pixels beside each other, each with a filter of its own, to what they show; `out` is the first's. The same
-  // layers are left alone. Precondition: has_all() of each.
+  // layers are left alone. Precondition: has_all() of them.
   void fill(int eye, std::span<const TexelFilter> filters, float* out) const;
 
   // Sets the pixels of a row to the texels of a row of the picture.
@@ -52,9 +52,9 @@ class PixelRun {
  public:
   PixelRun(const Resampler& resampler, int eye, const Cell& cell) : resampler_(resampler), eye_(eye), cell_(cell) {}
 
-  // Takes the pixel beside the last one; false: its texels are not all of the cell, or it has no tents, and it is left
-  // alone.
-  bool add(const std::optional<TexelTents>& tents, const vec2& at, float* pixel);
+  // Takes the pixels beside the last one, at most kMostAlike; false: their texels are not all of the cell, or they have
+  // no tents, and they are left alone.
+  bool add(const std::optional<TexelTents>& tents, std::span<const vec2> places, float* pixels);
 
   // Fills those that still wait.
   void fill();

@@ -94,21 +94,11 @@ static Position split_exactly(float at) {
 static Position split(float at) {
   const float kTolerance = 1.0f / 256.0f;
   const Position exact = split_exactly(at);
-  if (exact.beyond < kTolerance) return {exact.texel, 0.0f};
-  if (exact.beyond > 1.0f - kTolerance) return {exact.texel + 1, 0.0f};
-  return exact;
-}
-
-static inline void set_cubic(float at, TexelWeights& to) {
-  const Position position = split(at);
-  to.first = position.texel - 1;
-  to.count = 4;
-  const Four weights = cubic_weights(position.beyond);
-  std::memcpy(to.weights, &weights, sizeof weights);
+  const bool is_next = exact.beyond > 1.0f - kTolerance;
+  return {exact.texel + (is_next ? 1 : 0), exact.beyond < kTolerance || is_next ? 0.0f : exact.beyond};
 }
 
 static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
-  if (tent.count == 1) return set_cubic(at, to);
   Position position = split(at + tent.at(0));
   to.first = position.texel - 1;
   to.count = 0;
@@ -134,7 +124,7 @@ struct TentTable {
   struct Row {
     int first = kMost;  // texel of the first weight, from that before the place
     int count = 0;
-    std::array<std::array<float, kMost>, kPhases + 1> weights;
+    std::array<std::array<float, kMost>, kPhases + 2> weights;  // the last twice: it has a next one, too
   };
   std::vector<Row> rows{kSquares};
 
@@ -157,23 +147,60 @@ TentTable::TentTable() {
       std::copy_n(phases[j].weights, phases[j].count,
                   &rows[i].weights[j][static_cast<size_t>(phases[j].first - rows[i].first)]);
     }
+    rows[i].weights[kPhases + 1] = rows[i].weights[kPhases];
   }
 }
 
-static inline void set_weights(float at, float square, TexelWeights& to) {
-  static const TentTable kTable;
-  if (square < kLeastRadius * kLeastRadius) return set_cubic(at, to);
+// Places along one axis, and the weights there.
+struct Axis {
+  float places[kMostAlike];
+  TexelWeights* weights[kMostAlike];
+  size_t count;
+};
+
+// Its loops, and those below, are over all places there is room for: compilers turn them into a few steps.
+static void interpolate(const Axis& axis) {
+  Position positions[kMostAlike];
+  for (size_t i = 0; i < kMostAlike; i++) positions[i] = split(axis.places[i]);
+  for (size_t i = 0; i < axis.count; i++) {
+    TexelWeights& to = *axis.weights[i];
+    to.first = positions[i].texel - 1;
+    to.count = 4;
+    const Four weights = cubic_weights(positions[i].beyond);
+    std::memcpy(to.weights, &weights, sizeof weights);
+  }
+}
+
+static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
+  Position positions[kMostAlike];
+  for (size_t i = 0; i < kMostAlike; i++) positions[i] = split_exactly(axis.places[i]);
+  for (size_t i = 0; i < axis.count; i++) {
+    const float place = positions[i].beyond * TentTable::kPhases;
+    const size_t phase = std::min<size_t>(static_cast<unsigned>(place), TentTable::kPhases);
+    const float beyond = place - static_cast<float>(phase);
+    const float *a = row.weights[phase].data(), *b = row.weights[phase + 1].data();
+    TexelWeights& to = *axis.weights[i];
+    to.first = positions[i].texel + row.first;
+    to.count = row.count;
+    for (int k = 0; k < row.count; k += 4) {
+      Four here, next;
+      std::memcpy(&here, a + k, sizeof here);
+      std::memcpy(&next, b + k, sizeof next);
+      here += (next - here) * beyond;
+      std::memcpy(to.weights + k, &here, sizeof here);
+    }
+  }
+}
+
+static void set_weights(float square, const Axis& axis) {
+  if (square < kLeastRadius * kLeastRadius) return interpolate(axis);
   const float step = square * TentTable::kSteps + 0.5f;
-  if (!(step < TentTable::kSquares)) return sum_weights(at, make_tent(square), to);
-  const TentTable::Row& row = kTable.rows[static_cast<size_t>(step)];
-  const Position position = split_exactly(at);
-  const float phase = position.beyond * TentTable::kPhases;
-  const size_t here = std::min(static_cast<size_t>(phase), size_t{TentTable::kPhases - 1});
-  const float beyond = phase - static_cast<float>(here);
-  const float *a = row.weights[here].data(), *b = row.weights[here + 1].data();
-  for (int i = 0; i < TentTable::kMost; i++) to.weights[i] = a[i] + (b[i] - a[i]) * beyond;
-  to.first = position.texel + row.first;
-  to.count = row.count;
+  if (step < TentTable::kSquares) {
+    static const TentTable kTable;  // a few milliseconds, for those who need it
+    return look_up_weights(kTable.rows[static_cast<size_t>(step)], axis);
+  }
+  const Tent tent = make_tent(square);
+  for (size_t i = 0; i < axis.count; i++) sum_weights(axis.places[i], tent, *axis.weights[i]);
 }
 
 std::optional<TexelTents> texel_tents(const Footprint& footprint) {
@@ -194,9 +221,14 @@ std::optional<TexelTents> texel_tents(const Footprint& footprint) {
   return TexelTents{std::max(xx - 1.0f, 0.0f), std::max(yy - 1.0f, 0.0f)};
 }
 
-void texel_filter(const TexelTents& tents, const vec2& at, TexelFilter& filter) {
-  set_weights(at.x, tents.across, filter.across);
-  set_weights(at.y, tents.down, filter.down);
+void texel_filters(const TexelTents& tents, std::span<const vec2> places, TexelFilter* filters) {
+  Axis across{{}, {}, places.size()}, down{{}, {}, places.size()};
+  for (size_t i = 0; i < places.size(); i++) {
+    across.places[i] = places[i].x, down.places[i] = places[i].y;
+    across.weights[i] = &filters[i].across, down.weights[i] = &filters[i].down;
+  }
+  set_weights(tents.across, across);
+  set_weights(tents.down, down);
 }
 
 }  // namespace ods

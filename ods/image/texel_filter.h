@@ -10,6 +10,7 @@
 // covers one texel or less is interpolated only, and one in the middle of a texel is that texel, bit for bit.
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ods/kernel/math.h"
@@ -51,7 +52,8 @@ struct TexelFilter {
   TexelWeights across, down;
 };
 
-// The weights of such tents at a place.
-void texel_filter(const TexelTents& tents, const vec2& at, TexelFilter& filter);
+// The weights of such tents at places, which are quicker to find for several: a filter for each.
+constexpr size_t kMostAlike = 8;
+void texel_filters(const TexelTents& tents, std::span<const vec2> places, TexelFilter* filters);
 
 }  // namespace ods

@@ -30,15 +30,24 @@ struct Part {
   int place;  // along the picture, beyond whose last slit is its first
   int left;
   std::vector<float> weights;
+  std::vector<float> channel_weights;  // the same of each column's channels, but 0 of those that are never averaged
+};
+
+// Columns of an eye, as they lie in the journal: row behind row, for who writes them goes from page to page.
+struct Strip {
+  size_t first_pixel;  // of both eyes'
+  int left;            // those beyond the picture's last go on at its first
+  int right;           // one behind
+
+  size_t pixel(int y) const { return first_pixel + static_cast<size_t>(y) * static_cast<size_t>(right - left); }
 };
 
 // Places along the picture that are filled at once, each from the middle of a slit to that of the next one.
 struct Batch {
   size_t index;  // of both eyes' batches
   int first;
-  int last;   // one behind
-  int left;   // column; those beyond the picture's last go on at its first
-  int right;  // one behind
+  int last;  // one behind
+  Strip strip;
   std::vector<Part> parts;
 };
 
@@ -67,6 +76,7 @@ class Stitcher {
  private:
   std::vector<Batch> batches_of(size_t eye) const;
   int64_t* done_of(size_t batch) const { return reinterpret_cast<int64_t*>(picture_->data()) + 1 + batch; }
+  float* pixels() const { return reinterpret_cast<float*>(picture_->data() + pixels_from_); }
   bool was_done(const Batch& batch);
   void set_done(const Batch& batch);
   int slit_of(int place) const;
@@ -74,7 +84,7 @@ class Stitcher {
   std::map<int, Slit> open_slits(size_t eye, int first, int last, const std::map<int, Slit>& open);
   std::shared_ptr<const View> open_view(size_t index);
   std::vector<Part> parts_of(const Batch& batch) const;
-  void fill_row(const SlitRows& rows, size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y);
+  void fill_row(const SlitRows& rows, const std::map<int, Slit>& slits, const Batch& batch, int y);
   void add_part(const Part& part, const float* seen, float share, RowSums& row) const;
   float slit_weight(int place, int x) const;
   float pitch_weight(int pitch, int y) const;
@@ -86,7 +96,7 @@ class Stitcher {
   ViewForm form_;                        // what all views have
   std::optional<StoredPicture> sample_;  // the view that told it
   size_t sample_index_ = 0;
-  // A key; of every batch, once it is done, 1 + its pixels that are unseen; then eyes, rows, pixels, channels.
+  // A key; of every batch, once it is done, 1 + its pixels that are unseen; then eyes, batches, rows, pixels, channels.
   std::shared_ptr<Scratch> picture_;
   size_t pixels_from_ = 0;  // bytes
   std::mutex mutex_;
@@ -129,8 +139,9 @@ void Stitcher::choose_form(const StitchOptions& options) {
   }
   picture_ = std::make_shared<Scratch>(size, options.journal);
   uint64_t& key = *reinterpret_cast<uint64_t*>(picture_->data());
-  if (key != options.journal_key) std::memset(picture_->data(), 0, size);
-  key = options.journal_key;
+  constexpr uint64_t kForm = 2;  // how pixels lie in a journal: one of another form is not gone on with
+  if (key != options.journal_key + kForm) std::memset(picture_->data(), 0, size);
+  key = options.journal_key + kForm;
 }
 
 std::vector<Batch> Stitcher::batches_of(size_t eye) const {
@@ -138,10 +149,13 @@ std::vector<Batch> Stitcher::batches_of(size_t eye) const {
   const auto edge = [&](int place) {
     return goes_round(rig_) ? column_at(place) : std::clamp(column_at(place), 0, rig_.eye.width);
   };
+  const size_t height = static_cast<size_t>(rig_.eye.height);
+  size_t pixels = eye * static_cast<size_t>(rig_.eye.width) * height;
   std::vector<Batch> batches;
   for (int place = first; place < end; place += step) {
     const int stop = std::min(place + step, end);
-    Batch& batch = batches.emplace_back(Batch{0, place, stop, edge(place), edge(stop), {}});
+    Batch& batch = batches.emplace_back(Batch{0, place, stop, {pixels, edge(place), edge(stop)}, {}});
+    pixels += static_cast<size_t>(batch.strip.right - batch.strip.left) * height;
     batch.parts = parts_of(batch);
   }
   for (size_t i = 0; i < batches.size(); i++) batches[i].index = eye * batches.size() + i;
@@ -245,11 +259,16 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
   std::vector<Part> parts;
   for (int place = batch.first; place <= batch.last; place++) {
     if (!goes_round(rig_) && slit_of(place) != place) continue;
-    Part part{place, std::max(batch.left, column_at(place - reach)), {}};
-    int right = std::min(batch.right, column_at(place + reach));
-    if (!goes_round(rig_) && place == 0) part.left = batch.left;
-    if (!goes_round(rig_) && place == rig_.options.slits - 1) right = batch.right;
-    for (int x = part.left; x < right; x++) part.weights.push_back(slit_weight(place, x));
+    Part part{place, std::max(batch.strip.left, column_at(place - reach)), {}, {}};
+    int right = std::min(batch.strip.right, column_at(place + reach));
+    if (!goes_round(rig_) && place == 0) part.left = batch.strip.left;
+    if (!goes_round(rig_) && place == rig_.options.slits - 1) right = batch.strip.right;
+    for (int x = part.left; x < right; x++) {
+      part.weights.push_back(slit_weight(place, x));
+      for (const char nearest : form_.is_nearest) {
+        part.channel_weights.push_back(nearest ? 0.0f : part.weights.back());
+      }
+    }
     if (!part.weights.empty()) parts.push_back(std::move(part));
   }
   return parts;
@@ -259,24 +278,23 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
 void Stitcher::add_part(const Part& part, const float* seen, float share, RowSums& row) const {
   const size_t channels = form_.channels, from = static_cast<size_t>(part.left - row.left);
   float *sums = &row.sums[from * channels], *whole = &row.whole[from], *most = &row.most[from];
+  for (size_t i = 0; i < part.channel_weights.size(); i++) sums[i] += share * part.channel_weights[i] * seen[i];
+  for (size_t i = 0; i < part.weights.size(); i++) whole[i] += share * part.weights[i];
+  if (form_.first_nearest == channels) return;
   for (const float in_slit : part.weights) {
-    const float weight = share * in_slit;
-    for (size_t c = 0; c < form_.first_nearest; c++) sums[c] += weight * seen[c];
     for (size_t c = form_.first_nearest; c < channels; c++) {
-      if (!form_.is_nearest[c]) sums[c] += weight * seen[c];
-      if (form_.is_nearest[c] && weight > *most) sums[c] = seen[c];
+      if (form_.is_nearest[c] && share * in_slit > *most) sums[c] = seen[c];
     }
-    *whole++ += weight;
-    *most = std::max(*most, weight), most++;
+    *most = std::max(*most, share * in_slit), most++;
     seen += channels, sums += channels;
   }
 }
 
-void Stitcher::fill_row(const SlitRows& rows, size_t eye, const std::map<int, Slit>& slits, const Batch& batch, int y) {
-  const size_t width = static_cast<size_t>(rig_.eye.width), channels = form_.channels;
+void Stitcher::fill_row(const SlitRows& rows, const std::map<int, Slit>& slits, const Batch& batch, int y) {
+  const size_t channels = form_.channels;
   thread_local RowSums row;
   thread_local std::vector<float> seen;
-  row.start(batch.left, batch.right, channels);
+  row.start(batch.strip.left, batch.strip.right, channels);
   int unseen = 0;
   for (int pitch = 0; pitch < rig_.options.pitches; pitch++) {
     const float share = pitch_weight(pitch, y);
@@ -285,19 +303,18 @@ void Stitcher::fill_row(const SlitRows& rows, size_t eye, const std::map<int, Sl
       const int slit = slit_of(part.place);
       const View* view = slits.at(slit)[static_cast<size_t>(pitch)].get();
       if (!view) continue;
-      seen.resize(part.weights.size() * channels);
+      seen.resize(part.channel_weights.size());
       unseen += view->fill(rows.rays(), rows.row(part.place, slit, pitch, y), y, part.left, seen);
       add_part(part, seen.data(), share, row);
     }
   }
-  float* pixels = reinterpret_cast<float*>(picture_->data() + pixels_from_) +
-                  (eye * static_cast<size_t>(rig_.eye.height) + static_cast<size_t>(y)) * width * channels;
   unseen_ += unseen;
   const float* sums = row.sums.data();
-  for (int x = batch.left; x < batch.right; x++, sums += channels) {
-    const float whole = row.whole[static_cast<size_t>(x - batch.left)], scale = whole > 0.0f ? 1.0f / whole : 1.0f;
-    float* out = pixels + static_cast<size_t>(x < rig_.eye.width ? x : x - rig_.eye.width) * channels;
-    for (size_t c = 0; c < channels; c++) out[c] = sums[c] * (form_.is_nearest[c] ? 1.0f : scale);
+  float* pixel = pixels() + batch.strip.pixel(y) * channels;
+  for (const float whole : row.whole) {
+    const float scale = whole > 0.0f ? 1.0f / whole : 1.0f;
+    for (size_t c = 0; c < channels; c++) pixel[c] = sums[c] * (form_.is_nearest[c] ? 1.0f : scale);
+    sums += channels, pixel += channels;
   }
 }
 
@@ -318,7 +335,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
       if (i + 1 < batches.size()) next = open_slits(eye, batches[i + 1].first, batches[i + 1].last, open);
     });
     unseen_ = 0;
-    tbb::parallel_for(0, rig_.eye.height, [&](int y) { fill_row(rows, eye, slits, batches[i], y); });
+    tbb::parallel_for(0, rig_.eye.height, [&](int y) { fill_row(rows, slits, batches[i], y); });
     ahead.wait();
     set_done(batches[i]);
     slits = std::move(next);
@@ -332,11 +349,19 @@ Stitched Stitcher::finish() {
   made.rows.eye = rig_.eye;
   made.rows.eyes = rig_.eyes;
   made.rows.layers = form_.layers;
-  const size_t row_size = static_cast<size_t>(rig_.eye.width) * form_.channels * sizeof(float);
-  made.rows.fill = [picture = picture_, from = pixels_from_, row_size, height = static_cast<size_t>(rig_.eye.height)](
+  std::vector<std::vector<Strip>> strips(rig_.eyes.size());
+  for (size_t eye = 0; eye < strips.size(); eye++) {
+    for (const Batch& batch : batches_of(eye)) strips[eye].push_back(batch.strip);
+  }
+  made.rows.fill = [picture = picture_, pixels = pixels(), channels = form_.channels, width = rig_.eye.width, strips](
                        int index, int y, std::span<float> row) {
-    const size_t at = static_cast<size_t>(index) * height + static_cast<size_t>(y);
-    std::memcpy(row.data(), picture->data() + from + at * row_size, row_size);
+    for (const Strip& strip : strips[static_cast<size_t>(index)]) {
+      const int column = strip.left % width, count = strip.right - strip.left;
+      const size_t fits = static_cast<size_t>(std::min(count, width - column)) * channels;
+      const float *from = pixels + strip.pixel(y) * channels, *end = from + static_cast<size_t>(count) * channels;
+      std::copy(from, from + fits, &row[static_cast<size_t>(column) * channels]);
+      std::copy(from + fits, end, row.begin());
+    }
   };
   made.rows.band_done = [picture = picture_] { picture->release(); };
   std::sort(faults_.begin(), faults_.end(), [](const auto& a, const auto& b) { return a.view < b.view; });

@@ -82,9 +82,20 @@ void View::sum_points(const Footprint& footprint, const Place& place, float* out
   }
 }
 
+// Pixels beside each other that share a footprint.
+void View::add_pixels(PixelRun& run, const Footprint& footprint, std::span<const vec2> places, float* pixels) const {
+  const std::optional<TexelTents> tents = texel_tents(footprint);
+  const bool together = run.add(tents, places, pixels);
+  for (const vec2& at : places) {
+    const Place place{0, at, true};
+    if (!together && !run.add(tents, {&at, 1}, pixels)) sum_points(footprint, place, pixels);
+    resampler_.finish(place, pixels);
+    pixels += form_.channels;
+  }
+}
+
 // Pixels whose places follow the row's parabola. Footprints change so slowly that a few share that of their middle.
 void View::fill_alike(const RowInView& row, float way, int left, std::span<float> out) const {
-  constexpr int kAlike = 8;
   const RayInView *first = row.rays, *middle = first + 1, *last = first + 2;
   const auto along = [&](auto RayInView::*part, float t) {
     const auto a = first->*part, b = middle->*part, c = last->*part;
@@ -92,23 +103,22 @@ void View::fill_alike(const RowInView& row, float way, int left, std::span<float
   };
   const vec2 step = middle->at - first->at, bend = last->at - 2.0f * middle->at + first->at;
   const float per_pixel = 1.0f / row.reach, from = (static_cast<float>(left) + 0.5f - row.middle) * per_pixel + 1.0f;
-  const int count = static_cast<int>(out.size() / form_.channels);
+  const size_t count = out.size() / form_.channels;
   PixelRun run(resampler_, 0, all_of(picture_));
-  Footprint footprint;
-  std::optional<TexelTents> tents;
-  float* pixel = out.data();
-  for (int i = 0; i < count; i++, pixel += form_.channels) {
-    const float t = from + static_cast<float>(i) * per_pixel;
-    if (i % kAlike == 0) {
-      const float there = t + 0.5f * static_cast<float>(std::min(kAlike, count - i) - 1) * per_pixel;
-      footprint = {(step + bend * (there - 0.5f)) * per_pixel,
-                   (along(&RayInView::beside, there) - along(&RayInView::at, there)) * way};
-      tents = texel_tents(footprint);
+  for (size_t i = 0; i < count; i += kMostAlike) {
+    const size_t alike = std::min(count - i, kMostAlike);
+    const auto at = [&](size_t k) { return from + static_cast<float>(i + k) * per_pixel; };
+    vec2 places[kMostAlike];
+    for (size_t k = 0; k < kMostAlike; k++) places[k] = along(&RayInView::at, at(k));
+    const float there = 0.5f * (at(0) + at(alike - 1));
+    const Footprint footprint{(step + bend * (there - 0.5f)) * per_pixel,
+                              (along(&RayInView::beside, there) - along(&RayInView::at, there)) * way};
+    float* pixels = &out[i * form_.channels];
+    add_pixels(run, footprint, {places, alike}, pixels);
+    for (size_t k = 0; k < alike && form_.depth >= 0; k++) {
+      float& depth = pixels[k * form_.channels + static_cast<size_t>(form_.depth)];
+      if (depth < 0.1f * kFarDepth) depth += along(&RayInView::nearer, at(k));
     }
-    const Place place{0, along(&RayInView::at, t), true};
-    if (!run.add(tents, place.at, pixel)) sum_points(footprint, place, pixel);
-    resampler_.finish(place, pixel);
-    if (form_.depth >= 0 && pixel[form_.depth] < 0.1f * kFarDepth) pixel[form_.depth] += along(&RayInView::nearer, t);
   }
   run.fill();
 }
@@ -124,9 +134,8 @@ bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
       surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - camera_.center, ray.direction}) : SurfaceHit{{}, kFarDepth};
   const Place place = met.place.seen ? met.place : Place{0, own.at, true};
   PixelRun run(resampler_, 0, all_of(picture_));
-  if (!run.add(texel_tents(footprint), place.at, out)) sum_points(footprint, place, out);
+  add_pixels(run, footprint, {&place.at, 1}, out);
   run.fill();
-  resampler_.finish(place, out);
   if (form_.depth < 0) return met.place.seen || !surfaces_;
   float& depth = out[form_.depth];
   if (met.place.seen) {

@@ -40,6 +40,7 @@ class View {
  private:
   void measure_along_rays(size_t layer);
   void sum_points(const Footprint& footprint, const Place& place, float* out) const;
+  void add_pixels(PixelRun& run, const Footprint& footprint, std::span<const vec2> places, float* pixels) const;
   void fill_alike(const RowInView& row, float way, int left, std::span<float> out) const;
   bool fill_pixel(const PictureRays& rays, int x, int y, float* out) const;
 
