@@ -40,6 +40,8 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
       "--sheet", "CxR", "", [&](const std::string& word) { set_sheet(word, job.views); },
       "every file holds so many columns and rows of views, row by row");
   options.flag("--by-columns", job.views.by_columns, "column by column: a strip for every eye, or pieces of one");
+  options.flag("--own-normals", job.views.own_normals,
+               "the views' normals are along their own axes, not the world's: they become the world's");
   options.flag("--partial", job.partial, "what views are missing stays black");
   options.flag("--list-missing", job.list_missing, "only say which views to render again, as a range of frames");
   options.text("--report", "FILE", job.report, "a picture of what borders of slits show, and its measure");

@@ -123,4 +123,42 @@ TEST(ForeignViews, UnrealsDefaultsAreTheDocumentedRig) {
   EXPECT_EQ(rig.view.height, unreal.strip().height);
 }
 
+// Views of a wall that faces one way, as their own axes have it.
+TEST(ForeignViews, NormalsOfViewsBecomeTheWorlds) {
+  const TemporaryFolder folder;
+  SlitOptions options;
+  options.slits = 8;
+  const SlitRig rig = make_slit_rig(CameraRig(), {64, 32}, {kLeft, kRight}, options);
+  ViewFiles files{folder.path("##.exr")};
+  const vec3 normal(0.6f, 0.0f, -0.8f);
+  for (const Sample sample : {Sample::kHalf, Sample::kFloat}) {
+    for (size_t i = 0; i < rig.views.size(); i++) {
+      PictureRows rows;
+      rows.eye = rig.view, rows.eyes = {kMono};
+      rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf},
+                     {{"wall.Normal.X", "wall.Normal.Y", "wall.Normal.Z"}, LayerRule::kMean, sample}};
+      const Camera view = make_camera(rig.views[i]);
+      const float pixel[] = {0.5f, 0.5f, 0.5f, dot(normal, view.right), dot(normal, view.up), dot(normal, view.back)};
+      rows.fill = [&](int, int, std::span<float> row) {
+        for (size_t k = 0; k < row.size(); k++) row[k] = pixel[k % 6];
+      };
+      save_picture(rows, nullptr, {}, view_path(rig, files, i));
+    }
+    for (const bool own : {false, true}) {
+      files.own_normals = own;
+      const Stitched stitched = stitch(rig, open_view_files(rig, files), {});
+      ASSERT_TRUE(stitched.faults.empty());
+      std::vector<float> row(64 * 6);
+      float off = 0.0f;
+      for (int y = 0; y < 32; y++) {
+        stitched.rows.fill(1, y, row);
+        for (size_t i = 0; i < row.size(); i++) {
+          if (i % 6 >= 3) off = std::max(off, std::abs(row[i] - normal[static_cast<int>(i % 3)]));
+        }
+      }
+      EXPECT_EQ(off < 2e-3f, own) << off;
+    }
+  }
+}
+
 }  // namespace

@@ -11,7 +11,7 @@
 // that might show it, what is far behind stands in.
 //
 // Layers follow their rules: light and means are filtered, others the nearest pixel's. Depth becomes that along the
-// picture's own rays. Normals stay as they are: in the world's axes they are right, in a view's own axes they are not.
+// picture's own rays. Normals are means of vectors along the world's axes, which is for who opens the views to see to.
 #pragma once
 #include <cstdint>
 #include <functional>

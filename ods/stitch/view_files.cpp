@@ -6,6 +6,7 @@
 #include <tbb/parallel_for_each.h>
 
 #include <atomic>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -16,6 +17,7 @@
 #include "ods/base/error.h"
 #include "ods/base/frames.h"
 #include "ods/base/read_file.h"
+#include "ods/base/scratch.h"
 #include "ods/image/reproject.h"
 #include "ods/stitch/slit_file.h"
 
@@ -50,6 +52,40 @@ void call_depth_z(StoredPicture& picture) {
     if (layer.channels.size() != 1 || !layer.channels[0].ends_with(".Depth.Z")) continue;
     layer.channels[0] = "Z";
     return;
+  }
+}
+
+// N.X, N.Y, N.Z; so end those of many layers, too.
+bool is_normal(const LayerPixels& layer) {
+  const std::string_view ends[] = {".X", ".Y", ".Z"};
+  if (layer.channels.size() != 3 || (layer.sample != Sample::kHalf && layer.sample != Sample::kFloat)) return false;
+  for (size_t c = 0; c < 3; c++) {
+    std::string_view name = layer.channels[c];
+    if (!name.ends_with(ends[c])) return false;
+    name.remove_suffix(2);
+    if (name != "N" && name != "Normal" && !name.ends_with(".N") && !name.ends_with(".Normal")) return false;
+  }
+  return true;
+}
+
+// In place: nobody else reads a view's pixels.
+void turn_normals(const StoredPicture& picture, const Camera& camera) {
+  for (const LayerPixels& layer : picture.eyes[0].layers) {
+    if (!is_normal(layer)) continue;
+    const size_t size = bytes_of(layer.sample);
+    std::byte* first = picture.memory->data() + (layer.first - picture.memory->data());
+    for (int y = 0; y < picture.size.height; y++) {
+      for (int x = 0; x < picture.size.width; x++) {
+        std::byte* at = first + y * layer.row_stride + x * layer.pixel_stride;
+        vec3 own;
+        for (int c = 0; c < 3; c++) own[c] = sample_value(layer.sample, at + static_cast<size_t>(c) * size);
+        const vec3 turned = camera.right * own.x + camera.up * own.y + camera.back * own.z;
+        if (layer.sample == Sample::kFloat) std::memcpy(at, &turned.x, sizeof turned);
+        uint16_t halves[3];
+        floats_to_halves({&turned.x, 3}, halves);
+        if (layer.sample == Sample::kHalf) std::memcpy(at, halves, sizeof halves);
+      }
+    }
   }
 }
 
@@ -147,7 +183,11 @@ std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view) {
 }
 
 OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
-  return [sheets = std::make_shared<Sheets>(rig, files)](size_t view) { return sheets->view(view); };
+  return [&rig, sheets = std::make_shared<Sheets>(rig, files), turn = files.own_normals](size_t view) {
+    StoredPicture picture = sheets->view(view);
+    if (turn) turn_normals(picture, make_camera(rig.views[view]));
+    return picture;
+  };
 }
 
 // What is wrong with a file, in words; empty: nothing.
@@ -182,7 +222,7 @@ std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files,
 }
 
 uint64_t views_key(const SlitRig& rig, const ViewFiles& files) {
-  std::string all = write_slit_rig(rig);
+  std::string all = write_slit_rig(rig) + (files.own_normals ? "own normals" : "");
   for (size_t i = 0; i < rig.views.size(); i++) all += file_identity(view_path(rig, files, i)) + "\n";
   return std::hash<std::string>{}(all);
 }

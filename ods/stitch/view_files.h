@@ -21,6 +21,7 @@ struct ViewFiles {
   int columns = 1;  // of a sheet
   int rows = 1;
   bool by_columns = false;
+  bool own_normals = false;  // those of the views are along a view's axes: right, up and towards its place
 };
 
 // What is wrong with such names, in words for a message; empty: nothing.
@@ -29,7 +30,8 @@ std::string names_fault(const SlitRig& rig, const ViewFiles& files);
 // The file that a view is in. Precondition: no names_fault().
 std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view);
 
-// Opens views for stitch(). Their depth is the layer Z, or NAME.Depth.Z of Blender's files of many layers.
+// Opens views for stitch(). Their depth is the layer Z, or NAME.Depth.Z of Blender's files of many layers. Normals, the
+// layers N, Normal or NAME.Normal of X, Y and Z, become those along the world's axes.
 OpenView open_view_files(const SlitRig& rig, const ViewFiles& files);
 
 // The views whose files are not there or are empty, or, with `thorough`, cannot be opened or have another size.
