@@ -44,6 +44,7 @@ struct Studio {
     rig.position = default_view(scene).position;
     options.width = kWidth;
     options.samples = 4;
+    options.bounces = 1;
     options.filter = PixelFilter::kBox;
     options.layers = false;
   }
