@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "ods/kernel/camera/project.h"
 
@@ -13,7 +14,11 @@ namespace ods {
 static float depth_at(const Reprojection& reprojection, const Texel& texel) {
   const LayerPixels& layer =
       reprojection.source->picture->eyes[static_cast<size_t>(texel.eye)].layers[reprojection.layer];
-  return sample_value(layer.sample, layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride);
+  const std::byte* at = layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride;
+  if (layer.sample != Sample::kFloat) return sample_value(layer.sample, at);
+  float depth;
+  std::memcpy(&depth, at, sizeof depth);
+  return depth;
 }
 
 // Depths are compared as 1/metres: nearly even over a plane's picture, and 0 where nothing was met.
@@ -57,14 +62,18 @@ static bool is_one_surface(float a, float b) {
 static float nearness_of(const Reprojection& reprojection, const Place& place) {
   const Source& source = *reprojection.source;
   const Cell cell = cell_of(source.camera.projection, source.picture->size, place.at);
-  const int x = static_cast<int>(std::floor(place.at.x)), y = static_cast<int>(std::floor(place.at.y));
-  const float own = nearness_at(reprojection, texel_of(source, place.eye, cell, x, y));
   const vec2 from = place.at - 0.5f, base = floor(from), beyond = from - base;
+  const int left = static_cast<int>(base.x), top = static_cast<int>(base.y);
+  const bool inside = left >= cell.left && left + 1 < cell.right && top >= cell.top && top + 1 < cell.bottom &&
+                      !is_fisheye(source.camera.projection.kind);
   float corners[4];
   for (int i = 0; i < 4; i++) {
-    const int cx = static_cast<int>(base.x) + i % 2, cy = static_cast<int>(base.y) + i / 2;
-    corners[i] = nearness_at(reprojection, texel_of(source, place.eye, cell, cx, cy));
-    if (!is_one_surface(corners[i], own)) return own;
+    const Texel corner{place.eye, left + i % 2, top + i / 2};
+    corners[i] = nearness_at(reprojection, inside ? corner : texel_of(source, place.eye, cell, corner.x, corner.y));
+  }
+  const float own = corners[(beyond.x < 0.5f ? 0 : 1) + (beyond.y < 0.5f ? 0 : 2)];
+  for (const float corner : corners) {
+    if (!is_one_surface(corner, own)) return own;
   }
   return mix(mix(corners[0], corners[1], beyond.x), mix(corners[2], corners[3], beyond.x), beyond.y);
 }

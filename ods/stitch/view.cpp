@@ -94,45 +94,39 @@ void View::add_pixels(PixelRun& run, const Footprint& footprint, std::span<const
   }
 }
 
-// Pixels whose places follow the row's parabola. Footprints change so slowly that a few share that of their middle.
+static Footprint footprint_in(const RowInView& row, float x, float way) {
+  const RayInView seen = ray_along(row, x);
+  return {ray_along(row, x + 0.5f).at - ray_along(row, x - 0.5f).at, (seen.beside - seen.at) * way};
+}
+
+// Footprints change so slowly along a row that a few pixels share that of their middle.
 void View::fill_alike(const RowInView& row, float way, int left, std::span<float> out) const {
-  const RayInView *first = row.rays, *middle = first + 1, *last = first + 2;
-  const auto along = [&](auto RayInView::*part, float t) {
-    const auto a = first->*part, b = middle->*part, c = last->*part;
-    return a + (b - a) * t + (c - 2.0f * b + a) * (0.5f * t * (t - 1.0f));
-  };
-  const vec2 step = middle->at - first->at, bend = last->at - 2.0f * middle->at + first->at;
-  const float per_pixel = 1.0f / row.reach, from = (static_cast<float>(left) + 0.5f - row.middle) * per_pixel + 1.0f;
   const size_t count = out.size() / form_.channels;
   PixelRun run(resampler_, 0, all_of(picture_));
   for (size_t i = 0; i < count; i += kMostAlike) {
     const size_t alike = std::min(count - i, kMostAlike);
-    const auto at = [&](size_t k) { return from + static_cast<float>(i + k) * per_pixel; };
+    RayInView seen[kMostAlike];
     vec2 places[kMostAlike];
-    for (size_t k = 0; k < kMostAlike; k++) places[k] = along(&RayInView::at, at(k));
-    const float there = 0.5f * (at(0) + at(alike - 1));
-    const Footprint footprint{(step + bend * (there - 0.5f)) * per_pixel,
-                              (along(&RayInView::beside, there) - along(&RayInView::at, there)) * way};
+    const float first = static_cast<float>(left) + static_cast<float>(i) + 0.5f;
+    for (size_t k = 0; k < kMostAlike; k++) {
+      seen[k] = ray_along(row, first + static_cast<float>(k));
+      places[k] = seen[k].at;
+    }
     float* pixels = &out[i * form_.channels];
-    add_pixels(run, footprint, {places, alike}, pixels);
+    add_pixels(run, footprint_in(row, first + 0.5f * static_cast<float>(alike - 1), way), {places, alike}, pixels);
     for (size_t k = 0; k < alike && form_.depth >= 0; k++) {
       float& depth = pixels[k * form_.channels + static_cast<size_t>(form_.depth)];
-      if (depth < 0.1f * kFarDepth) depth += along(&RayInView::nearer, at(k));
+      if (depth < 0.1f * kFarDepth) depth += seen[k].nearer;
     }
   }
   run.fill();
 }
 
-// Each by itself, through the view's surfaces if they are known.
-bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
-  const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
-  const RayInView own = ray_in_view(camera_, picture_.size, rays, px, py);
-  const RayInView right = ray_in_view(camera_, picture_.size, rays, px + 1.0f, py);
-  const Footprint footprint{right.at - own.at, (own.beside - own.at) * rays.way(py)};
-  const Ray ray = rays.at(px, py);
+// Through the view's surfaces if they are known. Whether the view shows what the ray meets.
+bool View::fill_pixel(const Ray& ray, const RayInView& seen, const Footprint& footprint, float* out) const {
   const SurfaceHit met =
       surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - camera_.center, ray.direction}) : SurfaceHit{{}, kFarDepth};
-  const Place place = met.place.seen ? met.place : Place{0, own.at, true};
+  const Place place = met.place.seen ? met.place : Place{0, seen.at, true};
   PixelRun run(resampler_, 0, all_of(picture_));
   add_pixels(run, footprint, {&place.at, 1}, out);
   run.fill();
@@ -141,7 +135,7 @@ bool View::fill_pixel(const PictureRays& rays, int x, int y, float* out) const {
   if (met.place.seen) {
     depth = met.depth;
   } else if (depth < 0.1f * kFarDepth) {
-    depth += own.nearer;
+    depth += seen.nearer;
   }
   return met.place.seen || !surfaces_;
 }
@@ -150,14 +144,22 @@ int View::fill(const PictureRays& rays, const RowInView& row, int y, int left, s
   const RayInView* at = row.rays;
   const vec2 bend = at[2].at - 2.0f * at[1].at + at[0].at;
   const vec2 turn = at[2].beside - 2.0f * at[1].beside + at[0].beside;
-  if (!surfaces_ && length(bend) < 1.0f && length(turn) < 1.0f) {
-    fill_alike(row, rays.way(static_cast<float>(y) + 0.5f), left, out);
+  const bool is_parabola = length(bend) < 1.0f && length(turn) < 1.0f;
+  const float py = static_cast<float>(y) + 0.5f, way = rays.way(py);
+  if (!surfaces_ && is_parabola) {
+    fill_alike(row, way, left, out);
     return 0;
   }
   const int count = static_cast<int>(out.size() / form_.channels);
   int unseen = 0;
   for (int i = 0; i < count; i++) {
-    unseen += fill_pixel(rays, left + i, y, &out[static_cast<size_t>(i) * form_.channels]) ? 0 : 1;
+    const float px = static_cast<float>(left + i) + 0.5f;
+    const auto find = [&](float x) {
+      return is_parabola ? ray_along(row, x) : ray_in_view(camera_, picture_.size, rays, x, py);
+    };
+    const RayInView seen = find(px);
+    const Footprint footprint{find(px + 1.0f).at - seen.at, (seen.beside - seen.at) * way};
+    unseen += fill_pixel(rays.at(px, py), seen, footprint, &out[static_cast<size_t>(i) * form_.channels]) ? 0 : 1;
   }
   return unseen;
 }

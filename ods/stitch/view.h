@@ -42,7 +42,7 @@ class View {
   void sum_points(const Footprint& footprint, const Place& place, float* out) const;
   void add_pixels(PixelRun& run, const Footprint& footprint, std::span<const vec2> places, float* pixels) const;
   void fill_alike(const RowInView& row, float way, int left, std::span<float> out) const;
-  bool fill_pixel(const PictureRays& rays, int x, int y, float* out) const;
+  bool fill_pixel(const Ray& ray, const RayInView& seen, const Footprint& footprint, float* out) const;
 
   StoredPicture picture_;
   ViewForm form_;
