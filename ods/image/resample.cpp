@@ -206,6 +206,7 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
     channels_ += all;
     if (i == 0 && adds_alpha) added_alpha_ = channels_++;
   }
+  leaves_some_alone_ = !nearest_.empty() || added_alpha_ >= 0;
 }
 
 Resampler::~Resampler() = default;
@@ -305,7 +306,7 @@ void Resampler::copy(int eye, int y, std::span<float> out) const {
       }
     }
   }
-  if (nearest_.empty() && added_alpha_ < 0) return;
+  if (!leaves_some_alone_) return;
   for (int x = 0; x < width; x++) {
     const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
     finish({eye, middle, true}, &out[static_cast<size_t>(x) * stride]);
@@ -330,9 +331,8 @@ void PixelRun::fill() {
   waiting_ = 0;
 }
 
-void Resampler::finish(const Place& place, float* out) const {
+void Resampler::set_rest(const Place& place, float* out) const {
   if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
-  if (nearest_.empty()) return;
   const Extent size = source_.picture->size;
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);

@@ -35,16 +35,21 @@ class Resampler {
   void copy(int eye, int y, std::span<float> out) const;
 
   // Sets what add() and fill() leave alone: those layers, to the texel of the place, and an alpha that is added to 1.
-  void finish(const Place& place, float* out) const;
+  void finish(const Place& place, float* out) const {
+    if (leaves_some_alone_) set_rest(place, out);
+  }
 
  private:
   struct Group;  // up to 4 channels of a layer
+
+  void set_rest(const Place& place, float* out) const;
 
   const Source& source_;
   std::vector<Group> mixed_;
   std::vector<Group> nearest_;
   int channels_ = 0;
   int added_alpha_ = -1;  // its channel; below 0: there is none
+  bool leaves_some_alone_ = false;
 };
 
 // Pixels of a row that are filled together, because neighbours share texels.

@@ -151,19 +151,19 @@ TentTable::TentTable() {
   }
 }
 
-// Places along one axis, and the weights there.
+// Places along one axis, and which weights those of their filters are.
 struct Axis {
   float places[kMostAlike];
-  TexelWeights* weights[kMostAlike];
-  size_t count;
+  std::span<TexelFilter> filters;
+  TexelWeights TexelFilter::*weights;
 };
 
 // Its loops, and those below, are over all places there is room for: compilers turn them into a few steps.
 static void interpolate(const Axis& axis) {
   Position positions[kMostAlike];
   for (size_t i = 0; i < kMostAlike; i++) positions[i] = split(axis.places[i]);
-  for (size_t i = 0; i < axis.count; i++) {
-    TexelWeights& to = *axis.weights[i];
+  for (size_t i = 0; i < axis.filters.size(); i++) {
+    TexelWeights& to = axis.filters[i].*axis.weights;
     to.first = positions[i].texel - 1;
     to.count = 4;
     const Four weights = cubic_weights(positions[i].beyond);
@@ -174,12 +174,12 @@ static void interpolate(const Axis& axis) {
 static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
   Position positions[kMostAlike];
   for (size_t i = 0; i < kMostAlike; i++) positions[i] = split_exactly(axis.places[i]);
-  for (size_t i = 0; i < axis.count; i++) {
+  for (size_t i = 0; i < axis.filters.size(); i++) {
     const float place = positions[i].beyond * TentTable::kPhases;
     const size_t phase = std::min<size_t>(static_cast<unsigned>(place), TentTable::kPhases);
     const float beyond = place - static_cast<float>(phase);
     const float *a = row.weights[phase].data(), *b = row.weights[phase + 1].data();
-    TexelWeights& to = *axis.weights[i];
+    TexelWeights& to = axis.filters[i].*axis.weights;
     to.first = positions[i].texel + row.first;
     to.count = row.count;
     for (int k = 0; k < row.count; k += 4) {
@@ -200,7 +200,9 @@ static void set_weights(float square, const Axis& axis) {
     return look_up_weights(kTable.rows[static_cast<size_t>(step)], axis);
   }
   const Tent tent = make_tent(square);
-  for (size_t i = 0; i < axis.count; i++) sum_weights(axis.places[i], tent, *axis.weights[i]);
+  for (size_t i = 0; i < axis.filters.size(); i++) {
+    sum_weights(axis.places[i], tent, axis.filters[i].*axis.weights);
+  }
 }
 
 std::optional<TexelTents> texel_tents(const Footprint& footprint) {
@@ -222,11 +224,9 @@ std::optional<TexelTents> texel_tents(const Footprint& footprint) {
 }
 
 void texel_filters(const TexelTents& tents, std::span<const vec2> places, TexelFilter* filters) {
-  Axis across{{}, {}, places.size()}, down{{}, {}, places.size()};
-  for (size_t i = 0; i < places.size(); i++) {
-    across.places[i] = places[i].x, down.places[i] = places[i].y;
-    across.weights[i] = &filters[i].across, down.weights[i] = &filters[i].down;
-  }
+  Axis across{{}, {filters, places.size()}, &TexelFilter::across};
+  Axis down{{}, {filters, places.size()}, &TexelFilter::down};
+  for (size_t i = 0; i < places.size(); i++) across.places[i] = places[i].x, down.places[i] = places[i].y;
   set_weights(tents.across, across);
   set_weights(tents.down, down);
 }
