@@ -170,6 +170,13 @@ struct Stretch {
   vec2 step;     // to the middle
   vec2 bend;     // by how much the next step differs
   vec2 down[3];  // a pixel below each of the three
+
+  // `t`: of the way to the middle. Footprints change slowly.
+  vec2 at(float t) const { return start + step * t + bend * (0.5f * t * (t - 1.0f)); }
+  Footprint footprint(float t) const {
+    const vec2 dy = t < 1.0f ? mix(down[0], down[1], t) : mix(down[1], down[2], t - 1.0f);
+    return {(step + bend * (t - 0.5f)) * per_pixel, dy};
+  }
 };
 
 class Converter {
@@ -200,6 +207,7 @@ class Converter {
   int fill_pixels(const CellRow& row, int x, int end) const;
   Footprint find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const;
   void fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const;
+  void fill_alone(PixelRun& run, const CellRow& row, const Stretch& stretch, int x, int i) const;
   bool fill_pixel(const CellRow& row, int x) const;
   bool fill_moved_pixel(const CellRow& row, int x) const;
   SurfaceHit meet(int index, vec2 home, vec2 uv) const;
@@ -237,13 +245,9 @@ Node Converter::find_node(const CellRow& row, int x) const {
 }
 
 std::optional<Stretch> find_stretch(const Node& first, const Node& middle, const Node& last, int pixels, int way) {
-  Stretch stretch{first.at.eye,
-                  first.cell,
-                  2.0f / static_cast<float>(pixels),
-                  first.at.at,
-                  middle.at.at - first.at.at,
-                  last.at.at - 2.0f * middle.at.at + first.at.at,
-                  {}};
+  Stretch stretch{first.at.eye, first.cell, 2.0f / static_cast<float>(pixels), first.at.at, {}, {}, {}};
+  stretch.step = middle.at.at - first.at.at;
+  stretch.bend = last.at.at - 2.0f * middle.at.at + first.at.at;
   vec2* down = stretch.down;
   for (const Node* node : {&first, &middle, &last}) {
     if (!node->at.seen || !node->beside.seen || node->at.eye != stretch.eye || node->beside.eye != stretch.eye ||
@@ -323,26 +327,34 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
 }
 
 void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const {
+  constexpr int kAlike = static_cast<int>(kMostAlike);
   PixelRun run(resampler_, stretch.eye, stretch.cell);
-  std::vector<FilterPoint> points;
-  for (int i = 0; i < count; i++) {
-    const float t = static_cast<float>(i) * stretch.per_pixel;
-    const Place place{stretch.eye, stretch.start + stretch.step * t + stretch.bend * (0.5f * t * (t - 1.0f)), true};
-    const vec2 dx = (stretch.step + stretch.bend * (t - 0.5f)) * stretch.per_pixel;
-    const vec2 dy =
-        t < 1.0f ? mix(stretch.down[0], stretch.down[1], t) : mix(stretch.down[1], stretch.down[2], t - 1.0f);
-    float* pixel = pixel_of(row, x + i);
-    if (!run.add(texel_tents({dx, dy}), {&place.at, 1}, pixel)) {
-      filter_points({dx, dy}, points);
-      if (points.size() == 1 || stays_in_cell(place, stretch.cell, points)) {
-        sum_near(place, stretch.cell, points, pixel);
-      } else {
-        sum_exactly(row.index, mapping_.home_of(x + i, row.y), points, pixel);
-      }
+  for (int i = 0; i < count; i += kAlike) {
+    const int alike = std::min(kAlike, count - i);
+    vec2 places[kAlike];
+    for (int k = 0; k < alike; k++) places[k] = stretch.at(static_cast<float>(i + k) * stretch.per_pixel);
+    const float middle = static_cast<float>(i) + 0.5f * static_cast<float>(alike - 1);
+    const Footprint footprint = stretch.footprint(middle * stretch.per_pixel);
+    const bool together = run.add(texel_tents(footprint), {places, static_cast<size_t>(alike)}, pixel_of(row, x + i));
+    for (int k = 0; k < alike; k++) {
+      if (!together) fill_alone(run, row, stretch, x, i + k);
+      resampler_.finish({stretch.eye, places[k], true}, pixel_of(row, x + i + k));
     }
-    resampler_.finish(place, pixel);
   }
   run.fill();
+}
+
+void Converter::fill_alone(PixelRun& run, const CellRow& row, const Stretch& stretch, int x, int i) const {
+  const float t = static_cast<float>(i) * stretch.per_pixel;
+  const Place place{stretch.eye, stretch.at(t), true};
+  const Footprint footprint = stretch.footprint(t);
+  float* pixel = pixel_of(row, x + i);
+  if (run.add(texel_tents(footprint), {&place.at, 1}, pixel)) return;
+  std::vector<FilterPoint> points;
+  filter_points(footprint, points);
+  const bool is_near = points.size() == 1 || stays_in_cell(place, stretch.cell, points);
+  if (is_near) return sum_near(place, stretch.cell, points, pixel);
+  sum_exactly(row.index, mapping_.home_of(x + i, row.y), points, pixel);
 }
 
 bool Converter::fill_pixel(const CellRow& row, int x) const {
