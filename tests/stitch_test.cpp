@@ -378,6 +378,13 @@ TEST(Stitch, GoesOnWhereAProcessWasKilled) {
   opened = 0;
   options.journal_key = 8;                          // other views
   EXPECT_THROW(stitch(rig, open, options), Error);  // while the first picture is still open
+  options.journal = folder.path("other");
+  EXPECT_THROW(stitch(rig, open, options, stop), Error);
+  opened = 0;
+  options.journal_key = 9;
+  const Stitched anew = stitch(rig, open, options);
+  EXPECT_EQ(opened, static_cast<int>(rig.views.size()));
+  EXPECT_EQ(images_of(anew.rows)[1].pixels, direct[1].pixels);
 }
 
 // Four views of 8x16 in a sheet of two columns: each is of one grey.

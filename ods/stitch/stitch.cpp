@@ -140,7 +140,7 @@ void Stitcher::choose_form(const StitchOptions& options) {
   picture_ = std::make_shared<Scratch>(size, options.journal);
   uint64_t& key = *reinterpret_cast<uint64_t*>(picture_->data());
   constexpr uint64_t kForm = 2;  // how pixels lie in a journal: one of another form is not gone on with
-  if (key != options.journal_key + kForm) std::memset(picture_->data(), 0, size);
+  if (key != options.journal_key + kForm) std::memset(picture_->data(), 0, pixels_from_);
   key = options.journal_key + kForm;
 }
 
