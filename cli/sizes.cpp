@@ -43,18 +43,18 @@ std::string_view short_source(const NamedSize& size) {
 }
 
 void print_table(std::span<const NamedSize> sizes) {
-  constexpr const char* kRow = "{:<19} {:<11} {:<12} {:<11} {:>3} {:>5} {:>4} {:>4}  {:<4} {}\n";
-  fmt::print(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "AA", "source");
+  constexpr const char* kRow = "{:<19} {:<11} {:<12} {:<11} {:>3} {:>5} {:>4} {:>4} {:>4} {:<4} {}\n";
+  fmt::print(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source");
   for (const NamedSize& size : sizes) {
     const bool threshold = size.antialias.starts_with("on, threshold ");
     fmt::print(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
                size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
-               level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1),
+               level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
                threshold ? size.antialias.substr(14) : size.antialias, short_source(size));
   }
   fmt::print(
-      "\nH.264, HEVC, AV1: the smallest level that holds the file as a film, at {} pictures a second where fps is\n"
-      "empty; with none, players may refuse it. AA: antialiasing the source asks for, off or POV-Ray's threshold.\n",
+      "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a film, at {} pictures a second where fps\n"
+      "is empty; with none, players may refuse it. AA: antialiasing the source asks for, off or POV-Ray's threshold.\n",
       kStillFps);
 }
 
