@@ -165,6 +165,13 @@ TEST(Xmp, WhatIsNoXmlIsNotTouched) {
                              "<rdf:Description><GPano:a></rdf:Description>", "<![CDATA[<rdf:Description/>"}) {
     EXPECT_FALSE(replace_gpano(packet, {{"GPano:PosePitchDegrees", 3}})) << packet;
   }
+  // Attributes that are none: what is left when GPano's are taken out would be read otherwise.
+  for (const char* attributes :
+       {"GPano:a\"?> <x y=\"1\"", "b='1'GPano:a='2'c='3'", "GPano:a b='1'", "GPano:a=1", "b"}) {
+    const std::string packet = std::string("<rdf:Description ") + attributes + "></rdf:Description>";
+    EXPECT_FALSE(replace_gpano(packet, {{"GPano:PosePitchDegrees", 3}})) << packet;
+    EXPECT_TRUE(says_something(packet)) << packet;
+  }
 }
 
 TEST(TagPicture, OtherWordsInAPacketStayInEveryFormat) {
@@ -204,6 +211,13 @@ TEST(TagPicture, ACompressedPacketInAPngIsRefused) {
   folder.write("a.png", file);
   EXPECT_THROW(tag_picture(folder.path("a.png"), folder.path("a.png"), sphere()), Error);
   EXPECT_EQ(folder.read("a.png"), file);
+}
+
+TEST(TagPicture, APngWhoseHeaderHasAnotherLengthIsRefused) {
+  const TemporaryFolder folder;
+  const std::string sides("\0\0\0\x10\0\0\0\x08", 8), rest(20, '\x08');
+  folder.write("a.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", sides + rest) + png_chunk("IEND", ""));
+  EXPECT_THROW(tag_picture(folder.path("a.png"), folder.path("a.png"), sphere()), Error);
 }
 
 TEST(TagPicture, APacketThatAJpegHasNoRoomForIsRefused) {
@@ -324,6 +338,17 @@ TEST(TagPicture, AnExrOfTwoViewsKeepsItsViewsAndACameraThatIsKnown) {
   EXPECT_FLOAT_EQ(input->spec().get_float_attribute("ods:ipd"), 0.07f);
   EXPECT_FLOAT_EQ(input->spec().get_float_attribute("ods:yaw"), 5.0f);
   EXPECT_EQ(folder.read("a.exr").find("envmap"), std::string::npos);
+}
+
+TEST(TagPicture, AnExrThatIsTaggedAgainGetsNoCameraThatNobodyKnows) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a_360.exr");
+  save_picture(gradient({kMono}), {}, path);
+  std::vector<std::string> guesses;
+  tag_picture(path, path, complete_tag({}, path, guesses));
+  const std::string once = folder.read("a_360.exr");
+  tag_picture(path, path, complete_tag({}, path, guesses));
+  EXPECT_TRUE(folder.read("a_360.exr") == once);
 }
 
 TEST(TagPicture, AnExrThatWasNeverFinishedIsRefused) {

@@ -75,6 +75,8 @@ PngChunk read_png_chunk(const FileInput& file, uint64_t at) {
   return chunk;
 }
 
+constexpr uint64_t kHeaderBytes = 13;
+
 static bool has_sane_size(std::string_view header) {
   const uint32_t kLongest = 1000000;  // of libpng
   const uint64_t width = get_number(header, 0, 4), height = get_number(header, 4, 4);
@@ -84,7 +86,7 @@ static bool has_sane_size(std::string_view header) {
 Extent png_size(const FileInput& file) {
   const PngChunk header = read_png_chunk(file, 8);
   const std::string sides = file.read(16, 8);
-  if (header.type != "IHDR" || header.length < 8 || !has_sane_size(sides)) {
+  if (header.type != "IHDR" || header.length != kHeaderBytes || !has_sane_size(sides)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': the PNG has no header", file.path()));
   }
   return {static_cast<int>(get_number(sides, 0, 4)), static_cast<int>(get_number(sides, 4, 4))};
@@ -110,7 +112,7 @@ static bool is_whole(const Chunk& chunk, const ByteReader& read) {
 }
 
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read) {
-  const size_t kSignature = 8, kFrame = 12, kHeader = 13;
+  const size_t kSignature = 8, kFrame = 12;
   std::vector<FileRange> parts{{0, kSignature}};
   bool has_pixels = false;
   for (size_t at = kSignature; at + kFrame <= file_size;) {
@@ -119,9 +121,9 @@ std::optional<std::vector<FileRange>> essential_png(size_t file_size, const Byte
     const Chunk chunk{start.substr(4), at, get_number(start, 0, 4)};
     if (chunk.length > file_size - at - kFrame) return std::nullopt;
     if (at == kSignature) {
-      std::string header(kHeader, '\0');
-      if (chunk.type != "IHDR" || chunk.length != kHeader) return std::nullopt;
-      if (!read(at + 8, header.data(), kHeader) || !has_sane_size(header)) return std::nullopt;
+      std::string header(kHeaderBytes, '\0');
+      if (chunk.type != "IHDR" || chunk.length != kHeaderBytes) return std::nullopt;
+      if (!read(at + 8, header.data(), header.size()) || !has_sane_size(header)) return std::nullopt;
     }
     const std::string& type = chunk.type;
     has_pixels = has_pixels || type == "IDAT";

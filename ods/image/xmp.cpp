@@ -140,24 +140,23 @@ struct Name {
   std::string_view name;
 };
 
-// The attributes in a tag; as many as can be understood.
-static std::vector<Name> names_in(std::string_view xml, const Tag& tag) {
-  xml = xml.substr(0, tag.end);
+// The attributes in a tag; nothing where they are none of XML. What is taken out of a tag leaves one.
+static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag& tag) {
+  xml = xml.substr(0, tag.end - (tag.is_empty ? 2 : 1));
   std::vector<Name> names;
-  for (size_t at = tag.begin + 1 + tag.name.size(); at < tag.end;) {
+  for (size_t at = tag.begin + 1 + tag.name.size();;) {
     const size_t begin = xml.find_first_not_of(kSpace, at);
+    if (begin == kNone) return names;
     const size_t equals = xml.find('=', begin);
-    if (begin == kNone || equals == kNone) break;
-    const size_t open = xml.find_first_not_of(kSpace, equals + 1);
-    if (open == kNone || (xml[open] != '"' && xml[open] != '\'')) break;
+    const size_t open = equals == kNone ? kNone : xml.find_first_not_of(kSpace, equals + 1);
+    if (begin == at || open == kNone || (xml[open] != '"' && xml[open] != '\'')) return std::nullopt;
     const size_t close = xml.find(xml[open], open + 1);
-    if (close == kNone) break;
     std::string_view name = xml.substr(begin, equals - begin);
-    name = name.substr(0, name.find_first_of(kSpace));
+    name = name.substr(0, name.find_last_not_of(kSpace) + 1);
+    if (close == kNone || name.find_first_of("\"'<> \t\r\n") != kNone) return std::nullopt;
     names.push_back({at, close + 1, name});
     at = close + 1;
   }
-  return names;
 }
 
 // Where the element ends that the tag begins; nothing where it has no end.
@@ -195,7 +194,9 @@ static std::optional<std::string> without_gpano(std::string_view xmp) {
       at = *end;
       continue;
     }
-    for (const Name& name : names_in(xmp, *tag)) {
+    const std::optional<std::vector<Name>> names = names_in(xmp, *tag);
+    if (!names) return std::nullopt;
+    for (const Name& name : *names) {
       if (name.name.starts_with("GPano:")) leave_out(name.begin, name.end);
     }
   }
@@ -228,7 +229,9 @@ bool says_something(const std::string& xmp) {
     const std::string_view name = tag->name.substr(tag->name.starts_with('/') ? 1 : 0);
     if (name != "x:xmpmeta" && name != "rdf:RDF" && name != "rdf:Description") return true;
     if (tag->name != "rdf:Description") continue;
-    for (const Name& each : names_in(xmp, *tag)) {
+    const std::optional<std::vector<Name>> names = names_in(xmp, *tag);
+    if (!names) return true;
+    for (const Name& each : *names) {
       if (each.name != "rdf:about" && each.name != "about" && !each.name.starts_with("xmlns")) return true;
     }
   }
