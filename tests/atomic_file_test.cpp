@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -100,6 +101,29 @@ TEST(AtomicFile, ASignalEndsTheProcessAndLeavesNothing) {
     EXPECT_EQ(folder.read("words"), "stopped\n");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"words"});
   }
+}
+
+TEST(AtomicFile, WhatAKilledProcessLeftGoesWithTheNextOne) {
+  const TemporaryFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    AtomicFile file(folder.path("a.txt"));
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_EQ(folder.names().size(), 1u);
+  const std::string left = folder.names()[0];
+  const std::string others = ".b" + left.substr(2);  // of another file
+  // Of a process that lives.
+  const std::string alive = left.substr(0, left.rfind("." + std::to_string(child) + ".")) + ".1.0";
+  for (const std::string& name : {others, alive}) folder.write(name, "");
+  const int held = open(folder.path(left).c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(held, LOCK_EX), 0);  // as another container's process would have it
+  { const AtomicFile file(folder.path("a.txt")); }
+  EXPECT_EQ(folder.names().size(), 3u);
+  close(held);
+  AtomicFile(folder.path("a.txt")).commit();
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{alive, others, "a.txt"}));
 }
 
 TEST(AtomicFile, MakesFolders) {

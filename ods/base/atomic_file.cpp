@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/base/atomic_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -55,18 +59,24 @@ void remove_unfinished_files() {
   }
 }
 
-// A new file with a name that is unique on this host and process; cut short because a name has at most 255 bytes.
-// Null, with errno, where there can be none.
-static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
-  static std::atomic<unsigned> counter{0};
+// What the temporary names of a file begin with on this machine, before the number of the process; cut short because a
+// name has at most 255 bytes.
+static std::string temporary_prefix(const std::string& path) {
   char host[64] = "";
   gethostname(host, sizeof(host) - 1);
-  const std::string name = fs::path(path).filename().native().substr(0, 120);
+  return fmt::format(".{}.tmp.{}.", fs::path(path).filename().native().substr(0, 120), host);
+}
+
+// A new file with a name that is unique on this host and process, locked for as long as it is open. Null, with errno,
+// where there can be none.
+static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
+  static std::atomic<unsigned> counter{0};
+  const std::string prefix = temporary_prefix(path);
   // A name already taken is what a killed process with our number left, or another machine's of our name.
   const int kTries = 100;
   std::FILE* stream = nullptr;
   for (int i = 0; i < kTries; i++) {
-    temporary = folder / fmt::format(".{}.tmp.{}.{}.{}", name, host, getpid(), counter++);
+    temporary = folder / fmt::format("{}{}.{}", prefix, getpid(), counter++);
     replace_unfinished(nullptr, temporary.c_str());  // before it exists, so that no signal falls between
     stream = std::fopen(temporary.c_str(), "wbxe");
     if (stream != nullptr) break;
@@ -75,7 +85,30 @@ static std::FILE* create_temporary(const fs::path& folder, const std::string& pa
     errno = why;
     if (why != EEXIST) break;
   }
+  if (stream != nullptr) flock(fileno(stream), LOCK_EX | LOCK_NB);  // some file systems have no locks
   return stream;
+}
+
+// Nobody has it open: not even a process of another container, whose numbers are others.
+static bool is_left_alone(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  const bool is_free = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  close(descriptor);
+  return is_free;
+}
+
+// What processes that were killed left of the same file.
+static void remove_leftovers(const fs::path& folder, const std::string& path) {
+  const std::string prefix = temporary_prefix(path);
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().native();
+    if (!name.starts_with(prefix)) continue;
+    const int process = std::atoi(name.c_str() + prefix.size());
+    const bool is_dead = process > 0 && kill(process, 0) != 0 && errno == ESRCH;
+    if (is_dead && is_left_alone(at->path())) unlink(at->path().c_str());
+  }
 }
 
 void check_writable(const std::string& path) {
@@ -120,6 +153,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(behind_li
   std::error_code error;
   fs::create_directories(folder_of(target_), error);
   if (error) throw cannot_write(path, fmt::format("folder cannot be made: {}", error.message()));
+  remove_leftovers(folder_of(target_), target_);
   stream_ = create_temporary(folder_of(target_), target_, temporary_);
   if (stream_ == nullptr) throw cannot_write(path, std::strerror(errno));
 }

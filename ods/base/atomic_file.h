@@ -15,7 +15,7 @@ namespace ods {
 void check_writable(const std::string& path);
 
 // Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and whatever stood under the final name is untouched;
-// destruction without commit() removes it. Paths are bytes.
+// destruction without commit() removes it, and the next of that name what a killed process left. Paths are bytes.
 class AtomicFile {
  public:
   // Creates the folders above the file and the file under its temporary name. Throws as check_writable().
