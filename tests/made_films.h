@@ -48,6 +48,7 @@ struct Mp4Options {
   std::string brand = "isom";
   std::string entry_boxes;          // in the sample entry, behind avcC
   std::string track_boxes;          // at the end of the first track
+  std::string table_boxes;          // at the end of its tables
   std::vector<int> widths = {256};  // of the video tracks, which are square
   int chunks = 3;
   size_t padding = 0;  // bytes of each chunk behind its word
@@ -71,7 +72,7 @@ inline std::string track(const Mp4Options& options, int id, const std::vector<ui
   const std::string none(4, '\0');
   const std::string table = box("stsd", none + number(1, 4) + sample_entry(side, id == 1 ? options.entry_boxes : "")) +
                             box("stts", none + number(1, 4) + number(offsets.size(), 4) + number(40, 4)) +
-                            offsets_box(options, offsets);
+                            offsets_box(options, offsets) + (id == 1 ? options.table_boxes : "");
   const std::string self = box("dinf", box("dref", none + number(1, 4) + box("url ", number(1, 4))));
   const std::string media = box("mdhd", none + std::string(8, '\0') + number(1000, 4) + number(120, 4) + none) +
                             box("hdlr", none + none + "vide" + std::string(13, '\0')) +

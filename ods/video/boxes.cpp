@@ -46,13 +46,17 @@ static Broken too_long(BoxType type) {
   return Broken(fmt::format("its box '{}' says that it is longer than what holds it", type_text(type)));
 }
 
+static Broken too_many() {
+  return Broken("a box of it holds more than a million others");
+}
+
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
   std::vector<Box> boxes;
   while (bytes.size() >= 8) {
     const BoxHeader header = parse_header(bytes);
     // Only a box of the file itself may reach as far as there is anything.
     if (header.whole == 0 || header.whole > bytes.size()) throw too_long(header.type);
-    if (boxes.size() == kMostChildren) throw Broken("a box of it holds more than a million others");
+    if (boxes.size() == kMostChildren) throw too_many();
     Box box;
     box.type = header.type;
     box.is_large = header.size == 16;
@@ -98,15 +102,34 @@ uint64_t box_size(const Box& box) {
   return box.is_large || size > 0xffffffff ? size + 8 : size;
 }
 
-void write_box(const Box& box, std::string& bytes) {
+static void append_header(const Box& box, std::string& bytes) {
   const uint64_t size = box_size(box);
   const bool is_large = box.is_large || size > 0xffffffff;
   append_number(bytes, is_large ? 1 : size, 4);
   append_number(bytes, box.type, 4);
   if (is_large) append_number(bytes, size, 8);
+}
+
+void write_box(const Box& box, std::string& bytes) {
+  append_header(box, bytes);
   bytes += box.body;
   for (const Box& child : box.children) write_box(child, bytes);
   bytes += box.tail;
+}
+
+void write_box(const Box& box, AtomicFile& file) {
+  std::string header;
+  append_header(box, header);
+  append(file, header);
+  append(file, box.body);
+  for (const Box& child : box.children) write_box(child, file);
+  append(file, box.tail);
+}
+
+// The header at a place from which 8 bytes or more are left.
+static FileBox read_header(const FileInput& file, uint64_t at, uint64_t left) {
+  const BoxHeader header = parse_header(file.read(at, std::min<uint64_t>(left, 16)));
+  return {header.type, header.size, at, header.whole};
 }
 
 std::vector<FileBox> scan_boxes(const FileInput& file) {
@@ -115,25 +138,38 @@ std::vector<FileBox> scan_boxes(const FileInput& file) {
   for (uint64_t at = 0; at < file.size();) {
     const uint64_t left = file.size() - at;
     if (left < 8) throw Broken("it is cut short");
-    const BoxHeader header = parse_header(file.read(at, std::min<uint64_t>(left, 16)));
-    if (header.whole > left) {
+    FileBox box = read_header(file, at, left);
+    if (box.size > left) {
       throw Broken(fmt::format("it is cut short: its box '{}' should have {} bytes, and {} are there",
-                               type_text(header.type), header.whole, left));
+                               type_text(box.type), box.size, left));
     }
-    boxes.push_back({header.type, header.size, at, header.whole == 0 ? left : header.whole});
-    at = boxes.back().end();
+    if (box.size == 0) box.size = left;
+    boxes.push_back(box);
+    at = box.end();
     if (boxes.size() > kMost) throw Broken("it consists of more than a million boxes");
   }
   return boxes;
 }
 
-Box read_box(const FileInput& file, const FileBox& box) {
+Box read_box(const FileInput& file, const FileBox& box, std::span<const BoxType> opened) {
   constexpr uint64_t kMost = uint64_t{256} << 20;
   if (box.size > kMost) throw Broken(fmt::format("its box '{}' has more than 256 MiB", type_text(box.type)));
   Box result;
   result.type = box.type;
   result.is_large = box.header == 16;
-  result.body = file.read(box.offset + box.header, box.size - box.header);
+  uint64_t at = box.offset + box.header;
+  if (opened.empty() || opened.front() != box.type) {
+    result.body = file.read(at, box.end() - at);
+    return result;
+  }
+  while (box.end() - at >= 8) {
+    const FileBox child = read_header(file, at, box.end() - at);
+    if (child.size == 0 || child.size > box.end() - at) throw too_long(child.type);
+    if (result.children.size() == kMostChildren) throw too_many();
+    result.children.push_back(read_box(file, child, opened.subspan(1)));
+    at = child.end();
+  }
+  result.tail = file.read(at, box.end() - at);
   return result;
 }
 

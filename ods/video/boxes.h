@@ -8,6 +8,7 @@
 // is in them, so that no file decides how deep anything nests. Everything is written back byte for byte.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,9 +51,10 @@ const Box* find_child(const Box& box, BoxType type);
 // The child, opened; Broken where there is none.
 Box& open_child(Box& box, BoxType type, size_t prefix = 0);
 
-// The bytes that write_box() appends.
+// The bytes that write_box() appends, to others or to a file.
 uint64_t box_size(const Box& box);
 void write_box(const Box& box, std::string& bytes);
+void write_box(const Box& box, AtomicFile& file);
 
 // A box of the file itself, which stays there.
 struct FileBox {
@@ -67,7 +69,8 @@ struct FileBox {
 // more than a million; Error(kInput).
 std::vector<FileBox> scan_boxes(const FileInput& file);
 
-// A box of the file, in memory. Throws Broken where it has more than 256 MiB.
-Box read_box(const FileInput& file, const FileBox& box);
+// A box of the file, in memory. `opened`: its type, then that of children which are opened, then that of theirs, and so
+// on: what is in them is in memory once, however large. Throws Broken, where it has more than 256 MiB, too.
+Box read_box(const FileInput& file, const FileBox& box, std::span<const BoxType> opened = {});
 
 }  // namespace ods

@@ -22,6 +22,10 @@ struct Mp4 {
   Box moov;
 };
 
+// What holds the tables, which are all that is long in a header.
+constexpr BoxType kSampleTables[] = {box_type("moov"), box_type("trak"), box_type("mdia"), box_type("minf"),
+                                     box_type("stbl")};
+
 static Mp4 open_mp4(const FileInput& file) {
   Mp4 film;
   film.boxes = scan_boxes(file);
@@ -30,8 +34,7 @@ static Mp4 open_mp4(const FileInput& file) {
   if (found == film.boxes.end()) throw Broken("it has no header (moov): its recording was not finished");
   if (std::find_if(found + 1, film.boxes.end(), is_header) != film.boxes.end()) throw Broken("it has two headers");
   film.header = static_cast<size_t>(found - film.boxes.begin());
-  film.moov = read_box(file, *found);
-  open_box(film.moov, 0);
+  film.moov = read_box(file, *found, kSampleTables);
   if (find_child(film.moov, box_type("cmov"))) throw Broken("its header is compressed, as QuickTime once did");
   return film;
 }
@@ -278,16 +281,12 @@ static void move_header(Box& moov, const Move& move) {
 }
 
 static void write_header(const Mp4& film, const Plan& plan, AtomicFile& to) {
-  std::string bytes;
-  write_box(film.moov, bytes);
-  append(to, bytes);
+  write_box(film.moov, to);
   if (plan.free == 0) return;
   Box filler;
   filler.type = box_type("free");
   filler.body.resize(plan.free - 8);
-  bytes.clear();
-  write_box(filler, bytes);
-  append(to, bytes);
+  write_box(filler, to);
 }
 
 TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id, const std::optional<FilmForm>& form,
@@ -311,9 +310,7 @@ TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id, cons
     } else if (result.moved && may_have_offsets(box.type)) {
       Box moved = read_box(file, box);
       move_offsets(moved, box, plan.move);
-      std::string bytes;
-      write_box(moved, bytes);
-      append(to, bytes);
+      write_box(moved, to);
     } else {
       file.copy(box.offset, box.size, to);
     }
