@@ -24,7 +24,8 @@ void row(std::string_view name, const std::string& value) {
 
 std::string said(const std::optional<FilmForm>& form) {
   if (!form) return "says nothing";
-  const std::string text = form_text(*form);
+  std::string text = form_text(*form);
+  if (form->ipd > 0.0) text += fmt::format(", eyes {:g} mm apart", 1000.0 * form->ipd);
   return form->source.empty() ? text : fmt::format("{} (by {})", text, form->source);
 }
 
@@ -94,6 +95,7 @@ Json to_json(const std::optional<FilmForm>& form) {
                {"pitch", form->pitch}, {"roll", form->roll},    {"source", form->source}};
   if (form->stereo) json["stereo"] = stereo_name(*form->stereo);
   if (form->projection) json["projection"] = projection_name(*form->projection);
+  if (form->ipd > 0.0) json["ipd"] = form->ipd;
   return json;
 }
 

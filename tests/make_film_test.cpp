@@ -153,6 +153,17 @@ TEST_F(MadeFilm, ItSaysWhatItIs) {
   EXPECT_NEAR(info.video[0].fps, 29.97, 0.001);
 }
 
+TEST_F(MadeFilm, ItSaysHowFarItsEyesAreApartWhereTheFramesDo) {
+  EXPECT_EQ(film.form.ipd, 0.0) << "nobody knows";
+  CameraRig rig;
+  rig.ipd = 0.05f;
+  save_picture(made::red_and_blue({128, 64}, 1), rig, {}, folder.path("b.1.exr"));
+  files = find_frames(folder.path("b.#.exr"));
+  film = plan_film(files, {}, {});
+  make("film.mp4");
+  EXPECT_EQ(read_film(folder.path("film.mp4")).video.at(0).vexu.value().ipd, 0.05);
+}
+
 TEST_F(MadeFilm, ADamagedFrameInTheMiddleLeavesNothing) {
   folder.write("film.mp4", "the old one");
   const std::string png = folder.read("a.5.png");

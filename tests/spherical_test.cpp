@@ -7,9 +7,11 @@
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/image/camera_file.h"
 #include "ods/video/apple.h"
 #include "ods/video/film_form.h"
 #include "ods/video/players.h"
+#include "tests/temporary_folder.h"
 
 namespace ods {
 namespace {
@@ -93,12 +95,14 @@ TEST(Spherical, EveryFormThatFitsComesBack) {
 TEST(Apple, VexuIsTheBytesOfItsSpecification) {
   FilmForm form = form_of(FilmStereo::kTopBottom, FilmProjection::kEquirect);
   // vexu { eyes { stri 3, hero 1, cams { blin 65000 } }, proj { prji equi }, pack { pkin over } }
-  EXPECT_EQ(bytes_of(vexu_box(form, 0.065)),
+  form.ipd = 0.065;
+  EXPECT_EQ(bytes_of(vexu_box(form)),
             from_hex("00000072 76657875 0000003a 65796573 0000000d 73747269 00000000 03 0000000d 6865726f 00000000 01 "
                      "00000018 63616d73 00000010 626c696e 00000000 0000fde8 00000018 70726f6a 00000010 70726a69 "
                      "00000000 65717569 00000018 7061636b 00000010 706b696e 00000000 6f766572"));
   EXPECT_EQ(bytes_of(hfov_box(form)), from_hex("0000000c 68666f76 00057e40"));
   form.stereo = FilmStereo::kRightLeft;
+  form.ipd = 5000.0;  // too many micrometres for 32 bits
   set_projection(form, find_projection("vr180")->setting);
   EXPECT_EQ(bytes_of(vexu_box(form)),
             from_hex("0000005a 76657875 00000022 65796573 0000000d 73747269 00000000 0b 0000000d 6865726f 00000000 01 "
@@ -116,6 +120,7 @@ TEST(Apple, EveryFormThatFitsComesBack) {
         form.source = "";
         if (projection == FilmProjection::kEquirect) set_projection(form, find_projection(part)->setting);
         if (!fits_vexu(form)) continue;
+        if (stereo != FilmStereo::kOneView) form.ipd = 0.0635;
         Box entry;
         entry.children = {vexu_box(form), hfov_box(form)};
         EXPECT_EQ(parse_vexu(entry), form) << form_text(form);
@@ -205,6 +210,23 @@ TEST(FilmForm, WhatIsKnownGoesFirst) {
   EXPECT_EQ(form_text(guess("a_360_TB.mp4", {512, 512}, known)), "mono, lat-long");
   known.projection = FilmProjection::kFlat;
   EXPECT_EQ(form_text(guess("a_360_TB.mp4", {512, 512}, known)), "mono, flat");
+}
+
+TEST(FilmForm, HowFarItsEyesAreApartIsItsSidecarsOrItsOwnWord) {
+  TemporaryFolder folder;
+  VideoTrack track;
+  track.size = {512, 512};
+  std::vector<std::string> guesses;
+  const auto ipd_of = [&](const char* name) { return complete_form({}, track, folder.path(name), guesses).ipd; };
+  EXPECT_EQ(ipd_of("a_360_TB.mp4"), 0.0);
+  track.vexu = form_of(FilmStereo::kTopBottom, FilmProjection::kEquirect);
+  track.vexu->ipd = 0.06;
+  EXPECT_EQ(ipd_of("a_360_TB.mp4"), 0.06);
+  CameraFile sidecar;
+  sidecar.rig.ipd = 0.05f;
+  save_camera(sidecar, folder.path("a_360_TB.camera.json"));
+  EXPECT_FLOAT_EQ(static_cast<float>(ipd_of("a_360_TB.mp4")), 0.05f);
+  EXPECT_EQ(ipd_of("b_360_mono.mp4"), 0.0) << "one eye";
 }
 
 TEST(FilmForm, AnOrdinaryFilmIsNotTakenForASphere) {

@@ -245,6 +245,7 @@ PictureForm find_form(const FileInfo& info, const std::string& path, const Known
   }
   const std::optional<CameraRig> camera = find_camera(info, path, known, sidecar, form.guesses);
   form.camera_is_said = camera.has_value();
+  form.ipd_is_said = camera && (known.camera || sidecar || info.numbers.contains("ods:ipd"));
   if (camera) form.camera = *camera;
   if (known.projection) {
     form.camera.projection = *known.projection;

@@ -57,6 +57,7 @@ struct PictureForm {
   bool is_photo = false;  // a Cardboard photo (ods/image/cardboard.h): layout kSeparate, both eyes in one file
   CameraRig camera;
   bool camera_is_said = false;       // by the caller, the file or its sidecar; else only its projection is a guess
+  bool ipd_is_said = false;          // likewise; GPano and envmap are no words on it
   std::vector<std::string> guesses;  // "top-bottom: its name ends in _TB", to be said to people
 };
 

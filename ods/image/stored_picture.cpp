@@ -419,6 +419,7 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.layout = form.layout.layout.value_or(Layout::kSeparate);
   picture.layout_because = form.layout.because;
   picture.rig = form.camera;
+  picture.ipd_is_said = form.ipd_is_said;
   picture.guesses = std::move(form.guesses);
   const auto parts = info.numbers.find("oiio:subimages");
   if (parts != info.numbers.end() && parts->second[0] > 1.0f) {

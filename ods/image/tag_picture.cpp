@@ -62,7 +62,7 @@ FileInfo read_picture_header(const std::string& path) {
 PictureTag complete_tag(const KnownForm& known, const std::string& path, std::vector<std::string>& guesses) {
   const FileInfo info = read_picture_header(path);
   const PictureForm form = find_form(info, path, known);
-  PictureTag tag{form.camera, form.layout.layout, form.eye, form.camera_is_said};
+  PictureTag tag{form.camera, form.layout.layout, form.eye, form.ipd_is_said};
   if (!known.projection && !form.camera_is_said && read_name(path).projection == nullptr) {
     const Layout layout = tag.layout.value_or(Layout::kSeparate);
     const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});

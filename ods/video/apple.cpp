@@ -54,7 +54,7 @@ static Box leaf(BoxType type, uint64_t value, size_t bytes) {
   return box;
 }
 
-Box vexu_box(const FilmForm& form, double ipd) {
+Box vexu_box(const FilmForm& form) {
   assert(fits_vexu(form));
   const FilmStereo stereo = stereo_of(form);
   Box vexu = parent(box_type("vexu"), {});
@@ -62,8 +62,8 @@ Box vexu_box(const FilmForm& form, double ipd) {
     uint64_t flags = kHasLeft | kHasRight;
     if (has_right_first(stereo)) flags |= kRightFirst;
     Box eyes = parent(box_type("eyes"), {leaf(box_type("stri"), flags, 1), leaf(box_type("hero"), 1, 1)});
-    if (ipd > 0.0) {
-      const auto micrometres = static_cast<uint64_t>(std::llround(ipd * 1e6));
+    const auto micrometres = static_cast<uint64_t>(std::llround(form.ipd * 1e6));
+    if (micrometres > 0 && micrometres <= 0xffffffff) {
       eyes.children.push_back(parent(box_type("cams"), {leaf(box_type("blin"), micrometres, 4)}));
     }
     vexu.children.push_back(std::move(eyes));
@@ -96,6 +96,13 @@ static std::optional<uint64_t> find_number(Box& vexu, BoxType outer, BoxType inn
   return box == nullptr ? std::nullopt : std::optional(get_number(box->body, 4, bytes));
 }
 
+static double find_ipd(Box& vexu) {
+  Box* eyes = find_child(vexu, box_type("eyes"));
+  if (eyes == nullptr) return 0.0;
+  open_box(*eyes, 0);
+  return static_cast<double>(find_number(*eyes, box_type("cams"), box_type("blin"), 4).value_or(0)) / 1e6;
+}
+
 static FilmStereo packed(bool is_over, bool right_first) {
   if (is_over) return right_first ? FilmStereo::kBottomTop : FilmStereo::kTopBottom;
   return right_first ? FilmStereo::kRightLeft : FilmStereo::kSideBySide;
@@ -114,6 +121,7 @@ std::optional<FilmForm> parse_vexu(const Box& sample_entry) {
     if (!packing) return std::nullopt;
     const bool is_known = *packing == box_type("over") || *packing == box_type("side");
     form.stereo = is_known ? packed(*packing == box_type("over"), (*flags & kRightFirst) != 0) : FilmStereo::kOther;
+    form.ipd = find_ipd(vexu);
   } else {
     form.stereo = FilmStereo::kOneView;
   }

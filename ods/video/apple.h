@@ -17,8 +17,8 @@ namespace ods {
 // lat-long and the half in front.
 bool fits_vexu(const FilmForm& form);
 
-// Preconditions: fits_vexu(). `ipd`: metres; 0: unknown, and no blin.
-Box vexu_box(const FilmForm& form, double ipd = 0.0);
+// Preconditions: fits_vexu(). Without an ipd, or with one of kilometres, there is no blin.
+Box vexu_box(const FilmForm& form);
 Box hfov_box(const FilmForm& form);
 
 // From the boxes of a sample entry; nothing where it has no vexu, or one that describes layers of the stream and no

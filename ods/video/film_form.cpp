@@ -89,6 +89,9 @@ FilmForm complete_form(FilmForm known, const VideoTrack& track, const std::strin
     }
     set_projection(known, form.camera.projection);
   }
+  if (known.stereo != FilmStereo::kOneView && known.ipd == 0.0) {
+    known.ipd = form.ipd_is_said ? static_cast<double>(form.camera.ipd) : track.vexu ? track.vexu->ipd : 0.0;
+  }
   guesses = form.guesses;
   return known;
 }

@@ -137,6 +137,7 @@ FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optiona
   const StoredPicture first = open_picture(files.path(0), options);
   const Layout own = wished_layout(film_layout(first), layout);
   FilmPlan plan = plan_eyes(first.size, first.eyes.size(), own, first.rig.projection);
+  if (first.ipd_is_said && first.eyes.size() == 2) plan.form.ipd = static_cast<double>(first.rig.ipd);
   plan.known.layout = first.layout;
   plan.known.camera = first.rig;
   for (const std::string& guess : first.guesses) plan.notes.push_back(fmt::format("{}: {}", files.path(0), guess));
