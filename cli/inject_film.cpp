@@ -87,4 +87,5 @@ void inject_film(const InjectJob& job, ProgressLines& lines) {
   lines.clear();
   for (const std::string& guess : guesses) note(guess);
   if (form) say_what_is_written(*form, result, film.container);
+  if (job.ambisonics) note("its sound: written as ambisonics of first order (SA3D)");
 }

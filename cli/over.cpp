@@ -16,6 +16,7 @@
 #include "cli/over_film.h"
 #include "cli/over_job.h"
 #include "ods/base/error.h"
+#include "ods/base/frames.h"
 
 using ods::Footage, ods::FootageKind, ods::StoredPicture;
 
@@ -74,8 +75,20 @@ void lay_frames(const OverJob& job, Footage& back, Footage& front, ProgressLines
   }
 }
 
+// Frames of a title that are numbered otherwise than the footage would be left out without a word.
+void warn_of_no_cover(const OverJob& job, const Footage& back, const Footage& front) {
+  if (front.kind() != FootageKind::kFrames || back.kind() == FootageKind::kPicture) return;
+  const std::vector<int> covers = front.frames(), frames = job.frames ? *job.frames : back.frames();
+  if (covers.empty() || frames.empty()) return;
+  const auto is_covered = [&](int frame) { return std::binary_search(covers.begin(), covers.end(), frame); };
+  if (std::any_of(frames.begin(), frames.end(), is_covered)) return;
+  warn(fmt::format("no frame of '{}' ({}) has the number of one of '{}' ({}): nothing lies over it", job.foreground,
+                   ods::frames_text(covers), job.background, ods::frames_text(frames)));
+}
+
 void lay_all(const OverJob& job, ProgressLines& lines) {
   Footage back(job.background, job.known), front(job.foreground, {});
+  warn_of_no_cover(job, back, front);
   const bool to_film = ods::container_of_path(job.output).has_value();
   if (back.kind() == FootageKind::kFilm && to_film) return lay_over_film(job, back, front, lines);
   if (to_film) {

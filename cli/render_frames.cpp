@@ -153,6 +153,10 @@ std::vector<int> render_frames(const RenderJob& job, const std::function<void(do
         "nothing moves in it: --duration says how long the film is; --turntable or --fly-to move the camera");
   }
   const std::vector<Frame> frames = choose_frames(job, time);
-  if (!frames.empty()) render_all(job, scene, time, frames, report, [](const std::vector<std::string>&) {});
+  if (!frames.empty()) {
+    note(fmt::format("to render: {} frame{}, {}x{} an eye, {} samples a pixel", frames.size(),
+                     frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
+    render_all(job, scene, time, frames, report, [](const std::vector<std::string>&) {});
+  }
   return film_frames(time);
 }
