@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "cli/apple_option.h"
 #include "cli/console.h"
 #include "cli/form_options.h"
 #include "ods/base/suggest.h"
@@ -173,10 +174,12 @@ void add_packing_options(Options& options, FilmWishes& wishes) {
   options.choice("--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "what of the colour is kept");
   options.text("--audio", "FILE", wishes.sound,
                "its sound: mono, stereo, or four channels of first-order ambisonics (AmbiX)");
+  add_apple_option(options, wishes.for_apple);
 }
 
 ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int threads) {
   const Container container = container_for(wishes.output);
+  check_apple(wishes.for_apple, container);
   setenv("SVT_LOG", "0", 0);  // SVT-AV1 speaks for itself
   ods::EncodeOptions options;
   options.packing = packing_for(wishes, container, size);
@@ -188,6 +191,7 @@ ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int thr
   options.sound = wishes.sound;
   options.copies_sound = wishes.copies_sound;
   options.sound_cut = wishes.sound_cut;
+  options.for_apple = wishes.for_apple;
   check_container(container, options.packing.codec);
   check_quality(options);
   ods::check_encoder(container, options);

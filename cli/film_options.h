@@ -18,6 +18,7 @@ struct FilmWishes {
   std::optional<float> bitrate;
   std::string encoder, preset, sound;
   bool copies_sound = false;
+  bool for_apple = false;
   ods::SoundCut sound_cut;
   ods::FrameRate rate;
 };

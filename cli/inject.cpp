@@ -6,6 +6,7 @@
 
 #include <iostream>
 
+#include "cli/apple_option.h"
 #include "cli/console.h"
 #include "cli/inject_job.h"
 #include "cli/layout_options.h"
@@ -47,11 +48,12 @@ bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
   options.number("--track", job.track, 0, 2147483647, "of several video tracks, by its number (the largest picture)");
   options.flag("--ambisonics", job.ambisonics,
                "its sound of four channels is first-order ambisonics (AmbiX: W Y Z X, SN3D); of mp4 and mov");
+  add_apple_option(options, job.for_apple);
   options.flag("--remove", job.remove, "make it say nothing");
   options.group("Console");
   add_progress_options(options, mode);
   if (!options.parse(argc, argv)) return false;
-  for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics"}) {
+  for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics", "--apple"}) {
     if (job.remove && options.given(other)) throw UsageError(fmt::format("--remove leaves nothing for {}", other));
   }
   job.is_mono = layout == "mono";

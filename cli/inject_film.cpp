@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cli/apple_option.h"
 #include "cli/console.h"
 #include "cli/inject_job.h"
 #include "cli/long_job.h"
@@ -68,6 +69,7 @@ void inject_film(const InjectJob& job, ProgressLines& lines) {
   if (job.layout) known.stereo = ods::film_stereo(*job.layout);
   if (!job.projection.empty()) parse_projection(job.projection, known);
   const ods::FilmInfo film = ods::read_film(job.file);
+  check_apple(job.for_apple, film.container);
   const ods::VideoTrack& track = choose_track(film, job.track, job.file);
   std::optional<FilmForm> form;
   std::vector<std::string> guesses;
@@ -77,6 +79,7 @@ void inject_film(const InjectJob& job, ProgressLines& lines) {
     form->pitch = static_cast<double>(job.pitch.value_or(0.0f));
     form->roll = static_cast<double>(job.roll.value_or(0.0f));
     form->source = "Omnistereo";
+    form->for_apple = form->for_apple || job.for_apple;
   }
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](double done) {

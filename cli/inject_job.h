@@ -18,6 +18,7 @@ struct InjectJob {
   bool remove = false;
   std::optional<int> track;  // of a film
   bool ambisonics = false;   // likewise
+  bool for_apple = false;    // likewise
 };
 
 // Each throws UsageError, and what the library throws.

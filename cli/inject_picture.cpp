@@ -28,8 +28,8 @@ ods::KnownForm known_form(const InjectJob& job) {
 }  // namespace
 
 void inject_picture(const InjectJob& job) {
-  if (job.track || job.ambisonics)
-    throw UsageError(fmt::format("--track and --ambisonics are of films, and '{}' is a picture", job.file));
+  if (job.track || job.ambisonics || job.for_apple)
+    throw UsageError(fmt::format("--track, --ambisonics and --apple are of films, and '{}' is a picture", job.file));
   if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
   std::vector<std::string> guesses;
   ods::PictureTag tag = ods::complete_tag(known_form(job), job.file, guesses);

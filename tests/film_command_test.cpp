@@ -44,8 +44,12 @@ TEST_F(FilmCommand, InjectGoesByTheNameAndSaysSo) {
   EXPECT_EQ(video["v1"]["stereo"], "top-bottom");
   EXPECT_EQ(video["v2"]["projection"], "lat-long");
   EXPECT_TRUE(video["warnings"].empty());
-  EXPECT_EQ(video["vexu"]["stereo"], "top-bottom");
+  EXPECT_TRUE(video["vexu"].is_null());
   EXPECT_EQ(video["players"].size(), 5u);
+  ASSERT_EQ(run("inject --apple " + path), 0) << err;
+  EXPECT_NE(err.find("Apple's players"), std::string::npos) << err;
+  ASSERT_EQ(run("inject " + path), 0) << err;
+  EXPECT_EQ(probe(path)["film"]["video"][0]["vexu"]["stereo"], "top-bottom") << "it was there";
 }
 
 TEST_F(FilmCommand, InjectWritesAnotherFileAndSaysWhatV1CannotHold) {

@@ -161,6 +161,9 @@ TEST_F(MadeFilm, ItSaysHowFarItsEyesAreApartWhereTheFramesDo) {
   files = find_frames(folder.path("b.#.exr"));
   film = plan_film(files, {}, {});
   make("film.mp4");
+  EXPECT_FALSE(read_film(folder.path("film.mp4")).video.at(0).vexu) << "it is for who asks";
+  options.for_apple = true;
+  make("film.mp4");
   EXPECT_EQ(read_film(folder.path("film.mp4")).video.at(0).vexu.value().ipd, 0.05);
 }
 

@@ -116,7 +116,9 @@ TEST_F(Mp4Film, SamplesStayWhereTheOffsetsSay) {
 }
 
 TEST_F(Mp4Film, BoxesStandWhereTheSpecificationsPutThem) {
-  const std::string tagged = tag(made::mp4({}), stacked());
+  FilmForm form = stacked();
+  form.for_apple = true;
+  const std::string tagged = tag(made::mp4({}), form);
   const std::vector<std::string> entry = {"moov", "trak", "mdia", "minf", "stbl", "stsd", "avc1"};
   std::vector<size_t> places;
   for (const char* type : {"avcC", "st3d", "sv3d", "vexu", "hfov", "pasp"}) {
@@ -169,10 +171,15 @@ TEST_F(Mp4Film, WhatWasThereIsReplaced) {
 }
 
 TEST_F(Mp4Film, VexuIsReplacedAndRemoved) {
-  const std::string plain = made::mp4({}), tagged = tag(plain, stacked());
+  const std::string plain = made::mp4({});
+  tag(plain, stacked());
+  EXPECT_FALSE(result.has_vexu) << "nobody asked for it";
+  FilmForm apples = stacked();
+  apples.for_apple = true;
+  const std::string tagged = tag(plain, apples);
   EXPECT_TRUE(result.has_vexu);
   EXPECT_EQ(form_text(*read(tagged).vexu), form_text(stacked()));
-  FilmForm beside = stacked();
+  FilmForm beside = apples;
   beside.stereo = FilmStereo::kSideBySide;
   const std::string again = tag(tagged, beside);
   EXPECT_EQ(form_text(*read(again).vexu), form_text(beside));
@@ -196,7 +203,7 @@ TEST_F(Mp4Film, ADamagedVexuSaysNothing) {
   made::Mp4Options options;
   options.entry_boxes = made::box("vexu", std::string("\xff\xff\xff\xffproj", 8));
   EXPECT_FALSE(read(made::mp4(options)).vexu);
-  EXPECT_TRUE(read(tag(made::mp4(options), stacked())).vexu);
+  EXPECT_FALSE(read(tag(made::mp4(options), stacked())).vexu);
 }
 
 TEST_F(Mp4Film, FormsThatV1CannotSayHaveNone) {

@@ -8,6 +8,9 @@
 //
 // stri: 1 there is a left eye, 2 a right one, 8 the right one comes first; hero: 1 left, 2 right; blin: the distance of
 // the eyes in micrometres; prji: equi, hequ (the half in front), rect; pkin: side, over; hfov: thousandths of a degree.
+//
+// Only for who asks: FFmpeg from 7.1 on takes the layout from vexu where there is one, not from V2, and does not read
+// `pack`. To it and what is made with it such a film is stereo of a layout that nobody knows.
 #pragma once
 #include "ods/video/spherical.h"
 

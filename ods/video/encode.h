@@ -39,6 +39,7 @@ struct EncodeOptions {
   std::string sound;          // a file that has sound in it; empty: a silent film
   bool copies_sound = false;  // its packets as they are, in any number of channels; else it is packed anew
   SoundCut sound_cut;
+  bool for_apple = false;  // FilmForm
 };
 
 bool has_encoder(std::string_view name);

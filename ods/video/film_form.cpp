@@ -92,6 +92,7 @@ FilmForm complete_form(FilmForm known, const VideoTrack& track, const std::strin
   if (known.stereo != FilmStereo::kOneView && known.ipd == 0.0) {
     known.ipd = form.ipd_is_said ? static_cast<double>(form.camera.ipd) : track.vexu ? track.vexu->ipd : 0.0;
   }
+  known.for_apple = known.for_apple || track.vexu.has_value();
   guesses = form.guesses;
   return known;
 }

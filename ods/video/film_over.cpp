@@ -300,7 +300,9 @@ int over_film(Footage& back, Footage& front, int first, int last, const OverOpti
   } else if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) {
     ambisonics.emplace();
   }
-  tag_film(untagged.temporary(), path, choose_track(film, {}, path).id, back.film().form, ambisonics);
+  FilmForm form = back.film().form;
+  form.for_apple = form.for_apple || options.for_apple;
+  tag_film(untagged.temporary(), path, choose_track(film, {}, path).id, form, ambisonics);
   return done;
 }
 

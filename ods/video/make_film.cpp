@@ -213,7 +213,9 @@ TagResult make_film(const FrameFiles& files, const FilmPlan& plan, const Develop
   const FilmInfo film = read_film(untagged.temporary());
   std::optional<Ambisonics> ambisonics;
   if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) ambisonics.emplace();
-  return tag_film(untagged.temporary(), path, choose_track(film, {}, path).id, plan.form, ambisonics);
+  FilmForm form = plan.form;
+  form.for_apple = options.for_apple;
+  return tag_film(untagged.temporary(), path, choose_track(film, {}, path).id, form, ambisonics);
 }
 
 }  // namespace ods

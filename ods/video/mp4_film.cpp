@@ -186,7 +186,7 @@ static bool tag_entry(Box& entry, const std::optional<FilmForm>& form) {
   });
   if (form->projection && form->projection != FilmProjection::kFlat) place = boxes.insert(place, sv3d_box(*form));
   place = boxes.insert(place, st3d_box(*form));
-  if (has_layers || !fits_vexu(*form)) return false;
+  if (has_layers || !form->for_apple || !fits_vexu(*form)) return false;
   place += 2;  // behind them: it is a sphere
   boxes.insert(boxes.insert(place, hfov_box(*form)), vexu_box(*form));
   return true;

@@ -47,8 +47,9 @@ struct FilmForm {
   // kEquirect: what is left out of the sphere at the top, bottom, left and right, in parts of 2^32 of the whole.
   std::array<uint32_t, 4> bounds{};
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
-  double ipd = 0.0;    // metres between the eyes; 0: it does not say. Only vexu has a place for it.
-  std::string source;  // the program that says so
+  double ipd = 0.0;        // metres between the eyes; 0: it does not say. Only vexu has a place for it.
+  bool for_apple = false;  // vexu is written, too: apple.h has what that costs
+  std::string source;      // the program that says so
 
   bool is_partial() const { return bounds != std::array<uint32_t, 4>{}; }
   bool operator==(const FilmForm&) const = default;

@@ -172,7 +172,9 @@ void write_testcard_film(const TestcardFilm& film, const FilmPlan& plan, int fra
   encode_frames(film, frames, encoder, progress);
   encoder.finish();
   const FilmInfo made = read_film(untagged.temporary());
-  tag_film(untagged.temporary(), path, choose_track(made, {}, path).id, plan.form);
+  FilmForm form = plan.form;
+  form.for_apple = options.for_apple;
+  tag_film(untagged.temporary(), path, choose_track(made, {}, path).id, form);
 }
 
 }  // namespace ods

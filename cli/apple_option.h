@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// --apple, of the commands that write films.
+#pragma once
+#include "cli/console.h"
+#include "cli/options.h"
+#include "ods/video/film.h"
+
+inline void add_apple_option(Options& options, bool& for_apple) {
+  options.flag("--apple", for_apple,
+               "write vexu, too, for Apple's players; FFmpeg from 7.1 on then no longer knows the layout");
+}
+
+// Throws UsageError.
+inline void check_apple(bool for_apple, ods::Container container) {
+  const bool has_boxes = container == ods::Container::kMp4 || container == ods::Container::kMov;
+  if (for_apple && !has_boxes) throw UsageError("--apple is for mp4 and mov: Apple's players read no others");
+}
