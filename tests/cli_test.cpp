@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -262,7 +263,12 @@ TEST_F(Cli, ThreadsAreLimitedFromTheStart) {
   const auto threads_with = [&](const std::string& name, const std::string& limit) {
     Ods command({"render", name, "--samples", "100000", "--threads", limit, "-o", folder.path("a.png")});
     command.wait_for("camera at");
-    const size_t threads = command.threads();
+    size_t threads = command.threads();
+    for (int same = 0; same < 10;) {  // those that begin or end may still be on their way
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      same = command.threads() == threads ? same + 1 : 0;
+      threads = command.threads();
+    }
     command.kill(SIGTERM);
     EXPECT_EQ(command.finish(), 128 + SIGTERM);
     return threads;
