@@ -14,6 +14,6 @@ inline void add_apple_option(Options& options, bool& for_apple) {
 
 // Throws UsageError.
 inline void check_apple(bool for_apple, ods::Container container) {
-  const bool has_boxes = container == ods::Container::kMp4 || container == ods::Container::kMov;
-  if (for_apple && !has_boxes) throw UsageError("--apple is for mp4 and mov: Apple's players read no others");
+  if (for_apple && !has_boxes(container))
+    throw UsageError("--apple is for mp4 and mov: Apple's players read no others");
 }

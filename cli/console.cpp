@@ -12,6 +12,7 @@
 
 #include "cli/exit_code.h"
 #include "ods/base/error.h"
+#include "ods/base/text.h"
 
 Console console;
 
@@ -21,12 +22,6 @@ bool stderr_is_terminal() {
 }
 
 namespace {
-
-// A file's name may hold anything, also what a terminal would obey.
-std::string one_line(std::string text) {
-  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
-  return text;
-}
 
 void print_json(const char* key, const std::string& text) {
   // A file's name may be no UTF-8.
@@ -41,7 +36,7 @@ int fail(ExitCode code, const std::string& text) {
   }
   const char* no_color = std::getenv("NO_COLOR");
   bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
-  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", one_line(text).c_str());
+  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", ods::one_line(text).c_str());
   return code;
 }
 
@@ -63,13 +58,13 @@ ExitCode exit_code(ods::ErrorKind kind) {
 void note(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json("note", text);
-  std::fprintf(stderr, "ods: %s\n", one_line(text).c_str());
+  std::fprintf(stderr, "ods: %s\n", ods::one_line(text).c_str());
 }
 
 void warn(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json("warning", text);
-  std::fprintf(stderr, "ods: warning: %s\n", one_line(text).c_str());
+  std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(text).c_str());
 }
 
 int run_command(const std::function<void()>& body) {

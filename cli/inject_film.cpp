@@ -48,8 +48,8 @@ void say_what_is_written(const FilmForm& form, const ods::TagResult& result, ods
 // What the sound is to say; nothing where it is left as it is.
 std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::FilmInfo& film) {
   if (!job.ambisonics) return std::nullopt;
-  const bool has_boxes = film.container == ods::Container::kMp4 || film.container == ods::Container::kMov;
-  if (!has_boxes) throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus says it by itself");
+  if (!has_boxes(film.container))
+    throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus says it by itself");
   const bool is_alone = film.sound.size() == 1;
   if (!is_alone)
     throw UsageError(fmt::format("--ambisonics: '{}' has {} tracks of sound, not one", job.file, film.sound.size()));

@@ -70,8 +70,7 @@ void check_job(const OverJob& job, const FilmInput& film) {
   refuse_overwriting(job.output, job.background);
   refuse_overwriting(job.output, job.foreground);
   const Container container = container_for(job.output);
-  const bool has_boxes = container == Container::kMp4 || container == Container::kMov;
-  if (has_boxes && !ods::fits_v2(film.form)) {
+  if (has_boxes(container) && !ods::fits_v2(film.form)) {
     throw UsageError(fmt::format("{} has no word for {}; .mkv has", container_name(container), form_text(film.form)));
   }
 }

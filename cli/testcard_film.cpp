@@ -40,8 +40,7 @@ static ods::FilmPlan plan_card(ods::Extent eye, size_t eyes, Layout layout, cons
   }
   const ods::FilmPlan plan =
       ods::plan_eyes(ods::squeezed_eye(layout, eye, static_cast<int>(eyes)), eyes, layout, projection);
-  const bool has_boxes = container == Container::kMp4 || container == Container::kMov;
-  if (has_boxes && !ods::fits_v2(plan.form)) {
+  if (has_boxes(container) && !ods::fits_v2(plan.form)) {
     throw UsageError(fmt::format("{} has no word for {}; .mkv has", container_name(container), form_text(plan.form)));
   }
   return plan;

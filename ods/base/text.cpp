@@ -11,4 +11,10 @@ std::string small_letters(std::string text) {
   return text;
 }
 
+std::string one_line(std::string text) {
+  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
 }  // namespace ods

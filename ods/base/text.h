@@ -10,4 +10,8 @@ namespace ods {
 // A to Z become a to z; all else stays.
 std::string small_letters(std::string text);
 
+// Every control character becomes a space: a file's name may hold line breaks and what a terminal would obey.
+// Spaces at the end go.
+std::string one_line(std::string text);
+
 }  // namespace ods

@@ -54,12 +54,16 @@ static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
 
 namespace ods {
 
+namespace {
+
 struct RayContext {
   EmbreeContext embree;
   PathTracer* tracer;
   int ray;
   uint still;
 };
+
+}  // namespace
 
 // A geometry's number in its scene is the number of our instance. Where something moves, all that does not is one
 // instance more in the top scene.

@@ -32,12 +32,16 @@ static Error damaged(const std::string& path, const std::string& why) {
 
 // --- extended XMP ----------------------------------------------------------------------------------------------------
 
+namespace {
+
 // A segment of it.
 struct Piece {
   uint64_t whole = 0;  // bytes of the packet
   uint64_t at = 0;
   std::string_view bytes;
 };
+
+}  // namespace
 
 // Those of the packet of this name, as they follow each other in it.
 static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, std::string_view id) {

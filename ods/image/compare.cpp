@@ -34,12 +34,16 @@ static bool is_finite(const float* pixel, int channels) {
   return std::all_of(pixel, pixel + channels, [](float value) { return std::isfinite(value); });
 }
 
+namespace {
+
 struct Sums {
   double squares = 0.0, count = 0.0;
   double weighted_squares = 0.0, weights = 0.0;
   LargestError largest;
   int64_t not_finite = 0;
 };
+
+}  // namespace
 
 static Sums sum_errors(const Image& a, const Image& b, int eye) {
   Sums sums;

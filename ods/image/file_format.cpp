@@ -14,10 +14,14 @@ namespace ods {
 
 using namespace std::string_view_literals;
 
+namespace {
+
 struct Extension {
   std::string_view name;
   FileFormat format;
 };
+
+}  // namespace
 static const Extension kExtensions[] = {
     {"png", FileFormat::kPng},   {"jpg", FileFormat::kJpeg},  {"jpeg", FileFormat::kJpeg}, {"tif", FileFormat::kTiff},
     {"tiff", FileFormat::kTiff}, {"webp", FileFormat::kWebp}, {"hdr", FileFormat::kHdr},   {"exr", FileFormat::kExr},

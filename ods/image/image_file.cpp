@@ -19,6 +19,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
+#include "ods/base/text.h"
 #include "ods/image/exr_header.h"
 #include "ods/image/exr_rows.h"
 #include "ods/image/jpeg_segments.h"
@@ -44,12 +45,6 @@ static void set_up_openimageio() {
   OIIO::attribute("debug", 0);
   OIIO::attribute("threads", threads);
   OIIO::attribute("exr_threads", threads);
-}
-
-static std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
 }
 
 static OIIO::TypeDesc type_of(Sample sample) {
@@ -88,6 +83,8 @@ static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std:
   }
 }
 
+namespace {
+
 // What OpenImageIO reads of a PNG.
 class PngSource final : public OIIO::Filesystem::IOProxy {
  public:
@@ -114,6 +111,8 @@ struct Reader {
   OIIO::ImageSpec spec;
   FileFormat format;
 };
+
+}  // namespace
 
 // `start` is that of the file.
 static Reader create_reader(std::span<const std::byte> start, const std::string& name) {
@@ -396,6 +395,8 @@ static OIIO::ImageSpec make_spec(const FileHeader& header) {
   return spec;
 }
 
+namespace {
+
 // Where encoders write. It never reports a failure, because libjpeg would end the process; the stream remembers it for
 // AtomicFile::finish(). On the way it slips a chunk in behind a PNG's header.
 class Sink final : public OIIO::Filesystem::IOProxy {
@@ -427,6 +428,8 @@ class Sink final : public OIIO::Filesystem::IOProxy {
   std::FILE* stream_;
   std::string chunk_;
 };
+
+}  // namespace
 
 // Rows go out in bands: enough for OpenEXR to compress on all cores, few enough that no second picture is in memory.
 // The next band is made meanwhile, as most formats are compressed on one core.

@@ -64,6 +64,8 @@ std::optional<Layout> layout_of(std::string_view word) {
 
 // --- where the eyes lie --------------------------------------------------------------------------------------------
 
+namespace {
+
 // What the layouts are made of.
 enum class Arrangement { kStacked, kBeside, kInterleaved, kAlone };
 
@@ -72,6 +74,8 @@ struct Form {
   bool right_first = false;
   bool squeezed = false;
 };
+
+}  // namespace
 
 static Form form_of(Layout layout) {
   switch (layout) {

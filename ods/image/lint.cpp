@@ -17,11 +17,15 @@ namespace ods {
 
 // --- names ---------------------------------------------------------------------------------------------------------
 
+namespace {
+
 struct FaultNames {
   std::string_view name;
   std::string_view title;
   Severity severity;
 };
+
+}  // namespace
 
 static FaultNames names_of(Fault fault) {
   switch (fault) {

@@ -63,6 +63,8 @@ void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig) {
   add_extras(attributes, rig);
 }
 
+namespace {
+
 // Takes the attributes of a file one by one, and remembers the first that makes no sense.
 class AttributeReader {
  public:
@@ -94,6 +96,8 @@ class AttributeReader {
   const FileInfo& info_;
   std::string bad_;
 };
+
+}  // namespace
 
 constexpr float kTurns = 36000.0f;  // degrees, as in a sidecar
 

@@ -87,12 +87,12 @@ struct Rows {
   }
 };
 
-}  // namespace
-
 // Of a row's pixels, as Overlay has them.
 struct Count {
   int covered = 0, behind = 0;
 };
+
+}  // namespace
 
 static Count lay_row(const Rows& front, const Rows& back, const OverOptions& options, const std::vector<float>& before,
                      std::span<float> row) {

@@ -92,11 +92,15 @@ Extent png_size(const FileInput& file) {
   return {static_cast<int>(get_number(sides, 0, 4)), static_cast<int>(get_number(sides, 4, 4))};
 }
 
+namespace {
+
 struct Chunk {
   std::string type;
   size_t offset = 0;
   size_t length = 0;
 };
+
+}  // namespace
 
 static bool is_whole(const Chunk& chunk, const ByteReader& read) {
   const size_t kPiece = size_t{1} << 18;

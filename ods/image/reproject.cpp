@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "ods/base/parabola.h"
 #include "ods/kernel/camera/project.h"
 
 namespace ods {
@@ -112,11 +113,8 @@ Shown Curve::find(float nearness) const {
 Shown Curve::at(float nearness) const {
   if (!is_parabola) return find(nearness);
   const float t = 2.0f * nearness / most;
-  const auto through = [&](auto a, auto b, auto c) {
-    return a + (b - a) * t + (c - 2.0f * b + a) * (0.5f * t * (t - 1.0f));
-  };
-  return {{eye, through(at_far.place.at, at_middle.place.at, at_near.place.at), true},
-          through(at_far.nearness, at_middle.nearness, at_near.nearness)};
+  return {{eye, on_parabola(at_far.place.at, at_middle.place.at, at_near.place.at, t), true},
+          on_parabola(at_far.nearness, at_middle.nearness, at_near.nearness, t)};
 }
 
 Curve make_curve(const Source& source, int eye, const Ray& ray, float most) {

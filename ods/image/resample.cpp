@@ -27,6 +27,8 @@ static std::vector<float> light_of_halves() {
 
 constexpr float kMost = std::numeric_limits<float>::max();
 
+namespace {
+
 // Samples of a file to light and to numbers. Whoever reads many asks for the table once.
 template <class T>
 struct Codes {
@@ -59,6 +61,8 @@ struct Floats {
   static float number(float value) { return finite(value, -kMost, kMost); }
 };
 
+}  // namespace
+
 template <class Samples>
 static typename Samples::Type sample_at(const std::byte* texel, int channel) {
   typename Samples::Type sample;
@@ -85,12 +89,16 @@ static Four read_light(const float* table, const std::byte* texel) {
   return value * share;
 }
 
+namespace {
+
 // Texels as they lie in a picture.
 struct Block {
   const std::byte* first;
   ptrdiff_t pixel_stride;
   ptrdiff_t row_stride;
 };
+
+}  // namespace
 
 template <class Samples, int kCount, bool kAlpha>
 static void read_lights(const Block& block, int width, int height, Four* out) {
@@ -211,11 +219,15 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
 
 Resampler::~Resampler() = default;
 
+namespace {
+
 // The texels of filters as a cell has them, and how many they are if every filter reads its own.
 struct Reach {
   Cell box;
   int texels = 0;
 };
+
+}  // namespace
 
 static Reach reach_of(std::span<const TexelFilter> filters) {
   Reach reach{{INT_MAX, INT_MAX, INT_MIN, INT_MIN}};

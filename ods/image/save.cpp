@@ -157,6 +157,8 @@ bool has_alpha(const std::string& path) {
 
 // --- the pixels ----------------------------------------------------------------------------------------------------
 
+namespace {
+
 // One file of some eyes of a picture.
 struct File {
   const PictureRows& picture;
@@ -173,6 +175,8 @@ struct File {
     return which;
   }
 };
+
+}  // namespace
 
 size_t count_channels(const std::vector<RowLayer>& layers) {
   size_t count = 0;
@@ -397,10 +401,14 @@ std::vector<std::string> save_picture(const PictureRows& picture, const CameraRi
 
 // --- a picture in memory -------------------------------------------------------------------------------------------
 
+namespace {
+
 struct ImageLayer {
   const Image EyeImage::*image;
   RowLayer layer;
 };
+
+}  // namespace
 
 static const std::vector<ImageLayer>& image_layers() {
   static const std::vector<ImageLayer> layers = {

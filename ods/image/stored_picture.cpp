@@ -24,6 +24,8 @@ static Error unreadable(const std::string& path, const std::string& why) {
 
 // --- which channels are what -----------------------------------------------------------------------------------------
 
+namespace {
+
 // A layer of one view of a file, and where it comes to lie.
 struct Plane {
   std::string name;                   // N, albedo; of the colour and single channels empty
@@ -34,6 +36,8 @@ struct Plane {
   std::byte* to = nullptr;
   size_t pixel_size() const { return channels.size() * bytes_of(sample); }
 };
+
+}  // namespace
 
 // `ViewLayer.Depth.Z` is Z of ViewLayer.Depth.
 static std::pair<std::string, std::string> split_name(const std::string& channel) {
@@ -128,11 +132,15 @@ static std::vector<Plane> other_planes(const View& channels, const RowReader& re
 
 // --- the files -------------------------------------------------------------------------------------------------------
 
+namespace {
+
 // One view of one file.
 struct FileShare {
   RowReader* reader = nullptr;
   std::vector<Plane> planes;  // the first is the colour
 };
+
+}  // namespace
 
 static FileShare make_share(RowReader& reader, const std::string& path, View channels, bool only_light) {
   const FileInfo& info = reader.info();
@@ -222,12 +230,16 @@ static void gather(const std::byte* in, size_t stride, const std::vector<size_t>
   }
 }
 
+namespace {
+
 // The channels of a file that are read at all, as they lie behind each other.
 struct Packing {
   size_t count = 0;
   std::vector<size_t> offsets;
   size_t stride = 0;
 };
+
+}  // namespace
 
 static Packing packing_of(const FileInfo& info, const std::vector<FileShare>& shares, const RowReader* reader) {
   Packing packing;
@@ -286,12 +298,16 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
 
 // --- the eyes --------------------------------------------------------------------------------------------------------
 
+namespace {
+
 // Row `y` and the first column of every eye in a packed image.
 struct EyeView {
   int x = 0;
   int y = 0;
   int row_step = 1;
 };
+
+}  // namespace
 
 static std::vector<EyeView> views_of(Layout layout, Extent eye) {
   std::vector<EyeView> views(2);

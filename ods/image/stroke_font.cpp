@@ -4,11 +4,15 @@
 
 namespace ods {
 
+namespace {
+
 // Polylines of points (x 0..4, y 0..6), two digits a point, polylines parted by spaces.
 struct Glyph {
   char letter;
   const char* strokes;
 };
+
+}  // namespace
 static const Glyph kGlyphs[] = {
     {'A', "002640 1232"},
     {'B', "00063645443303 3342413000"},

@@ -16,12 +16,12 @@ namespace ods {
 // --- what stands on the card -----------------------------------------------------------------------------------------
 
 // Each line is for one eye alone.
-static void add_eyes(View& view, float y) {
+static void add_eyes(CardView& view, float y) {
   view.letter("LEFT EYE", 0.0f, y + 2.4f, 26.0f, 4.4f, kLeftColor).eye = kLeft;
   view.letter("RIGHT EYE", 0.0f, y - 2.4f, 26.0f, 4.4f, kRightColor).eye = kRight;
 }
 
-static void add_depths(View& view, float y, std::span<const float> distances, float nearest) {
+static void add_depths(CardView& view, float y, std::span<const float> distances, float nearest) {
   float x = -4.0f * static_cast<float>(distances.size() - 1);
   for (float distance : distances) {
     const vec3 color = distance < nearest ? kNotSafe : distance < 1.5f * nearest ? kAmber : kSafe;
@@ -30,7 +30,7 @@ static void add_depths(View& view, float y, std::span<const float> distances, fl
   }
 }
 
-static void add_sharpness(View& view, float y) {
+static void add_sharpness(CardView& view, float y) {
   float x = -26.0f;
   for (int pixels : {1, 2, 3, 4}) {
     view.add(CardPattern::kBars, x, y + 1.7f, 7.0f, 8.0f).pixels = pixels;
@@ -44,7 +44,7 @@ static void add_sharpness(View& view, float y) {
 // "Omnidirectional stereo (ODS) with POV-Ray".
 static void add_quarter(std::vector<Card>& cards, float yaw, const std::string& name) {
   static const float kDistances[] = {0.4f, 0.6f, 1.0f, 1.5f, 2.0f, 3.5f, 8.0f, 20.0f};
-  View view(cards, yaw, 0.0f);
+  CardView view(cards, yaw, 0.0f);
   view.add(CardPattern::kRing, 0.0f, 0.0f, 86.0f, 86.0f);
   view.letter(name, 0.0f, 1.5f, 34.0f, 6.0f);
   add_eyes(view, 11.0f);
@@ -56,7 +56,7 @@ static void add_quarter(std::vector<Card>& cards, float yaw, const std::string& 
 
 static void add_pole(std::vector<Card>& cards, float pitch, const std::string& name) {
   static const float kDistances[] = {1.5f, 3.5f, 8.0f};
-  View view(cards, 0.0f, pitch);
+  CardView view(cards, 0.0f, pitch);
   view.add(CardPattern::kRing, 0.0f, 0.0f, 60.0f, 60.0f);
   view.letter(name, 0.0f, -16.0f, 24.0f, 5.0f);
   add_eyes(view, 14.0f);
@@ -66,10 +66,10 @@ static void add_pole(std::vector<Card>& cards, float pitch, const std::string& n
 // The degrees of the grid, every 30 along the horizon between the quarters and up and down all around.
 static void add_degrees(std::vector<Card>& cards) {
   for (int yaw = -180; yaw < 180; yaw += 30) {
-    View view(cards, static_cast<float>(yaw), 0.0f);
+    CardView view(cards, static_cast<float>(yaw), 0.0f);
     if (yaw % 90 != 0) view.letter(fmt::format("{}", yaw), 0.0f, -1.6f, 6.0f, 2.6f);
     for (int pitch : {-60, -30, 30, 60}) {
-      View(cards, static_cast<float>(yaw), static_cast<float>(pitch))
+      CardView(cards, static_cast<float>(yaw), static_cast<float>(pitch))
           .letter(fmt::format("{}{}", pitch > 0 ? "+" : "", pitch), 0.0f, 1.6f, 5.0f, 2.4f);
     }
   }
@@ -99,7 +99,7 @@ Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::
   add_quarter(card.cards, -90.0f, "LEFT");
   add_pole(card.cards, 90.0f, "UP");
   add_pole(card.cards, -90.0f, "DOWN");
-  View front(card.cards, 0.0f, 0.0f);
+  CardView front(card.cards, 0.0f, 0.0f);
   float y = 31.0f;
   for (const std::string& line : lines) front.letter(line, 0.0f, y -= 2.6f, 44.0f, 2.4f);
   set_reach(card.cards, rig, eye);

@@ -20,7 +20,7 @@ std::vector<Card> testcard_marks(const CameraRig& rig, Extent eye, int frame, do
   const int second = static_cast<int>(std::floor(frame / fps + 1e-6)), since = frame - first_frame_of(second, fps);
   std::vector<Card> cards;
   for (const float yaw : {0.0f, 90.0f, 180.0f, -90.0f}) {
-    View view(cards, yaw, -46.0f);
+    CardView view(cards, yaw, -46.0f);
     view.letter(fmt::format("L {:04}", frame), -9.0f, 7.5f, 24.0f, 5.4f, kLeftColor).eye = kLeft;
     view.letter(fmt::format("R {:04}", frame), -9.0f, 1.7f, 24.0f, 5.4f, kRightColor).eye = kRight;
     Card& flash = view.add(CardPattern::kCells, 12.5f, 4.6f, 11.2f, 11.2f);

@@ -26,9 +26,9 @@ inline const vec3 kLeftColor = code(90, 190, 255), kRightColor = code(255, 120, 
 inline const vec3 kSafe = code(110, 220, 120), kNotSafe = code(255, 80, 70), kAmber = code(255, 200, 80);
 
 // One view: what somebody sees who looks that way. Places and sizes are degrees in it.
-class View {
+class CardView {
  public:
-  View(std::vector<Card>& cards, float yaw, float pitch)
+  CardView(std::vector<Card>& cards, float yaw, float pitch)
       : cards_(cards), frame_(attitude(glm::radians(yaw), glm::radians(pitch), 0.0)) {}
 
   Card& add(CardPattern pattern, float x, float y, float width, float height) {

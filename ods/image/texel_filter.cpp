@@ -15,6 +15,8 @@ namespace ods {
 static const float kLeastRadius = 0.15f;
 static const int kMostPoints = 65;  // along one axis
 
+namespace {
+
 // Points an equal step apart. Their weights, 1 together, rise and fall by equal steps.
 struct Tent {
   int count = 1;
@@ -25,6 +27,8 @@ struct Tent {
   float at(int i) const { return offset + step * static_cast<float>(i); }
   float weight(int i) const { return first_weight * static_cast<float>(std::min(2 * i + 1, 2 * (count - i) - 1)); }
 };
+
+}  // namespace
 
 // Points whose variance is the tent's own, radius^2 / 6. Those of a tent of radius 1 have a somewhat larger one, by the
 // sums of 1, 3, 5, ... and their squares and cubes: a sixth of `variance`.
@@ -79,10 +83,14 @@ static Four cubic_weights(float t) {
   return middle + t * (once + t * (squared + t * cubed));
 }
 
+namespace {
+
 struct Position {
   int texel;
   float beyond;  // its middle
 };
+
+}  // namespace
 
 static Position split_exactly(float at) {
   const float from = at - 0.5f;
@@ -115,6 +123,8 @@ static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
   to.count += 4;
 }
 
+namespace {
+
 // The weights of tents, which are slow to sum, for steps of their radius squared and of the place between two texels.
 struct TentTable {
   static constexpr int kSteps = 48;  // of the square: of what the filter's variance grows by
@@ -130,6 +140,8 @@ struct TentTable {
 
   TentTable();
 };
+
+}  // namespace
 
 TentTable::TentTable() {
   for (size_t i = 0; i < rows.size(); i++) {
@@ -151,12 +163,16 @@ TentTable::TentTable() {
   }
 }
 
+namespace {
+
 // Places along one axis, and which weights those of their filters are.
 struct Axis {
   float places[kMostAlike];
   std::span<TexelFilter> filters;
   TexelWeights TexelFilter::*weights;
 };
+
+}  // namespace
 
 // Its loops, and those below, are over all places there is room for: compilers turn them into a few steps.
 static void interpolate(const Axis& axis) {

@@ -7,12 +7,16 @@
 
 namespace ods {
 
+namespace {
+
 struct Level {
   std::string_view name;
   int64_t pixels;      // of a picture, in whole blocks
   int64_t pixel_rate;  // a second
   Extent longest;      // sides; none: both at most sqrt(8 pixels)
 };
+
+}  // namespace
 
 // The standard counts macroblocks of 16 x 16 pixels.
 static constexpr Level h264(std::string_view name, int64_t blocks, int64_t block_rate) {
@@ -62,11 +66,15 @@ static constexpr Level kVp9Levels[] = {
     {"6.2", 35651584, 4706009088, {16832, 16832}},
 };
 
+namespace {
+
 struct CodecFacts {
   std::string_view name;
   int block;  // sides are coded in multiples of it
   std::span<const Level> levels;
 };
+
+}  // namespace
 
 static CodecFacts facts_of(Codec codec) {
   switch (codec) {

@@ -42,9 +42,13 @@ static std::string text_of(const Attribute& attribute) {
   return s ? *s : std::string();
 }
 
+namespace {
+
 struct Namespace {
   std::string_view prefix, address;
 };
+
+}  // namespace
 
 static constexpr Namespace kNamespaces[] = {
     {"GPano", "http://ns.google.com/photos/1.0/panorama/"},
@@ -92,11 +96,15 @@ std::string make_xmp(const std::vector<Attribute>& properties) {
 static constexpr size_t kNone = std::string_view::npos;
 static constexpr std::string_view kSpace = " \t\r\n";
 
+namespace {
+
 struct Tag {
   size_t begin = 0, end = 0;  // from its < to behind its >
   std::string_view name;      // of an end tag with its slash
   bool is_empty = false;      // <name/>
 };
+
+}  // namespace
 
 static bool skip_past(std::string_view xml, size_t& at, std::string_view mark) {
   at = xml.find(mark, at);
@@ -135,10 +143,14 @@ static std::optional<Tag> next_tag(std::string_view xml, size_t at, bool& is_bro
   return std::nullopt;
 }
 
+namespace {
+
 struct Name {
   size_t begin = 0, end = 0;  // with the spaces before it and the value behind it
   std::string_view name;
 };
+
+}  // namespace
 
 // The attributes in a tag; nothing where they are none of XML. What is taken out of a tag leaves one.
 static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag& tag) {

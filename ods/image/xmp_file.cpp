@@ -21,11 +21,15 @@ static Error unusable(const FileInput& file, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot tag '{}': {}", file.path(), why));
 }
 
+namespace {
+
 // A range of the file that other bytes take the place of.
 struct Cut {
   uint64_t at = 0;
   uint64_t size = 0;
 };
+
+}  // namespace
 
 static void write_with(const FileInput& file, AtomicFile& to, const Cut& cut, const std::string& bytes) {
   file.copy(0, cut.at, to);
@@ -51,10 +55,14 @@ static void write_jpeg(const FileInput& file, AtomicFile& to, const std::string&
 
 // --- PNG -------------------------------------------------------------------------------------------------------------
 
+namespace {
+
 struct PngPacket {
   Cut place;
   std::optional<std::string> text;  // none: it is compressed or damaged
 };
+
+}  // namespace
 
 static std::optional<PngPacket> find_in_png(const FileInput& file) {
   for (uint64_t at = 8; at + 12 <= file.size();) {

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "ods/base/text.h"
 #include "ods/image/export/writers.h"
 #include "ods/stitch/export/writers.h"
 
@@ -33,13 +33,6 @@ std::string_view rig_target_name(RigTarget target) {
       return "csv";
   }
   return "";
-}
-
-// Names of files may have line breaks, and comments must not.
-static std::string one_line(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '_');
-  return name;
 }
 
 RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& file_name) {

@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "ods/base/parabola.h"
 #include "ods/stitch/slit_rig.h"
 
 namespace ods {
@@ -38,11 +39,10 @@ struct RowInView {
 
 // That of a place along the row, by the parabola.
 inline RayInView ray_along(const RowInView& row, float x) {
-  const float t = (x - row.middle) / row.reach + 1.0f, bend = 0.5f * t * (t - 1.0f);
+  const float t = (x - row.middle) / row.reach + 1.0f;
   const RayInView &a = row.rays[0], &b = row.rays[1], &c = row.rays[2];
-  return {a.at + (b.at - a.at) * t + (c.at - 2.0f * b.at + a.at) * bend,
-          a.beside + (b.beside - a.beside) * t + (c.beside - 2.0f * b.beside + a.beside) * bend,
-          a.nearer + (b.nearer - a.nearer) * t + (c.nearer - 2.0f * b.nearer + a.nearer) * bend};
+  return {on_parabola(a.at, b.at, c.at, t), on_parabola(a.beside, b.beside, c.beside, t),
+          on_parabola(a.nearer, b.nearer, c.nearer, t)};
 }
 
 // The rows of all slits of an eye. Views that stand to their slits as those of the first slit do, which all are that

@@ -96,6 +96,7 @@ class Stitcher {
   ViewForm form_;                        // what all views have
   std::optional<StoredPicture> sample_;  // the view that told it
   size_t sample_index_ = 0;
+  std::vector<std::vector<Batch>> batches_;  // of each eye
   // A key; of every batch, once it is done, 1 + its pixels that are unseen; then eyes, batches, rows, pixels, channels.
   std::shared_ptr<Scratch> picture_;
   size_t pixels_from_ = 0;  // bytes
@@ -129,7 +130,8 @@ void Stitcher::choose_form(const StitchOptions& options) {
   if (!sample_)
     throw Error(ErrorKind::kInput, fmt::format("none of the {} views can be read: {}", rig_.views.size(), fault));
   form_ = form_of(*sample_);
-  const size_t batches = rig_.eyes.size() * batches_of(0).size();
+  for (size_t eye = 0; eye < rig_.eyes.size(); eye++) batches_.push_back(batches_of(eye));
+  const size_t batches = rig_.eyes.size() * batches_[0].size();
   pixels_from_ = (sizeof(int64_t) * (1 + batches) + 4095) / 4096 * 4096;
   const size_t pixels = rig_.eyes.size() * static_cast<size_t>(rig_.eye.width) * static_cast<size_t>(rig_.eye.height);
   const size_t size = pixels_from_ + pixels * form_.channels * sizeof(float);
@@ -320,7 +322,7 @@ void Stitcher::fill_row(const SlitRows& rows, const std::map<int, Slit>& slits, 
 
 // From the middle of one slit to that of another at a time; while these are filled, the next are read.
 void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
-  std::vector<Batch> batches = batches_of(eye);
+  std::vector<Batch> batches = batches_[eye];
   batches.erase(std::remove_if(batches.begin(), batches.end(), [&](const Batch& batch) { return was_done(batch); }),
                 batches.end());
   if (batches.empty()) return;
@@ -351,7 +353,7 @@ Stitched Stitcher::finish() {
   made.rows.layers = form_.layers;
   std::vector<std::vector<Strip>> strips(rig_.eyes.size());
   for (size_t eye = 0; eye < strips.size(); eye++) {
-    for (const Batch& batch : batches_of(eye)) strips[eye].push_back(batch.strip);
+    for (const Batch& batch : batches_[eye]) strips[eye].push_back(batch.strip);
   }
   made.rows.fill = [picture = picture_, pixels = pixels(), channels = form_.channels, width = rig_.eye.width, strips](
                        int index, int y, std::span<float> row) {

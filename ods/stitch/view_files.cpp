@@ -57,15 +57,10 @@ void call_depth_z(StoredPicture& picture) {
 
 // N.X, N.Y, N.Z; so end those of many layers, too.
 bool is_normal(const LayerPixels& layer) {
-  const std::string_view ends[] = {".X", ".Y", ".Z"};
   if (layer.channels.size() != 3 || (layer.sample != Sample::kHalf && layer.sample != Sample::kFloat)) return false;
-  for (size_t c = 0; c < 3; c++) {
-    std::string_view name = layer.channels[c];
-    if (!name.ends_with(ends[c])) return false;
-    name.remove_suffix(2);
-    if (name != "N" && name != "Normal" && !name.ends_with(".N") && !name.ends_with(".Normal")) return false;
-  }
-  return true;
+  const std::string name = layer.channels[0].substr(0, layer.channels[0].rfind('.'));
+  if (layer.channels != std::vector<std::string>{name + ".X", name + ".Y", name + ".Z"}) return false;
+  return name == "N" || name == "Normal" || name.ends_with(".N") || name.ends_with(".Normal");
 }
 
 // In place: nobody else reads a view's pixels.
@@ -80,10 +75,13 @@ void turn_normals(const StoredPicture& picture, const Camera& camera) {
         vec3 own;
         for (int c = 0; c < 3; c++) own[c] = sample_value(layer.sample, at + static_cast<size_t>(c) * size);
         const vec3 turned = camera.right * own.x + camera.up * own.y + camera.back * own.z;
-        if (layer.sample == Sample::kFloat) std::memcpy(at, &turned.x, sizeof turned);
-        uint16_t halves[3];
-        floats_to_halves({&turned.x, 3}, halves);
-        if (layer.sample == Sample::kHalf) std::memcpy(at, halves, sizeof halves);
+        if (layer.sample == Sample::kFloat) {
+          std::memcpy(at, &turned.x, sizeof turned);
+        } else {
+          uint16_t halves[3];
+          floats_to_halves({&turned.x, 3}, halves);
+          std::memcpy(at, halves, sizeof halves);
+        }
       }
     }
   }

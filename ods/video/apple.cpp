@@ -10,7 +10,11 @@ namespace ods {
 constexpr uint32_t kQuarter = 0x40000000;  // of 2^32
 constexpr std::array<uint32_t, 4> kFrontHalf = {0, 0, kQuarter, kQuarter};
 
+namespace {
+
 enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
+
+}  // namespace
 
 static bool is_stacked(FilmStereo stereo) {
   return stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kBottomTop;

@@ -16,12 +16,16 @@ uint64_t Move::operator()(uint64_t offset) const {
 // --- tables of a track
 // ------------------------------------------------------------------------------------------------
 
+namespace {
+
 // Entries behind their number, all of a box to its end.
 struct OffsetTable {
   size_t first;  // byte
   size_t width;
   size_t count;
 };
+
+}  // namespace
 
 static OffsetTable table_of(const Box& box) {
   OffsetTable table{8, box.type == box_type("co64") ? size_t{8} : size_t{4}, 0};
@@ -130,6 +134,8 @@ static void move_random_access(Box& mfra, const Move& move) {
 
 // --- items -----------------------------------------------------------------------------------------------------------
 
+namespace {
+
 // One item of iloc: its extents may count from a base, which is then what moves.
 class ItemLocations {
  public:
@@ -180,6 +186,8 @@ class ItemLocations {
   uint64_t version_ = 0;
   size_t offset_width_ = 0, length_width_ = 0, base_width_ = 0, index_width_ = 0;
 };
+
+}  // namespace
 
 void move_item_offsets(Box& meta, const Move& move) {
   // QuickTime's has no version in front of its boxes.

@@ -19,11 +19,15 @@ std::string type_text(BoxType type) {
 
 constexpr size_t kMostChildren = 1000000;
 
+namespace {
+
 struct BoxHeader {
   BoxType type;
   uint32_t size;   // of the header
   uint64_t whole;  // of the box; 0: as far as there is anything
 };
+
+}  // namespace
 
 // Of bytes that are 8 or more.
 static BoxHeader parse_header(std::string_view bytes) {

@@ -13,6 +13,8 @@ namespace ods {
 constexpr uint32_t kCrc32 = 0xbf;
 constexpr size_t kMostChildren = 1000000;
 
+namespace {
+
 struct ElementHeader {
   uint32_t id = 0;
   size_t size_width = 0;
@@ -20,6 +22,8 @@ struct ElementHeader {
   uint64_t body = 0;
   bool is_endless = false;
 };
+
+}  // namespace
 
 // How long a number is, going by its first byte; Broken where that is 0.
 static size_t length_of(uint64_t first) {

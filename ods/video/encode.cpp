@@ -245,13 +245,12 @@ FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size,
   AVStream& stream = state.add_stream(*state.pictures);
   stream.avg_frame_rate = state.pictures->framerate;
   stream.sample_aspect_ratio = {1, 1};
-  const bool has_boxes = container == Container::kMp4 || container == Container::kMov;
-  if (has_boxes && options.packing.codec == FilmCodec::kHevc) {
+  if (has_boxes(container) && options.packing.codec == FilmCodec::kHevc) {
     stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // Apple plays no other
   }
   state.sound = open_sound(options, container);
   if (state.sound) state.sound->describe(*made(avformat_new_stream(file, nullptr)));
-  if (has_boxes) av_opt_set(file->priv_data, "movflags", "+faststart+write_colr", 0);
+  if (has_boxes(container)) av_opt_set(file->priv_data, "movflags", "+faststart+write_colr", 0);
   state.written(avio_open(&file->pb, address.c_str(), AVIO_FLAG_WRITE));
   state.written(avformat_write_header(file, nullptr));
 }

@@ -18,6 +18,9 @@ namespace ods {
 enum class Container { kMp4, kMov, kMatroska, kWebm };
 inline constexpr Container kContainers[] = {Container::kMp4, Container::kMov, Container::kMatroska, Container::kWebm};
 std::string_view container_name(Container container);  // mp4, mov, mkv, webm
+inline bool has_boxes(Container container) {
+  return container == Container::kMp4 || container == Container::kMov;
+}
 
 struct VideoTrack {
   uint64_t id = 0;

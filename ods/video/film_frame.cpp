@@ -37,6 +37,8 @@ FilmFrame::FilmFrame(Extent size, const Packing& packing) : size_(size) {
 
 // --- colours ---------------------------------------------------------------------------------------------------------
 
+namespace {
+
 // srgb_encode() between 2^-12 and 1, exact to a millionth: from a table with 512 steps to every doubling.
 class SrgbTable {
  public:
@@ -60,10 +62,14 @@ class SrgbTable {
   std::array<float, 12 * 512 + 1> codes_{};
 };
 
+}  // namespace
+
 float film_code(float linear) {
   static const SrgbTable table;
   return table(linear);
 }
+
+namespace {
 
 // One row of one layer: red, then green, then blue, 0..1.
 struct RowOfCodes {
@@ -76,6 +82,8 @@ struct RowOfCodes {
     for (size_t c = 0; c < 3; c++) out[x + c * width()] = codes[static_cast<int>(c)];
   }
 };
+
+}  // namespace
 
 static void develop(const RowOfCodes& row, const Development& development) {
   const std::byte* in = row.in;

@@ -7,6 +7,8 @@
 
 namespace ods {
 
+namespace {
+
 // RFC 9559, section 5.1.
 enum Id : uint32_t {
   kEbml = 0x1a45dfa3,
@@ -53,6 +55,8 @@ enum Id : uint32_t {
   kVoid = 0xec,
 };
 
+}  // namespace
+
 static uint64_t child_number(const Element& element, uint32_t id) {
   const Element* child = find_child(element, id);
   return child == nullptr ? 0 : number_of(*child);
@@ -65,10 +69,14 @@ static std::string child_text(const Element& element, uint32_t id) {
 
 // --- the form --------------------------------------------------------------------------------------------------------
 
+namespace {
+
 struct StereoWord {
   FilmStereo stereo;
   uint64_t mode;
 };
+
+}  // namespace
 constexpr StereoWord kStereoWords[] = {{FilmStereo::kOneView, 0},    {FilmStereo::kSideBySide, 1},
                                        {FilmStereo::kBottomTop, 2},  {FilmStereo::kTopBottom, 3},
                                        {FilmStereo::kRightLeft, 11}, {FilmStereo::kCustom, 15}};
@@ -118,9 +126,13 @@ static Element projection_element(const FilmForm& form) {
   return projection;
 }
 
+namespace {
+
 struct Share {
   uint64_t across = 1, down = 1;  // eyes
 };
+
+}  // namespace
 
 static Share share_of(const std::optional<FilmForm>& form) {
   const FilmStereo stereo = form && form->stereo ? *form->stereo : FilmStereo::kOneView;
@@ -158,12 +170,16 @@ static void tag_video(Element& video, const std::optional<FilmForm>& form) {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
+namespace {
+
 struct Matroska {
   Element head;  // the EBML element
   FileElement head_place, segment;
   std::vector<FileElement> parts;    // of the segment
   std::map<size_t, Element> opened;  // those of them that may change
 };
+
+}  // namespace
 
 bool is_matroska(std::string_view first_bytes) {
   return first_bytes.size() >= 4 && get_number(first_bytes, 0, 4) == kEbml;
@@ -298,12 +314,16 @@ static void raise_version(Element& head, const std::optional<FilmForm>& form) {
   if (form && version != nullptr && number_of(*version) < 4) set_number(*version, 4);
 }
 
+namespace {
+
 // Where every part of the segment comes to lie, counted from the segment's first byte behind its size.
 struct Places {
   std::vector<uint64_t> offsets;
   std::vector<uint64_t> sizes;
   uint64_t end = 0;
 };
+
+}  // namespace
 
 static Places place_parts(const Matroska& film, const std::map<size_t, Element>& parts) {
   Places places;

@@ -235,11 +235,15 @@ static void refuse_other_files(Box& track) {
   }
 }
 
+namespace {
+
 struct Plan {
   Move move;
   bool uses_free = false;  // the box behind the header
   uint64_t free = 0;       // bytes of what is left of it
 };
+
+}  // namespace
 
 static Plan plan_once(const Mp4& film, uint64_t file_size) {
   const FileBox& old = film.boxes[film.header];

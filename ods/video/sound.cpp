@@ -24,11 +24,15 @@ using av::checked, av::made, av::Owned;
 constexpr int kSoundRate = 48000;
 constexpr int64_t kSoundBitRate = 128000;  // of a channel
 
+namespace {
+
 struct SoundFile {
   Owned<AVFormatContext> file;
   Owned<AVCodecContext> decoder;
   const AVStream* stream = nullptr;
 };
+
+}  // namespace
 
 static SoundFile open_sound_file(const std::string& path) {
   const std::string what = fmt::format("cannot read the sound of '{}'", path);
@@ -80,7 +84,7 @@ static Owned<AVCodecContext> open_sound_encoder(Container container, int channel
   context->time_base = {1, kSoundRate};
   context->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
   av_channel_layout_default(&context->ch_layout, channels);
-  if (channels == 4 && container != Container::kMp4 && container != Container::kMov) {
+  if (channels == 4 && !has_boxes(container)) {
     // That of ambisonics (RFC 8486).
     checked(av_opt_set(context->priv_data, "mapping_family", "2", 0), ErrorKind::kInput, "libopus knows no ambisonics");
   }

@@ -11,7 +11,11 @@ void open_sound_entry(Box& entry) {
   open_box(entry, version == 1 ? 44 : version == 2 ? 64 : 28);
 }
 
+namespace {
+
 enum Descriptor : uint64_t { kStream = 3, kDecoder = 4, kSpecific = 5 };
+
+}  // namespace
 
 // Steps into a descriptor of this kind: past its tag and its size, which has 7 bits a byte.
 static bool enter(std::string_view& bytes, Descriptor tag) {

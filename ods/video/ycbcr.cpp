@@ -42,10 +42,14 @@ Planes Planes::at(int x, int y) const {
 
 static constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f;
 
+namespace {
+
 // The colour of some rows, not yet of whole numbers.
 struct Color {
   std::vector<float> cb, cr;
 };
+
+}  // namespace
 
 template <typename T>
 static void put_row(std::span<const float> row, int bits, T* out, Color& color, float share) {

@@ -13,9 +13,13 @@ namespace ods {
 static const int kLevels = 4;
 using LevelMeshes = int[kLevels + 1];
 
+namespace {
+
 struct Frame {
   vec3 position, x, y, z;  // axes of unit length, y away from the parent
 };
+
+}  // namespace
 
 static Frame frame_on(vec3 position, vec3 y) {
   const vec3 x = normalize(cross(abs(y.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0), y));
@@ -36,10 +40,14 @@ static void add_flake(Scene& scene, const LevelMeshes& meshes, const Frame& fram
   }
 }
 
+namespace {
+
 struct Palette {
   vec3 colors[kLevels + 1];
   bool metallic[kLevels + 1];
 };
+
+}  // namespace
 
 static const Palette kPalettes[] = {
     {{{1.0f, 0.71f, 0.29f}, {0.85f, 0.25f, 0.12f}, {1.0f, 0.78f, 0.42f}, {0.55f, 0.06f, 0.08f}, {1.0f, 0.85f, 0.6f}},

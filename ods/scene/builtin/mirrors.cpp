@@ -26,11 +26,15 @@ static void add_floor(Scene& scene) {
   add(scene, make_floor(60.0f, 60.0f), add_material(scene, textured(paint(vec3(1.0f), 0.25f), tiles, vec2(1.6f))));
 }
 
+namespace {
+
 struct Ball {
   float azimuth, distance, radius;
   vec3 color;
   float roughness;
 };
+
+}  // namespace
 // Mirrors are perfect or clearly rough: what lies between throws the sun about as single bright pixels.
 static const Ball kBalls[] = {
     {-14.0f, 2.4f, 0.75f, kSilver, 0.0f},  {19.0f, 1.6f, 0.32f, kGold, 0.0f},    {8.0f, 4.6f, 1.2f, kCopper, 0.3f},

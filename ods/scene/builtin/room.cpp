@@ -16,9 +16,13 @@ namespace ods {
 // Inner faces of the walls.
 static const float kLeftWall = -3.2f, kRightWall = 3.2f, kFrontWall = -3.0f, kBackWall = 2.8f, kCeiling = 2.75f;
 
+namespace {
+
 struct Opening {
   float left, right, bottom, top;
 };
+
+}  // namespace
 
 static const Opening kWindow = {-1.25f, 1.25f, 0.88f, 2.38f};
 static const Opening kFireplace = {-0.42f, 0.42f, 0.05f, 0.72f};

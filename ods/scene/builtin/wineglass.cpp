@@ -15,10 +15,14 @@ namespace ods {
 
 static const float kTable = 0.74f;  // height of its top
 
+namespace {
+
 struct Vessel {
   std::vector<vec2> inside;   // radius and height from the axis at the bottom to the rim
   std::vector<vec2> outside;  // the same from the axis under the foot to the rim
 };
+
+}  // namespace
 
 static Shape vessel_shape(const Vessel& vessel, int segments) {
   std::vector<vec2> profile = vessel.outside;
@@ -95,9 +99,13 @@ static Vessel carafe_vessel() {
   return v;
 }
 
+namespace {
+
 struct Liquids {
   int glass, red, white, water;
 };
+
+}  // namespace
 
 static Liquids add_liquids(Scene& scene) {
   const auto liquid = [&](float ior, vec3 color, float distance) {

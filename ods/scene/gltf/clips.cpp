@@ -15,6 +15,8 @@ namespace ods {
 
 // --- what a channel moves
 
+namespace {
+
 enum class List { kNodes, kLights, kMaterials };
 
 struct Target {
@@ -29,6 +31,8 @@ struct PointerForm {
   Property property;
   int slot = 0;
 };
+
+}  // namespace
 
 static constexpr std::array kNodeForms = {
     PointerForm{"/translation", Property::kTranslation}, PointerForm{"/rotation", Property::kRotation},
@@ -165,6 +169,8 @@ static std::optional<Keyframes> read_keys(GltfFile& file, const ChannelSource& c
 
 // --- rows
 
+namespace {
+
 class TargetRows {
  public:
   TargetRows(const GltfFile& file, Scene& scene, const Places& places)
@@ -200,6 +206,8 @@ class TargetRows {
   const Places& places_;
   std::vector<int> lamps_, materials_;  // of the file's
 };
+
+}  // namespace
 
 int TargetRows::row(const Target& target) {
   if (target.list == List::kLights) return lamp(target.index);

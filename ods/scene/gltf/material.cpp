@@ -67,6 +67,8 @@ static UvPlace uv_place(const Value& transform) {
   return {{offset[0], offset[1]}, number(transform, "rotation", 0.0), {scale[0], scale[1]}};
 }
 
+namespace {
+
 // Textures are made where a material first asks for one: the use decides about the sRGB curve.
 class TextureTable {
  public:
@@ -126,6 +128,8 @@ class TextureTable {
   std::map<std::pair<int, bool>, int> made_;  // (the file's texture, sRGB) -> the Scene's
   std::vector<size_t> images_;                // of each of the Scene's textures
 };
+
+}  // namespace
 
 int TextureTable::texture(int index, bool srgb) {
   const auto found = made_.find({index, srgb});

@@ -77,9 +77,13 @@ static size_t drop_bad_triangles(const AccessorView& positions, std::vector<uvec
 
 // --- vertices
 
+namespace {
+
 struct Attributes {
   AccessorView position, normal, tangent, uv0, uv1, color;
 };
+
+}  // namespace
 
 AccessorView read_attribute(GltfFile& file, const std::map<std::string, int>& attributes, const char* name,
                             int components, size_t count) {
@@ -122,11 +126,15 @@ static Vertex read_vertex(const Attributes& attributes, size_t i) {
   return vertex;
 }
 
+namespace {
+
 struct Geometry {
   std::vector<Vertex> vertices;
   std::vector<uvec3> triangles;
   std::vector<uint> order;  // which of the file's vertices each is
 };
+
+}  // namespace
 
 // Only the vertices that triangles use: files share one long list among many primitives.
 static Geometry gather(const Attributes& attributes, const std::vector<uvec3>& triangles) {

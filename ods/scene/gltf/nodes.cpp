@@ -14,11 +14,15 @@ namespace ods {
 using glm::dmat4, glm::dvec3, glm::dvec4;
 using tinygltf::Node;
 
+namespace {
+
 struct Place {
   dvec3 translation{0.0};
   dvec4 rotation{0.0, 0.0, 0.0, 1.0};
   dvec3 scale{1.0};
 };
+
+}  // namespace
 
 static Place read_place(const Node& node) {
   Place place;
@@ -41,10 +45,14 @@ static dmat4 local_matrix(const Node& node) {
 
 // --- the hierarchy
 
+namespace {
+
 struct Hierarchy {
   std::vector<int> parents;  // -1: a root
   std::vector<int> order;    // every node, parents before their children
 };
+
+}  // namespace
 
 static Hierarchy read_hierarchy(const GltfFile& file) {
   const std::vector<Node>& nodes = file.model->nodes;
@@ -138,6 +146,8 @@ static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy&
 
 // --- what stands at a node
 
+namespace {
+
 class Placer {
  public:
   Placer(GltfFile& file, Scene& scene, Places& places)
@@ -173,6 +183,8 @@ class Placer {
   std::vector<std::optional<int>> skins_;
   LoadedMeshes bent_;
 };
+
+}  // namespace
 
 // A row of weights for a node whose mesh has morph targets, and of a skin where it has one.
 Bending Placer::bending_of(int index) {

@@ -28,10 +28,14 @@ static Storage share(std::vector<unsigned char> bytes) {
 
 // --- the container: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#glb-file-format-specification
 
+namespace {
+
 struct Chunks {
   Bytes json;
   Bytes binary;
 };
+
+}  // namespace
 
 static uint32_t read_uint32(Bytes bytes, size_t offset) {
   return static_cast<uint32_t>(bytes[offset]) | static_cast<uint32_t>(bytes[offset + 1]) << 8 |
