@@ -3,6 +3,7 @@
 //
 // Lettering, and where it stands: against closed forms.
 #include "ods/image/title.h"
+#include "ods/image/picture.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-#include "ods/image/picture.h"
+#include "ods/image/image.h"
 #include "ods/image/projection.h"
 #include "ods/kernel/camera/camera.h"
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ods/image/picture.h"
+#include "ods/image/image.h"
 
 namespace ods {
 

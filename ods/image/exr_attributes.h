@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/atomic_file.h"
 #include "ods/base/file_input.h"
-#include "ods/image/image_file.h"
+#include "ods/image/attribute.h"
+#include "ods/image/file_info.h"
 
 namespace ods {
 

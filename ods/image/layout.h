@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ods/image/picture.h"
+#include "ods/base/extent.h"
+#include "ods/image/image.h"
 
 namespace ods {
 
@@ -46,11 +47,6 @@ std::optional<Layout> layout_of(std::string_view word);
 
 // Both eyes are in every pixel, as a display shows them: nobody can take them apart again.
 bool is_anaglyph(Layout layout);
-
-struct Extent {
-  int width = 0;
-  int height = 0;
-};
 
 // How many columns and rows of an eye become one of the file: 2x1 and 1x2 for the halves, 1x1 for all others and for a
 // single eye. The mean of them does: an area filter, in linear light.

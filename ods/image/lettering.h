@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "ods/image/picture.h"
+#include "ods/image/image.h"
 
 namespace ods {
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/extent.h"
 #include "ods/base/file_input.h"
 #include "ods/base/read_file.h"
-#include "ods/image/layout.h"
 #include "ods/image/xmp.h"
 
 namespace ods {

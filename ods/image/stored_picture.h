@@ -14,6 +14,7 @@
 #include "ods/image/camera_rig.h"
 #include "ods/image/image_file.h"
 #include "ods/image/layout.h"
+#include "ods/image/picture.h"
 #include "ods/image/picture_form.h"
 
 namespace ods {

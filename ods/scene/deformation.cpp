@@ -10,7 +10,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "ods/scene/placement.h"
+#include "ods/base/unit_vector.h"
 
 namespace ods {
 

@@ -6,14 +6,11 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "ods/base/unit_vector.h"
+
 namespace ods {
 
 using glm::dmat4, glm::dvec3, glm::dvec4;
-
-dvec3 unit(const dvec3& v, const dvec3& fallback) {
-  const double size = glm::length(v);
-  return std::isfinite(size) && size > 1e-100 ? v / size : fallback;
-}
 
 dmat4 trs_matrix(const dvec3& translation, const dvec4& rotation, const dvec3& scale) {
   const double size = glm::length(rotation);

@@ -14,9 +14,6 @@ inline constexpr float kFarthest = 1e9f;  // metres
 // the place within a texel.
 inline constexpr float kLargestUv = 1e6f;
 
-// A vector's direction; `fallback` where it has none.
-glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& fallback);
-
 // T * R * S; a quaternion x, y, z, w without a length is no rotation.
 glm::dmat4 trs_matrix(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
 

@@ -5,7 +5,7 @@
 #pragma once
 #include <vector>
 
-#include "ods/image/picture.h"
+#include "ods/image/image.h"
 #include "ods/image/projection.h"
 
 namespace ods {
