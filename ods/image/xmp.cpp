@@ -15,7 +15,7 @@ bool is_gpano(const Attribute& attribute) {
 
 // --- made ------------------------------------------------------------------------------------------------------------
 
-static std::string escaped(const std::string& text) {
+std::string xml_escaped(const std::string& text) {
   std::string result;
   for (char c : text) {
     switch (c) {
@@ -33,6 +33,19 @@ static std::string escaped(const std::string& text) {
     }
   }
   return result;
+}
+
+std::string xml_unescaped(std::string text) {
+  for (const auto& [name, letter] : {std::pair<std::string_view, char>{"&lt;", '<'},
+                                     {"&gt;", '>'},
+                                     {"&quot;", '"'},
+                                     {"&apos;", '\''},
+                                     {"&amp;", '&'}}) {  // last: what it makes is no name of another
+    for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+      text.replace(at, name.size(), 1, letter);
+    }
+  }
+  return text;
 }
 
 static std::string text_of(const Attribute& attribute) {
@@ -74,7 +87,7 @@ static std::string written(const std::vector<Attribute>& properties, std::string
     if (named.insert(space->prefix).second && tag.find(name) == std::string_view::npos) {
       names += fmt::format("{}\"{}\"", name, space->address);
     }
-    values += fmt::format(" {}=\"{}\"", property.name, escaped(text_of(property)));
+    values += fmt::format(" {}=\"{}\"", property.name, xml_escaped(text_of(property)));
   }
   return names + values;
 }

@@ -15,6 +15,10 @@
 
 namespace ods {
 
+// As XML has it in an element or between double quotes, and back.
+std::string xml_escaped(const std::string& text);
+std::string xml_unescaped(std::string text);
+
 // Whether an attribute is one of Google's panorama namespace: GPano:FullPanoWidthPixels.
 bool is_gpano(const Attribute& attribute);
 
