@@ -3,6 +3,7 @@
 #include "ods/video/film_form.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -198,14 +199,18 @@ static FormConflict layout_conflict(const FilmForm& said, FilmStereo other, cons
           fmt::format("--layout {} or --layout {}", stereo_name(*said.stereo), stereo_name(other))};
 }
 
-static FormConflict projection_conflict(const FilmForm& said, std::string_view other, const std::string& because) {
+static FormConflict projection_conflict(const FilmForm& said, const ProjectionSetting& other,
+                                        const std::string& because) {
   FilmForm eye = said;
   eye.stereo.reset();
   eye.yaw = eye.pitch = eye.roll = 0.0;
-  const bool has_name = !said.is_partial() || word_of(said) == "vr180";
-  return {fmt::format("it says {}, but {}", form_text(eye), because),
-          has_name ? fmt::format("--projection {} or --projection {}", word_of(said), other)
-                   : fmt::format("--projection {}, or another name for the file", other)};
+  std::vector<std::string> options;
+  const std::string word = word_of(said);
+  if (!said.is_partial() || word == "vr180") options.push_back("--projection " + word);
+  const std::string_view name = projection_name(other);
+  if (name == "lat-long" || name == "vr180") options.push_back(fmt::format("--projection {}", name));
+  if (options.size() < 2) options.emplace_back("another name for the file");
+  return {fmt::format("it says {}, but {}", form_text(eye), because), fmt::format("{}", fmt::join(options, " or "))};
 }
 
 // What a sidecar says, or the name.
@@ -220,11 +225,10 @@ static void compare_with_names(const FilmForm& known, const FilmForm& said, cons
   }
   if (known.projection) return;
   if (found.camera_is_said && !may_be_called(said, found.camera.projection)) {
-    conflicts.push_back(
-        projection_conflict(said, projection_name(found.camera.projection), "its sidecar says otherwise"));
+    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar says otherwise"));
   } else if (!found.camera_is_said && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
     const std::string because = fmt::format("its name ends in {}", words.projection_word);
-    conflicts.push_back(projection_conflict(said, words.projection->name, because));
+    conflicts.push_back(projection_conflict(said, words.projection->setting, because));
   }
 }
 
