@@ -245,6 +245,28 @@ std::optional<std::string> replace_gpano(const std::string& xmp, const std::vect
   }
 }
 
+std::vector<Attribute> gpano_properties(const std::string& xmp) {
+  std::set<std::string_view> names;
+  bool is_broken = false;
+  for (size_t at = 0;;) {
+    const std::optional<Tag> tag = next_tag(xmp, at, is_broken);
+    if (is_broken) return {};
+    if (!tag) break;
+    at = tag->end;
+    if (tag->name.starts_with("GPano:")) names.insert(tag->name);
+    const std::optional<std::vector<Name>> attributes = names_in(xmp, *tag);
+    if (!attributes) return {};
+    for (const Name& each : *attributes) {
+      if (each.name.starts_with("GPano:")) names.insert(each.name);
+    }
+  }
+  std::vector<Attribute> properties;
+  for (std::string_view name : names) {
+    properties.push_back({std::string(name), xml_unescaped(std::string(xmp_property(xmp, name)))});
+  }
+  return properties;
+}
+
 bool says_something(const std::string& xmp) {
   bool is_broken = false;
   for (size_t at = 0;;) {

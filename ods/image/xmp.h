@@ -32,6 +32,9 @@ std::string make_xmp_body(const std::vector<Attribute>& properties);
 // cannot be understood: it is no XML, or has no rdf:Description.
 std::optional<std::string> replace_gpano(const std::string& xmp, const std::vector<Attribute>& properties);
 
+// All GPano properties of a packet, as text. Nothing where it cannot be understood.
+std::vector<Attribute> gpano_properties(const std::string& xmp);
+
 // Whether a packet says anything at all.
 bool says_something(const std::string& xmp);
 
