@@ -68,6 +68,37 @@ TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
   expect_one_line("it has 3 channels");
 }
 
+// Whatever of a sound file's header is wrong: one line without addresses, of the input; nothing is left.
+TEST_F(EncodeCommand, BrokenSoundIsOneCleanLine) {
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  const std::string words = "encode -q " + pattern() + " --codec h264 --preset ultrafast -o " +
+                            folder.path("film.mp4") + " --audio " + folder.path("sound.wav");
+  const std::string whole = ods::made::wav(2, 0.2);
+  const auto expect_clean = [&] {
+    EXPECT_EQ(err.find(" @ 0x"), std::string::npos) << err;
+    expect_one_line("sound.wav");
+    EXPECT_EQ(files(), 4u);
+  };
+  std::string fast = whole;
+  fast.replace(24, 4, std::string("\xff\xff\xff\x7f", 4));  // samples a second
+  folder.write("sound.wav", fast);
+  EXPECT_EQ(run(words), 3);
+  expect_clean();
+  EXPECT_NE(err.find("it claims 2147483647 samples a second"), std::string::npos) << err;
+  for (size_t at = 0; at < 44; at += 4) {
+    std::string bad = whole;
+    for (size_t i = at; i < at + 4; i++) bad[i] = '\xff';
+    folder.write("sound.wav", bad);
+    const int code = run(words);
+    if (code == 0) {
+      std::filesystem::remove(folder.path("film.mp4"));
+      continue;
+    }
+    EXPECT_EQ(code, 3) << at;
+    expect_clean();
+  }
+}
+
 // --- what goes wrong -------------------------------------------------------------------------------------------------
 
 TEST_F(EncodeCommand, ExitCodesSayWhatWasWrong) {

@@ -49,15 +49,17 @@ struct Mp4Options {
   std::string entry_boxes;          // in the sample entry, behind avcC
   std::string track_boxes;          // at the end of the first track
   std::string table_boxes;          // at the end of its tables
-  std::vector<int> widths = {256};  // of the video tracks, which are square
+  std::vector<int> widths = {256};  // of the video tracks
+  int height = 0;                   // of theirs; 0: they are square
+  std::string sound_boxes;          // in the sample entry of a last track, of four channels; empty: there is none
   int chunks = 3;
   size_t padding = 0;  // bytes of each chunk behind its word
 };
 
-inline std::string sample_entry(int side, const std::string& boxes) {
+inline std::string sample_entry(int width, int height, const std::string& boxes) {
   std::string entry(6, '\0');
-  entry += number(1, 2) + std::string(16, '\0') + number(static_cast<uint64_t>(side), 2) +
-           number(static_cast<uint64_t>(side), 2) + std::string(50, '\0');
+  entry += number(1, 2) + std::string(16, '\0') + number(static_cast<uint64_t>(width), 2) +
+           number(static_cast<uint64_t>(height), 2) + std::string(50, '\0');
   return box("avc1", entry + box("avcC", "config") + boxes + box("pasp", number(1, 4) + number(1, 4)));
 }
 
@@ -68,11 +70,13 @@ inline std::string offsets_box(const Mp4Options& options, const std::vector<uint
 }
 
 inline std::string track(const Mp4Options& options, int id, const std::vector<uint64_t>& offsets) {
-  const int side = options.widths.at(static_cast<size_t>(id - 1));
+  const int width = options.widths.at(static_cast<size_t>(id - 1));
+  const int height = options.height == 0 ? width : options.height;
   const std::string none(4, '\0');
-  const std::string table = box("stsd", none + number(1, 4) + sample_entry(side, id == 1 ? options.entry_boxes : "")) +
-                            box("stts", none + number(1, 4) + number(offsets.size(), 4) + number(40, 4)) +
-                            offsets_box(options, offsets) + (id == 1 ? options.table_boxes : "");
+  const std::string table =
+      box("stsd", none + number(1, 4) + sample_entry(width, height, id == 1 ? options.entry_boxes : "")) +
+      box("stts", none + number(1, 4) + number(offsets.size(), 4) + number(40, 4)) + offsets_box(options, offsets) +
+      (id == 1 ? options.table_boxes : "");
   const std::string self = box("dinf", box("dref", none + number(1, 4) + box("url ", number(1, 4))));
   const std::string media = box("mdhd", none + std::string(8, '\0') + number(1000, 4) + number(120, 4) + none) +
                             box("hdlr", none + none + "vide" + std::string(13, '\0')) +
@@ -80,6 +84,18 @@ inline std::string track(const Mp4Options& options, int id, const std::vector<ui
   return box("trak",
              box("tkhd", none + std::string(8, '\0') + number(static_cast<uint64_t>(id), 4) + std::string(68, '\0')) +
                  box("mdia", media) + (id == 1 ? options.track_boxes : ""));
+}
+
+// Of four channels and no samples.
+inline std::string sound_track(int id, const std::string& boxes) {
+  const std::string none(4, '\0');
+  const std::string entry = std::string(6, '\0') + number(1, 2) + none + none + number(4, 2) + number(16, 2) + none +
+                            number(48000u << 16u, 4) + boxes;
+  const std::string table = box("stsd", none + number(1, 4) + box("twos", entry)) + box("stco", none + none);
+  const std::string media = box("mdhd", none + std::string(8, '\0') + number(48000, 4) + none + none) +
+                            box("hdlr", none + none + "soun" + std::string(13, '\0')) + box("minf", box("stbl", table));
+  const std::string head = none + std::string(8, '\0') + number(static_cast<uint64_t>(id), 4) + std::string(68, '\0');
+  return box("trak", box("tkhd", head) + box("mdia", media));
 }
 
 inline std::string mp4(const Mp4Options& options) {
@@ -100,6 +116,8 @@ inline std::string mp4(const Mp4Options& options) {
       }
       tracks += track(options, static_cast<int>(i) + 1, offsets);
     }
+    const int last = static_cast<int>(options.widths.size()) + 1;
+    if (!options.sound_boxes.empty()) tracks += sound_track(last, options.sound_boxes);
     return box("moov", tracks);
   };
   std::string film_data = box("mdat", data, options.large_data);
@@ -203,12 +221,14 @@ struct MatroskaOptions {
   bool endless = false;       // the segment says no size
   std::string video;          // in the Video element
   std::string tags;
+  int width = 256, height = 256;
 };
 
 // SeekHead, Tracks, two clusters, Cues: each at the place that the others say.
 inline std::string matroska(const MatroskaOptions& options) {
   const std::string head = element(0x1a45dfa3, element(0x4287, number(2, 1)) + element(0x4282, "matroska"));
-  const std::string video = element(0xb0, number(256, 2)) + element(0xba, number(256, 2)) + options.video;
+  const std::string video = element(0xb0, number(static_cast<uint64_t>(options.width), 2)) +
+                            element(0xba, number(static_cast<uint64_t>(options.height), 2)) + options.video;
   const std::string tracks =
       element(0x1654ae6b, element(0xae, element(0xd7, number(1, 1)) + element(0x73c5, number(7, 1)) +
                                             element(0x83, number(1, 1)) + element(0x86, "V_VP9") +

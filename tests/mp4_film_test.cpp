@@ -184,8 +184,12 @@ TEST_F(Mp4Film, VexuIsReplacedAndRemoved) {
   const std::string again = tag(tagged, beside);
   EXPECT_EQ(form_text(*read(again).vexu), form_text(beside));
   EXPECT_EQ(tag(again, std::nullopt), plain);
-  beside.yaw = 5.0;  // which vexu cannot say
-  EXPECT_FALSE(read(tag(tagged, beside)).vexu);
+  FilmForm turned = apples;
+  turned.yaw = 5.0;  // which vexu has no place for: it stays as it is
+  EXPECT_EQ(read(tag(tagged, turned)).vexu, read(tagged).vexu);
+  FilmForm cube = apples;
+  cube.projection = FilmProjection::kCubemap;  // which vexu cannot say
+  EXPECT_FALSE(read(tag(tagged, cube)).vexu);
 }
 
 // Eyes that are layers of the stream are not ours to describe.

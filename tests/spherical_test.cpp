@@ -212,7 +212,7 @@ TEST(FilmForm, WhatIsKnownGoesFirst) {
   EXPECT_EQ(form_text(guess("a_360_TB.mp4", {512, 512}, known)), "mono, flat");
 }
 
-TEST(FilmForm, HowFarItsEyesAreApartIsItsSidecarsOrItsOwnWord) {
+TEST(FilmForm, HowFarItsEyesAreApartIsItsOwnWordOrItsSidecars) {
   TemporaryFolder folder;
   VideoTrack track;
   track.size = {512, 512};
@@ -225,6 +225,8 @@ TEST(FilmForm, HowFarItsEyesAreApartIsItsSidecarsOrItsOwnWord) {
   CameraFile sidecar;
   sidecar.rig.ipd = 0.05f;
   save_camera(sidecar, folder.path("a_360_TB.camera.json"));
+  EXPECT_EQ(ipd_of("a_360_TB.mp4"), 0.06);
+  track.vexu.reset();
   EXPECT_FLOAT_EQ(static_cast<float>(ipd_of("a_360_TB.mp4")), 0.05f);
   EXPECT_EQ(ipd_of("b_360_mono.mp4"), 0.0) << "one eye";
 }

@@ -63,6 +63,10 @@ PictureTag complete_tag(const KnownForm& known, const std::string& path, std::ve
   const FileInfo info = read_picture_header(path);
   const PictureForm form = find_form(info, path, known);
   PictureTag tag{form.camera, form.layout.layout, form.eye, form.ipd_is_said};
+  if (const auto own = known.camera || info.is_float ? std::nullopt : gpano_camera(read_xmp(path))) {
+    if (!known.projection) tag.rig.projection = own->projection;  // which a sidecar may know otherwise
+    tag.rig.yaw = own->yaw, tag.rig.pitch = own->pitch, tag.rig.roll = own->roll;
+  }
   if (!known.projection && !form.camera_is_said && read_name(path).projection == nullptr) {
     const Layout layout = tag.layout.value_or(Layout::kSeparate);
     const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});
@@ -96,11 +100,37 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
   return properties;
 }
 
+// A packet that says it already stays; else only what differs from its own GPano changes, and what that says besides,
+// as the initial view, stays.
+static std::optional<std::string> tagged_packet(const FileInput& file, FileFormat format, const PictureTag& tag,
+                                                const std::string& old) {
+  std::vector<Attribute> wanted = gpano_of(file, format, tag);
+  if (old.empty()) return make_xmp(wanted);
+  const std::optional<CameraRig> rig = gpano_camera(old);
+  if (!rig) return replace_gpano(old, wanted);
+  std::vector<Attribute> before, kept = gpano_properties(old);
+  add_gpano(before, *rig, size_of(file, format));
+  const auto named = [](std::vector<Attribute>& list, const std::string& name) {
+    return std::find_if(list.begin(), list.end(), [&](const Attribute& each) { return each.name == name; });
+  };
+  bool has_changed = false;
+  for (const Attribute& each : wanted) {
+    const auto was = named(before, each.name), there = named(kept, each.name);
+    if (was != before.end() && was->value == each.value) continue;
+    has_changed = true;
+    if (there == kept.end()) {
+      kept.push_back(each);
+    } else {
+      there->value = each.value;
+    }
+  }
+  return has_changed ? replace_gpano(old, kept) : old;
+}
+
 static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, const std::optional<PictureTag>& tag) {
   const std::string old = read_xmp(file);
   if (!tag && old.empty()) return file.copy(0, file.size(), to);
-  const std::vector<Attribute> properties = tag ? gpano_of(file, format, *tag) : std::vector<Attribute>();
-  const std::optional<std::string> packet = old.empty() ? make_xmp(properties) : replace_gpano(old, properties);
+  const std::optional<std::string> packet = tag ? tagged_packet(file, format, *tag, old) : replace_gpano(old, {});
   if (!packet) throw unusable(file.path(), "its XMP cannot be understood; remove it first with another program");
   write_xmp(file, to, says_something(*packet) ? *packet : "");
 }
@@ -129,18 +159,47 @@ static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
   return attributes;
 }
 
+// What a tag says nothing of, and stays: which view has the bare names, who wrote the file, a merge map, which only a
+// sidecar holds, and of a camera that nobody knows all but its projection and attitude.
+static bool stays(const ExrAttribute& there, const PictureTag& tag) {
+  if (there.name == "multiView" || there.name == "ods:version") return true;
+  if (there.name.starts_with("ods:poleMerge") && there.value == "map") return true;
+  return !tag.camera_is_said && needs_said_camera(there.name);
+}
+
+// What a tag puts into the header or leaves out; without one, all that we ever put there.
+static bool is_ours(const std::string& name, bool has_tag) {
+  constexpr std::string_view kOptional[] = {"longitude", "latitude",  "fov",  "look", "aspect",  "convergence",
+                                            "neck",      "poleMerge", "axis", "lens", "mirrored"};
+  if (name == "envmap" || name == "view") return true;
+  if (!name.starts_with("ods:")) return false;
+  const std::string_view word = std::string_view(name).substr(4);
+  return !has_tag || std::any_of(std::begin(kOptional), std::end(kOptional),
+                                 [&](std::string_view each) { return word.starts_with(each); });
+}
+
 static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<PictureTag>& tag) {
   ExrHeader header = read_exr_header(file);
-  std::erase_if(header.attributes, [](const ExrAttribute& each) {
-    return each.name.starts_with("ods:") || each.name == "envmap" || each.name == "view" ||
-           each.name == "textureformat";
-  });
-  for (const ExrAttribute& word : tag ? exr_words(*tag) : std::vector<ExrAttribute>()) {
-    const auto is_same = [&](const ExrAttribute& each) { return each.name == word.name; };
-    // Which view has the bare names is for the file to say, where it does.
-    if (std::any_of(header.attributes.begin(), header.attributes.end(), is_same)) continue;
-    header.attributes.push_back(word);
+  std::vector<ExrAttribute> words = tag ? exr_words(*tag) : std::vector<ExrAttribute>();
+  const auto word_of = [&](const std::string& name) {
+    return std::find_if(words.begin(), words.end(), [&](const ExrAttribute& word) { return word.name == name; });
+  };
+  const bool is_envmap = word_of("envmap") != words.end();
+  std::vector<ExrAttribute> attributes;
+  for (const ExrAttribute& there : header.attributes) {
+    const auto word = word_of(there.name);
+    const bool is_old_envmap = there.name == "textureformat" && !is_envmap;  // as OpenImageIO calls it
+    if (tag && stays(there, *tag)) {
+      attributes.push_back(there);
+    } else if (word != words.end()) {
+      attributes.push_back(*word);
+    } else if (!is_old_envmap && !is_ours(there.name, tag.has_value())) {
+      attributes.push_back(there);
+    }
+    if (word != words.end()) words.erase(word);
   }
+  header.attributes = std::move(attributes);
+  header.attributes.insert(header.attributes.end(), words.begin(), words.end());
   write_exr_header(file, to, header);
 }
 

@@ -15,7 +15,7 @@ bool is_gpano(const Attribute& attribute) {
 
 // --- made ------------------------------------------------------------------------------------------------------------
 
-static std::string escaped(const std::string& text) {
+std::string xml_escaped(const std::string& text) {
   std::string result;
   for (char c : text) {
     switch (c) {
@@ -33,6 +33,19 @@ static std::string escaped(const std::string& text) {
     }
   }
   return result;
+}
+
+std::string xml_unescaped(std::string text) {
+  for (const auto& [name, letter] : {std::pair<std::string_view, char>{"&lt;", '<'},
+                                     {"&gt;", '>'},
+                                     {"&quot;", '"'},
+                                     {"&apos;", '\''},
+                                     {"&amp;", '&'}}) {  // last: what it makes is no name of another
+    for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+      text.replace(at, name.size(), 1, letter);
+    }
+  }
+  return text;
 }
 
 static std::string text_of(const Attribute& attribute) {
@@ -74,7 +87,7 @@ static std::string written(const std::vector<Attribute>& properties, std::string
     if (named.insert(space->prefix).second && tag.find(name) == std::string_view::npos) {
       names += fmt::format("{}\"{}\"", name, space->address);
     }
-    values += fmt::format(" {}=\"{}\"", property.name, escaped(text_of(property)));
+    values += fmt::format(" {}=\"{}\"", property.name, xml_escaped(text_of(property)));
   }
   return names + values;
 }
@@ -230,6 +243,28 @@ std::optional<std::string> replace_gpano(const std::string& xmp, const std::vect
     result->insert(tag->begin + 1 + tag->name.size(), added);
     return result;
   }
+}
+
+std::vector<Attribute> gpano_properties(const std::string& xmp) {
+  std::set<std::string_view> names;
+  bool is_broken = false;
+  for (size_t at = 0;;) {
+    const std::optional<Tag> tag = next_tag(xmp, at, is_broken);
+    if (is_broken) return {};
+    if (!tag) break;
+    at = tag->end;
+    if (tag->name.starts_with("GPano:")) names.insert(tag->name);
+    const std::optional<std::vector<Name>> attributes = names_in(xmp, *tag);
+    if (!attributes) return {};
+    for (const Name& each : *attributes) {
+      if (each.name.starts_with("GPano:")) names.insert(each.name);
+    }
+  }
+  std::vector<Attribute> properties;
+  for (std::string_view name : names) {
+    properties.push_back({std::string(name), xml_unescaped(std::string(xmp_property(xmp, name)))});
+  }
+  return properties;
 }
 
 bool says_something(const std::string& xmp) {

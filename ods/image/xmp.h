@@ -15,6 +15,10 @@
 
 namespace ods {
 
+// As XML has it in an element or between double quotes, and back.
+std::string xml_escaped(const std::string& text);
+std::string xml_unescaped(std::string text);
+
 // Whether an attribute is one of Google's panorama namespace: GPano:FullPanoWidthPixels.
 bool is_gpano(const Attribute& attribute);
 
@@ -27,6 +31,9 @@ std::string make_xmp_body(const std::vector<Attribute>& properties);
 // The packet with these GPano properties in place of all that it has; everything else stays as it is. Nothing where it
 // cannot be understood: it is no XML, or has no rdf:Description.
 std::optional<std::string> replace_gpano(const std::string& xmp, const std::vector<Attribute>& properties);
+
+// All GPano properties of a packet, as text. Nothing where it cannot be understood.
+std::vector<Attribute> gpano_properties(const std::string& xmp);
 
 // Whether a packet says anything at all.
 bool says_something(const std::string& xmp);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/video/apple.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -35,9 +36,7 @@ static FilmStereo stereo_of(const FilmForm& form) {
 bool fits_vexu(const FilmForm& form) {
   const FilmStereo stereo = stereo_of(form);
   const bool is_known = stereo == FilmStereo::kOneView || is_stacked(stereo) || is_beside(stereo);
-  const bool is_turned = form.yaw != 0.0 || form.pitch != 0.0 || form.roll != 0.0;
-  return is_known && !is_turned && form.projection == FilmProjection::kEquirect &&
-         (!form.is_partial() || form.bounds == kFrontHalf);
+  return is_known && form.projection == FilmProjection::kEquirect && (!form.is_partial() || form.bounds == kFrontHalf);
 }
 
 // --- written ---------------------------------------------------------------------------------------------------------
@@ -87,6 +86,30 @@ Box hfov_box(const FilmForm& form) {
   box.type = box_type("hfov");
   append_number(box.body, form.is_partial() ? 180000 : 360000, 4);
   return box;
+}
+
+// Hangs what `old` has and `box` has not under it, which is already opened.
+static void take_over(Box& box, const Box& old, std::initializer_list<BoxType> but) {
+  for (const Box& child : old.children) {
+    const bool is_ours = std::find(but.begin(), but.end(), child.type) != but.end();
+    if (is_ours) continue;
+    if (Box* there = find_child(box, child.type)) {
+      *there = child;
+    } else {
+      box.children.push_back(child);
+    }
+  }
+}
+
+Box updated_vexu(Box old, const FilmForm& form) {
+  Box vexu = vexu_box(form);
+  open_box(old, 0);
+  take_over(vexu, old, {box_type("eyes"), box_type("proj"), box_type("pack")});
+  Box *eyes = find_child(vexu, box_type("eyes")), *old_eyes = find_child(old, box_type("eyes"));
+  if (eyes == nullptr || old_eyes == nullptr) return vexu;
+  open_box(*old_eyes, 0);
+  take_over(*eyes, *old_eyes, {box_type("stri"), box_type("cams")});
+  return vexu;
 }
 
 // --- read ------------------------------------------------------------------------------------------------------------

@@ -17,12 +17,16 @@
 namespace ods {
 
 // It knows mono, top-bottom and side-by-side, with the right eye first, too; of projections the whole sphere in
-// lat-long and the half in front.
+// lat-long and the half in front. It has no place for angles: players show such a film unturned.
 bool fits_vexu(const FilmForm& form);
 
 // Preconditions: fits_vexu(). Without an ipd, or with one of kilometres, there is no blin.
 Box vexu_box(const FilmForm& form);
 Box hfov_box(const FilmForm& form);
+
+// The vexu of another form, with what `old` says besides: the eye for flat displays, disparities. Preconditions as for
+// vexu_box(). Throws Broken.
+Box updated_vexu(Box old, const FilmForm& form);
 
 // From the boxes of a sample entry; nothing where it has no vexu, or one that describes layers of the stream and no
 // packing. Throws Broken.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <mutex>
 
 #include "ods/base/read_file.h"
@@ -38,15 +39,15 @@ void Free::operator()(AVFormatContext* context) const {
   avformat_free_context(context);
 }
 
-// The last complaint of the library, which would go to the console.
+// The last complaint of the library, which would go to the console. Without the name and address of who complains: the
+// same failure is the same message.
 static std::mutex complaint_mutex;
 static std::string complaint;
 
-static void listen(void* source, int level, const char* format, va_list words) {
+static void listen(void*, int level, const char* format, va_list words) {
   if (level > AV_LOG_ERROR) return;
   char line[512];
-  int start_of_line = 1;
-  av_log_format_line2(source, level, format, words, line, sizeof(line), &start_of_line);
+  std::vsnprintf(line, sizeof(line), format, words);
   const std::lock_guard<std::mutex> lock(complaint_mutex);
   complaint = line;
   while (complaint.ends_with('\n')) complaint.pop_back();
@@ -71,6 +72,11 @@ int checked(int code, ErrorKind kind, const std::string& what) {
   throw Error(kind, fmt::format("{}: {}", what, words_for(code)));
 }
 
+int checked_small_input(int code, const std::string& what) {
+  if (code >= 0) return code;
+  throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, words_for(code)));
+}
+
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what) {
   keep_complaints();
   static_cast<void>(file_size(path));  // that it is a file
@@ -79,9 +85,9 @@ Owned<AVFormatContext> open_file(const std::string& path, const std::string& wha
   av_dict_set(&only_files, "protocol_whitelist", "file", 0);
   const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only_files);
   av_dict_free(&only_files);
-  checked(opened, ErrorKind::kInput, what);
+  checked_small_input(opened, what);
   Owned<AVFormatContext> owned(file);
-  checked(avformat_find_stream_info(file, nullptr), ErrorKind::kInput, what);
+  checked_small_input(avformat_find_stream_info(file, nullptr), what);
   return owned;
 }
 

@@ -38,8 +38,13 @@ T* made(T* object) {
 // What the libraries complain of is kept for the next message, not printed.
 void keep_complaints();
 
-// Returns the code where it is well, zero and above. Throws Error: what, in the library's words.
+// Returns the code where it is well, zero and above. Throws Error: what, in the library's words; kMemory where it is
+// out of memory, whatever `kind` is.
 int checked(int code, ErrorKind kind, const std::string& what);
+
+// The same while reading something that takes little memory, as a header or sound: if that runs out of memory, the file
+// claims what cannot be. Throws Error(kInput).
+int checked_small_input(int code, const std::string& what);
 
 // Opens a file, and no address, and finds out what is in it. Throws Error(kInput) that starts with `what`.
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what);

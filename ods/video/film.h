@@ -30,6 +30,7 @@ struct VideoTrack {
   std::optional<FilmForm> v1;    // what its Spherical Video V1 says
   std::optional<FilmForm> v2;    // its V2, which Matroska has as StereoMode and Projection
   std::optional<FilmForm> vexu;  // what stands there for Apple's players
+  bool has_layers = false;       // its eyes are layers of the stream (MV-HEVC), and its vexu is about those
 };
 
 struct SoundTrack {
@@ -56,14 +57,16 @@ FilmInfo read_film(const std::string& path);
 const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, const std::string& path);
 
 struct TagResult {
-  bool has_v1 = false;  // of what was asked for
+  bool has_v1 = false;  // of that form
   bool has_v2 = false;
   bool has_vexu = false;
   bool moved = false;  // what lies behind the header was moved, and every offset with it
 };
 
 // Writes the film with another form into `to`, which may be `path` itself: a complete new file takes its place. No
-// form: one that says nothing. Every sample stays bit for bit what it was. Throws Error(kInput), also where the
+// form: one that says nothing. What says the form already stays byte for byte, also where it is of a kind that is not
+// written anew (a mesh, a padded cubemap); with what complete_form() returns, only what was asked for changes. Every
+// sample stays bit for bit what it was. Throws Error(kInput), also where the
 // container cannot say such a form; Error(kOutput). With `sound`, the sound of an mp4 or mov says so, too; in Matroska
 // Opus says by itself what its channels are. `progress` is told now and then which share is copied.
 TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form,

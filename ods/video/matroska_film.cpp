@@ -2,171 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/video/matroska_film.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
+#include "ods/video/film_form.h"
+#include "ods/video/matroska_form.h"
+
 namespace ods {
 
-namespace {
-
-// RFC 9559, section 5.1.
-enum Id : uint32_t {
-  kEbml = 0x1a45dfa3,
-  kDocType = 0x4282,
-  kDocTypeVersion = 0x4287,
-  kSegment = 0x18538067,
-  kSeekHead = 0x114d9b74,
-  kSeek = 0x4dbb,
-  kSeekPosition = 0x53ac,
-  kTracks = 0x1654ae6b,
-  kTrackEntry = 0xae,
-  kTrackNumber = 0xd7,
-  kTrackUid = 0x73c5,
-  kTrackType = 0x83,
-  kCodecId = 0x86,
-  kDefaultDuration = 0x23e383,
-  kVideo = 0xe0,
-  kPixelWidth = 0xb0,
-  kPixelHeight = 0xba,
-  kDisplayWidth = 0x54b0,
-  kDisplayHeight = 0x54ba,
-  kDisplayUnit = 0x54b2,
-  kStereoMode = 0x53b8,
-  kProjection = 0x7670,
-  kProjectionType = 0x7671,
-  kProjectionPrivate = 0x7672,
-  kPoseYaw = 0x7673,
-  kPosePitch = 0x7674,
-  kPoseRoll = 0x7675,
-  kTags = 0x1254c367,
-  kTag = 0x7373,
-  kTargets = 0x63c0,
-  kTagTrackUid = 0x63c5,
-  kSimpleTag = 0x67c8,
-  kTagName = 0x45a3,
-  kTagString = 0x4487,
-  kCues = 0x1c53bb6b,
-  kCuePoint = 0xbb,
-  kCueTrackPositions = 0xb7,
-  kCueClusterPosition = 0xf1,
-  kCueCodecState = 0xea,
-  kCluster = 0x1f43b675,
-  kClusterPosition = 0xa7,
-  kVoid = 0xec,
-};
-
-}  // namespace
-
-static uint64_t child_number(const Element& element, uint32_t id) {
-  const Element* child = find_child(element, id);
-  return child == nullptr ? 0 : number_of(*child);
-}
-
-static std::string child_text(const Element& element, uint32_t id) {
-  const Element* child = find_child(element, id);
-  return child == nullptr ? "" : text_of(*child);
-}
-
-// --- the form --------------------------------------------------------------------------------------------------------
-
-namespace {
-
-struct StereoWord {
-  FilmStereo stereo;
-  uint64_t mode;
-};
-
-}  // namespace
-constexpr StereoWord kStereoWords[] = {{FilmStereo::kOneView, 0},    {FilmStereo::kSideBySide, 1},
-                                       {FilmStereo::kBottomTop, 2},  {FilmStereo::kTopBottom, 3},
-                                       {FilmStereo::kRightLeft, 11}, {FilmStereo::kCustom, 15}};
-
-static FilmStereo stereo_of(uint64_t mode) {
-  for (const StereoWord& word : kStereoWords) {
-    if (word.mode == mode) return word.stereo;
-  }
-  return FilmStereo::kOther;
-}
-
-constexpr FilmProjection kTypes[] = {FilmProjection::kFlat, FilmProjection::kEquirect, FilmProjection::kCubemap,
-                                     FilmProjection::kMesh};
-
-static void parse_projection(Element projection, FilmForm& form) {
-  open_element(projection);
-  const Element* type = find_child(projection, kProjectionType);
-  const uint64_t number = type == nullptr ? 0 : number_of(*type);
-  form.projection = number < std::size(kTypes) ? kTypes[number] : FilmProjection::kOther;
-  if (const Element* data = find_child(projection, kProjectionPrivate)) parse_projection_body(data->body, form);
-  const auto angle = [&](uint32_t id) {
-    const Element* element = find_child(projection, id);
-    return element == nullptr ? 0.0 : float_of(*element);
-  };
-  form.yaw = angle(kPoseYaw), form.pitch = angle(kPosePitch), form.roll = angle(kPoseRoll);
-}
-
-static std::optional<FilmForm> parse_video(const Element& video) {
-  const Element* stereo = find_child(video, kStereoMode);
-  const Element* projection = find_child(video, kProjection);
-  if (stereo == nullptr && projection == nullptr) return std::nullopt;
-  FilmForm form;
-  if (stereo != nullptr) form.stereo = stereo_of(number_of(*stereo));
-  if (projection != nullptr) parse_projection(*projection, form);
-  return form;
-}
-
-static Element projection_element(const FilmForm& form) {
-  Element projection;
-  projection.id = kProjection;
-  const auto type = std::find(std::begin(kTypes), std::end(kTypes), *form.projection);
-  projection.children.push_back(number_element(kProjectionType, static_cast<uint64_t>(type - std::begin(kTypes))));
-  projection.children.push_back({kProjectionPrivate, 1, projection_body(form), {}});
-  if (form.yaw != 0.0) projection.children.push_back(float_element(kPoseYaw, form.yaw));
-  if (form.pitch != 0.0) projection.children.push_back(float_element(kPosePitch, form.pitch));
-  if (form.roll != 0.0) projection.children.push_back(float_element(kPoseRoll, form.roll));
-  return projection;
-}
-
-namespace {
-
-struct Share {
-  uint64_t across = 1, down = 1;  // eyes
-};
-
-}  // namespace
-
-static Share share_of(const std::optional<FilmForm>& form) {
-  const FilmStereo stereo = form && form->stereo ? *form->stereo : FilmStereo::kOneView;
-  if (stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kBottomTop) return {1, 2};
-  if (stereo == FilmStereo::kSideBySide || stereo == FilmStereo::kRightLeft) return {2, 1};
-  return {};
-}
-
-// RFC 9559, "Multi-planar and 3D Videos": of stereo films, the size to display is one eye's.
-static void fit_display(Element& video, Share before, Share now) {
-  const Element* width = find_child(video, kDisplayWidth);
-  const Element* height = find_child(video, kDisplayHeight);
-  if (child_number(video, kDisplayUnit) != 0) return;  // a shape, not a size
-  const uint64_t pixels_across = child_number(video, kPixelWidth), pixels_down = child_number(video, kPixelHeight);
-  const uint64_t across = width == nullptr ? pixels_across : number_of(*width) * before.across;
-  const uint64_t down = height == nullptr ? pixels_down : number_of(*height) * before.down;
-  std::erase_if(video.children, [](const Element& e) { return e.id == kDisplayWidth || e.id == kDisplayHeight; });
-  if (across / now.across == pixels_across && down / now.down == pixels_down) return;
-  video.children.push_back(number_element(kDisplayWidth, across / now.across));
-  video.children.push_back(number_element(kDisplayHeight, down / now.down));
-}
-
-static void tag_video(Element& video, const std::optional<FilmForm>& form) {
-  fit_display(video, share_of(parse_video(video)), share_of(form));
-  std::erase_if(video.children, [](const Element& e) { return e.id == kStereoMode || e.id == kProjection; });
-  if (!form) return;
-  const FilmStereo stereo = form->stereo.value_or(FilmStereo::kOneView);
-  for (const StereoWord& word : kStereoWords) {
-    if (word.stereo == stereo) video.children.push_back(number_element(kStereoMode, word.mode));
-  }
-  if (form->projection && form->projection != FilmProjection::kFlat) {
-    video.children.push_back(projection_element(*form));
-  }
-}
+using namespace matroska;
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
@@ -231,11 +77,6 @@ static Matroska open_matroska(const FileInput& file) {
   return film;
 }
 
-static bool is_v1_tag(const Element& tag) {
-  const std::string name = tag.id == kSimpleTag ? child_text(tag, kTagName) : "";
-  return name == "SPHERICAL-VIDEO" || name == "spherical-video";
-}
-
 static bool is_about(const Element& tag, const Element& track) {
   const Element* targets = tag.id == kTag ? find_child(tag, kTargets) : nullptr;
   return targets != nullptr && child_number(*targets, kTagTrackUid) == child_number(track, kTrackUid);
@@ -294,6 +135,9 @@ static void tag_tracks(Matroska& film, uint64_t number, const std::optional<Film
       if (part.id != kTracks || entry.id != kTrackEntry || child_number(entry, kTrackNumber) != number) continue;
       Element* video = find_child(entry, kVideo);
       if (video == nullptr) continue;
+      if (form && !can_say(Container::kMatroska, read_track(film, entry), *form)) {
+        throw Broken(fmt::format("mkv and webm have no words for {}", form_text(*form)));
+      }
       tag_video(*video, form);
       tagged = &entry;
     }
@@ -301,7 +145,7 @@ static void tag_tracks(Matroska& film, uint64_t number, const std::optional<Film
   if (tagged == nullptr) throw Broken("its video track does not say what its pictures are like");
   for (auto& [index, part] : film.opened) {
     for (Element& tag : part.children) {
-      if (part.id == kTags && is_about(tag, *tagged)) std::erase_if(tag.children, is_v1_tag);
+      if (part.id == kTags && is_about(tag, *tagged)) tag_v1(tag, form);
     }
     if (part.id != kTags) continue;
     std::erase_if(part.children, [](const Element& e) { return e.id == kTag && find_child(e, kSimpleTag) == nullptr; });
@@ -446,7 +290,8 @@ TagResult tag_matroska(const FileInput& file, AtomicFile& to, uint64_t track, co
   Places places;
   const std::map<size_t, Element> parts = move_parts(film, places);
   write_segment_header(file, film, places.end, to);
-  TagResult result{false, form.has_value(), false};
+  TagResult result;
+  result.has_v2 = form.has_value();
   for (size_t i = 0; i < film.parts.size(); i++) {
     const FileElement& part = film.parts[i];
     const bool is_moved = part.id == kCluster && places.offsets[i] != part.offset - film.segment.body();

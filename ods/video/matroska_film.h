@@ -3,10 +3,10 @@
 //
 // Films as Matroska files: mkv and webm. Source: RFC 9559 (Matroska); ods/video/spherical.h.
 //
-// What is written into the Video element of the track, in place of what was there: StereoMode and Projection, which are
-// the V2 of Matroska. A V1 that stands in the tags is taken out: it would contradict. Where the header grows, a Void
-// before the clusters is used up; else all moves, and the segment's size, SeekHead, Cues, positions in clusters and
-// check sums are made true again.
+// What is written into the Video element of the track: StereoMode and Projection, which are the V2 of Matroska. What
+// says the form already keeps its bytes. A V1 in the tags gets new angles; one that contradicts is taken out. Where the
+// header grows, a Void before the clusters is used up; else all moves, and the segment's size, SeekHead, Cues,
+// positions in clusters and check sums are made true again.
 #pragma once
 #include <optional>
 

@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "ods/video/apple.h"
 #include "ods/video/box_offsets.h"
+#include "ods/video/film_form.h"
 #include "ods/video/sound_entry.h"
 
 namespace ods {
@@ -100,6 +103,11 @@ static std::optional<FilmForm> read_vexu(const Box& entry) {
   }
 }
 
+// MV-HEVC.
+static bool has_layers(const Box& entry) {
+  return find_child(entry, box_type("lhvC")) != nullptr;
+}
+
 static VideoTrack read_video(Box& track, Box& moov) {
   VideoTrack video;
   video.id = id_of(track);
@@ -112,6 +120,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
     }
     if (!video.v2) video.v2 = parse_v2(entry);
     if (!video.vexu) video.vexu = read_vexu(entry);
+    video.has_layers = video.has_layers || has_layers(entry);
   }
   for (const Box& box : track.children) {
     if (is_v1(box) && !video.v1) video.v1 = parse_v1(box.body.substr(kV1Id.size()));
@@ -170,46 +179,116 @@ FilmInfo read_mp4(const FileInput& file) {
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
-// What is there of V2 and vexu goes, what is new stands behind the codec's own boxes. Where the eyes are layers of the
-// stream (MV-HEVC), vexu says what they are, and is left as it is. True: it has a vexu of this form.
-static bool tag_entry(Box& entry, const std::optional<FilmForm>& form) {
-  open_box(entry, kVisualEntry);
+// The first box of that type; further ones go, as nobody reads them.
+static Box* only_child(Box& entry, BoxType type) {
+  bool is_first = true;
+  std::erase_if(entry.children, [&](const Box& box) { return box.type == type && !std::exchange(is_first, false); });
+  return find_child(entry, type);
+}
+
+// Removes the box, or puts one in its place, or a new one behind the codec's own boxes.
+static void put_child(Box& entry, BoxType type, const std::optional<Box>& box) {
   std::vector<Box>& boxes = entry.children;
-  const bool has_layers = find_child(entry, box_type("lhvC")) != nullptr;
-  std::erase_if(boxes, [&](const Box& box) {
-    const bool is_apple = box.type == box_type("vexu") || box.type == box_type("hfov");
-    return box.type == box_type("st3d") || box.type == box_type("sv3d") || (is_apple && !has_layers);
-  });
-  if (!form) return false;
-  auto place = std::find_if(boxes.begin(), boxes.end(), [](const Box& box) {
-    return box.type == box_type("pasp") || box.type == box_type("clap");
-  });
-  if (form->projection && form->projection != FilmProjection::kFlat) place = boxes.insert(place, sv3d_box(*form));
-  place = boxes.insert(place, st3d_box(*form));
-  if (has_layers || !form->for_apple || !fits_vexu(*form)) return false;
-  place += 2;  // behind them: it is a sphere
-  boxes.insert(boxes.insert(place, hfov_box(*form)), vexu_box(*form));
+  Box* there = only_child(entry, type);
+  if (!box) {
+    if (there != nullptr) boxes.erase(boxes.begin() + (there - boxes.data()));
+  } else if (there != nullptr) {
+    *there = *box;
+  } else {
+    boxes.insert(
+        std::find_if(boxes.begin(), boxes.end(),
+                     [](const Box& each) { return each.type == box_type("pasp") || each.type == box_type("clap"); }),
+        *box);
+  }
+}
+
+// What says it already stays byte for byte, but for the angles and the source.
+static void tag_v2(Box& entry, const FilmForm& form) {
+  const std::optional<FilmForm> old = parse_v2(entry);
+  const bool has_sphere = find_child(entry, box_type("sv3d")) != nullptr;
+  const bool has_stereo = find_child(entry, box_type("st3d")) != nullptr;
+  if (!old || !same_stereo(*old, form) || !(has_stereo || has_sphere)) {
+    put_child(entry, box_type("st3d"), st3d_box(form));
+  }
+  if (has_sphere && same_sphere(*old, form)) {
+    update_sv3d(*only_child(entry, box_type("sv3d")), form);
+  } else if (form.projection && form.projection != FilmProjection::kFlat) {
+    put_child(entry, box_type("sv3d"), sv3d_box(form));
+  } else {
+    put_child(entry, box_type("sv3d"), std::nullopt);
+  }
+}
+
+static bool same_ipd(double a, double b) {
+  return std::llround(a * 1e6) == std::llround(b * 1e6);
+}
+
+// True: it has a vexu of this form. One that cannot be read stays, unless another is asked for. Where the eyes are
+// layers of the stream (MV-HEVC), vexu says what they are, and is left as it is.
+static bool tag_vexu(Box& entry, const FilmForm& form) {
+  if (has_layers(entry)) return false;
+  const std::optional<FilmForm> old = read_vexu(entry);
+  if (!old && !form.for_apple) return false;
+  if (old && form.for_apple && same_stereo(*old, form) && same_sphere(*old, form) && same_ipd(old->ipd, form.ipd)) {
+    return true;
+  }
+  std::optional<Box> vexu, hfov;
+  if (form.for_apple && fits_vexu(form)) {
+    const Box* there = find_child(entry, box_type("vexu"));
+    vexu = old ? updated_vexu(*there, form) : vexu_box(form);
+    hfov = hfov_box(form);
+  }
+  put_child(entry, box_type("vexu"), vexu);
+  put_child(entry, box_type("hfov"), hfov);
+  return vexu.has_value();
+}
+
+static void untag_entry(Box& entry) {
+  put_child(entry, box_type("st3d"), std::nullopt);
+  put_child(entry, box_type("sv3d"), std::nullopt);
+  if (has_layers(entry)) return;
+  put_child(entry, box_type("vexu"), std::nullopt);
+  put_child(entry, box_type("hfov"), std::nullopt);
+}
+
+// The first V1 is changed where it can say the form; else it goes, and a new one comes where that is possible.
+static bool tag_v1(Box& track, const std::optional<FilmForm>& form, bool has_new_source) {
+  const auto first = std::find_if(track.children.begin(), track.children.end(), is_v1);
+  const std::string old = first == track.children.end() ? "" : first->body.substr(kV1Id.size());
+  std::optional<std::string> xml = form ? updated_v1(old, *form, has_new_source) : std::nullopt;
+  if (form && !xml && fits_v1(*form)) xml = v1_xml(*form);
+  if (xml && *xml == old) {
+    bool is_first = true;
+    std::erase_if(track.children, [&](const Box& box) { return is_v1(box) && !std::exchange(is_first, false); });
+    return true;
+  }
+  std::erase_if(track.children, is_v1);
+  if (!xml) return false;
+  Box box;
+  box.type = box_type("uuid");
+  box.body = std::string(kV1Id) + *xml;
+  track.children.push_back(std::move(box));
   return true;
 }
 
-static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
+static TagResult tag_track(Box& track, const std::optional<FilmForm>& form, const VideoTrack& before) {
   TagResult result;
-  if (form && !fits_v2(*form)) {
+  if (form && !can_say(Container::kMp4, before, *form)) {
     throw Broken(fmt::format("mp4 and mov have no words for {}", form_text(*form)));
   }
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
-    result.has_vexu = tag_entry(entry, form);
-    result.has_v2 = form.has_value();
+    open_box(entry, kVisualEntry);
+    if (form) {
+      tag_v2(entry, *form);
+      result.has_vexu = tag_vexu(entry, *form);
+      result.has_v2 = true;
+    } else {
+      untag_entry(entry);
+    }
   }
   if (form && !result.has_v2) throw Broken("its video track does not say what its pictures are like");
-  std::erase_if(track.children, is_v1);
-  if (form && fits_v1(*form)) {
-    Box box;
-    box.type = box_type("uuid");
-    box.body = std::string(kV1Id) + v1_xml(*form);
-    track.children.push_back(std::move(box));
-    result.has_v1 = true;
-  }
+  const std::optional<FilmForm> said = said_form(before);
+  result.has_v1 = tag_v1(track, form, form && said && said->source != form->source);
   return result;
 }
 
@@ -300,7 +379,7 @@ TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id, cons
   for (Box& track : film.moov.children) {
     if (track.type != box_type("trak")) continue;
     open_box(track, 0);
-    if (is_video(track) && id_of(track) == track_id) result = tag_track(track, form);
+    if (is_video(track) && id_of(track) == track_id) result = tag_track(track, form, read_video(track, film.moov));
     if (sound && handler_of(track) == box_type("soun")) tag_sound(track, *sound);
   }
   const Plan plan = plan_move(film, file.size());

@@ -4,9 +4,9 @@
 // Films as ISO base media files: mp4, mov, m4v; whole or in fragments, header before or behind the samples. Sources:
 // ISO/IEC 14496-12; Apple, "QuickTime File Format"; ods/video/spherical.h.
 //
-// What is written into the video track, in place of what was there: V2 as st3d and sv3d in every sample entry, behind
-// the codec's own boxes and before pasp and clap, and vexu and hfov (ods/video/apple.h) behind them; V1 as the last box
-// of the track, where it can say the form.
+// What is written into the video track: V2 as st3d and sv3d in every sample entry, behind the codec's own boxes and
+// before pasp and clap, and vexu and hfov (ods/video/apple.h) behind them; V1 as the last box of the track, where it
+// can say the form. Boxes that say the form already keep their place and their bytes.
 #pragma once
 #include <optional>
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "ods/base/error.h"
 #include "ods/image/video_level.h"
+#include "ods/video/film_form.h"
 
 namespace ods {
 
@@ -92,19 +94,6 @@ static void warn_of_size(const VideoTrack& track, std::vector<std::string>& warn
                                  codec_name(*codec), track.size.width, track.size.height, fps));
 }
 
-// Of top-bottom as of the whole sphere: eyes that were squeezed are as wide as high.
-static void warn_of_shape(const FilmForm& form, Extent size, std::vector<std::string>& warnings) {
-  if (form.projection != FilmProjection::kEquirect || form.is_partial() || size.height == 0) return;
-  const FilmStereo stereo = form.stereo.value_or(FilmStereo::kOneView);
-  const double aspect = static_cast<double>(size.width) / size.height;
-  const bool stacked = stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kBottomTop;
-  const bool beside = stereo == FilmStereo::kSideBySide || stereo == FilmStereo::kRightLeft;
-  const double whole = stacked ? 1.0 : beside ? 4.0 : 2.0;
-  if (std::abs(aspect / whole - 1.0) < 0.02 || ((stacked || beside) && std::abs(aspect / 2.0 - 1.0) < 0.02)) return;
-  warnings.push_back(
-      fmt::format("it says {}, and {}x{} is not the shape of that", form_text(form), size.width, size.height));
-}
-
 static std::string same_words(std::string text) {
   for (const auto& [from, to] : {std::pair<std::string, std::string>{"lat-long 180x180", "vr180"},
                                  {"side-by-side-half", "side-by-side"},
@@ -122,28 +111,49 @@ static bool agree(const std::string& a, const std::string& b) {
   return one == other.substr(0, open) + "lat-long" || one == other.substr(0, open) + "flat";
 }
 
+// That ods inject helps, if it does, and what it has to be told: " (ods inject --track 2 adds it)".
+static std::string advice(const FilmInfo& film, const VideoTrack& track, const std::string& path,
+                          std::string_view what) {
+  std::vector<std::string> guesses;
+  try {
+    if (!can_say(film.container, track, complete_form({}, track, path, guesses))) return "";
+  } catch (const Error&) {
+    return "";
+  }
+  const std::string which = film.video.size() > 1 ? fmt::format(" --track {}", track.id) : "";
+  std::string options;
+  for (const FormConflict& conflict : find_conflicts({}, track, path)) {
+    options += fmt::format("{}{}", options.empty() ? ", told which is true: " : ", and ", conflict.options);
+  }
+  return fmt::format(" (ods inject{} {}{})", which, what, options);
+}
+
 std::vector<std::string> film_warnings(const FilmInfo& film, const VideoTrack& track, const std::string& path) {
   std::vector<std::string> warnings;
   const PlayerView v2 = v2_view(film, track), name = name_view(path);
+  const std::string make_one = advice(film, track, path, "makes them one");
   if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {
-    warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ (ods inject makes them one)",
-                                   form_text(*track.v1), form_text(*track.v2)));
+    warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ{}", form_text(*track.v1),
+                                   form_text(*track.v2), make_one));
   }
   if (track.v2 && !track.v1 && !is_matroska(film) && fits_v1(*track.v2)) {
-    warnings.push_back("it has no V1: older players show it flat (ods inject adds it)");
+    warnings.push_back("it has no V1: older players show it flat" + advice(film, track, path, "adds it"));
   }
-  if (track.v1 && !track.v2) warnings.push_back("it has no V2 (ods inject adds it)");
+  if (track.v1 && !track.v2) warnings.push_back("it has no V2" + advice(film, track, path, "adds it"));
   if (track.v2 && track.vexu && !agree(shown_as(*track.vexu), v2.takes_it_for)) {
-    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ (ods inject makes them one)",
-                                   form_text(*track.vexu), form_text(*track.v2)));
+    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ{}", form_text(*track.vexu),
+                                   form_text(*track.v2), make_one));
   }
   const NameWords words = read_name(path);
   const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
   if (is_named && !agree(v2.takes_it_for, name.takes_it_for)) {
-    warnings.push_back(fmt::format("its name says {}, the file {}: players differ", name.takes_it_for,
-                                   track.v2 || track.v1 ? v2.takes_it_for : "nothing (ods inject tags it)"));
+    warnings.push_back(
+        fmt::format("its name says {}, the file {}: players differ", name.takes_it_for,
+                    track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(film, track, path, "tags it")));
   }
-  if (track.v2) warn_of_shape(*track.v2, track.size, warnings);
+  const std::optional<FilmForm> said = said_form(track);
+  const std::string fault = said ? shape_fault(*said, track.size) : "";
+  if (!fault.empty()) warnings.push_back(fault);
   warn_of_size(track, warnings);
   return warnings;
 }

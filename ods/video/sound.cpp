@@ -19,10 +19,11 @@ extern "C" {
 
 namespace ods {
 
-using av::checked, av::made, av::Owned;
+using av::checked, av::checked_small_input, av::made, av::Owned;
 
 constexpr int kSoundRate = 48000;
-constexpr int64_t kSoundBitRate = 128000;  // of a channel
+constexpr int kLeastRate = 1000, kMostRate = 768000;  // that sound is recorded with
+constexpr int64_t kSoundBitRate = 128000;             // of a channel
 
 namespace {
 
@@ -41,17 +42,21 @@ static SoundFile open_sound_file(const std::string& path) {
   AVFormatContext* file = sound.file.get();
   const AVCodec* codec = nullptr;
   const int index = av_find_best_stream(file, AVMEDIA_TYPE_AUDIO, -1, -1, &codec, 0);
-  checked(index, ErrorKind::kInput, what);
+  checked_small_input(index, what);
   sound.stream = file->streams[index];
   sound.decoder.reset(made(avcodec_alloc_context3(codec)));
   sound.decoder->pkt_timebase = sound.stream->time_base;
-  checked(avcodec_parameters_to_context(sound.decoder.get(), sound.stream->codecpar), ErrorKind::kInput, what);
-  checked(avcodec_open2(sound.decoder.get(), codec, nullptr), ErrorKind::kInput, what);
+  checked_small_input(avcodec_parameters_to_context(sound.decoder.get(), sound.stream->codecpar), what);
+  checked_small_input(avcodec_open2(sound.decoder.get(), codec, nullptr), what);
   const int channels = sound.decoder->ch_layout.nb_channels;
   if (channels != 1 && channels != 2 && channels != 4) {
     throw Error(ErrorKind::kInput, fmt::format("{}: it has {} channels; films have 1, 2, or 4 of first-order "
                                                "ambisonics",
                                                what, channels));
+  }
+  const int rate = sound.decoder->sample_rate;
+  if (rate < kLeastRate || rate > kMostRate) {
+    throw Error(ErrorKind::kInput, fmt::format("{}: it claims {} samples a second", what, rate));
   }
   return sound;
 }
@@ -103,13 +108,15 @@ class PackedSound final : public Sound {
         source_(open_sound_file(path)),
         encoder_(open_sound_encoder(container, source_.decoder->ch_layout.nb_channels)) {
     AVCodecContext &in = *source_.decoder, &out = *encoder_;
+    rate_ = in.sample_rate;
+    format_ = in.sample_fmt;
     SwrContext* converter = nullptr;
     // The channels keep their order whatever the file calls them.
-    checked(swr_alloc_set_opts2(&converter, &out.ch_layout, out.sample_fmt, out.sample_rate, &out.ch_layout,
-                                in.sample_fmt, in.sample_rate, 0, nullptr),
-            ErrorKind::kInput, what());
+    checked_small_input(swr_alloc_set_opts2(&converter, &out.ch_layout, out.sample_fmt, out.sample_rate, &out.ch_layout,
+                                            in.sample_fmt, in.sample_rate, 0, nullptr),
+                        what());
     converter_.reset(converter);
-    checked(swr_init(converter), ErrorKind::kInput, what());
+    checked_small_input(swr_init(converter), what());
     fifo_.reset(made(av_audio_fifo_alloc(out.sample_fmt, out.ch_layout.nb_channels, kSoundRate)));
   }
 
@@ -166,8 +173,7 @@ class PackedSound final : public Sound {
     const int count = in == nullptr ? 0 : in->nb_samples;
     const Owned<AVFrame> out = make_frame(std::max(swr_get_out_samples(converter_.get(), count), 1));
     const auto from = in == nullptr ? nullptr : const_cast<const uint8_t**>(in->extended_data);
-    const int got =
-        checked(swr_convert(converter_.get(), out->data, out->nb_samples, from, count), ErrorKind::kInput, what());
+    const int got = checked_small_input(swr_convert(converter_.get(), out->data, out->nb_samples, from, count), what());
     checked(av_audio_fifo_write(fifo_.get(), reinterpret_cast<void**>(out->data), got), ErrorKind::kMemory, what());
   }
 
@@ -176,17 +182,20 @@ class PackedSound final : public Sound {
     const int code = avcodec_receive_frame(source_.decoder.get(), frame.get());
     if (code == AVERROR(EAGAIN)) return feed();
     ended_ = code == AVERROR_EOF;
-    if (!ended_) checked(code, ErrorKind::kInput, what());
+    if (!ended_) checked_small_input(code, what());
+    const bool is_other = !ended_ && (frame->format != format_ || frame->sample_rate != rate_ ||
+                                      frame->ch_layout.nb_channels != encoder_->ch_layout.nb_channels);
+    if (is_other) throw Error(ErrorKind::kInput, what() + ": its channels or its rate change on the way");
     convert(ended_ ? nullptr : frame.get());
   }
 
   void feed() {
     const Owned<AVPacket> packet(made(av_packet_alloc()));
     const int code = av_read_frame(source_.file.get(), packet.get());
-    if (code != AVERROR_EOF) checked(code, ErrorKind::kInput, what());
+    if (code != AVERROR_EOF) checked_small_input(code, what());
     if (code >= 0 && packet->stream_index != source_.stream->index) return;
-    checked(avcodec_send_packet(source_.decoder.get(), code == AVERROR_EOF ? nullptr : packet.get()), ErrorKind::kInput,
-            what());
+    checked_small_input(avcodec_send_packet(source_.decoder.get(), code == AVERROR_EOF ? nullptr : packet.get()),
+                        what());
   }
 
   std::string path_;
@@ -194,6 +203,7 @@ class PackedSound final : public Sound {
   Owned<AVCodecContext> encoder_;
   Owned<SwrContext> converter_;
   Owned<AVAudioFifo> fifo_;
+  int rate_ = 0, format_ = 0;  // of the samples that the converter takes
   int64_t position_ = 0;
   bool ended_ = false;
 };
@@ -204,7 +214,7 @@ class CopiedSound final : public Sound {
   CopiedSound(const std::string& path, Container container, const SoundCut& cut)
       : path_(path), cut_(cut), file_(av::open_file(path, what())) {
     const int index =
-        checked(av_find_best_stream(file_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0), ErrorKind::kInput, what());
+        checked_small_input(av_find_best_stream(file_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0), what());
     for (unsigned i = 0; i < file_->nb_streams; i++) file_->streams[i]->discard = AVDISCARD_ALL;
     source_ = file_->streams[index];
     file_->streams[index]->discard = AVDISCARD_DEFAULT;
@@ -248,7 +258,7 @@ class CopiedSound final : public Sound {
       const int code = av_read_frame(file_.get(), waiting_.get());
       ended_ = code == AVERROR_EOF;
       if (ended_) break;
-      checked(code, ErrorKind::kInput, what());
+      checked_small_input(code, what());
       if (waiting_->stream_index == source_->index && !(cut_.is_cut && time() < 0.0)) return true;
     }
     waiting_.reset();

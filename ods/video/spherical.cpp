@@ -65,18 +65,50 @@ std::string form_text(const FilmForm& form) {
   return text;
 }
 
+static FilmStereo stereo_of(const FilmForm& form) {
+  return form.stereo.value_or(FilmStereo::kOneView);
+}
+
+bool same_stereo(const FilmForm& a, const FilmForm& b) {
+  return stereo_of(a) == stereo_of(b);
+}
+
+bool same_sphere(const FilmForm& a, const FilmForm& b) {
+  const FilmProjection projection = a.projection.value_or(FilmProjection::kFlat);
+  if (projection != b.projection.value_or(FilmProjection::kFlat)) return false;
+  if (projection != FilmProjection::kEquirect) return true;
+  const auto near = [](uint32_t one, uint32_t other) { return std::abs(1.0 * one - 1.0 * other) < kWhole / 1000.0; };
+  return std::equal(a.bounds.begin(), a.bounds.end(), b.bounds.begin(), near);
+}
+
 // --- V1 --------------------------------------------------------------------------------------------------------------
 
+static bool has_v1_stereo(const FilmForm& form) {
+  const FilmStereo stereo = stereo_of(form);
+  return stereo == FilmStereo::kOneView || stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kSideBySide;
+}
+
 bool fits_v1(const FilmForm& form) {
-  const FilmStereo stereo = form.stereo.value_or(FilmStereo::kOneView);
-  return form.projection == FilmProjection::kEquirect && !form.is_partial() &&
-         (stereo == FilmStereo::kOneView || stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kSideBySide);
+  return form.projection == FilmProjection::kEquirect && !form.is_partial() && has_v1_stereo(form);
 }
 
 static const char* v1_stereo(FilmStereo stereo) {
   if (stereo == FilmStereo::kOneView) return "mono";
   return stereo == FilmStereo::kTopBottom ? "top-bottom" : "left-right";
 }
+
+namespace {
+
+struct V1Angle {
+  const char* name;
+  double FilmForm::*value;
+};
+
+}  // namespace
+
+constexpr V1Angle kV1Angles[] = {{"InitialViewHeadingDegrees", &FilmForm::yaw},
+                                 {"InitialViewPitchDegrees", &FilmForm::pitch},
+                                 {"InitialViewRollDegrees", &FilmForm::roll}};
 
 // No spaces between the elements: some players look for `<GSpherical:Spherical>true<` as it stands.
 std::string v1_xml(const FilmForm& form) {
@@ -89,11 +121,13 @@ std::string v1_xml(const FilmForm& form) {
   };
   element("Spherical", "true");
   element("Stitched", "true");
-  element("StitchingSoftware", form.source);
+  element("StitchingSoftware", xml_escaped(form.source));
   element("ProjectionType", "equirectangular");
-  element("StereoMode", v1_stereo(form.stereo.value_or(FilmStereo::kOneView)));
-  const long heading = std::lround(form.yaw);
-  if (heading != 0) element("InitialViewHeadingDegrees", heading);
+  element("StereoMode", v1_stereo(stereo_of(form)));
+  for (const V1Angle& angle : kV1Angles) {
+    const long degrees = std::lround(form.*angle.value);
+    if (degrees != 0) element(angle.name, degrees);
+  }
   return xml + "</rdf:SphericalVideo>";
 }
 
@@ -139,9 +173,46 @@ std::optional<FilmForm> parse_v1(const std::string& xml) {
   if (stereo == "top-bottom") form.stereo = FilmStereo::kTopBottom;
   if (stereo == "left-right") form.stereo = FilmStereo::kSideBySide;
   form.bounds = v1_bounds(xml);
-  form.yaw = v1_number(xml, "InitialViewHeadingDegrees").value_or(0.0);
-  form.source = v1_word(xml, "StitchingSoftware");
+  for (const V1Angle& angle : kV1Angles) form.*angle.value = v1_number(xml, angle.name).value_or(0.0);
+  form.source = xml_unescaped(v1_word(xml, "StitchingSoftware"));
   return form;
+}
+
+bool can_update_v1(const FilmForm& v1, const FilmForm& form) {
+  return v1.projection == FilmProjection::kEquirect && same_sphere(v1, form) && has_v1_stereo(form);
+}
+
+// Sets an element, which is added where there is none. False where the XML is not understood.
+static bool set_v1_word(std::string& xml, const std::string& name, const std::string& value) {
+  const std::string open = "<GSpherical:" + name + ">", close = "</GSpherical:" + name + ">";
+  if (const size_t from = xml.find(open); from != std::string::npos) {
+    const size_t begin = from + open.size(), end = xml.find(close, begin);
+    if (end == std::string::npos) return false;
+    xml.replace(begin, end - begin, value);
+    return true;
+  }
+  const size_t end = xml.rfind("</");
+  if (end == std::string::npos || xml.find("GSpherical:" + name) != std::string::npos) return false;
+  xml.insert(end, open + value + close);
+  return true;
+}
+
+std::optional<std::string> updated_v1(const std::string& xml, const FilmForm& form, bool has_new_source) {
+  const std::optional<FilmForm> old = parse_v1(xml);
+  if (!old || !can_update_v1(*old, form)) return std::nullopt;
+  std::string updated = xml;
+  bool is_understood = true;
+  const auto set = [&](const char* name, const std::string& value) {
+    is_understood = is_understood && set_v1_word(updated, name, value);
+  };
+  if (!same_stereo(*old, form)) set("StereoMode", v1_stereo(stereo_of(form)));
+  for (const V1Angle& angle : kV1Angles) {
+    const double value = form.*angle.value;
+    if (std::abs(std::remainder(value - (*old).*angle.value, 360.0)) >= 1.0)
+      set(angle.name, std::to_string(std::lround(value)));
+  }
+  if (has_new_source && old->source != form.source) set("StitchingSoftware", xml_escaped(form.source));
+  return is_understood ? std::optional(updated) : std::nullopt;
 }
 
 // --- V2 --------------------------------------------------------------------------------------------------------------
@@ -149,10 +220,16 @@ std::optional<FilmForm> parse_v1(const std::string& xml) {
 constexpr FilmStereo kV2Stereo[] = {FilmStereo::kOneView, FilmStereo::kTopBottom, FilmStereo::kSideBySide,
                                     FilmStereo::kCustom, FilmStereo::kRightLeft};
 
+static bool has_v2_stereo(const FilmForm& form) {
+  return std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(form)) != std::end(kV2Stereo);
+}
+
+static bool has_v2_projection(const FilmForm& form) {
+  return form.projection != FilmProjection::kMesh && form.projection != FilmProjection::kOther;
+}
+
 bool fits_v2(const FilmForm& form) {
-  const bool stereo =
-      !form.stereo || std::find(std::begin(kV2Stereo), std::end(kV2Stereo), *form.stereo) != std::end(kV2Stereo);
-  return stereo && form.projection != FilmProjection::kMesh && form.projection != FilmProjection::kOther;
+  return has_v2_stereo(form) && has_v2_projection(form);
 }
 
 static Box full_box(BoxType type) {
@@ -163,15 +240,27 @@ static Box full_box(BoxType type) {
 }
 
 Box st3d_box(const FilmForm& form) {
-  assert(fits_v2(form));
+  assert(has_v2_stereo(form));
   Box box = full_box(box_type("st3d"));
-  const auto found = std::find(std::begin(kV2Stereo), std::end(kV2Stereo), form.stereo.value_or(FilmStereo::kOneView));
+  const auto found = std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(form));
   append_number(box.body, static_cast<uint64_t>(found - std::begin(kV2Stereo)), 1);
   return box;
 }
 
 static uint64_t fixed_point(double degrees) {
   return static_cast<uint32_t>(static_cast<int32_t>(std::lround(degrees * 65536.0)));
+}
+
+static Box header_box(const FilmForm& form) {
+  Box header = full_box(box_type("svhd"));
+  header.body += form.source + '\0';
+  return header;
+}
+
+static Box pose_box(const FilmForm& form) {
+  Box pose = full_box(box_type("prhd"));
+  for (double angle : {form.yaw, form.pitch, form.roll}) append_number(pose.body, fixed_point(angle), 4);
+  return pose;
 }
 
 std::string projection_body(const FilmForm& form) {
@@ -182,11 +271,8 @@ std::string projection_body(const FilmForm& form) {
 }
 
 Box sv3d_box(const FilmForm& form) {
-  assert(fits_v2(form) && form.projection && form.projection != FilmProjection::kFlat);
-  Box header = full_box(box_type("svhd"));
-  header.body += form.source + '\0';
-  Box pose = full_box(box_type("prhd"));
-  for (double angle : {form.yaw, form.pitch, form.roll}) append_number(pose.body, fixed_point(angle), 4);
+  assert(has_v2_projection(form) && form.projection && form.projection != FilmProjection::kFlat);
+  const Box header = header_box(form), pose = pose_box(form);
   Box data;
   data.type = form.projection == FilmProjection::kCubemap ? box_type("cbmp") : box_type("equi");
   data.body = projection_body(form);
@@ -227,6 +313,23 @@ static void parse_sphere(Box sphere, FilmForm& form) {
     if (data.type == box_type("mshp")) form.projection = FilmProjection::kMesh;
     if (data.type != box_type("prhd")) parse_projection_body(data.body, form);
   }
+}
+
+void update_sv3d(Box& sphere, const FilmForm& form) {
+  FilmForm old;
+  parse_sphere(sphere, old);
+  open_box(sphere, 0);
+  const auto put = [](Box& holder, const Box& box) {
+    if (Box* there = find_child(holder, box.type)) {
+      *there = box;
+    } else {
+      holder.children.insert(holder.children.begin(), box);
+    }
+  };
+  if (old.source != form.source) put(sphere, header_box(form));
+  const auto is_same = [](double a, double b) { return fixed_point(a) == fixed_point(b); };
+  if (is_same(old.yaw, form.yaw) && is_same(old.pitch, form.pitch) && is_same(old.roll, form.roll)) return;
+  put(open_child(sphere, box_type("proj")), pose_box(form));
 }
 
 std::optional<FilmForm> parse_v2(const Box& sample_entry) {

@@ -58,19 +58,36 @@ struct FilmForm {
 // "top-bottom, lat-long", "side-by-side, lat-long 180x180", "mono, flat".
 std::string form_text(const FilmForm& form);
 
+// Whether both show the same part of the sphere, and lay out their eyes likewise. To players no word on the projection
+// is flat, and no word on the eyes is mono. Bounds that differ by less than a thousandth of the sphere are the same:
+// V1 has them in pixels.
+bool same_sphere(const FilmForm& a, const FilmForm& b);
+bool same_stereo(const FilmForm& a, const FilmForm& b);
+
 // The id of V1's `uuid` box in moov/trak, in front of its XML.
 inline constexpr std::string_view kV1Id = "\xff\xcc\x82\x63\xf8\x55\x4a\x93\x88\x14\x58\x7a\x02\x52\x1f\xdd";
 
-// V1 knows the whole sphere in lat-long, in mono, top-bottom or side-by-side. Of angles it knows a first heading.
+// V1 is written of the whole sphere in lat-long, in mono, top-bottom or side-by-side. It has the angles as whole
+// degrees of the initial view, as FFmpeg reads them.
 bool fits_v1(const FilmForm& form);
 std::string v1_xml(const FilmForm& form);
 // Nothing where the XML is about something else.
 std::optional<FilmForm> parse_v1(const std::string& xml);
 
+// Whether a V1 that says `v1` can be changed to say `form`: both show the same part of the sphere, which may be a part
+// that fits_v1() knows nothing of, and V1 has a word for the eyes.
+bool can_update_v1(const FilmForm& v1, const FilmForm& form);
+// The XML with only those elements changed that say otherwise than `form`: StereoMode, angles that differ by a degree,
+// and the software where `has_new_source`. Nothing where can_update_v1() is false or the XML is not understood.
+std::optional<std::string> updated_v1(const std::string& xml, const FilmForm& form, bool has_new_source);
+
 // V2 knows no kBottomTop and no kOther; kMesh is not written.
 bool fits_v2(const FilmForm& form);
+// Preconditions: `form` has such eyes; it has such a projection, which is not flat.
 Box st3d_box(const FilmForm& form);
 Box sv3d_box(const FilmForm& form);
+// Changes the angles and the source of an sv3d box; all else in it stays byte for byte. Throws Broken.
+void update_sv3d(Box& sphere, const FilmForm& form);
 // From the boxes of a sample entry; nothing where it has neither. Throws Broken.
 std::optional<FilmForm> parse_v2(const Box& sample_entry);
 
