@@ -5,6 +5,9 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <span>
+
+#include "ods/scene/gltf/json.h"
 #include "tests/gltf_builder.h"
 
 namespace ods {
@@ -127,6 +130,17 @@ TEST(GltfJson, SkipsWhatReadersDoNotKnow) {
   const std::string many(1000, '[');
   EXPECT_NE(error_of(make_glb(R"({"asset": {"version": "2.0"}, "extras": )" + many, {})).find("too deeply"),
             std::string::npos);
+}
+
+// What would take a hundred times the size of the text.
+TEST(GltfJson, ExtrasTakeNoMemory) {
+  std::string text = R"({"asset": {"version": "2.0"}, "extras": [)";
+  for (int i = 0; i < 1'000'000; i++) text += "{},0,";
+  text += "[]]}";
+  const auto bytes = std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  const JsonDocument document = parse_gltf_json(bytes, "test.glb", [](std::string_view) { return true; });
+  EXPECT_EQ(document.values.size(), 3u);  // the root, its asset, the version
+  EXPECT_LE(document.values.capacity(), 64u);
 }
 
 TEST(GltfJson, TheLastMemberOfANameCounts) {

@@ -232,7 +232,7 @@ MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, in
 }
 
 void read_materials(const GltfFile& file, Scene& scene) {
-  check_memory(file.materials.size() * (sizeof(Material) + sizeof(std::string)), file.path + ": its materials",
+  check_memory(file.materials.size() * (sizeof(Material) + sizeof(std::string)), file.path + ": its list of materials",
                "use a machine with more");
   TextureTable textures(file, scene);
   for (const JsonValue* material : file.materials) {

@@ -60,7 +60,7 @@ struct Hierarchy {
 static Hierarchy read_hierarchy(const GltfFile& file) {
   const Records& nodes = file.nodes;
   constexpr size_t kBytesPerNode = 256;  // what this file keeps of each while it reads
-  check_memory(nodes.size() * kBytesPerNode, file.path + ": its nodes", "use a machine with more");
+  check_memory(nodes.size() * kBytesPerNode, file.path + ": its list of nodes", "use a machine with more");
   Hierarchy tree;
   tree.children.resize(nodes.size());
   tree.parents.assign(nodes.size(), -1);
