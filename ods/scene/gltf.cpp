@@ -106,12 +106,12 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
 }
 
 Scene load_gltf(const std::string& path, const SceneOptions& options) {
-  GltfFile file = open_gltf(path);
+  GltfFile file = open_gltf(path, options.confine);
   return read_scene(file, options);
 }
 
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options) {
-  GltfFile file = open_gltf_bytes(bytes, path);
+  GltfFile file = open_gltf_bytes(bytes, path, options.confine);
   return read_scene(file, options);
 }
 

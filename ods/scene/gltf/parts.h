@@ -52,6 +52,7 @@ using Records = std::vector<const JsonValue*>;
 // A file being read.
 struct GltfFile {
   std::string path;
+  std::string confine;  // as SceneOptions
   JsonDocument json;
   Records accessors, buffer_views, cameras, lights, materials, meshes, nodes, samplers, scenes, skins, textures;
   std::vector<Bytes> buffers;
@@ -91,8 +92,8 @@ void warn(Scene& scene, const std::string& what);
 void spend(GltfFile& file, size_t count);
 
 // --- source.cpp
-GltfFile open_gltf(const std::string& path);
-GltfFile open_gltf_bytes(Bytes bytes, const std::string& path);
+GltfFile open_gltf(const std::string& path, const std::string& confine);
+GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine);
 Bytes buffer_view_bytes(const GltfFile& file, int view);
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
 // The size of the picture's own file; 0 where it lies in the glTF file, or nowhere.
@@ -115,17 +116,6 @@ struct AccessorView {
   bool normalized = false;
   std::shared_ptr<const std::vector<unsigned char>> expanded;  // what data points to in a sparse accessor
 };
-
-// What numbers of accessors are stored as.
-enum ComponentType {
-  kByte = 5120,
-  kUnsignedByte = 5121,
-  kShort = 5122,
-  kUnsignedShort = 5123,
-  kUnsignedInt = 5125,
-  kFloat = 5126,
-};
-bool is_unsigned(int component_type);  // one that indices may have
 
 // accessor -1: an AccessorView with count 0.
 AccessorView open_accessor(GltfFile& file, int accessor);

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "ods/base/base64.h"
+#include "ods/base/confined_file.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/read_file.h"
@@ -95,14 +96,21 @@ static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
   return share({bytes.begin(), bytes.end()});
 }
 
+// RFC 3986: whether it starts with a scheme, as "file:" and "https:".
+static bool has_scheme(const std::string& uri) {
+  const size_t colon = uri.find_first_of(":/?#%");
+  return colon != std::string::npos && uri[colon] == ':';
+}
+
 // The file that a URI names.
 static std::string uri_path(const GltfFile& file, const std::string& uri) {
-  if (uri.find("://") != std::string::npos) {
-    fail(file,
-         fmt::format("refers to {}; ods does not fetch from the network, put the file beside it", printable(uri)));
-  }
   const std::string name = decode_percent(uri);
   if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
+  if (has_scheme(uri) || name.starts_with('/')) {
+    fail(file, fmt::format("refers to {}; ods reads only files that are named relative to the scene, and fetches "
+                           "nothing from the network: put the file beside it",
+                           printable(uri)));
+  }
   return (std::filesystem::path(file.path).parent_path() / name).string();
 }
 
@@ -111,10 +119,12 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
   if (uri.starts_with("data:")) return read_data_uri(file, uri);
   const std::string path = uri_path(file, uri);
   try {
-    return share(read_start(path, most));
+    const ConfinedFile opened(path, file.confine);
+    return share(read_start(opened.path(), most));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    fail(file, fmt::format("refers to {}, which is not there or cannot be read", printable(uri)));
+    fail(file, fmt::format("refers to {}, which is not there{} or cannot be read", printable(uri),
+                           file.confine.empty() ? "" : ", lies outside of the folder that scenes are confined to,"));
   }
 }
 
@@ -208,7 +218,7 @@ size_t external_bytes(const GltfFile& file, const ImageSource& image) {
   if (image.uri.empty() || image.uri.starts_with("data:")) return 0;
   const std::string path = uri_path(file, image.uri);
   try {
-    return file_size(path);
+    return file_size(ConfinedFile(path, file.confine).path());
   } catch (const Error&) {
     return 0;  // whoever reads it says why
   }
@@ -260,25 +270,26 @@ static void parse(GltfFile& file, Bytes bytes) {
 // A container says its length; what is no container is text, and should look like it before it is read.
 static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   constexpr size_t kLongestText = size_t(1) << 30;
-  const std::vector<unsigned char> start = read_start(file.path, 64);
-  if (is_container(start)) return read_start(file.path, start.size() < 12 ? start.size() : read_uint32(start, 8));
+  const ConfinedFile opened(file.path, file.confine);
+  const std::vector<unsigned char> start = read_start(opened.path(), 64);
+  if (is_container(start)) return read_start(opened.path(), start.size() < 12 ? start.size() : read_uint32(start, 8));
   const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
   const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
-  return read_file(file.path, kLongestText);
+  return read_file(opened.path(), kLongestText);
 }
 
-GltfFile open_gltf(const std::string& path) {
+GltfFile open_gltf(const std::string& path, const std::string& confine) {
   GltfFile file;
-  file.path = path;
+  file.path = path, file.confine = confine;
   file.storage.push_back(share(read_scene_file(file)));
   parse(file, *file.storage.front());
   return file;
 }
 
-GltfFile open_gltf_bytes(Bytes bytes, const std::string& path) {
+GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine) {
   GltfFile file;
-  file.path = path;
+  file.path = path, file.confine = confine;
   parse(file, bytes);
   return file;
 }

@@ -12,6 +12,17 @@ namespace ods {
 
 struct GltfFile;
 
+// What numbers of accessors are stored as.
+enum ComponentType {
+  kByte = 5120,
+  kUnsignedByte = 5121,
+  kShort = 5122,
+  kUnsignedShort = 5123,
+  kUnsignedInt = 5125,
+  kFloat = 5126
+};
+bool is_unsigned(int component_type);  // one that indices may have
+
 // A whole number, which may be written as a real; the fallback where it is absent. Fails where it is something else.
 // What is beyond the range of an int is its nearest.
 int integer(const GltfFile& file, const JsonValue& object, const char* key, int fallback);
