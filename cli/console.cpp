@@ -6,11 +6,13 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "cli/exit_code.h"
+#include "ods/base/atomic_file.h"
 #include "ods/base/error.h"
 #include "ods/base/text.h"
 
@@ -38,6 +40,31 @@ int fail(ExitCode code, const std::string& text) {
   bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
   std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", ods::one_line(text).c_str());
   return code;
+}
+
+// Without allocating.
+int fail_without_memory() {
+  const std::string_view plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
+  const std::string_view json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\"}\n";
+  const std::string_view line = console.json ? json : plain;
+  const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
+  static_cast<void>(ignored);
+  return kExitRenderError;
+}
+
+// Some functions of libraries promise not to throw and allocate all the same, destructors of theirs among them. When
+// memory runs out there, the process ends here.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    ods::remove_unfinished_files();
+    _exit(fail_without_memory());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ods: terminated: %s\n", error.what());
+  } catch (...) {
+  }
+  std::abort();
 }
 
 ExitCode exit_code(ods::ErrorKind kind) {
@@ -68,6 +95,7 @@ void warn(const std::string& text) {
 }
 
 int run_command(const std::function<void()>& body) {
+  std::set_terminate(end_without_memory);
   try {
     body();
     // A full disk behind stdout shows only now.
@@ -79,7 +107,7 @@ int run_command(const std::function<void()>& body) {
   } catch (const ods::Error& error) {
     return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
-    return fail(kExitRenderError, "not enough memory; a smaller scene or picture needs less");
+    return fail_without_memory();
   } catch (const std::exception& error) {
     return fail(kExitRenderError, error.what());
   }

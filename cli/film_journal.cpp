@@ -21,9 +21,9 @@ namespace {
 constexpr const char* kNote = "/job.txt";
 
 // Options that change the film, or what is said of it, but no frame.
-constexpr std::array kOptions = {"-o",         "--output", "--target",  "--codec",   "--encoder", "--preset",
-                                 "--crf",      "--bits",   "--bitrate", "--chroma",  "--audio",   "--tone",
-                                 "--exposure", "--frames", "--threads", "--progress"};
+constexpr std::array kOptions = {"-o",         "--output", "--target",  "--codec",    "--encoder", "--preset",
+                                 "--crf",      "--bits",   "--bitrate", "--chroma",   "--audio",   "--tone",
+                                 "--exposure", "--frames", "--threads", "--progress", "--confine"};
 constexpr std::array kFlags = {"-q", "--quiet", "--no-color", "--keep-frames", "--restart", "--skip-existing"};
 
 std::string note_of(const std::vector<std::string>& words) {

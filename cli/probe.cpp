@@ -36,6 +36,7 @@ void probe_right_eye(PictureReport& report, const std::string& path, std::vector
     warnings.push_back(fmt::format("its right eye has {} pixels, the left one {}x{}", report.right_eye,
                                    report.info.width, report.info.height));
   } catch (const ods::Error& error) {
+    if (error.kind() != ods::ErrorKind::kInput) throw;
     report.right_eye = "damaged";
     warnings.push_back(error.what());
   }

@@ -116,17 +116,11 @@ void render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time
   }
 }
 
-ods::Scene open_lit_scene(const RenderJob& job) {
-  check_outputs(job);
-  ods::Scene scene = open_scene(job.scene);
-  add_environment(scene, job.scene);
-  return scene;
-}
-
 }  // namespace
 
 void render_job(const RenderJob& job, ProgressLines& lines) {
-  ods::Scene scene = open_lit_scene(job);
+  check_outputs(job);
+  ods::Scene scene = open_lit_scene(job.scene);
   TimeOptions time = job.time;
   start_clock(time, scene);
   const std::vector<Frame> frames = choose_frames(job, time);
@@ -144,7 +138,8 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
 }
 
 std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report) {
-  ods::Scene scene = open_lit_scene(job);
+  check_outputs(job);
+  ods::Scene scene = open_lit_scene(job.scene);
   TimeOptions time = job.time;
   start_clock(time, scene);
   const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);

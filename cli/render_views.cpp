@@ -21,8 +21,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   const std::string fault = names_fault(rig, files);
   if (!fault.empty()) throw UsageError(fault);
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
-  ods::Scene scene = open_scene(job.scene);
-  add_environment(scene, job.scene);
+  ods::Scene scene = open_lit_scene(job.scene);
   TimeOptions time = job.time;
   start_clock(time, scene);
   ods::set_time(scene, static_cast<double>(time.time.value_or(0.0f)));

@@ -36,7 +36,7 @@ void add_slit_options(Options& options, RigJob& job) {
   options.number("--max-error", job.max_error, 0.001f, 1000.0f,
                  "pixels that the nearest thing may be off: chooses how many slits");
   options.number("--nearest", job.nearest, 0.01f, 1e6f, "metres to the nearest thing; by default 1, or as measured");
-  options.text("--scene", "SCENE", job.scene.name, "measure it in this scene, and stand where its camera does");
+  add_scene_option(options, job.scene, "measure it in this scene, and stand where its camera does");
   options.number("--slits", job.count, 3, 32768, "of each eye, whatever their error");
   options.number("--pitches", job.slits.pitches, 1, 64, "views above each other");
   options.flag("--caps", job.slits.caps, "the first of them looks straight up, the last straight down");

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "cli/console.h"
+#include "ods/base/confined_file.h"
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/scene/catchers.h"
@@ -16,11 +17,23 @@
 
 using ods::Scene, ods::vec3;
 
+static void add_confine_option(Options& options, SceneSource& source) {
+  options.text(
+      "--confine", "DIR", source.confine,
+      "read no file outside of this folder, wherever paths and links in the scene lead: for scenes of strangers");
+}
+
 void add_scene_argument(Options& options, SceneSource& source) {
   options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
                  "which of several scenes in the file, from 0; its own choice by default");
+  add_confine_option(options, source);
+}
+
+void add_scene_option(Options& options, SceneSource& source, const char* help) {
+  options.text("--scene", "SCENE", source.name, help);
+  add_confine_option(options, source);
 }
 
 void add_light_options(Options& options, SceneSource& source) {
@@ -41,8 +54,19 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
 }
 
+// The folder of --confine without links; empty where there is none.
+static std::string confining_folder(const SceneSource& source) {
+  if (source.confine.empty()) return "";
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical(source.confine, error);
+  if (error || !std::filesystem::is_directory(folder, error)) {
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("--confine: there is no folder '{}'", source.confine));
+  }
+  return folder.native();
+}
+
 Scene open_scene(const SceneSource& source) {
-  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1)});
+  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1), .confine = confining_folder(source)});
   for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
@@ -51,7 +75,7 @@ Scene open_scene(const SceneSource& source) {
   return scene;
 }
 
-void add_environment(Scene& scene, const SceneSource& source) {
+static void add_environment(Scene& scene, const SceneSource& source) {
   if (source.environment.empty()) {
     if (ods::has_light(scene)) return;
     note("the scene has no lamps; a white sky lights it (--env sets another, --env 0 none)");
@@ -64,6 +88,7 @@ void add_environment(Scene& scene, const SceneSource& source) {
       throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
                                                    "'; a colour is written R,G,B, as 0.5,0.6,0.8");
     }
+    const ods::ConfinedFile checked(source.environment, confining_folder(source));
     scene.environment = ods::load_environment(source.environment);
     if (scene.environment.width != 2 * scene.environment.height) {
       note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
@@ -76,4 +101,16 @@ void add_environment(Scene& scene, const SceneSource& source) {
     throw UsageError("--env is a file, R,G,B or one brightness, from 0 to 1e6, not '" + source.environment + "'");
   scene.environment = {};
   scene.environment.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+Scene open_lit_scene(const SceneSource& source) {
+  Scene scene = open_scene(source);
+  if (scene.instances.empty()) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has nothing to render: no triangles in the scene that is shown (ods info says "
+                                 "what there is)",
+                                 source.name));
+  }
+  add_environment(scene, source);
+  return scene;
 }

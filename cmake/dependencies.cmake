@@ -16,4 +16,3 @@ pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat 
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)
 find_package(glm REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
-find_package(TinyGLTF REQUIRED CONFIG)

@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
         Breakage{"/bufferViews/0/byteOffset", "18446744073709551615", "runs past the end"},
         Breakage{"/bufferViews/0/buffer", "7", "buffer 7 does not exist"},
         Breakage{"/buffers", R"([{"byteLength": 1000000000000000000}])", "buffer 0 has"},
-        Breakage{"/buffers", R"([{"byteLength": -5}])", "buffer 0 has"},
+        Breakage{"/buffers", R"([{"byteLength": -5}])", "negative value of byteLength"},
         Breakage{"/buffers", R"([{"byteLength": 8, "uri": "nowhere.bin"}])", "nowhere.bin"},
         Breakage{"/buffers", R"([{"byteLength": 8, "uri": "https://example.org/a.bin"}])", "network"},
         Breakage{"/buffers", R"([{"byteLength": 8, "uri": "."}])", "refers to ."},

@@ -16,10 +16,6 @@
 
 namespace ods {
 
-static Error cannot_read(const std::string& path, const char* why) {
-  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
-}
-
 FileInput::FileInput(const std::string& path) : path_(path), size_(file_size(path)) {
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw cannot_read(path, std::strerror(errno));

@@ -15,7 +15,7 @@
 
 namespace ods {
 
-static Error cannot_read(const std::string& path, const std::string& why) {
+Error cannot_read(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
 }
 
@@ -40,11 +40,7 @@ std::string file_identity(const std::string& path) {
 
 std::vector<unsigned char> read_start(const std::string& path, size_t count) {
   count = std::min(count, file_size(path));
-  const size_t available = count > kSmallMemory ? available_memory() : count;
-  if (count > available) {
-    throw cannot_read(
-        path, fmt::format("{} of it are needed, and {} of memory are free", bytes_text(count), bytes_text(available)));
-  }
+  check_memory(count, fmt::format("reading '{}'", path), "use a machine with more");
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw cannot_read(path, errno != 0 ? std::strerror(errno) : "it does not open");

@@ -9,14 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/error.h"
+
 namespace ods {
+
+// The Error(kInput) of a file that cannot be read.
+Error cannot_read(const std::string& path, const std::string& why);
 
 size_t file_size(const std::string& path);
 
 // What would have to change with a file's contents, "517 bytes, of 1700000000123"; empty: there is no such file.
 std::string file_identity(const std::string& path);
 
-// The whole file. One with more than `most` bytes, or more than there is memory for, is an Error before it is read.
+// The whole file. One with more than `most` bytes is an Error before it is read; one that does not fit in memory is an
+// Error(kMemory).
 std::vector<unsigned char> read_file(const std::string& path, size_t most);
 
 // Its first `count` bytes, or all where it has fewer; likewise.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/base/text.h"
 
+#include <new>
+
 namespace ods {
 
 std::string small_letters(std::string text) {
@@ -15,6 +17,11 @@ std::string one_line(std::string text) {
   for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
+}
+
+std::string library_words(const std::string& text) {
+  if (text.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  return one_line(text);
 }
 
 }  // namespace ods

@@ -14,4 +14,8 @@ std::string small_letters(std::string text);
 // Spaces at the end go.
 std::string one_line(std::string text);
 
+// What a library says went wrong, in one line. Some put every exception into words: one of memory is thrown as
+// std::bad_alloc again.
+std::string library_words(const std::string& text);
+
 }  // namespace ods

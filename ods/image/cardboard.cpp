@@ -108,7 +108,8 @@ bool is_photo(const std::string& path) {
   if (file.size() < 4 || file.read(0, 3) != "\xff\xd8\xff") return false;
   try {
     return is_photo(read_jpeg_headers(file));
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
     return false;  // who reads the pixels says what is wrong with it
   }
 }

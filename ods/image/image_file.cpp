@@ -61,11 +61,13 @@ static OIIO::TypeDesc type_of(Sample sample) {
   return OIIO::TypeDesc::FLOAT;
 }
 
-// --- reading -------------------------------------------------------------------------------------------------------
-
-static Error cannot_read(const std::string& name, const std::string& why) {
-  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", name, why));
+// OpenImageIO made no reader or writer: it has none in this build, or else its constructor found no memory.
+static std::string no_plugin(const char* plugin, const char* kind) {
+  if (OIIO::get_string_attribute("format_list").find(plugin) != OIIO::string_view::npos) throw std::bad_alloc();
+  return fmt::format("OpenImageIO here has no {} {}", plugin, kind);
 }
+
+// --- reading -------------------------------------------------------------------------------------------------------
 
 static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std::string& name) {
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1) throw cannot_read(name, "it is not a flat image");
@@ -122,7 +124,7 @@ static Reader create_reader(std::span<const std::byte> start, const std::string&
   Reader reader;
   reader.format = *format;
   reader.input = OIIO::ImageInput::create(plugin_name(*format));
-  if (!reader.input) throw cannot_read(name, fmt::format("OpenImageIO here has no {} reader", plugin_name(*format)));
+  if (!reader.input) throw cannot_read(name, no_plugin(plugin_name(*format), "reader"));
   return reader;
 }
 
@@ -144,7 +146,7 @@ static void open(Reader& reader, size_t file_size, const std::string& name, bool
   if (reader.source) reader.input->set_ioproxy(reader.source.get());
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", keep_alpha ? 1 : 0);
-  if (!reader.input->open(name, reader.spec, config)) throw cannot_read(name, one_line(reader.input->geterror()));
+  if (!reader.input->open(name, reader.spec, config)) throw cannot_read(name, library_words(reader.input->geterror()));
   check_size(reader.spec, file_size, name);
 }
 
@@ -188,7 +190,7 @@ static Image read_linear(Reader& reader, const std::vector<int>& indices, const 
     const int first = indices[static_cast<size_t>(c)];
     float* out = image.pixels.data() + c;
     if (!reader.input->read_image(0, 0, first, first + step, OIIO::TypeDesc::FLOAT, out, pixel)) {
-      throw cannot_read(path, one_line(reader.input->geterror()));
+      throw cannot_read(path, library_words(reader.input->geterror()));
     }
   }
   if (!reader.spec.format.is_floating_point()) {
@@ -252,12 +254,11 @@ CodeImage decode_image(std::span<const std::byte> file, const std::string& name)
   std::vector<uint8_t> values(static_cast<size_t>(reader.spec.width) * static_cast<size_t>(reader.spec.height) *
                               static_cast<size_t>(count));
   if (!reader.input->read_image(0, 0, 0, count, OIIO::TypeDesc::UINT8, values.data())) {
-    throw cannot_read(name, one_line(reader.input->geterror()));
+    throw cannot_read(name, library_words(reader.input->geterror()));
   }
   CodeImage image{reader.spec.width, reader.spec.height, {}};
   image.pixels.resize(values.size() / static_cast<size_t>(count));
-  const bool grey = count < 3;
-  const bool has_alpha = count == 2 || count == 4;
+  const bool grey = count < 3, has_alpha = count == 2 || count == 4;
   for (size_t i = 0; i < image.pixels.size(); i++) {
     const uint8_t* v = &values[i * static_cast<size_t>(count)];
     const uint32_t alpha = has_alpha ? v[count - 1] : 255u;
@@ -339,7 +340,7 @@ void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
   if (state.exr) {
     state.exr->read(begin, end, channels, to);
   } else if (!read_by_openimageio()) {
-    throw cannot_read(state.path, one_line(input.geterror()));
+    throw cannot_read(state.path, library_words(input.geterror()));
   }
   const std::vector<Sample>& samples = state.info.samples;
   size_t stride = 0;
@@ -477,7 +478,7 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
     return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", file.path(), one_line(why)));
   };
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(plugin);
-  if (!output) throw failed(fmt::format("OpenImageIO here has no {} writer", plugin));
+  if (!output) throw failed(no_plugin(plugin, "writer"));
 
   Sink sink(file.stream(), header.format == FileFormat::kPng ? gpano_chunk(header.attributes) : std::string());
   // libtiff goes back and reads what it wrote, which OpenImageIO does not hand through.
@@ -492,7 +493,7 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
     const std::vector<char> more(1 << 20);
     std::fwrite(more.data(), 1, more.size(), file.stream());
     file.finish();
-    throw failed(output->geterror());
+    throw failed(library_words(output->geterror()));
   }
 }
 

@@ -147,6 +147,7 @@ static std::optional<CameraFile> find_sidecar(const FileInfo& info, const std::s
     if (belongs_to(*sidecar, info)) return sidecar;
     warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
   } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
     const std::string why = error.what();
     if (!known.layout && !known.projection) {
       throw Error(error.kind(), why + "; mend or remove it, or say what the picture's layout and projection are");

@@ -359,7 +359,8 @@ static std::vector<RowReader> open_files(const std::string& path) {
 static void open_right_eye(std::vector<RowReader>& readers, const MemoryFile& file, const std::string& path) {
   try {
     readers.emplace_back(file.path());
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
     throw unreadable(path, "the JPEG of its right eye is damaged");
   }
   check_pair(readers, path);

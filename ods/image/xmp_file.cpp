@@ -121,7 +121,8 @@ static std::string packet_of(const FileInput& file) {
 std::string read_xmp(const FileInput& file) {
   try {
     return packet_of(file);
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
     return {};  // who reads the pixels says what is wrong with it
   }
 }

@@ -3,7 +3,6 @@
 #include "ods/scene/gltf.h"
 
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
@@ -50,12 +49,23 @@ static constexpr std::array kRendered = {
 static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
                                             "KHR_meshopt_compression"};
 
-static bool contains(std::span<const char* const> names, const std::string& name) {
+static bool contains(std::span<const char* const> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+bool is_read(std::string_view extension) {
+  return contains(kRendered, extension) || extension == "KHR_materials_specular";
+}
+
+// The strings in a list at the file's root.
+static std::set<std::string> names_in(const GltfFile& file, const char* key) {
+  std::set<std::string> names;
+  for (const JsonValue& name : file.json.root()[key]) names.insert(*name.text);
+  return names;
+}
+
 static void check_extensions(const GltfFile& file, Scene& scene) {
-  for (const std::string& name : file.model->extensionsRequired) {
+  for (const std::string& name : names_in(file, "extensionsRequired")) {
     if (contains(kRendered, name)) continue;
     if (contains(kCompression, name)) {
       fail(file, fmt::format("its geometry is compressed with {}, which ods does not read; export it again without "
@@ -65,9 +75,8 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
     fail(file,
          fmt::format("needs the extension {}, which ods does not support; export it again without", printable(name)));
   }
-  const std::set<std::string> used(file.model->extensionsUsed.begin(), file.model->extensionsUsed.end());
   constexpr size_t kMost = 50;
-  for (const std::string& name : used) {
+  for (const std::string& name : names_in(file, "extensionsUsed")) {
     if (contains(kRendered, name)) continue;
     if (scene.warnings.size() == kMost) break;
     warn(scene, fmt::format("extension {} is ignored", printable(name)));
@@ -97,12 +106,12 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
 }
 
 Scene load_gltf(const std::string& path, const SceneOptions& options) {
-  GltfFile file = open_gltf(path);
+  GltfFile file = open_gltf(path, options.confine);
   return read_scene(file, options);
 }
 
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options) {
-  GltfFile file = open_gltf_bytes(bytes, path);
+  GltfFile file = open_gltf_bytes(bytes, path, options.confine);
   return read_scene(file, options);
 }
 

@@ -8,7 +8,8 @@
 // metallic-roughness with KHR_materials_unlit, _emissive_strength, _ior, _transmission and _volume,
 // KHR_texture_transform, EXT_texture_webp, KHR_lights_punctual, cameras (as view points), skins (two sets of joints),
 // morph targets, animations of nodes and weights, KHR_animation_pointer to nodes, lights, and materials' factors and
-// texture transforms. Buffers and pictures may lie in the file, in data URIs, or in files beside it.
+// texture transforms. Buffers and pictures may lie in the file, in data URIs, or in files named relative to it, ".."
+// included. Absolute paths and URLs are Errors.
 //
 // The Scene stands as the file has it at rest, and nothing plays; play() (ods/scene/animation.h) and set_time()
 // (ods/scene/motion.h) move it.
@@ -35,7 +36,8 @@
 namespace ods {
 
 struct SceneOptions {
-  int scene = -1;  // which of the file's scenes; -1: its default, or the first
+  int scene = -1;       // which of the file's scenes; -1: its default, or the first
+  std::string confine;  // a folder: no file outside of it is read (ods/base/confined_file.h); empty: no such limit
 };
 
 // Throws Error(kInput) naming the file: absent, damaged, or not supported.

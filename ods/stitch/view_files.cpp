@@ -197,6 +197,7 @@ static std::string fault_of(const std::string& path, const CameraRig& pose, Exte
   try {
     check_size(open_file(path, pose).size, size, path);
   } catch (const Error& fault) {
+    if (fault.kind() != ErrorKind::kInput) throw;
     return fault.what();
   }
   return "";

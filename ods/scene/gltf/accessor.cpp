@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,37 +11,32 @@
 
 namespace ods {
 
+bool is_unsigned(int type) {
+  return type == kUnsignedByte || type == kUnsignedShort || type == kUnsignedInt;
+}
+
 static size_t component_size(int type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kByte:
+    case kUnsignedByte:
       return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kShort:
+    case kUnsignedShort:
       return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case kUnsignedInt:
+    case kFloat:
       return 4;
     default:
       return 0;
   }
 }
 
-static int component_count(int type) {
-  switch (type) {
-    case TINYGLTF_TYPE_SCALAR:
-      return 1;
-    case TINYGLTF_TYPE_VEC2:
-      return 2;
-    case TINYGLTF_TYPE_VEC3:
-      return 3;
-    case TINYGLTF_TYPE_VEC4:
-      return 4;
-    case TINYGLTF_TYPE_MAT4:
-      return 16;
-    default:
-      return 0;
-  }
+static int component_count(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
+  if (type == "VEC3") return 3;
+  if (type == "VEC4") return 4;
+  return type == "MAT4" ? 16 : 0;
 }
 
 // Buffers have no alignment that a compiler may rely on.
@@ -61,15 +55,15 @@ static float load_integer(const unsigned char* data, bool normalized) {
 
 static float load_component(const unsigned char* data, int type, bool normalized) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case kByte:
       return load_integer<int8_t>(data, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUnsignedByte:
       return load_integer<uint8_t>(data, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case kShort:
       return load_integer<int16_t>(data, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedShort:
       return load_integer<uint16_t>(data, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case kUnsignedInt:
       return load_integer<uint32_t>(data, normalized);
     default:
       return load<float>(data);
@@ -78,9 +72,9 @@ static float load_component(const unsigned char* data, int type, bool normalized
 
 static uint load_index(const unsigned char* data, int type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUnsignedByte:
       return load<uint8_t>(data);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUnsignedShort:
       return load<uint16_t>(data);
     default:
       return load<uint32_t>(data);
@@ -112,61 +106,63 @@ static const unsigned char* checked_elements(const GltfFile& file, int accessor,
   return bytes.data() + offset;
 }
 
-// The elements of a sparse accessor without gaps: those of its buffer view (or zeros), with some replaced.
-static std::shared_ptr<const std::vector<unsigned char>> expand_sparse(GltfFile& file, int index,
-                                                                       const AccessorView& plain, size_t size) {
-  const tinygltf::Accessor& accessor = file.model->accessors[static_cast<size_t>(index)];
-  // A file may say that there are a billion zeros; it has to pay for them.
-  spend(file, accessor.count);
-  auto expanded = std::make_shared<std::vector<unsigned char>>(accessor.count * size);
-  const auto put = [&](size_t i, const unsigned char* element) {
-    std::memcpy(expanded->data() + i * size, element, size);
-  };
-  if (plain.data != nullptr) {
-    for (size_t i = 0; i < accessor.count; i++) put(i, plain.data + i * plain.stride);
-  }
-  const auto& sparse = accessor.sparse;
-  const size_t count = static_cast<size_t>(std::max(0, static_cast<int>(sparse.count)));
-  if (count == 0) return expanded;
-  const int index_type = sparse.indices.componentType;
-  if (index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-      index_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    fail(file, fmt::format("sparse accessor {} has indices that are not unsigned integers", index));
-  }
-  const size_t index_size = component_size(index_type);
-  const unsigned char* values = checked_elements(file, index, sparse.values.bufferView,
-                                                 static_cast<size_t>(sparse.values.byteOffset), count, size, size);
-  const unsigned char* where =
-      checked_elements(file, index, sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset), count,
-                       index_size, index_size);
+// Replaces some of an accessor's elements.
+static void replace_sparse(GltfFile& file, int accessor, const JsonValue& sparse, size_t elements, size_t size,
+                           std::vector<unsigned char>& bytes) {
+  const JsonValue &indices = sparse["indices"], &values = sparse["values"];
+  const size_t count = size_in(file, sparse, "count");
+  if (count == 0) return;
+  const int type = integer(file, indices, "componentType", 0);
+  if (!is_unsigned(type))
+    fail(file, fmt::format("sparse accessor {} has indices that are not unsigned integers", accessor));
+  const size_t index_size = component_size(type);
+  const unsigned char* from = checked_elements(file, accessor, index_in(file, values, "bufferView"),
+                                               size_in(file, values, "byteOffset"), count, size, size);
+  const unsigned char* where = checked_elements(file, accessor, index_in(file, indices, "bufferView"),
+                                                size_in(file, indices, "byteOffset"), count, index_size, index_size);
   for (size_t i = 0; i < count; i++) {
-    const uint target = load_index(where + i * index_size, index_type);
-    if (target >= accessor.count) fail(file, fmt::format("sparse accessor {} has an index out of range", index));
-    put(target, values + i * size);
+    const uint target = load_index(where + i * index_size, type);
+    if (target >= elements) fail(file, fmt::format("sparse accessor {} has an index out of range", accessor));
+    std::memcpy(bytes.data() + target * size, from + i * size, size);
   }
+}
+
+// The elements of an accessor that has no buffer view (they are zeros), or in which some are replaced: without gaps.
+static std::shared_ptr<const std::vector<unsigned char>> expand(GltfFile& file, int index, const AccessorView& plain,
+                                                                size_t size, const JsonValue& sparse) {
+  // A file may say that there are a billion zeros; it has to pay for them.
+  spend(file, plain.count);
+  auto expanded = std::make_shared<std::vector<unsigned char>>(plain.count * size);
+  if (plain.data != nullptr) {
+    for (size_t i = 0; i < plain.count; i++) {
+      std::memcpy(expanded->data() + i * size, plain.data + i * plain.stride, size);
+    }
+  }
+  if (sparse.is_object()) replace_sparse(file, index, sparse, plain.count, size, *expanded);
   return expanded;
 }
 
 AccessorView open_accessor(GltfFile& file, int index) {
   AccessorView attribute;
   if (index == -1) return attribute;
-  const tinygltf::Accessor& accessor = element(file, file.model->accessors, index, "accessor");
-  attribute.components = component_count(accessor.type);
-  attribute.component_type = accessor.componentType;
-  attribute.normalized = accessor.normalized;
-  attribute.count = accessor.count;
-  const size_t size = component_size(accessor.componentType) * static_cast<size_t>(attribute.components);
+  const JsonValue& accessor = record(file, file.accessors, index, "accessor");
+  attribute.components = component_count(*accessor["type"].text);
+  attribute.component_type = integer(file, accessor, "componentType", 0);
+  attribute.normalized = accessor["normalized"].is_true();
+  attribute.count = size_in(file, accessor, "count");
+  const size_t size = component_size(attribute.component_type) * static_cast<size_t>(attribute.components);
   if (size == 0) fail(file, fmt::format("accessor {} has a type that is not allowed here", index));
-  if (accessor.count == 0) fail(file, fmt::format("accessor {} has no elements", index));
-  if (accessor.bufferView >= 0) {
-    const bool exists = static_cast<size_t>(accessor.bufferView) < file.model->bufferViews.size();
-    const size_t stride = exists ? file.model->bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride : 0;
+  if (attribute.count == 0) fail(file, fmt::format("accessor {} has no elements", index));
+  const int view = index_in(file, accessor, "bufferView");
+  if (view != -1) {
+    const size_t stride = size_in(file, record(file, file.buffer_views, view, "buffer view"), "byteStride");
     attribute.stride = stride == 0 ? size : stride;
-    attribute.data =
-        checked_elements(file, index, accessor.bufferView, accessor.byteOffset, accessor.count, size, attribute.stride);
+    attribute.data = checked_elements(file, index, view, size_in(file, accessor, "byteOffset"), attribute.count, size,
+                                      attribute.stride);
   }
-  if (accessor.sparse.isSparse || attribute.data == nullptr) {
-    attribute.expanded = expand_sparse(file, index, attribute, size);
+  const JsonValue& sparse = accessor["sparse"];
+  if (sparse.is_object() || attribute.data == nullptr) {
+    attribute.expanded = expand(file, index, attribute, size, sparse);
     attribute.data = attribute.expanded->data();
     attribute.stride = size;
   }

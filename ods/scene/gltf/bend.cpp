@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +10,14 @@
 namespace ods {
 
 bool bends(const PrimitiveSource& primitive, const Bending& bending) {
-  return (bending.weights != -1 && !primitive.targets.empty()) ||
-         (bending.skin != -1 && primitive.attributes.count("JOINTS_0") != 0);
+  return (bending.weights != -1 && primitive.targets.size() > 0) ||
+         (bending.skin != -1 && !primitive.attributes["JOINTS_0"].is_null());
 }
 
 // --- morph targets
 
-static std::vector<vec3> read_deltas(GltfFile& file, const PrimitiveSource& primitive,
-                                     const std::map<std::string, int>& target, const char* name) {
+static std::vector<vec3> read_deltas(GltfFile& file, const PrimitiveSource& primitive, const JsonValue& target,
+                                     const char* name) {
   const AccessorView deltas = read_attribute(file, target, name, 3, primitive.vertex_count);
   if (deltas.count == 0) return {};
   spend(file, primitive.order.size());
@@ -56,7 +55,7 @@ static void read_set(GltfFile& file, const PrimitiveSource& primitive, int set, 
 }
 
 static void read_influences(GltfFile& file, const PrimitiveSource& primitive, size_t joints, Deformation& result) {
-  const bool second = primitive.attributes.count("JOINTS_1") != 0;
+  const bool second = !primitive.attributes["JOINTS_1"].is_null();
   result.influences_per_vertex = second ? 8 : 4;
   spend(file, primitive.order.size());
   result.influences.resize(primitive.order.size() * result.influences_per_vertex);
@@ -72,17 +71,18 @@ static void read_influences(GltfFile& file, const PrimitiveSource& primitive, si
 }
 
 int read_skin(GltfFile& file, Scene& scene, int index, const std::vector<int>& rows) {
-  const tinygltf::Skin& source = element(file, file.model->skins, index, "skin");
-  if (source.joints.empty()) fail(file, fmt::format("skin {} has no joints; the file is damaged", index));
-  const AccessorView matrices = open_accessor(file, source.inverseBindMatrices);
-  if (matrices.count != 0 && (matrices.components != 16 || matrices.count < source.joints.size())) {
-    fail(file, fmt::format("skin {} has {} joints, but not as many matrices; the file is damaged", index,
-                           source.joints.size()));
+  const JsonValue& source = record(file, file.skins, index, "skin");
+  const std::vector<int> joints = indices(file, source, "joints");
+  if (joints.empty()) fail(file, fmt::format("skin {} has no joints; the file is damaged", index));
+  const AccessorView matrices = open_accessor(file, index_in(file, source, "inverseBindMatrices"));
+  if (matrices.count != 0 && (matrices.components != 16 || matrices.count < joints.size())) {
+    fail(file,
+         fmt::format("skin {} has {} joints, but not as many matrices; the file is damaged", index, joints.size()));
   }
-  spend(file, source.joints.size());
+  spend(file, joints.size());
   Skin skin;
-  for (size_t i = 0; i < source.joints.size(); i++) {
-    skin.joints.push_back(element(file, rows, source.joints[i], "node"));
+  for (size_t i = 0; i < joints.size(); i++) {
+    skin.joints.push_back(element(file, rows, joints[i], "node"));
     glm::dmat4 matrix(1.0);
     for (int k = 0; k < 16 && matrices.count != 0; k++) {
       matrix[k / 4][k % 4] = static_cast<double>(matrices.number_at(i, k));
@@ -107,7 +107,8 @@ void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primi
   result.rest.assign(first, first + stored.vertex_count);
   if (bending.weights != -1) {
     result.weights = bending.weights;
-    for (const auto& target : primitive.targets) {
+    for (const JsonValue& target : primitive.targets) {
+      spend(file, 1);
       result.targets.push_back({read_deltas(file, primitive, target, "POSITION"),
                                 read_deltas(file, primitive, target, "NORMAL"),
                                 read_deltas(file, primitive, target, "TANGENT")});
@@ -116,7 +117,7 @@ void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primi
       fail(file, "has a mesh whose primitives differ in their morph targets; the file is damaged");
     }
   }
-  if (bending.skin != -1 && primitive.attributes.count("JOINTS_0") != 0) {
+  if (bending.skin != -1 && !primitive.attributes["JOINTS_0"].is_null()) {
     result.skin = bending.skin;
     read_influences(file, primitive, animation.skins[static_cast<size_t>(bending.skin)].joints.size(), result);
   }

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "ods/scene/gltf/parts.h"
 
@@ -108,7 +108,7 @@ static std::optional<Target> target_of(const ChannelSource& channel) {
 }
 
 std::vector<char> named_nodes(const GltfFile& file) {
-  const auto& nodes = file.model->nodes;
+  const Records& nodes = file.nodes;
   std::vector<char> named(nodes.size(), 0);
   for (const ClipSource& clip : file.clips) {
     for (const ChannelSource& channel : clip.channels) {
@@ -118,9 +118,11 @@ std::vector<char> named_nodes(const GltfFile& file) {
       if (target->property != Property::kWeights) named[static_cast<size_t>(target->index)] = 1;
     }
   }
-  for (const tinygltf::Node& node : nodes) {
-    if (node.skin == -1) continue;
-    for (const int joint : element(file, file.model->skins, node.skin, "skin").joints) {
+  std::vector<char> seen(file.skins.size(), 0);  // many nodes may have one skin
+  for (const JsonValue* node : nodes) {
+    const int skin = index_in(file, *node, "skin");
+    if (skin == -1 || std::exchange(element(file, seen, skin, "skin"), 1) == 1) continue;
+    for (const int joint : indices(file, *file.skins[static_cast<size_t>(skin)], "joints")) {
       element(file, nodes, joint, "node");
       named[static_cast<size_t>(joint)] = 1;
     }
@@ -178,8 +180,8 @@ class TargetRows {
         animation_(scene.animation),
         scene_(scene),
         places_(places),
-        lamps_(file.model->lights.size(), -1),
-        materials_(file.model->materials.size(), -1) {}
+        lamps_(file.lights.size(), -1),
+        materials_(file.materials.size(), -1) {}
 
   // The row that a track writes; -1: nothing of it is in the Scene.
   int row(const Target& target);

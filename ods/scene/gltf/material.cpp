@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,35 +9,11 @@
 #include <limits>
 #include <map>
 
+#include "ods/base/memory.h"
 #include "ods/image/image_file.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
-
-using tinygltf::Value;
-
-const Value& object(const Value& parent, const char* key) {
-  static const Value kEmpty{Value::Object()};
-  if (!parent.Has(key)) return kEmpty;
-  const Value& value = parent.Get(key);
-  return value.IsObject() ? value : kEmpty;
-}
-
-double number(const Value& parent, const char* key, double fallback) {
-  if (!parent.Has(key)) return fallback;
-  const Value& value = parent.Get(key);
-  return value.IsNumber() && std::isfinite(value.GetNumberAsDouble()) ? value.GetNumberAsDouble() : fallback;
-}
-
-int integer(const Value& parent, const char* key, int fallback) {
-  const double value = number(parent, key, fallback);
-  return value >= -1.0 && value <= 2147483647.0 ? static_cast<int>(value) : fallback;
-}
-
-static const Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {
-  const auto found = extensions.find(name);
-  return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
-}
 
 static float clamped(double value, double low, double high, double fallback) {
   return static_cast<float>(std::isfinite(value) ? std::clamp(value, low, high) : fallback);
@@ -50,18 +25,8 @@ static vec3 color(const std::vector<double>& values, double high) {
   return result;
 }
 
-static std::vector<double> numbers(const Value& parent, const char* key, const std::vector<double>& fallback) {
-  if (!parent.Has(key) || parent.Get(key).ArrayLen() != fallback.size()) return fallback;
-  std::vector<double> values = fallback;
-  for (size_t i = 0; i < values.size(); i++) {
-    const Value& value = parent.Get(key).Get(static_cast<int>(i));
-    if (value.IsNumber() && std::isfinite(value.GetNumberAsDouble())) values[i] = value.GetNumberAsDouble();
-  }
-  return values;
-}
-
 // KHR_texture_transform.
-static UvPlace uv_place(const Value& transform) {
+static UvPlace uv_place(const JsonValue& transform) {
   const std::vector<double> offset = numbers(transform, "offset", {0.0, 0.0});
   const std::vector<double> scale = numbers(transform, "scale", {1.0, 1.0});
   return {{offset[0], offset[1]}, number(transform, "rotation", 0.0), {scale[0], scale[1]}};
@@ -72,58 +37,29 @@ namespace {
 // Textures are made where a material first asks for one: the use decides about the sRGB curve.
 class TextureTable {
  public:
-  TextureTable(const GltfFile& file, Scene& scene) : file_(file), model_(*file.model), scene_(scene) {}
+  TextureTable(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
-  TextureSlot slot(int index, int uv_set, const Value* transform, bool srgb) {
-    TextureSlot slot = no_texture();
-    if (index == -1) return slot;
-    slot.texture = texture(index, srgb);
-    slot.uv_set = uv_set;
-    if (transform != nullptr) apply(*transform, slot);
-    if (slot.uv_set < 0 || slot.uv_set > 1) {
-      warn(scene_, "a material uses a third set of texture coordinates; the first is taken");
-      slot.uv_set = 0;
-    }
-    return slot;
-  }
-
-  template <class Info>
-  TextureSlot slot(const Info& info, bool srgb) {
-    return slot(info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"), srgb);
-  }
-
-  // A texture named inside an extension.
-  TextureSlot slot(const Value& parent, const char* key) {
-    const Value& info = object(parent, key);
-    const Value& extensions = object(info, "extensions");
-    const Value* transform =
-        extensions.Has("KHR_texture_transform") ? &object(extensions, "KHR_texture_transform") : nullptr;
-    return slot(integer(info, "index", -1), integer(info, "texCoord", 0), transform, false);
-  }
+  // The texture that a member of a material or of its extensions names.
+  TextureSlot slot(const JsonValue& parent, const char* key, bool srgb);
 
   void decode_images();
 
  private:
-  static void apply(const Value& transform, TextureSlot& slot) {
-    place_texture(slot, uv_place(transform));
-    slot.uv_set = integer(transform, "texCoord", slot.uv_set);
-  }
-
   static int wrap(int mode) {
-    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return kWrapClamp;
-    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? kWrapMirror : kWrapRepeat;
+    constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648;
+    if (mode == kClampToEdge) return kWrapClamp;
+    return mode == kMirroredRepeat ? kWrapMirror : kWrapRepeat;
   }
 
   // Which image a texture shows, -1: none that can be read.
-  int image_of(const tinygltf::Texture& texture) const {
-    const Value* webp = extension(texture.extensions, "EXT_texture_webp");
-    return webp != nullptr ? integer(*webp, "source", texture.source) : texture.source;
+  int image_of(const JsonValue& texture) const {
+    const int plain = index_in(file_, texture, "source");
+    return integer(file_, extension(texture, "EXT_texture_webp"), "source", plain);
   }
 
   int texture(int index, bool srgb);
 
   const GltfFile& file_;
-  const tinygltf::Model& model_;
   Scene& scene_;
   std::map<std::pair<int, bool>, int> made_;  // (the file's texture, sRGB) -> the Scene's
   std::vector<size_t> images_;                // of each of the Scene's textures
@@ -131,10 +67,29 @@ class TextureTable {
 
 }  // namespace
 
+TextureSlot TextureTable::slot(const JsonValue& parent, const char* key, bool srgb) {
+  const JsonValue& info = parent[key];
+  TextureSlot slot = no_texture();
+  const int index = index_in(file_, info, "index");
+  if (index == -1) return slot;
+  slot.texture = texture(index, srgb);
+  slot.uv_set = integer(file_, info, "texCoord", 0);
+  const JsonValue& transform = extension(info, "KHR_texture_transform");
+  if (!transform.is_null()) {
+    place_texture(slot, uv_place(transform));
+    slot.uv_set = integer(file_, transform, "texCoord", slot.uv_set);
+  }
+  if (slot.uv_set < 0 || slot.uv_set > 1) {
+    warn(scene_, "a material uses a third set of texture coordinates; the first is taken");
+    slot.uv_set = 0;
+  }
+  return slot;
+}
+
 int TextureTable::texture(int index, bool srgb) {
   const auto found = made_.find({index, srgb});
   if (found != made_.end()) return found->second;
-  const tinygltf::Texture& source = element(file_, model_.textures, index, "texture");
+  const JsonValue& source = record(file_, file_.textures, index, "texture");
   const int image = image_of(source);
   if (image == -1) {
     warn(scene_, fmt::format("texture {} has no picture that ods can read; it is left white", index));
@@ -143,11 +98,13 @@ int TextureTable::texture(int index, bool srgb) {
   const size_t first_image = element(file_, file_.images, image, "image").first;
   Texture texture{};
   texture.srgb = srgb;
-  if (source.sampler != -1) {
-    const tinygltf::Sampler& sampler = element(file_, model_.samplers, source.sampler, "sampler");
-    texture.wrap_u = wrap(sampler.wrapS);
-    texture.wrap_v = wrap(sampler.wrapT);
-    texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+  const int sampler_index = index_in(file_, source, "sampler");
+  if (sampler_index != -1) {
+    constexpr int kNearest = 9728;
+    const JsonValue& sampler = record(file_, file_.samplers, sampler_index, "sampler");
+    texture.wrap_u = wrap(integer(file_, sampler, "wrapS", 0));
+    texture.wrap_v = wrap(integer(file_, sampler, "wrapT", 0));
+    texture.nearest = integer(file_, sampler, "magFilter", 0) == kNearest;
   }
   scene_.textures.push_back(texture);
   images_.push_back(first_image);
@@ -199,14 +156,13 @@ void TextureTable::decode_images() {
 // mistake.)
 static constexpr float kMirrorIor = 1e8f;
 
-static void read_extensions(const tinygltf::Material& source, Scene& scene, TextureTable& textures,
-                            Material& material) {
-  if (const Value* strength = extension(source.extensions, "KHR_materials_emissive_strength")) {
-    material.emission *= clamped(number(*strength, "emissiveStrength", 1.0), 0.0, 1e9, 1.0);
-  }
-  if (const Value* ior = extension(source.extensions, "KHR_materials_ior")) {
-    const double value = number(*ior, "ior", 1.5);
-    const bool tinted = source.extensions.count("KHR_materials_specular") != 0;
+static void read_extensions(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
+  const double strength = number(extension(source, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+  material.emission *= clamped(strength, 0.0, 1e9, 1.0);
+  const JsonValue& ior = extension(source, "KHR_materials_ior");
+  if (!ior.is_null()) {
+    const double value = number(ior, "ior", 1.5);
+    const bool tinted = !extension(source, "KHR_materials_specular").is_null();
     if (value == 0.0 && !tinted) {
       material.ior = kMirrorIor;
     } else if (value < 1.0) {
@@ -216,76 +172,74 @@ static void read_extensions(const tinygltf::Material& source, Scene& scene, Text
       material.ior = clamped(value, 1.0, 100.0, 1.5);
     }
   }
-  if (const Value* transmission = extension(source.extensions, "KHR_materials_transmission")) {
-    material.transmission = clamped(number(*transmission, "transmissionFactor", 0.0), 0.0, 1.0, 0.0);
-    material.transmission_slot = textures.slot(*transmission, "transmissionTexture");
+  const JsonValue& transmission = extension(source, "KHR_materials_transmission");
+  if (!transmission.is_null()) {
+    material.transmission = clamped(number(transmission, "transmissionFactor", 0.0), 0.0, 1.0, 0.0);
+    material.transmission_slot = textures.slot(transmission, "transmissionTexture", false);
   }
-  if (const Value* volume = extension(source.extensions, "KHR_materials_volume")) {
-    material.thickness = clamped(number(*volume, "thicknessFactor", 0.0), 0.0, kFarthest, 0.0);
-    material.attenuation_distance = clamped(number(*volume, "attenuationDistance", 0.0), 0.0, kFarthest, 0.0);
-    material.attenuation_color = color(numbers(*volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
+  const JsonValue& volume = extension(source, "KHR_materials_volume");
+  if (!volume.is_null()) {
+    material.thickness = clamped(number(volume, "thicknessFactor", 0.0), 0.0, kFarthest, 0.0);
+    material.attenuation_distance = clamped(number(volume, "attenuationDistance", 0.0), 0.0, kFarthest, 0.0);
+    material.attenuation_color = color(numbers(volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
   }
-  material.unlit = source.extensions.count("KHR_materials_unlit") != 0;
+  material.unlit = !extension(source, "KHR_materials_unlit").is_null();
 }
 
-static Material read_material(const tinygltf::Material& source, Scene& scene, TextureTable& textures) {
-  const auto& pbr = source.pbrMetallicRoughness;
+static Material read_material(const JsonValue& source, Scene& scene, TextureTable& textures) {
+  const JsonValue &pbr = source["pbrMetallicRoughness"], &normal = source["normalTexture"];
   Material material = default_material();
-  const std::vector<double>& base = pbr.baseColorFactor;
-  material.base_color = vec4(color(base, 1.0), base.size() > 3 ? clamped(base[3], 0.0, 1.0, 1.0) : 1.0f);
-  material.base_color_slot = textures.slot(pbr.baseColorTexture, true);
-  material.metallic = clamped(pbr.metallicFactor, 0.0, 1.0, 1.0);
-  material.roughness = clamped(pbr.roughnessFactor, 0.0, 1.0, 1.0);
-  material.metallic_roughness_slot = textures.slot(pbr.metallicRoughnessTexture, false);
-  material.normal_scale = clamped(source.normalTexture.scale, -1e3, 1e3, 1.0);
-  material.normal_slot = textures.slot(source.normalTexture, false);
-  material.emission = color(source.emissiveFactor, 1e9);
-  material.emission_slot = textures.slot(source.emissiveTexture, true);
-  material.alpha_mode = source.alphaMode == "MASK"    ? kAlphaMask
-                        : source.alphaMode == "BLEND" ? kAlphaBlend
-                                                      : kAlphaOpaque;
-  material.alpha_cutoff = clamped(source.alphaCutoff, 0.0, 2.0, 0.5);
-  material.double_sided = source.doubleSided;
+  const std::vector<double> base = numbers(pbr, "baseColorFactor", {1.0, 1.0, 1.0, 1.0});
+  material.base_color = vec4(color(base, 1.0), clamped(base[3], 0.0, 1.0, 1.0));
+  material.base_color_slot = textures.slot(pbr, "baseColorTexture", true);
+  material.metallic = clamped(number(pbr, "metallicFactor", 1.0), 0.0, 1.0, 1.0);
+  material.roughness = clamped(number(pbr, "roughnessFactor", 1.0), 0.0, 1.0, 1.0);
+  material.metallic_roughness_slot = textures.slot(pbr, "metallicRoughnessTexture", false);
+  material.normal_scale = clamped(number(normal, "scale", 1.0), -1e3, 1e3, 1.0);
+  material.normal_slot = textures.slot(source, "normalTexture", false);
+  material.emission = color(numbers(source, "emissiveFactor", {0.0, 0.0, 0.0}), 1e9);
+  material.emission_slot = textures.slot(source, "emissiveTexture", true);
+  const std::string& alpha = *source["alphaMode"].text;
+  material.alpha_mode = alpha == "MASK" ? kAlphaMask : alpha == "BLEND" ? kAlphaBlend : kAlphaOpaque;
+  material.alpha_cutoff = clamped(number(source, "alphaCutoff", 0.5), 0.0, 2.0, 0.5);
+  material.double_sided = source["doubleSided"].is_true();
   read_extensions(source, scene, textures, material);
   return material;
 }
 
-template <class Info>
-static UvPlace place_of(const Info& info) {
-  const Value* transform = extension(info.extensions, "KHR_texture_transform");
-  return transform == nullptr ? UvPlace() : uv_place(*transform);
+static UvPlace place_of(const JsonValue& parent, const char* key) {
+  const JsonValue& transform = extension(parent[key], "KHR_texture_transform");
+  return transform.is_null() ? UvPlace() : uv_place(transform);
 }
 
 MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int index) {
-  const tinygltf::Material& source = element(file, file.model->materials, index, "material");
+  const JsonValue& source = record(file, file.materials, index, "material");
+  const JsonValue& pbr = source["pbrMetallicRoughness"];
   const Material& material = scene.materials[static_cast<size_t>(index)];
   MovingMaterial moving;
   moving.material = index;
   moving.base_color = glm::dvec4(material.base_color);
-  moving.emission = glm::dvec3(color(source.emissiveFactor, 1e9));
-  if (const Value* strength = extension(source.extensions, "KHR_materials_emissive_strength")) {
-    moving.strength = number(*strength, "emissiveStrength", 1.0);
-  }
+  moving.emission = glm::dvec3(color(numbers(source, "emissiveFactor", {0.0, 0.0, 0.0}), 1e9));
+  moving.strength = number(extension(source, "KHR_materials_emissive_strength"), "emissiveStrength", moving.strength);
   moving.metallic = static_cast<double>(material.metallic);
   moving.roughness = static_cast<double>(material.roughness);
-  moving.places[kBaseColorSlot] = place_of(source.pbrMetallicRoughness.baseColorTexture);
-  moving.places[kMetallicRoughnessSlot] = place_of(source.pbrMetallicRoughness.metallicRoughnessTexture);
-  moving.places[kNormalSlot] = place_of(source.normalTexture);
-  moving.places[kEmissionSlot] = place_of(source.emissiveTexture);
-  if (const Value* transmission = extension(source.extensions, "KHR_materials_transmission")) {
-    const Value& extensions = object(object(*transmission, "transmissionTexture"), "extensions");
-    moving.places[kTransmissionSlot] = uv_place(object(extensions, "KHR_texture_transform"));
-  }
+  moving.places[kBaseColorSlot] = place_of(pbr, "baseColorTexture");
+  moving.places[kMetallicRoughnessSlot] = place_of(pbr, "metallicRoughnessTexture");
+  moving.places[kNormalSlot] = place_of(source, "normalTexture");
+  moving.places[kEmissionSlot] = place_of(source, "emissiveTexture");
+  moving.places[kTransmissionSlot] = place_of(extension(source, "KHR_materials_transmission"), "transmissionTexture");
   return moving;
 }
 
 void read_materials(const GltfFile& file, Scene& scene) {
+  check_memory(file.materials.size() * (sizeof(Material) + sizeof(std::string)), file.path + ": its list of materials",
+               "use a machine with more");
   TextureTable textures(file, scene);
-  for (const tinygltf::Material& material : file.model->materials) {
-    scene.materials.push_back(read_material(material, scene, textures));
-    scene.material_names.push_back(printable(material.name));
+  for (const JsonValue* material : file.materials) {
+    scene.materials.push_back(read_material(*material, scene, textures));
+    scene.material_names.push_back(printable(*(*material)["name"].text));
   }
-  scene.materials.push_back(read_material(tinygltf::Material(), scene, textures));
+  scene.materials.push_back(read_material(kNoJson, scene, textures));
   textures.decode_images();
 }
 

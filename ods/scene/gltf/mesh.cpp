@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +22,19 @@ static vec3 direction(vec3 v) {
 
 // --- triangles
 
+namespace {
+
+enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };  // of primitives; between them, lines
+
+}  // namespace
+
 // Corners of triangles as indices of the file's vertices.
 static std::vector<uvec3> make_triangles(const std::vector<uint>& corners, int mode) {
   std::vector<uvec3> triangles;
   const size_t count = corners.size();
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
+  if (mode == kTriangles) {
     for (size_t i = 0; i + 2 < count; i += 3) triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
-  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+  } else if (mode == kStrip) {
     for (size_t i = 0; i + 2 < count; i++) {
       triangles.emplace_back(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
     }
@@ -39,22 +44,20 @@ static std::vector<uvec3> make_triangles(const std::vector<uint>& corners, int m
   return triangles;
 }
 
-static std::vector<uint> read_corners(GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count) {
-  const AccessorView indices = open_accessor(file, primitive.indices);
-  const size_t count = primitive.indices == -1 ? vertex_count : indices.count;
-  const int type = indices.component_type;
-  const bool integers = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                        type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-  if (primitive.indices != -1 && (!integers || indices.components != 1)) {
-    fail(file, fmt::format("accessor {} holds indices, but not unsigned integers", primitive.indices));
+// accessor: of the primitive's indices.
+static std::vector<uint> read_corners(GltfFile& file, int accessor, size_t vertex_count) {
+  const AccessorView indices = open_accessor(file, accessor);
+  const size_t count = accessor == -1 ? vertex_count : indices.count;
+  if (accessor != -1 && (!is_unsigned(indices.component_type) || indices.components != 1)) {
+    fail(file, fmt::format("accessor {} holds indices, but not unsigned integers", accessor));
   }
   spend(file, count);
   std::vector<uint> corners(count);
   for (size_t i = 0; i < count; i++) {
-    corners[i] = primitive.indices == -1 ? static_cast<uint>(i) : indices.index_at(i);
+    corners[i] = accessor == -1 ? static_cast<uint>(i) : indices.index_at(i);
     if (corners[i] >= vertex_count) {
-      fail(file, fmt::format("accessor {} has the index {}, but there are {} vertices; the file is damaged",
-                             primitive.indices, corners[i], vertex_count));
+      fail(file, fmt::format("accessor {} has the index {}, but there are {} vertices; the file is damaged", accessor,
+                             corners[i], vertex_count));
     }
   }
   return corners;
@@ -85,14 +88,14 @@ struct Attributes {
 
 }  // namespace
 
-AccessorView read_attribute(GltfFile& file, const std::map<std::string, int>& attributes, const char* name,
-                            int components, size_t count) {
-  const auto found = attributes.find(name);
-  if (found == attributes.end()) return {};
-  const AccessorView attribute = open_accessor(file, found->second);
+AccessorView read_attribute(GltfFile& file, const JsonValue& attributes, const char* name, int components,
+                            size_t count) {
+  const int accessor = index_in(file, attributes, name);
+  const AccessorView attribute = open_accessor(file, accessor);
+  if (attribute.count == 0) return attribute;
   if (attribute.components < components || attribute.components > 4) {
-    fail(file, fmt::format("accessor {} has {} components, {} needs {}", found->second, attribute.components, name,
-                           components));
+    fail(file,
+         fmt::format("accessor {} has {} components, {} needs {}", accessor, attribute.components, name, components));
   }
   if (count != 0 && attribute.count != count) {
     fail(file, fmt::format("a primitive has {} positions, but {} values of {}", count, attribute.count, name));
@@ -195,33 +198,33 @@ static void repair_normals(Geometry& geometry) {
 // --- meshes
 
 // Appends the Scene mesh of one primitive and returns it, or -1 when nothing of it can be seen.
-static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitive& primitive, const Bending& bending) {
-  const int mode = primitive.mode == -1 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-  if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
-    fail(file, fmt::format("primitive mode {} does not exist", mode));
-  if (mode < TINYGLTF_MODE_TRIANGLES) {
+static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Bending& bending) {
+  const int mode = integer(file, primitive, "mode", kTriangles);
+  if (mode < kPoints || mode > kFan) fail(file, fmt::format("primitive mode {} does not exist", mode));
+  if (mode < kTriangles) {
     warn(scene, "points and lines are ignored");
     return -1;
   }
-  if (primitive.attributes.count("POSITION") == 0) {
+  const JsonValue& listed = primitive["attributes"];
+  if (index_in(file, listed, "POSITION") == -1) {
     warn(scene, "a primitive without positions is ignored");
     return -1;
   }
-  const int none = static_cast<int>(file.model->materials.size());
-  const int material = primitive.material == -1 ? none : primitive.material;
+  const int none = static_cast<int>(file.materials.size());
+  const int named = index_in(file, primitive, "material"), material = named == -1 ? none : named;
   if (material < 0 || material > none)
     fail(file, fmt::format("material {} does not exist; the file is damaged", material));
 
   Attributes attributes;
-  attributes.position = read_attribute(file, primitive.attributes, "POSITION", 3, 0);
+  attributes.position = read_attribute(file, listed, "POSITION", 3, 0);
   const size_t count = attributes.position.count;
-  attributes.normal = read_attribute(file, primitive.attributes, "NORMAL", 3, count);
-  attributes.tangent = read_attribute(file, primitive.attributes, "TANGENT", 4, count);
-  attributes.uv0 = read_attribute(file, primitive.attributes, "TEXCOORD_0", 2, count);
-  attributes.uv1 = read_attribute(file, primitive.attributes, "TEXCOORD_1", 2, count);
-  attributes.color = read_attribute(file, primitive.attributes, "COLOR_0", 3, count);
+  attributes.normal = read_attribute(file, listed, "NORMAL", 3, count);
+  attributes.tangent = read_attribute(file, listed, "TANGENT", 4, count);
+  attributes.uv0 = read_attribute(file, listed, "TEXCOORD_0", 2, count);
+  attributes.uv1 = read_attribute(file, listed, "TEXCOORD_1", 2, count);
+  attributes.color = read_attribute(file, listed, "COLOR_0", 3, count);
 
-  std::vector<uvec3> triangles = make_triangles(read_corners(file, primitive, count), mode);
+  std::vector<uvec3> triangles = make_triangles(read_corners(file, index_in(file, primitive, "indices"), count), mode);
   if (drop_bad_triangles(attributes.position, triangles) > 0) {
     warn(scene, "triangles with a corner that is not finite, or too far away, are left out");
   }
@@ -232,14 +235,14 @@ static int read_primitive(GltfFile& file, Scene& scene, const tinygltf::Primitiv
   const TextureSlot& normal_slot = scene.materials[static_cast<size_t>(material)].normal_slot;
   if (normal_slot.texture != -1) make_tangents(geometry.vertices, geometry.triangles, normal_slot);
   const int index = add_mesh(scene, geometry.vertices, geometry.triangles, material);
-  const PrimitiveSource source{primitive.attributes, primitive.targets, count, geometry.order};
+  const PrimitiveSource source{listed, primitive["targets"], count, geometry.order};
   if (bends(source, bending)) read_deformation(file, scene, source, bending, index, attributes.normal.count == 0);
   return index;
 }
 
 std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Bending& bending) {
   std::vector<int> meshes;
-  for (const tinygltf::Primitive& primitive : element(file, file.model->meshes, mesh, "mesh").primitives) {
+  for (const JsonValue& primitive : record(file, file.meshes, mesh, "mesh")["primitives"]) {
     const int index = read_primitive(file, scene, primitive, bending);
     if (index != -1) meshes.push_back(index);
   }

@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "ods/base/memory.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
 using glm::dmat4, glm::dvec3, glm::dvec4;
-using tinygltf::Node;
 
 namespace {
 
@@ -24,19 +23,22 @@ struct Place {
 
 }  // namespace
 
-static Place read_place(const Node& node) {
-  Place place;
-  const auto &t = node.translation, &r = node.rotation, &s = node.scale;
-  if (t.size() == 3) place.translation = dvec3(t[0], t[1], t[2]);
-  if (r.size() == 4) place.rotation = dvec4(r[0], r[1], r[2], r[3]);
-  if (s.size() == 3) place.scale = dvec3(s[0], s[1], s[2]);
-  return place;
+static Place read_place(const JsonValue& node) {
+  const std::vector<double> t = numbers(node, "translation", {0.0, 0.0, 0.0}),
+                            s = numbers(node, "scale", {1.0, 1.0, 1.0}),
+                            r = numbers(node, "rotation", {0.0, 0.0, 0.0, 1.0});
+  return {{t[0], t[1], t[2]}, {r[0], r[1], r[2], r[3]}, {s[0], s[1], s[2]}};
 }
 
-static dmat4 local_matrix(const Node& node) {
-  if (node.matrix.size() == 16) {
+static bool has_matrix(const JsonValue& node) {
+  return node["matrix"].size() == 16;
+}
+
+static dmat4 local_matrix(const JsonValue& node) {
+  if (has_matrix(node)) {
+    const std::vector<double> values = numbers(node, "matrix", std::vector<double>(16, 0.0));
     dmat4 matrix;
-    for (int i = 0; i < 16; i++) matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
+    for (int i = 0; i < 16; i++) matrix[i / 4][i % 4] = values[static_cast<size_t>(i)];
     return matrix;
   }
   const Place place = read_place(node);
@@ -48,6 +50,7 @@ static dmat4 local_matrix(const Node& node) {
 namespace {
 
 struct Hierarchy {
+  std::vector<std::vector<int>> children;
   std::vector<int> parents;  // -1: a root
   std::vector<int> order;    // every node, parents before their children
 };
@@ -55,11 +58,15 @@ struct Hierarchy {
 }  // namespace
 
 static Hierarchy read_hierarchy(const GltfFile& file) {
-  const std::vector<Node>& nodes = file.model->nodes;
+  const Records& nodes = file.nodes;
+  constexpr size_t kBytesPerNode = 256;  // what this file keeps of each while it reads
+  check_memory(nodes.size() * kBytesPerNode, file.path + ": its list of nodes", "use a machine with more");
   Hierarchy tree;
+  tree.children.resize(nodes.size());
   tree.parents.assign(nodes.size(), -1);
   for (size_t i = 0; i < nodes.size(); i++) {
-    for (const int child : nodes[i].children) {
+    tree.children[i] = indices(file, *nodes[i], "children");
+    for (const int child : tree.children[i]) {
       element(file, nodes, child, "node");
       int& parent = tree.parents[static_cast<size_t>(child)];
       if (parent != -1)
@@ -71,7 +78,7 @@ static Hierarchy read_hierarchy(const GltfFile& file) {
     if (tree.parents[i] == -1) tree.order.push_back(static_cast<int>(i));
   }
   for (size_t i = 0; i < tree.order.size(); i++) {
-    for (const int child : nodes[static_cast<size_t>(tree.order[i])].children) tree.order.push_back(child);
+    for (const int child : tree.children[static_cast<size_t>(tree.order[i])]) tree.order.push_back(child);
   }
   if (tree.order.size() < nodes.size()) fail(file, "has nodes that are their own ancestors; the file is damaged");
   return tree;
@@ -83,7 +90,7 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
   for (const int node : tree.order) {
     const auto i = static_cast<size_t>(node);
     const int parent = tree.parents[i];
-    world[i] = local_matrix(file.model->nodes[i]);
+    world[i] = local_matrix(*file.nodes[i]);
     if (parent != -1) world[i] = world[static_cast<size_t>(parent)] * world[i];
     if (!is_bounded(world[i])) fail(file, fmt::format("node {} has a matrix that is not finite, or too large", node));
   }
@@ -92,15 +99,15 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
 
 // The nodes of one scene of the file, in the order of the tree; -1 for its default, or all where it has no scenes.
 static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen) {
-  const std::vector<tinygltf::Scene>& scenes = file.model->scenes;
-  if (chosen == -1) chosen = std::max(0, file.model->defaultScene);
+  const Records& scenes = file.scenes;
+  if (chosen == -1) chosen = std::max(0, index_in(file, file.json.root(), "scene"));
   if (scenes.empty() && chosen == 0) return tree.order;
   if (chosen < 0 || static_cast<size_t>(chosen) >= scenes.size()) {
     fail(file, fmt::format("has no scene {}, only {} (counted from 0)", chosen, scenes.size()));
   }
   std::vector<char> inside(tree.order.size(), 0);
-  for (const int root : scenes[static_cast<size_t>(chosen)].nodes) {
-    element(file, file.model->nodes, root, "node");
+  for (const int root : indices(file, *scenes[static_cast<size_t>(chosen)], "nodes")) {
+    element(file, file.nodes, root, "node");
     if (tree.parents[static_cast<size_t>(root)] != -1) {
       fail(file, fmt::format("node {} is a root of the scene and has a parent; the file is damaged", root));
     }
@@ -129,8 +136,8 @@ static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy&
     MovingNode moving;
     moving.parent = parent_row;
     if (parent != -1 && parent_row == -1) moving.before = world[static_cast<size_t>(parent)];
-    const Node& source = file.model->nodes[i];
-    if (source.matrix.size() == 16) {
+    const JsonValue& source = *file.nodes[i];
+    if (has_matrix(source)) {
       moving.before *= local_matrix(source);
     } else {
       const Place place = read_place(source);
@@ -151,11 +158,7 @@ namespace {
 class Placer {
  public:
   Placer(GltfFile& file, Scene& scene, Places& places)
-      : file_(file),
-        scene_(scene),
-        places_(places),
-        meshes_(file.model->meshes.size()),
-        skins_(file.model->skins.size()) {}
+      : file_(file), scene_(scene), places_(places), meshes_(file.meshes.size()), skins_(file.skins.size()) {}
 
   void place_meshes(int node, const dmat4& world);
   void place_light(int node, int light, const dmat4& world);
@@ -174,7 +177,7 @@ class Placer {
   const LoadedMeshes& load_mesh(int node);
   Bending bending_of(int node);
   void place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local);
-  std::vector<dmat4> instance_matrices(const Node& node);
+  std::vector<dmat4> instance_matrices(const JsonValue& node);
 
   GltfFile& file_;
   Scene& scene_;
@@ -188,22 +191,25 @@ class Placer {
 
 // A row of weights for a node whose mesh has morph targets, and of a skin where it has one.
 Bending Placer::bending_of(int index) {
-  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
-  const tinygltf::Mesh& mesh = element(file_, file_.model->meshes, node.mesh, "mesh");
+  const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
+  const JsonValue& mesh = record(file_, file_.meshes, index_in(file_, node, "mesh"), "mesh");
   Bending bending;
   size_t targets = 0;
-  for (const tinygltf::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
+  for (const JsonValue& primitive : mesh["primitives"]) targets = std::max(targets, primitive["targets"].size());
   if (targets > 0) {
-    std::vector<double> weights = node.weights.empty() ? mesh.weights : node.weights;
+    spend(file_, targets);
+    std::vector<double> weights;
+    for (const JsonValue& weight : (node["weights"].size() > 0 ? node : mesh)["weights"])
+      weights.push_back(weight.number);
     weights.resize(targets);
-    for (double& weight : weights) weight = std::isfinite(weight) ? weight : 0.0;
     bending.weights = static_cast<int>(scene_.animation.weights.size());
     scene_.animation.weights.push_back(std::move(weights));
     places_.weights[static_cast<size_t>(index)] = bending.weights;
   }
-  if (node.skin != -1) {
-    auto& row = element(file_, skins_, node.skin, "skin");
-    if (!row) row = read_skin(file_, scene_, node.skin, places_.nodes);
+  const int skin = index_in(file_, node, "skin");
+  if (skin != -1) {
+    auto& row = element(file_, skins_, skin, "skin");
+    if (!row) row = read_skin(file_, scene_, skin, places_.nodes);
     bending.skin = *row;
   }
   return bending;
@@ -226,11 +232,11 @@ Placer::LoadedMeshes Placer::read(int mesh, const Bending& bending) {
 
 // Meshes that bend are the node's own: each bends in its own way.
 const Placer::LoadedMeshes& Placer::load_mesh(int index) {
-  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
+  const int mesh = index_in(file_, *file_.nodes[static_cast<size_t>(index)], "mesh");
   const Bending bending = bending_of(index);
-  if (bending.weights != -1 || bending.skin != -1) return bent_ = read(node.mesh, bending);
-  auto& loaded = element(file_, meshes_, node.mesh, "mesh");
-  if (!loaded) loaded = read(node.mesh, bending);
+  if (bending.weights != -1 || bending.skin != -1) return bent_ = read(mesh, bending);
+  auto& loaded = element(file_, meshes_, mesh, "mesh");
+  if (!loaded) loaded = read(mesh, bending);
   return *loaded;
 }
 
@@ -259,13 +265,13 @@ void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dm
 }
 
 // EXT_mesh_gpu_instancing: many places for the node's mesh, relative to the node.
-std::vector<dmat4> Placer::instance_matrices(const Node& node) {
-  const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
-  if (found == node.extensions.end()) return {dmat4(1.0)};
-  const tinygltf::Value& attributes = object(found->second, "attributes");
-  const AccessorView translations = open_accessor(file_, integer(attributes, "TRANSLATION", -1));
-  const AccessorView rotations = open_accessor(file_, integer(attributes, "ROTATION", -1));
-  const AccessorView scales = open_accessor(file_, integer(attributes, "SCALE", -1));
+std::vector<dmat4> Placer::instance_matrices(const JsonValue& node) {
+  const JsonValue& instancing = extension(node, "EXT_mesh_gpu_instancing");
+  if (instancing.is_null()) return {dmat4(1.0)};
+  const JsonValue& attributes = instancing["attributes"];
+  const AccessorView translations = open_accessor(file_, index_in(file_, attributes, "TRANSLATION"));
+  const AccessorView rotations = open_accessor(file_, index_in(file_, attributes, "ROTATION"));
+  const AccessorView scales = open_accessor(file_, index_in(file_, attributes, "SCALE"));
   const size_t count = std::max({translations.count, rotations.count, scales.count});
   for (const AccessorView* attribute : {&translations, &rotations, &scales}) {
     if (attribute->count != 0 &&
@@ -285,8 +291,8 @@ std::vector<dmat4> Placer::instance_matrices(const Node& node) {
 }
 
 void Placer::place_meshes(int index, const dmat4& world) {
-  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
-  if (node.mesh == -1) return;
+  const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
+  if (index_in(file_, node, "mesh") == -1) return;
   const LoadedMeshes& meshes = load_mesh(index);
   if (meshes.empty()) return;
   const int row = places_.nodes[static_cast<size_t>(index)];
@@ -294,32 +300,34 @@ void Placer::place_meshes(int index, const dmat4& world) {
   for (const dmat4& matrix : instance_matrices(node)) {
     for (const LoadedMesh& mesh : meshes) place(mesh, row, world, matrix);
   }
-  if (!node.name.empty()) scene_.objects.push_back({printable(node.name), first, scene_.instances.size() - first});
+  const std::string& name = *node["name"].text;
+  if (!name.empty()) scene_.objects.push_back({printable(name), first, scene_.instances.size() - first});
 }
 
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_lights_punctual
 Lamp read_lamp(const GltfFile& file, int index) {
-  const tinygltf::Light& source = element(file, file.model->lights, index, "light");
+  const JsonValue& source = record(file, file.lights, index, "light");
+  const std::vector<double> color = numbers(source, "color", {1.0, 1.0, 1.0});
   Lamp lamp;
-  if (source.color.size() == 3) lamp.color = dvec3(source.color[0], source.color[1], source.color[2]);
-  lamp.intensity = source.intensity;
-  lamp.range = source.range;
-  lamp.inner_cone = source.spot.innerConeAngle;
-  lamp.outer_cone = source.spot.outerConeAngle;
+  lamp.color = dvec3(color[0], color[1], color[2]);
+  lamp.intensity = number(source, "intensity", lamp.intensity);
+  lamp.range = number(source, "range", lamp.range);
+  lamp.inner_cone = number(source["spot"], "innerConeAngle", lamp.inner_cone);
+  lamp.outer_cone = number(source["spot"], "outerConeAngle", lamp.outer_cone);
   return lamp;
 }
 
 void Placer::place_light(int node, int index, const dmat4& world) {
-  const tinygltf::Light& source = element(file_, file_.model->lights, index, "light");
+  const std::string& type = *record(file_, file_.lights, index, "light")["type"].text;
   PunctualLight light;
-  if (source.type == "point") {
+  if (type == "point") {
     light.kind = kLightPoint;
-  } else if (source.type == "spot") {
+  } else if (type == "spot") {
     light.kind = kLightSpot;
-  } else if (source.type == "directional") {
+  } else if (type == "directional") {
     light.kind = kLightDirectional;
   } else {
-    warn(scene_, fmt::format("lights of type {} are ignored", printable(source.type)));
+    warn(scene_, fmt::format("lights of type {} are ignored", printable(type)));
     return;
   }
   set_lamp(light, read_lamp(file_, index));
@@ -329,10 +337,11 @@ void Placer::place_light(int node, int index, const dmat4& world) {
 }
 
 void Placer::place_camera(int index, const dmat4& world) {
-  const Node& node = file_.model->nodes[static_cast<size_t>(index)];
-  const std::string& own = element(file_, file_.model->cameras, node.camera, "camera").name;
+  const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
+  const int camera = index_in(file_, node, "camera");
+  const std::string &name = *node["name"].text, &own = *record(file_, file_.cameras, camera, "camera")["name"].text;
   ViewPoint view;
-  view.name = printable(!node.name.empty() ? node.name : !own.empty() ? own : fmt::format("camera {}", node.camera));
+  view.name = printable(!name.empty() ? name : !own.empty() ? own : fmt::format("camera {}", camera));
   place_view(view, world);
   const int row = places_.nodes[static_cast<size_t>(index)];
   if (row != -1) scene_.animation.views.push_back({static_cast<int>(scene_.view_points.size()), row});
@@ -347,12 +356,12 @@ Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<ch
   places.weights.assign(places.nodes.size(), -1);
   Placer placer(file, scene, places);
   for (const int i : nodes_of_scene(file, tree, chosen)) {
-    const Node& node = file.model->nodes[static_cast<size_t>(i)];
+    const JsonValue& node = *file.nodes[static_cast<size_t>(i)];
     const dmat4& matrix = world[static_cast<size_t>(i)];
     placer.place_meshes(i, matrix);
-    if (node.camera != -1) placer.place_camera(i, matrix);
-    const auto light = node.extensions.find("KHR_lights_punctual");
-    if (light != node.extensions.end()) placer.place_light(i, integer(light->second, "light", -1), matrix);
+    if (index_in(file, node, "camera") != -1) placer.place_camera(i, matrix);
+    const JsonValue& light = extension(node, "KHR_lights_punctual");
+    if (!light.is_null()) placer.place_light(i, index_in(file, light, "light"), matrix);
   }
   return places;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the parts of the glTF reader share; only ods/scene/gltf.cpp and its folder include this.
+//   json      the text -> JsonValues; values reads their members
 //   source    bytes of the file, its buffers and pictures -> GltfFile
 //   accessor  numbers out of buffers
 //   material  materials, samplers, textures
@@ -12,18 +13,14 @@
 // Every function here throws Error(kInput) naming the file when the file does not hold what it promises.
 #pragma once
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "ods/scene/gltf/json.h"
+#include "ods/scene/gltf/values.h"
 #include "ods/scene/placement.h"
-
-namespace tinygltf {
-class Model;
-class Value;
-}  // namespace tinygltf
 
 namespace ods {
 
@@ -49,11 +46,15 @@ struct ClipSource {
   std::vector<ChannelSource> channels;
 };
 
-// A file being read. The model's own buffers and images stay empty: tinygltf reads the records, we the bytes, so that
-// nothing is copied, loaded twice or believed about its size.
+// The objects in one of the file's lists.
+using Records = std::vector<const JsonValue*>;
+
+// A file being read.
 struct GltfFile {
   std::string path;
-  std::shared_ptr<const tinygltf::Model> model;
+  std::string confine;  // as SceneOptions
+  JsonDocument json;
+  Records accessors, buffer_views, cameras, lights, materials, meshes, nodes, samplers, scenes, skins, textures;
   std::vector<Bytes> buffers;
   std::vector<ImageSource> images;
   std::vector<ClipSource> clips;
@@ -73,6 +74,14 @@ auto& element(const GltfFile& file, List& list, int index, const char* what) {
   return list[static_cast<size_t>(index)];
 }
 
+// Element `index` of a list of objects, likewise.
+inline const JsonValue& record(const GltfFile& file, const Records& list, int index, const char* what) {
+  return *element(file, list, index, what);
+}
+
+// Whether the reader makes something of an extension.
+bool is_read(std::string_view extension);
+
 // Text of the file as it may stand in a message: one line, not endless.
 std::string printable(const std::string& text);
 
@@ -83,8 +92,8 @@ void warn(Scene& scene, const std::string& what);
 void spend(GltfFile& file, size_t count);
 
 // --- source.cpp
-GltfFile open_gltf(const std::string& path);
-GltfFile open_gltf_bytes(Bytes bytes, const std::string& path);
+GltfFile open_gltf(const std::string& path, const std::string& confine);
+GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine);
 Bytes buffer_view_bytes(const GltfFile& file, int view);
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
 // The size of the picture's own file; 0 where it lies in the glTF file, or nowhere.
@@ -115,12 +124,6 @@ AccessorView open_accessor(GltfFile& file, int accessor);
 // Scene materials are the file's in their order, then one more: what a primitive without a material gets.
 void read_materials(const GltfFile& file, Scene& scene);
 
-// A member of an object, or the fallback where it is absent or no finite number.
-double number(const tinygltf::Value& object, const char* key, double fallback);
-int integer(const tinygltf::Value& object, const char* key, int fallback);
-// The member as an object; an empty one where it is absent or something else.
-const tinygltf::Value& object(const tinygltf::Value& object, const char* key);
-
 // A material's factors and places of textures one by one, as its animation starts from them.
 MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int material);
 
@@ -137,16 +140,16 @@ std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Bending
 
 // Floats of a primitive's attribute; count 0 where it has none. Fails unless there are `count` of them, each of so many
 // components or up to 4.
-AccessorView read_attribute(GltfFile& file, const std::map<std::string, int>& attributes, const char* name,
-                            int components, size_t count);
+AccessorView read_attribute(GltfFile& file, const JsonValue& attributes, const char* name, int components,
+                            size_t count);
 
 // Vertices without a tangent get one that follows u of the normal map's coordinates.
 void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& normal_slot);
 
 // --- bend.cpp
 struct PrimitiveSource {
-  const std::map<std::string, int>& attributes;
-  const std::vector<std::map<std::string, int>>& targets;
+  const JsonValue& attributes;
+  const JsonValue& targets;
   size_t vertex_count;             // of the file
   const std::vector<uint>& order;  // which of the file's vertices each of the mesh's is
 };

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "ods/base/base64.h"
+#include "ods/base/confined_file.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/read_file.h"
@@ -19,7 +18,6 @@
 
 namespace ods {
 
-using Json = nlohmann::json;
 using Storage = std::shared_ptr<const std::vector<unsigned char>>;
 
 static Storage share(std::vector<unsigned char> bytes) {
@@ -72,39 +70,6 @@ static Chunks split_container(const GltfFile& file, Bytes bytes) {
   return chunks;
 }
 
-// Readers of JSON recurse where it nests; glTF needs ten levels, extras a few more.
-static void check_depth(const GltfFile& file, Bytes text) {
-  constexpr int kDeepest = 100;
-  int depth = 0;
-  bool in_string = false;
-  for (size_t i = 0; i < text.size(); i++) {
-    const unsigned char c = text[i];
-    if (in_string) {
-      if (c == '\\') i++;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kDeepest) fail(file, "nests its JSON too deeply; it is not a glTF file");
-    } else if (c == ']' || c == '}') {
-      depth--;
-    }
-  }
-}
-
-static Json parse_json(const GltfFile& file, Bytes text) {
-  check_depth(file, text);
-  try {
-    Json json = Json::parse(text.begin(), text.end());
-    if (!json.is_object()) fail(file, "is not a glTF file");
-    return json;
-  } catch (const Json::parse_error& error) {
-    fail(file, fmt::format("is not a glTF file, or a damaged one: its JSON is broken at byte {}", error.byte));
-  } catch (const Json::exception&) {
-    fail(file, "is not a glTF file, or a damaged one: its JSON holds a number that is too large");
-  }
-}
-
 // --- URIs
 
 // RFC 3986: %20 is a space.
@@ -131,14 +96,21 @@ static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
   return share({bytes.begin(), bytes.end()});
 }
 
+// RFC 3986: whether it starts with a scheme, as "file:" and "https:".
+static bool has_scheme(const std::string& uri) {
+  const size_t colon = uri.find_first_of(":/?#%");
+  return colon != std::string::npos && uri[colon] == ':';
+}
+
 // The file that a URI names.
 static std::string uri_path(const GltfFile& file, const std::string& uri) {
-  if (uri.find("://") != std::string::npos) {
-    fail(file,
-         fmt::format("refers to {}; ods does not fetch from the network, put the file beside it", printable(uri)));
-  }
   const std::string name = decode_percent(uri);
   if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
+  if (has_scheme(uri) || name.starts_with('/')) {
+    fail(file, fmt::format("refers to {}; ods reads only files that are named relative to the scene, and fetches "
+                           "nothing from the network: put the file beside it",
+                           printable(uri)));
+  }
   return (std::filesystem::path(file.path).parent_path() / name).string();
 }
 
@@ -147,41 +119,50 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
   if (uri.starts_with("data:")) return read_data_uri(file, uri);
   const std::string path = uri_path(file, uri);
   try {
-    return share(read_start(path, most));
-  } catch (const Error&) {
-    fail(file, fmt::format("refers to {}, which is not there, cannot be read or is larger than the free memory",
-                           printable(uri)));
+    const ConfinedFile opened(path, file.confine);
+    return share(read_start(opened.path(), most));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    fail(file, fmt::format("refers to {}, which is not there{} or cannot be read", printable(uri),
+                           file.confine.empty() ? "" : ", lies outside of the folder that scenes are confined to,"));
   }
 }
 
 // --- buffers and pictures
 
-static size_t buffer_length(const GltfFile& file, const Json& buffer, size_t index) {
-  const bool sound = buffer.is_object() && buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned();
-  if (!sound) fail(file, fmt::format("buffer {} has no length", index));
-  return buffer["byteLength"].get<size_t>();
+static const JsonValue& list_in(const GltfFile& file, const JsonValue& parent, const char* key) {
+  const JsonValue& list = parent[key];
+  if (!list.is_null() && !list.is_list()) fail(file, fmt::format("{} is not a list", key));
+  return list;
 }
 
-static bool has_uri(const Json& object) {
-  return object.contains("uri") && object["uri"].is_string();
+// The objects in a list of the file; none where it has no such list.
+static Records records(const GltfFile& file, const JsonValue& parent, const char* key) {
+  Records found;
+  for (const JsonValue& value : list_in(file, parent, key)) {
+    if (!value.is_object()) fail(file, fmt::format("element {} of {} is not an object", found.size(), key));
+    found.push_back(&value);
+  }
+  return found;
 }
 
-static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
+static void take_buffers(GltfFile& file, Bytes binary) {
+  const Records sources = records(file, file.json.root(), "buffers");
   std::map<std::string, size_t> lengths;  // how much of each file is needed
-  for (size_t i = 0; i < json.size(); i++) {
-    const size_t length = buffer_length(file, json[i], i);
-    if (!has_uri(json[i])) continue;
-    size_t& longest = lengths[uri_key(json[i]["uri"].get<std::string>())];
-    longest = std::max(longest, length);
+  for (const JsonValue* source : sources) {
+    size_t& longest = lengths[uri_key(*(*source)["uri"].text)];
+    longest = std::max(longest, size_in(file, *source, "byteLength"));
   }
   std::map<std::string, Storage> loaded;
-  for (size_t i = 0; i < json.size(); i++) {
+  for (size_t i = 0; i < sources.size(); i++) {
+    const size_t length = size_in(file, *sources[i], "byteLength");
+    const JsonValue& uri = (*sources[i])["uri"];
     Bytes bytes = binary;
-    if (has_uri(json[i])) {
-      const std::string uri = json[i]["uri"].get<std::string>(), key = uri_key(uri);
+    if (uri.is_text()) {
+      const std::string key = uri_key(*uri.text);
       Storage& storage = loaded[key];
       if (!storage) {
-        storage = read_uri(file, uri, lengths[key]);
+        storage = read_uri(file, *uri.text, lengths[key]);
         file.storage.push_back(storage);
         file.size += storage->size();
       }
@@ -189,7 +170,6 @@ static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
     } else if (i > 0) {
       fail(file, fmt::format("buffer {} has no data", i));
     }
-    const size_t length = buffer_length(file, json[i], i);
     if (length > bytes.size()) {
       fail(file,
            fmt::format("buffer {} has {} bytes, but should have {}; the file is damaged", i, bytes.size(), length));
@@ -198,83 +178,47 @@ static void take_buffers(GltfFile& file, const Json& json, Bytes binary) {
   }
 }
 
-static void take_images(GltfFile& file, const Json& json) {
+static void take_images(GltfFile& file) {
   std::map<std::pair<std::string, int>, size_t> first;
-  for (const Json& image : json) {
-    const size_t index = file.images.size();
-    if (!image.is_object()) fail(file, fmt::format("image {} is not an object", index));
-    ImageSource source;
-    if (has_uri(image)) source.uri = image["uri"].get<std::string>();
-    if (image.contains("bufferView") && image["bufferView"].is_number_integer())
-      source.view = image["bufferView"].get<int>();
-    source.first = first.emplace(std::pair(uri_key(source.uri), source.view), index).first->second;
+  for (const JsonValue* image : records(file, file.json.root(), "images")) {
+    ImageSource source{*(*image)["uri"].text, index_in(file, *image, "bufferView"), file.images.size()};
+    source.first = first.emplace(std::pair(uri_key(source.uri), source.view), source.first).first->second;
     file.images.push_back(source);
   }
 }
 
-// --- animations, which tinygltf drops where they name no node
-
-static int index_in(const Json& object, const char* key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  const bool sound = object.is_object() && found != object.end() && found->is_number_integer();
-  return sound ? static_cast<int>(std::clamp<int64_t>(found->get<int64_t>(), -1, INT32_MAX)) : -1;
-}
-
-static std::string text_in(const Json& object, const char* key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return object.is_object() && found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-static const Json& member(const Json& object, const char* key) {
-  static const Json kNone = Json::array();
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  return object.is_object() && found != object.end() ? *found : kNone;
-}
-
-static void take_clips(GltfFile& file, const Json& json) {
-  for (const Json& animation : json) {
-    ClipSource clip{text_in(animation, "name"), {}};
+static void take_clips(GltfFile& file) {
+  for (const JsonValue& animation : list_in(file, file.json.root(), "animations")) {
+    ClipSource clip{*animation["name"].text, {}};
     if (clip.name.empty()) clip.name = fmt::format("animation {}", file.clips.size());
-    const Json& samplers = member(animation, "samplers");
-    if (!samplers.is_array()) fail(file, "has an animation whose samplers are not a list");
-    for (const Json& source : member(animation, "channels")) {
-      const Json& target = member(source, "target");
-      const Json& sampler = element(file, samplers, index_in(source, "sampler"), "animation sampler");
-      ChannelSource channel{index_in(sampler, "input"), index_in(sampler, "output"), text_in(sampler, "interpolation"),
-                            index_in(target, "node"), text_in(target, "path")};
-      if (channel.path == "pointer") {
-        channel.path = text_in(member(member(target, "extensions"), "KHR_animation_pointer"), "pointer");
-      }
+    const Records samplers = records(file, animation, "samplers");
+    for (const JsonValue& source : list_in(file, animation, "channels")) {
+      const JsonValue& target = source["target"];
+      const JsonValue& sampler = record(file, samplers, index_in(file, source, "sampler"), "animation sampler");
+      ChannelSource channel{index_in(file, sampler, "input"), index_in(file, sampler, "output"),
+                            *sampler["interpolation"].text, index_in(file, target, "node"), *target["path"].text};
+      if (channel.path == "pointer") channel.path = *extension(target, "KHR_animation_pointer")["pointer"].text;
       clip.channels.push_back(channel);
     }
     file.clips.push_back(std::move(clip));
   }
 }
 
-// Takes a member out of the document.
-static Json take(const GltfFile& file, Json& json, const char* key) {
-  const auto found = json.find(key);
-  if (found == json.end()) return Json::array();
-  Json value = std::move(*found);
-  json.erase(found);
-  if (!value.is_array()) fail(file, fmt::format("{} is not a list", key));
-  return value;
-}
-
 Bytes buffer_view_bytes(const GltfFile& file, int index) {
-  const tinygltf::BufferView& view = element(file, file.model->bufferViews, index, "buffer view");
-  const Bytes buffer = element(file, file.buffers, view.buffer, "buffer");
-  if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
+  const JsonValue& view = record(file, file.buffer_views, index, "buffer view");
+  const Bytes buffer = element(file, file.buffers, index_in(file, view, "buffer"), "buffer");
+  const size_t offset = size_in(file, view, "byteOffset"), length = size_in(file, view, "byteLength");
+  if (offset > buffer.size() || length > buffer.size() - offset) {
     fail(file, fmt::format("buffer view {} runs past the end of its buffer; the file is damaged", index));
   }
-  return buffer.subspan(view.byteOffset, view.byteLength);
+  return buffer.subspan(offset, length);
 }
 
 size_t external_bytes(const GltfFile& file, const ImageSource& image) {
   if (image.uri.empty() || image.uri.starts_with("data:")) return 0;
   const std::string path = uri_path(file, image.uri);
   try {
-    return file_size(path);
+    return file_size(ConfinedFile(path, file.confine).path());
   } catch (const Error&) {
     return 0;  // whoever reads it says why
   }
@@ -292,61 +236,60 @@ std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& 
 
 // --- the file
 
-static std::shared_ptr<const tinygltf::Model> parse_model(const GltfFile& file, const Json& json) {
-  const std::string text = json.dump();
-  if (text.size() > std::numeric_limits<unsigned int>::max()) fail(file, "has more than 4 GB of JSON");
-  auto model = std::make_shared<tinygltf::Model>();
-  tinygltf::TinyGLTF reader;
-  std::string errors, warnings;
-  bool sound = false;
-  try {
-    sound = reader.LoadASCIIFromString(model.get(), &errors, &warnings, text.c_str(),
-                                       static_cast<unsigned int>(text.size()), "");
-  } catch (const std::exception& error) {
-    errors = error.what();
+static void check_version(const GltfFile& file) {
+  const JsonValue& version = file.json.root()["asset"]["version"];
+  if (!version.is_text()) fail(file, "is not a glTF file: it does not say of which version it is");
+  if (!version.text->starts_with("2.")) {
+    fail(file, fmt::format("is glTF version {}, ods reads 2.0", printable(*version.text)));
   }
-  if (!sound) fail(file, fmt::format("is not a valid glTF file: {}", printable(errors.substr(0, errors.find('\n')))));
-  if (!model->asset.version.starts_with("2.")) {
-    fail(file, fmt::format("is glTF version {}, ods reads 2.0", printable(model->asset.version)));
-  }
-  return model;
 }
 
 static void parse(GltfFile& file, Bytes bytes) {
   file.size = bytes.size();
   const Chunks chunks = split_container(file, bytes);
-  Json json = parse_json(file, chunks.json);
-  const Json buffers = take(file, json, "buffers");
-  const Json images = take(file, json, "images");
-  take_clips(file, take(file, json, "animations"));
-  file.model = parse_model(file, json);
-  take_buffers(file, buffers, chunks.binary);
-  take_images(file, images);
+  file.json = parse_gltf_json(chunks.json, file.path, is_read);
+  check_version(file);
+  const JsonValue& root = file.json.root();
+  file.accessors = records(file, root, "accessors");
+  file.buffer_views = records(file, root, "bufferViews");
+  file.cameras = records(file, root, "cameras");
+  file.lights = records(file, extension(root, "KHR_lights_punctual"), "lights");
+  file.materials = records(file, root, "materials");
+  file.meshes = records(file, root, "meshes");
+  file.nodes = records(file, root, "nodes");
+  file.samplers = records(file, root, "samplers");
+  file.scenes = records(file, root, "scenes");
+  file.skins = records(file, root, "skins");
+  file.textures = records(file, root, "textures");
+  take_clips(file);
+  take_buffers(file, chunks.binary);
+  take_images(file);
   file.budget = (size_t(1) << 20) + 16 * file.size;
 }
 
 // A container says its length; what is no container is text, and should look like it before it is read.
 static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   constexpr size_t kLongestText = size_t(1) << 30;
-  const std::vector<unsigned char> start = read_start(file.path, 64);
-  if (is_container(start)) return read_start(file.path, start.size() < 12 ? start.size() : read_uint32(start, 8));
+  const ConfinedFile opened(file.path, file.confine);
+  const std::vector<unsigned char> start = read_start(opened.path(), 64);
+  if (is_container(start)) return read_start(opened.path(), start.size() < 12 ? start.size() : read_uint32(start, 8));
   const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
   const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
-  return read_file(file.path, kLongestText);
+  return read_file(opened.path(), kLongestText);
 }
 
-GltfFile open_gltf(const std::string& path) {
+GltfFile open_gltf(const std::string& path, const std::string& confine) {
   GltfFile file;
-  file.path = path;
+  file.path = path, file.confine = confine;
   file.storage.push_back(share(read_scene_file(file)));
   parse(file, *file.storage.front());
   return file;
 }
 
-GltfFile open_gltf_bytes(Bytes bytes, const std::string& path) {
+GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine) {
   GltfFile file;
-  file.path = path;
+  file.path = path, file.confine = confine;
   parse(file, bytes);
   return file;
 }
