@@ -93,9 +93,10 @@ std::string write_slit_rig(const SlitRig& rig) {
 namespace {
 
 ViewDepth depth_of(JsonReader& in) {
+  if (!in.find("depth")) return ViewDepth::kNone;
   const std::string word = in.word("depth");
   for (const ViewDepth depth : kViewDepths) {
-    if (word.empty() || word == view_depth_name(depth)) return word.empty() ? ViewDepth::kNone : depth;
+    if (word == view_depth_name(depth)) return depth;
   }
   in.fail("depth", "is none, ray or plane");
 }
@@ -151,7 +152,7 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   SlitOptions options;
   read_options(in, options);
   const Json* camera = in.find("camera");
-  if (!camera) in.fail("camera", "is missing");
+  if (!camera || !camera->is_object()) in.fail("camera", "is an object {...}: the picture's camera");
   const CameraFile file = read_camera(camera->dump(), name, warnings);
   const std::string fault = slit_fault(file.rig, file.eye, options);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);
