@@ -8,6 +8,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
+#include "ods/stitch/rig_mark.h"
 
 using namespace ods;
 
@@ -47,6 +48,72 @@ TEST(SlitFile, ComesBack) {
     EXPECT_NEAR(a.projection.half_size.y, b.projection.half_size.y, 1e-5f);
   }
 }
+
+// --- marks -----------------------------------------------------------------------------------------------------------
+
+SlitRig any_rig(const SlitOptions& options, const CameraRig& camera) {
+  return make_slit_rig(camera, {64, 32}, kBoth, options);
+}
+
+CameraRig turned_camera() {
+  CameraRig camera;
+  camera.position = {1.5f, -0.3f, 2.0f};
+  camera.yaw = 30.1f, camera.pitch = 7.7f, camera.roll = -3.3f;
+  return camera;
+}
+
+// Whatever rounding the way through the file brings, also twice.
+TEST(RigMark, IsThatOfTheRigsFile) {
+  SlitOptions options;
+  options.slits = 60;
+  const SlitRig rig = any_rig(options, turned_camera());
+  const SlitRig once = read(write_slit_rig(rig)), twice = read(write_slit_rig(once));
+  EXPECT_EQ(rig_mark(once), rig_mark(rig));
+  EXPECT_EQ(rig_mark(twice), rig_mark(rig));
+  EXPECT_EQ(once.matrices, twice.matrices);
+  EXPECT_EQ(rig_mark(rig).find_first_of("\"\\\n"), std::string::npos);
+}
+
+TEST(RigMark, SaysWhichSettingIsAnother) {
+  SlitOptions options;
+  options.slits = 12;
+  const std::string mark = rig_mark(any_rig(options, {}));
+  EXPECT_EQ(mark_difference(mark, mark), "");
+  const auto difference = [&](const SlitOptions& changed, const CameraRig& camera = {}) {
+    return mark_difference(rig_mark(any_rig(changed, camera)), mark);
+  };
+  SlitOptions other = options;
+  other.padding = 8;
+  EXPECT_TRUE(difference(other).starts_with("padding is 8, not 4; view is ")) << difference(other);
+  other = options, other.depth = ViewDepth::kPlane;
+  EXPECT_EQ(difference(other), "depth is plane, not none");
+  other = options, other.slits = 14;
+  EXPECT_TRUE(difference(other).starts_with("slits is 14, not 12; ")) << difference(other);
+  CameraRig camera;
+  camera.ipd = 0.07f;
+  EXPECT_EQ(difference(options, camera), "ipd is 0.07, not 0.065");
+  camera = {}, camera.top = {kMergeCosine, 0.0f, 90.0f, 1.0f};
+  EXPECT_EQ(difference(options, camera), "merge_top is cosine,0,90,1, not none");
+  other = options, other.slits = 14, other.scale = 2.0f;
+  EXPECT_TRUE(difference(other, turned_camera()).ends_with("; and 3 more")) << difference(other, turned_camera());
+  EXPECT_EQ(mark_difference("nonsense", mark), "the mark is damaged");
+  EXPECT_EQ(mark_difference("ods-rig=2 views=00", mark), "the mark was written by another version of ods");
+}
+
+// A fade of another width needs no other views, and may be tried with those that are there.
+TEST(RigMark, IsTheSameWhereTheViewsAre) {
+  Json json = Json::parse(write_slit_rig(make_rig(12, {64, 32})));
+  const std::string mark = rig_mark(read(json.dump()));
+  json["blend"] = 0.25;
+  EXPECT_NE(rig_mark(read(json.dump())), mark);
+  EXPECT_EQ(mark_difference(rig_mark(read(json.dump())), mark), "");
+  json["views"][3]["matrix"][3] = 0.5;
+  EXPECT_EQ(mark_difference(rig_mark(read(json.dump())), mark), "blend is 0.25, not 0.5");
+  json["blend"] = 0.5;
+  EXPECT_EQ(mark_difference(rig_mark(read(json.dump())), mark), "the views stand or look elsewhere");
+}
+
+// --- bad input -------------------------------------------------------------------------------------------------------
 
 TEST(SlitFile, EditsThatMakeNoRigAreErrors) {
   const std::string good = write_slit_rig(make_rig(12, {64, 32}));
