@@ -72,6 +72,9 @@ TEST(RigMark, IsThatOfTheRigsFile) {
   EXPECT_EQ(rig_mark(twice), rig_mark(rig));
   EXPECT_EQ(once.matrices, twice.matrices);
   EXPECT_EQ(rig_mark(rig).find_first_of("\"\\\n"), std::string::npos);
+  const std::string file = mark_file_text(rig_mark(rig));
+  EXPECT_EQ(file.find('\n'), 50u);
+  EXPECT_EQ(mark_in_file(file), rig_mark(rig));
 }
 
 TEST(RigMark, SaysWhichSettingIsAnother) {

@@ -13,6 +13,7 @@
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/md5.h"
+#include "ods/base/text.h"
 #include "ods/stitch/slit_file.h"
 
 namespace ods {
@@ -106,18 +107,24 @@ static std::string value_of(const std::string& mark, const std::string& name) {
   return "";
 }
 
-std::string views_word(const std::string& mark) {
-  const std::string value = value_of(mark, "views");
-  return value.empty() ? "" : "views=" + value;
+std::string mark_file_text(const std::string& mark) {
+  const size_t rest = mark.find(" slits=");
+  return fmt::format("\"{}\"\n{}\n", mark.substr(0, rest), mark.substr(rest + 1));
+}
+
+std::string mark_in_file(const std::string& text) {
+  std::string mark = one_line(text);
+  std::erase(mark, '"');
+  return mark;
 }
 
 std::string mark_difference(const std::string& mark, const std::string& expected) {
   constexpr size_t kMostSaid = 5, kLongest = 64;
   if (mark == expected) return "";
   const std::string version = value_of(mark, "ods-rig");
-  if (version.empty() || views_word(mark).empty()) return "the mark is damaged";
+  if (version.empty() || value_of(mark, "views").empty()) return "the mark is damaged";
   if (version != kVersion) return "the mark was written by another version of ods";
-  if (views_word(mark) == views_word(expected)) return "";
+  if (value_of(mark, "views") == value_of(expected, "views")) return "";
   const auto said = [&](const std::string& value) { return value.empty() ? "not given" : value.substr(0, kLongest); };
   std::vector<std::string> parts;
   const auto compare = [&](const std::string& name) {

@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// The file in a folder of views: the mark in double quotes, as most languages write a string.
+// The file in a folder of views.
 inline constexpr const char* kRigMarkFile = "ods-rig.txt";
 
 // The attribute in a view's header (exr, png): the mark without quotes.
@@ -23,8 +23,12 @@ inline constexpr const char* kRigMarkAttribute = "ods:rig";
 // messages.
 std::string rig_mark(const SlitRig& rig);
 
-// The word `views=...` of a mark; empty: it has none. Two rigs have the same views if these are equal.
-std::string views_word(const std::string& mark);
+// What stands in that file: two lines, of which the first is `"ods-rig=1 views=..."`, with its quotes. POV-Ray can read
+// that line, and no string of more than 255 letters. The second line has the other words.
+std::string mark_file_text(const std::string& mark);
+
+// The mark in such a text; without `views`, if it is none.
+std::string mark_in_file(const std::string& text);
 
 // How the rig of one mark differs from that of another, "padding is 8, not 4"; empty: their views are the same.
 std::string mark_difference(const std::string& mark, const std::string& expected);

@@ -20,7 +20,6 @@
 #include "ods/base/frames.h"
 #include "ods/base/read_file.h"
 #include "ods/base/scratch.h"
-#include "ods/base/text.h"
 #include "ods/image/reproject.h"
 #include "ods/stitch/rig_mark.h"
 #include "ods/stitch/slit_file.h"
@@ -209,16 +208,14 @@ bool has_rig_marks(const SlitRig& rig, const ViewFiles& files) {
       continue;
     }
     const std::vector<unsigned char> bytes = read_file(path, kLargestMark);
-    std::string mark = one_line({bytes.begin(), bytes.end()});
-    std::erase(mark, '"');
-    check_rig_mark(mark, expected, path);
+    check_rig_mark(mark_in_file({bytes.begin(), bytes.end()}), expected, path);
   }
   return all;
 }
 
 void mark_folders(const SlitRig& rig, const ViewFiles& files) {
   if (has_rig_marks(rig, files)) return;
-  const std::string text = '"' + rig_mark(rig) + "\"\n";
+  const std::string text = mark_file_text(rig_mark(rig));
   for (const std::string& folder : view_folders(rig, files)) {
     std::error_code ignored;  // writing says what is wrong
     if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
