@@ -12,6 +12,7 @@
 #include "ods/cpu/render.h"
 #include "ods/kernel/random.h"
 #include "ods/scene/motion.h"
+#include "ods/stitch/rig_mark.h"
 #include "ods/stitch/view_files.h"
 
 void render_views(const RenderJob& job, ProgressLines& lines) {
@@ -21,6 +22,9 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   const std::string fault = names_fault(rig, files);
   if (!fault.empty()) throw UsageError(fault);
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
+  ods::mark_folders(rig, files);
+  ods::SaveOptions save = job.save;
+  save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
   ods::Scene scene = open_lit_scene(job.scene);
   TimeOptions time = job.time;
   start_clock(time, scene);
@@ -38,7 +42,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
       lines.report((static_cast<double>(i) + part) / static_cast<double>(rig.views.size()), seconds_since(start));
     };
     const ods::Picture picture = renderer.render({rig.views[i]}, options, progress);
-    save_picture(picture, rig.views[i], job.save, path);
+    save_picture(picture, rig.views[i], save, path);
     lines.clear();
     std::cout << path << std::endl;
   }

@@ -18,6 +18,7 @@ void run(const StitchJob& job, ProgressLines& lines) {
   const std::string fault = names_fault(rig, job.views);
   if (!fault.empty()) throw UsageError(fault);
   if (job.list_missing) {
+    has_rig_marks(rig, job.views);
     const std::vector<ods::ViewFault> faults = missing_views(rig, job.views, true);
     tell_faults(faults, note);
     if (!faults.empty()) std::cout << view_ranges(rig, job.views, faults) << std::endl;

@@ -12,6 +12,7 @@
 #include "cli/console.h"
 #include "cli/form_options.h"
 #include "ods/base/error.h"
+#include "ods/stitch/rig_mark.h"
 #include "ods/stitch/seams.h"
 #include "ods/stitch/slit_file.h"
 
@@ -42,6 +43,7 @@ void tell_faults(const std::vector<ViewFault>& faults, const std::function<void(
 
 void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFiles& views, const std::string& output,
                     const StitchReport& report) {
+  const bool has_marks = has_rig_marks(rig, views);
   if (!job.partial) {
     const std::vector<ViewFault> missing = missing_views(rig, views, false);
     if (!missing.empty()) refuse(rig, views, missing);
@@ -52,11 +54,12 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
   options.journal = output + ".stitching";
   options.journal_key = views_key(rig, views);
-  std::atomic<bool> shows_codes{false};
+  std::atomic<bool> shows_codes{false}, unmarked{false};
   const ods::OpenView open_file = open_view_files(rig, views);
   const ods::OpenView open = [&](size_t view) {
     ods::StoredPicture picture = open_file(view);
     if (!picture.is_float) shows_codes = true;
+    if (!has_marks && picture.rig_mark.empty()) unmarked = true;
     return picture;
   };
   const ods::Stitched stitched = stitch(rig, open, options, [&](double part) { report(0.9 * part); });
@@ -67,6 +70,9 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   if (!stitched.faults.empty()) {
     tell_faults(stitched.faults, note);
     note(fmt::format("{} of {} views are missing: black", stitched.faults.size(), rig.views.size()));
+  }
+  if (unmarked && job.says_unmarked) {
+    note(fmt::format("nothing says which rig the views are of: no {} in their folder", ods::kRigMarkFile));
   }
   ods::SaveOptions save = job.save;
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
@@ -95,13 +101,15 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
   const FrameNames folders = folder_names(job.views.names), outputs = film_names(job.output);
   const std::string file = std::filesystem::path(job.views.names).filename().string();
   const std::vector<int> frames = ods::parse_frames(job.frames);
+  StitchJob each = job;
   for (size_t i = 0; i < frames.size(); i++) {
     const std::string output = outputs.path(frames[i]);
     if (job.skip_existing && ods::is_saved(output)) continue;
     ViewFiles views = job.views;
     views.names = folders.path(frames[i]) + "/" + file;
-    stitch_picture(job, rig, views, output,
+    stitch_picture(each, rig, views, output,
                    [&](double part) { report((static_cast<double>(i) + part) / static_cast<double>(frames.size())); });
+    each.says_unmarked = false;  // once is enough
   }
   return frames;
 }

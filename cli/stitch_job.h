@@ -19,6 +19,7 @@ struct StitchJob {
   bool has_tone = false;
   bool partial = false;
   bool says_files = true;
+  bool says_unmarked = true;  // notes views that do not say which rig they are of
   bool list_missing = false;
   bool skip_existing = false;
   int threads = 0;

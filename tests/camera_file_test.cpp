@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
+#include "ods/base/json_reader.h"
 #include "tests/statistics.h"
 #include "tests/temporary_folder.h"
 
@@ -162,6 +164,31 @@ TEST(CameraFile, NonsenseIsAnErrorOfOneLine) {
                                   std::string(R"({"omnistereo_camera": 0})"), std::string("\xff\xfe{")}) {
     EXPECT_NE(error_of(text), "") << text.substr(0, 40);
   }
+}
+
+// Every value of a whole file in turn. Of all keys only these two have null as a value.
+TEST(CameraFile, NullAndWrongTypesAreNoDefaults) {
+  Dice dice(4);
+  const Json good = Json::parse(write_camera(random_file(dice, 0)));
+  EXPECT_EQ(error_of(good.dump()), "");
+  const Json values = good.flatten();
+  EXPECT_GT(values.size(), 40u);
+  for (const auto& [path, value] : values.items()) {
+    if (path.starts_with("/conventions") || path == "/made_by") continue;
+    for (Json::json_pointer at(path); !at.empty(); at = at.parent_pointer()) {
+      const bool is_optional = at.to_string() == "/axis" || at.to_string() == "/merge_map";
+      for (const Json& wrong :
+           {Json(nullptr), Json(""), Json("x"), Json(true), Json::array(), Json::object({{"x", 1}})}) {
+        if ((wrong.type() == good[at].type() && wrong != "") || (wrong.is_null() && is_optional)) continue;
+        Json broken = good;
+        broken[at] = wrong;
+        EXPECT_NE(error_of(broken.dump()), "") << at.to_string() << " is " << wrong.dump();
+      }
+    }
+  }
+  EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "axis": null, "merge_map": null})"), "");
+  EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "ipd": null})"),
+            "'x.camera.json' is no camera: ipd is a number from 0 to 10000, not null");
 }
 
 // Bytes changed at random: an error of one line, or a camera whose rays are numbers.

@@ -72,6 +72,56 @@ TEST_F(CliStitch, ViewsThatAreMissingAreSaidTogether) {
   EXPECT_NE(err.find("40"), std::string::npos) << err;
 }
 
+// Views of the same number and size.
+TEST_F(CliStitch, ViewsOfAnotherRigAreRefused) {
+  ASSERT_EQ(plan("--slits 12 --width 64 --ipd 0.06"), 0) << err;
+  ASSERT_EQ(render(), 0) << err;
+  const std::string mark = folder.path("views/ods-rig.txt");
+  ASSERT_TRUE(std::filesystem::exists(mark));
+  ASSERT_EQ(plan(), 0) << err;
+  EXPECT_EQ(stitch("picture.exr"), 3);
+  const std::string fault = "views of another rig (ipd is 0.06, not 0.065): render them with this rig, or use theirs";
+  EXPECT_NE(err.find(mark + "': " + fault), std::string::npos) << err;
+  EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 3);
+  EXPECT_EQ(render(), 3) << "a folder is of one rig";
+  EXPECT_NE(err.find(mark + "': views of another rig"), std::string::npos) << err;
+  std::filesystem::remove(mark);  // the views' own headers say it, too
+  EXPECT_EQ(stitch("picture.exr"), 3);
+  EXPECT_NE(err.find("0001.exr': " + fault), std::string::npos) << err;
+  EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 0);
+  EXPECT_EQ(out, "1-48\n");
+  ASSERT_EQ(render(), 0) << err;
+  EXPECT_EQ(stitch("picture.exr"), 0) << err;
+}
+
+TEST_F(CliStitch, ViewsThatDoNotSayTheirRigAreNoted) {
+  ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
+  const std::string jpegs = folder.path("views/####.jpg");  // which have no room for a mark
+  ASSERT_EQ(run("render axis -q --samples 1 --rig " + rig + " -o " + jpegs), 0) << err;
+  ASSERT_EQ(run("stitch " + rig + " " + jpegs + " -o " + folder.path("a.png")), 0) << err;
+  EXPECT_EQ(err.find("which rig"), std::string::npos) << err;
+  std::filesystem::remove(folder.path("views/ods-rig.txt"));
+  ASSERT_EQ(run("stitch " + rig + " " + jpegs + " -o " + folder.path("a.png")), 0) << err;
+  EXPECT_NE(err.find("nothing says which rig the views are of"), std::string::npos) << err;
+  folder.write("views/ods-rig.txt", "views of some rig");
+  EXPECT_EQ(run("stitch " + rig + " " + jpegs + " -o " + folder.path("a.png")), 3);
+  EXPECT_NE(err.find("the mark is damaged"), std::string::npos) << err;
+}
+
+// Where a view of another rig was left in the folder.
+TEST_F(CliStitch, AViewOfAnotherRigIsAtFault) {
+  views = folder.path("views/####.png");
+  ASSERT_EQ(plan("--slits 12 --width 64 --ipd 0.06"), 0) << err;
+  ASSERT_EQ(render(), 0) << err;
+  std::filesystem::rename(folder.path("views/0005.png"), folder.path("0005.png"));
+  std::filesystem::remove_all(folder.path("views"));
+  ASSERT_EQ(plan(), 0) << err;
+  ASSERT_EQ(render(), 0) << err;
+  std::filesystem::rename(folder.path("0005.png"), folder.path("views/0005.png"));
+  EXPECT_EQ(stitch("picture.exr"), 3);
+  EXPECT_NE(err.find("1 of 48 views cannot be used: render 5 again"), std::string::npos) << err;
+}
+
 TEST_F(CliStitch, FramesBecomeAFilm) {
   ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
   for (const char* frame : {"1", "2"}) {

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -15,6 +16,7 @@
 #include "ods/scene/load.h"
 #include "ods/scene/motion.h"
 #include "ods/stitch/export.h"
+#include "ods/stitch/rig_mark.h"
 #include "tests/temporary_folder.h"
 
 namespace ods {
@@ -261,6 +263,99 @@ TEST(RigExport, JavaScriptTakesTheModule) {
                "import { views, fileName, width } from './rig.mjs';\n"
                "if (views.length !== 32 || views[31].length !== 12 || fileName(7) !== '0007.png') process.exit(1);\n");
   EXPECT_TRUE(runs("node " + folder.path("check.mjs")));
+}
+
+// --- marks -----------------------------------------------------------------------------------------------------------
+
+SlitRig other_rig() {
+  SlitRig rig = make_rig();
+  rig.camera.ipd = 0.1f;
+  return make_slit_rig(rig.camera, rig.eye, rig.eyes, rig.options);
+}
+
+std::string mark_file(const SlitRig& rig) {
+  return mark_file_text(rig_mark(rig));
+}
+
+TEST(RigExport, ScriptsSayWhichRigTheirViewsAreOf) {
+  const SlitRig rig = make_rig();
+  for (const RigTarget target :
+       {RigTarget::kBlender, RigTarget::kPovray, RigTarget::kThree, RigTarget::kUnity, RigTarget::kUnreal}) {
+    const std::string text = text_of(rig, target);
+    EXPECT_TRUE(has(text, rig_mark(rig).substr(0, 48))) << rig_target_name(target);
+    EXPECT_TRUE(has(text, std::string("ods-rig.txt\""))) << rig_target_name(target);
+  }
+}
+
+// As Blender would: views are files with a letter in them.
+constexpr const char* kPretendBlender = R"(
+import runpy, sys
+from unittest.mock import MagicMock
+
+bpy = MagicMock()
+bpy.path.abspath = lambda path: path
+bpy.context.scene.timeline_markers = []
+bpy.ops.render.render = lambda write_still: open(bpy.context.scene.render.filepath, "w").write("x")
+sys.modules["bpy"], sys.modules["mathutils"] = bpy, MagicMock()
+script, sys.argv = sys.argv[1], ["blender", "--", "1", "2", sys.argv[2]]
+runpy.run_path(script, run_name="__main__")
+)";
+
+TEST(RigExport, BlendersScriptMarksTheFolderAndKeepsToItsRig) {
+  if (!runs("python3 -c pass")) GTEST_SKIP() << "skipped: python3 is not installed";
+  const TemporaryFolder folder;
+  folder.write("blender.py", kPretendBlender);
+  folder.write("a.py", text_of(make_rig(), RigTarget::kBlender));
+  folder.write("b.py", text_of(other_rig(), RigTarget::kBlender));
+  const auto render = [&](const std::string& script) {
+    return runs("python3 " + folder.path("blender.py") + " " + folder.path(script) + " " + folder.path("views"));
+  };
+  EXPECT_TRUE(render("a.py"));
+  EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
+  EXPECT_EQ(folder.read("views/0002.exr"), "x");
+  EXPECT_FALSE(render("b.py"));
+  EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
+  EXPECT_TRUE(render("a.py"));
+}
+
+TEST(RigExport, PovraysCameraMarksTheFolderAndKeepsToItsRig) {
+  if (!runs("command -v povray")) GTEST_SKIP() << "skipped: POV-Ray is not installed";
+  const TemporaryFolder folder;
+  const auto render = [&](const SlitRig& rig, const std::string& frame) {
+    folder.write("rig.povray.inc", text_of(rig, RigTarget::kPovray));
+    folder.write("rig.povray.ini", text_of(rig, RigTarget::kPovray, 1));
+    return runs("cd " + folder.path("") + " && povray rig.povray.ini +Iscene.pov +SF" + frame + " +EF" + frame);
+  };
+  folder.write("scene.pov", "#version 3.7;\nsphere { <0, 0, 0>, 0.1 }\n#include \"rig.povray.inc\"\n");
+  std::filesystem::create_directory(folder.path("views"));
+  EXPECT_TRUE(render(make_rig(), "1"));
+  EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
+  EXPECT_TRUE(render(make_rig(), "2"));
+  EXPECT_FALSE(render(other_rig(), "3"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("views/view0003.exr")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("views/view0002.exr")));
+}
+
+TEST(RigExport, ThreesModuleSavesTheMarkBeforeTheViews) {
+  if (!runs("node --version")) GTEST_SKIP() << "skipped: node is not installed";
+  const TemporaryFolder folder;
+  folder.write("rig.mjs", text_of(make_rig(), RigTarget::kThree));
+  folder.write("check.mjs", R"(
+import { writeFileSync } from "node:fs";
+import { renderViews } from "./rig.mjs";
+const anything = new Proxy(function () {}, { get: () => anything, apply: () => anything, construct: () => anything });
+const domElement = { toBlob: (done) => done(new Blob(["x"])) };
+const renderer = new Proxy({ domElement }, { get: (of, key) => of[key] ?? anything });
+let names = "";
+async function save(name, blob) {
+  names += name + " ";
+  if (name === "ods-rig.txt") writeFileSync(process.argv[2], await blob.text());
+}
+await renderViews({ PerspectiveCamera: anything }, renderer, anything, { save, last: 2 });
+if (names !== "ods-rig.txt 0001.png 0002.png ") process.exit(1);
+)");
+  EXPECT_TRUE(runs("node " + folder.path("check.mjs") + " " + folder.path("mark.txt")));
+  EXPECT_EQ(folder.read("mark.txt"), mark_file(make_rig()));
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "ods/base/error.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/stitch/slit_error.h"
-#include "ods/stitch/slit_file.h"
 #include "ods/stitch/view_files.h"
 #include "tests/stored_pictures.h"
 #include "tests/temporary_folder.h"
@@ -421,56 +420,6 @@ TEST(ViewFiles, SheetsHoldSeveralViews) {
   EXPECT_EQ(view_ranges(rig, files, missing_views(rig, files, false)), "2");
   files.columns = 100;
   EXPECT_NE(names_fault(rig, files), "");
-}
-
-// --- files ----------------------------------------------------------------------------------------------------------
-
-SlitRig read(const std::string& text) {
-  std::vector<std::string> warnings;
-  SlitRig rig = read_slit_rig(text, "rig.json", warnings);
-  EXPECT_TRUE(warnings.empty());
-  return rig;
-}
-
-TEST(SlitFile, ComesBack) {
-  CameraRig camera;
-  camera.position = {1.0f, 2.0f, 3.0f};
-  camera.yaw = 30.0f, camera.ipd = 0.07f;
-  SlitOptions options;
-  options.slits = 12, options.pitches = 3, options.caps = true;
-  const SlitRig rig = make_slit_rig(camera, {64, 32}, kBoth, options), back = read(write_slit_rig(rig));
-  EXPECT_EQ(back.options.slits, 12);
-  EXPECT_TRUE(back.options.caps);
-  EXPECT_EQ(back.camera.ipd, 0.07f);
-  EXPECT_EQ(back.view.height, rig.view.height);
-  ASSERT_EQ(back.views.size(), rig.views.size());
-  for (size_t i = 0; i < rig.views.size(); i++) {
-    const Camera a = make_camera(rig.views[i]), b = make_camera(back.views[i]);
-    EXPECT_LT(length(a.back - b.back) + length(a.up - b.up) + length(a.center - b.center), 1e-5f);
-    EXPECT_NEAR(a.projection.half_size.x, b.projection.half_size.x, 1e-6f);
-    EXPECT_NEAR(a.projection.half_size.y, b.projection.half_size.y, 1e-5f);
-  }
-}
-
-TEST(SlitFile, EditsThatMakeNoRigAreErrors) {
-  const std::string good = write_slit_rig(make_rig(12, {64, 32}));
-  const auto with = [&](const std::string& from, const std::string& to) {
-    const size_t at = good.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    return good.substr(0, at) + to + good.substr(at + from.size());
-  };
-  for (const std::string& bad :
-       {std::string("{}"), std::string("nonsense"), std::string(""), good.substr(0, good.size() / 2),
-        with("\"slits\": 12", "\"slits\": 0"), with("\"slits\": 12", "\"slits\": 13"),
-        with("\"pitches\": 2", "\"pitches\": 1000"), with("\"caps\": false", "\"caps\": true"),
-        with("\"caps\": false", "\"caps\": 1"), with("\"omnistereo_slits\": 1", "\"omnistereo_slits\": 99"),
-        with("\"matrix\":[", "\"matrix\":[5,"), with("\"matrix\":[", "\"matrix\":[null,"),
-        with("\"number\":2", "\"number\":3"), with("\"depth\": \"none\"", "\"depth\": \"deep\""),
-        with("\"name\": \"lat-long\"", "\"name\": \"cube-3x2\""), with("\"fov\": [", "\"fov\": [\"x\","),
-        with("\"width\"", "\"widht\": 1e9, \"width\": 1e9, \"w\"")}) {
-    std::vector<std::string> warnings;
-    EXPECT_THROW(read_slit_rig(bad, "rig.json", warnings), Error) << bad.substr(0, 300);
-  }
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 //   node views.mjs PAGE.html [FOLDER [FIRST LAST]]     FOLDER: views. FIRST, LAST: the views, for a farm
 //
 // The page's own folder is served to it, and nothing else of the disk. From the page:
-//   PUT  /views/0001.png   a file into FOLDER; it appears complete or not at all
+//   PUT  /views/0001.png   a file into FOLDER (ods-rig.txt, too); it appears complete or not at all
 //   POST /end              the end: of what went well without words, else what went wrong
 // ?first=FIRST&last=LAST is what the page is told. CHROMIUM is the browser, if none of the usual names is one.
 import { spawn, spawnSync } from "node:child_process";
-import { createReadStream, existsSync, mkdirSync, mkdtempSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { createReadStream, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { basename, dirname, extname, join, resolve, sep } from "node:path";
@@ -40,10 +40,14 @@ function body(request) {
 }
 
 async function take(name, request) {
+  const bytes = await body(request), path = join(folder, name);
+  if (name === "ods-rig.txt" && existsSync(path) && !readFileSync(path).equals(bytes)) {
+    throw new Error(`${path}: views of another rig. Remove the folder, or name another one`);
+  }
   const unfinished = join(folder, `.unfinished.${process.pid}.${name}`);
-  writeFileSync(unfinished, await body(request));
-  renameSync(unfinished, join(folder, name));
-  console.log(join(folder, name));
+  writeFileSync(unfinished, bytes);
+  renameSync(unfinished, path);
+  console.log(path);
 }
 
 function send(path, response, ended) {
@@ -59,7 +63,7 @@ function send(path, response, ended) {
 
 async function answer(request, response, ended) {
   const path = decodeURIComponent(new URL(request.url, "http://page").pathname);
-  const view = /^\/views\/([\w-]+\.png)$/.exec(path);
+  const view = /^\/views\/([\w-]+\.(?:png|txt))$/.exec(path);
   if (request.method === "PUT" && view) await take(view[1], request);
   else if (request.method === "POST" && path === "/end") ended((await body(request)).toString());
   else if (request.method === "GET") return send(path, response, ended);

@@ -36,8 +36,9 @@ JsonReader::JsonReader(const Json& json, std::string file, std::string noun, std
 
 void JsonReader::fail(const std::string& key, const std::string& wanted) const {
   const std::string name = place_ + (place_.empty() || key.empty() ? "" : ".") + key;
-  throw Error(ErrorKind::kInput,
-              fmt::format("'{}' is no {}: {} {}", file_, noun_, name.empty() ? "the file" : name, wanted));
+  const bool is_null = json_.is_object() && json_.contains(key) && json_.at(key).is_null();
+  throw Error(ErrorKind::kInput, fmt::format("'{}' is no {}: {} {}{}", file_, noun_, name.empty() ? "the file" : name,
+                                             wanted, is_null ? ", not null" : ""));
 }
 
 void JsonReader::version(const std::string& mark, int newest) {
@@ -52,7 +53,12 @@ void JsonReader::version(const std::string& mark, int newest) {
 const Json* JsonReader::find(const std::string& key) {
   known_.push_back(key);
   const auto found = json_.find(key);
-  return found == json_.end() || found->is_null() ? nullptr : &*found;
+  return found == json_.end() ? nullptr : &*found;
+}
+
+bool JsonReader::is_null(const std::string& key) {
+  const Json* json = find(key);
+  return json && json->is_null();
 }
 
 float JsonReader::checked(const Json& json, const std::string& key, float low, float high) const {
@@ -106,7 +112,7 @@ bool JsonReader::vector(const std::string& key, glm::vec3& value, float low, flo
 
 std::string JsonReader::word(const std::string& key) {
   const Json* json = find(key);
-  if (json && !json->is_string()) fail(key, "is a word in quotes");
+  if (json && (!json->is_string() || *json == "")) fail(key, "is a word in quotes");
   return json ? json->get<std::string>().substr(0, 64) : "";
 }
 

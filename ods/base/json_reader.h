@@ -18,8 +18,8 @@ using Json = nlohmann::ordered_json;
 // what it should be, "camera".
 Json parse_json(std::string_view text, const std::string& name, const std::string& noun);
 
-// One object of a file, and where it lies in it: "merge_top". Everything throws Error(kInput). What is missing or null
-// leaves its variable as it is.
+// One object of a file, and where it lies in it: "merge_top". Everything throws Error(kInput). A key that is missing
+// leaves its variable as it is; one that is null is a value of the wrong type.
 class JsonReader {
  public:
   JsonReader(const Json& json, std::string file, std::string noun, std::string place,
@@ -27,14 +27,17 @@ class JsonReader {
   JsonReader(const JsonReader&) = delete;
   JsonReader& operator=(const JsonReader&) = delete;
 
-  // "'file' is no noun: place.key wanted"
+  // "'file' is no noun: place.key wanted"; where the key is null: "place.key wanted, not null"
   [[noreturn]] void fail(const std::string& key, const std::string& wanted) const;
 
   // A file's mark and version, which stand first: "omnistereo_camera": 1. Refuses what is newer than `newest`.
   void version(const std::string& mark, int newest);
 
-  // The value of a key; nullptr: it is missing or null.
+  // The value of a key; nullptr: it is missing.
   const Json* find(const std::string& key);
+
+  // Whether a key is null: for keys to which null is a value.
+  bool is_null(const std::string& key);
 
   void number(const std::string& key, float& value, float low, float high);
   void integer(const std::string& key, int& value, int low, int high);

@@ -150,7 +150,7 @@ void read_rig(JsonReader& in, CameraRig& rig) {
   in.number("neck", rig.neck, -10.0f, 10.0f);
   in.flag("mirrored", rig.mirrored);
   vec3 axis(0.0f);
-  if (in.vector("axis", axis, -1e6f, 1e6f)) {
+  if (!in.is_null("axis") && in.vector("axis", axis, -1e6f, 1e6f)) {
     if (!(length(axis) > 1e-6f)) in.fail("axis", "is a direction");
     rig.axis = axis;
   }
@@ -206,7 +206,7 @@ CameraFile read_camera(std::string_view text, const std::string& name, std::vect
   in.part("projection", [&](JsonReader& reader) { read_projection(reader, rig.projection); });
   in.part("merge_top", [&](JsonReader& reader) { read_merge(reader, rig.top); });
   in.part("merge_bottom", [&](JsonReader& reader) { read_merge(reader, rig.bottom); });
-  in.part("merge_map", [&](JsonReader& reader) { read_map(reader, rig); });
+  if (!in.is_null("merge_map")) in.part("merge_map", [&](JsonReader& reader) { read_map(reader, rig); });
   in.part("convergence", [&](JsonReader& reader) { read_convergence(reader, rig); });
   in.part("lens", [&](JsonReader& reader) { read_lens(reader, rig); });
   in.finish();

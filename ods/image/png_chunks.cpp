@@ -115,6 +115,15 @@ static bool is_whole(const Chunk& chunk, const ByteReader& read) {
   return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && get_number(stored, 0, 4) == ~crc;
 }
 
+// The mark of a view's rig (ods/stitch/rig_mark.h).
+static bool is_rig_mark(const Chunk& chunk, const ByteReader& read) {
+  constexpr std::string_view kKeyword{"ods:rig\0", 8};
+  constexpr size_t kLongest = 1 << 16;
+  std::string keyword(kKeyword.size(), '\0');
+  if (chunk.type != "tEXt" || chunk.length < keyword.size() || chunk.length > kLongest) return false;
+  return read(chunk.offset + 8, keyword.data(), keyword.size()) && keyword == kKeyword && is_whole(chunk, read);
+}
+
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read) {
   const size_t kSignature = 8, kFrame = 12;
   std::vector<FileRange> parts{{0, kSignature}};
@@ -131,8 +140,9 @@ std::optional<std::vector<FileRange>> essential_png(size_t file_size, const Byte
     }
     const std::string& type = chunk.type;
     has_pixels = has_pixels || type == "IDAT";
-    if (type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND") {
-      if (!is_whole(chunk, read)) return std::nullopt;
+    const bool is_mark = is_rig_mark(chunk, read);
+    if (is_mark || type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND") {
+      if (!is_mark && !is_whole(chunk, read)) return std::nullopt;
       if (parts.back().offset + parts.back().size != at) parts.push_back({at, 0});
       parts.back().size += chunk.length + kFrame;
     }

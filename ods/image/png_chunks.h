@@ -62,10 +62,10 @@ class FileParts {
   size_t size_ = 0;
 };
 
-// Where in a file of so many bytes the parts of a PNG lie that make its pixels; nothing when one is cut short, damaged
-// or missing. libpng comments on such files, and on common flaws of the other chunks, on stderr. (It still does on a
-// file whose chunks are whole and make no picture: OpenImageIO's handler of errors returns into libpng, which then
-// prints. Only unpacking the pixels twice would tell before.)
+// Where in a file of so many bytes the parts of a PNG lie that make its pixels, and the word ods:rig; nothing when one
+// is cut short, damaged or missing. libpng comments on such files, and on common flaws of the other chunks, on stderr.
+// (It still does on a file whose chunks are whole and make no picture: OpenImageIO's handler of errors returns into
+// libpng, which then prints. Only unpacking the pixels twice would tell before.)
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read);
 
 }  // namespace ods

@@ -293,6 +293,9 @@ static FileHeader make_header(const File& file, const CameraRig* rig) {
     add_gpano(header.attributes, *rig, size);
   }
 
+  if (format == FileFormat::kExr || format == FileFormat::kPng) {
+    header.attributes.insert(header.attributes.end(), file.options.attributes.begin(), file.options.attributes.end());
+  }
   Sample sample = Sample::kUint8;
   switch (format) {
     case FileFormat::kExr:

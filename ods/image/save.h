@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/image/attribute.h"
 #include "ods/image/camera_rig.h"
 #include "ods/image/layout.h"
 #include "ods/image/picture.h"
@@ -38,8 +39,9 @@ struct SaveOptions {
   Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name means kSeparate, whatever stands here
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
-  int jpeg_quality = 95;  // of jpg and webp, 1..100
-  bool sidecar = false;   // picture.camera.json too (ods/image/camera_file.h); one that is there is always written anew
+  int jpeg_quality = 95;              // of jpg and webp, 1..100
+  std::vector<Attribute> attributes;  // more words for the header of exr and png
+  bool sidecar = false;  // picture.camera.json too (ods/image/camera_file.h); one that is there is always written anew
 };
 
 // Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a

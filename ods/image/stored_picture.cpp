@@ -438,6 +438,7 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.rig = form.camera;
   picture.ipd_is_said = form.ipd_is_said;
   picture.guesses = std::move(form.guesses);
+  if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
   const auto parts = info.numbers.find("oiio:subimages");
   if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
     picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));

@@ -45,6 +45,7 @@ struct StoredPicture {
   std::string layout_because;        // how that is known: "its name ends in _TB"
   CameraRig rig;                     // how it was taken, as far as is known: projection, ipd, merge, convergence, pose
   bool ipd_is_said = false;          // by the caller, the file or its sidecar; else it is the usual one
+  std::string rig_mark;              // ods:rig: the rig of slits that it is a view of; empty: not said
   std::vector<std::string> guesses;  // what the file did not say, to be said to people: "top-bottom: ..."
   std::shared_ptr<Scratch> memory;   // where the pixels lie
 };

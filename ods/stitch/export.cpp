@@ -106,6 +106,14 @@ std::string matrix_rows(const ViewPose& pose) {
   return text;
 }
 
+std::string mark_literal(const SlitRig& rig) {
+  std::string literal = "\"";
+  for (const char c : mark_file_text(rig_mark(rig))) {
+    literal += c == '\n' ? std::string("\\n") : c == '"' ? std::string("\\\"") : std::string(1, c);
+  }
+  return literal + "\"";
+}
+
 std::vector<std::string> head_lines(const SlitRig& rig, const std::string& name, const ScriptHead& head,
                                     std::vector<std::string>& warnings) {
   if (rig.options.depth != ViewDepth::kNone && !head.has_depth) {

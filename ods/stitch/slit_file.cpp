@@ -26,14 +26,9 @@ constexpr float kFarthest = 1e6f;             // metres
 
 // --- writing --------------------------------------------------------------------------------------------------------
 
-Json matrix_of(const CameraRig& view) {
-  const Camera camera = make_camera(view);
+Json matrix_of(const SlitRig& rig, size_t view) {
   Json rows = Json::array();
-  for (int row = 0; row < 3; row++) {
-    for (const vec3 column : {camera.right, camera.up, camera.back, camera.center})
-      rows.push_back(decimal(column[row]));
-  }
-  for (const double last : {0.0, 0.0, 0.0, 1.0}) rows.push_back(last);
+  for (const float value : view_matrix(rig, view)) rows.push_back(decimal(value));
   return rows;
 }
 
@@ -53,6 +48,17 @@ float vertical_fov(const CameraRig& view) {
 }
 
 }  // namespace
+
+std::vector<float> view_matrix(const SlitRig& rig, size_t view) {
+  if (!rig.matrices.empty()) return rig.matrices[view];
+  const Camera camera = make_camera(rig.views[view]);
+  std::vector<float> rows;
+  for (int row = 0; row < 3; row++) {
+    for (const vec3 column : {camera.right, camera.up, camera.back, camera.center}) rows.push_back(column[row]);
+  }
+  rows.insert(rows.end(), {0.0f, 0.0f, 0.0f, 1.0f});
+  return rows;
+}
 
 std::string write_slit_rig(const SlitRig& rig) {
   const SlitOptions& options = rig.options;
@@ -82,7 +88,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                        {"eye", eye_name(rig.eyes[column / slits])},
                        {"slit", column % slits},
                        {"pitch", pitch},
-                       {"matrix", matrix_of(rig.views[i])}};
+                       {"matrix", matrix_of(rig, i)}};
     text += fmt::format("{}\n    {}", i == 0 ? "" : ",", view.dump());
   }
   return text + "\n  ]\n}\n";
@@ -93,9 +99,10 @@ std::string write_slit_rig(const SlitRig& rig) {
 namespace {
 
 ViewDepth depth_of(JsonReader& in) {
+  if (!in.find("depth")) return ViewDepth::kNone;
   const std::string word = in.word("depth");
   for (const ViewDepth depth : kViewDepths) {
-    if (word.empty() || word == view_depth_name(depth)) return word.empty() ? ViewDepth::kNone : depth;
+    if (word == view_depth_name(depth)) return depth;
   }
   in.fail("depth", "is none, ray or plane");
 }
@@ -127,6 +134,7 @@ void read_view(const Json& json, const std::string& name, size_t index, std::vec
   if (!in.numbers("matrix", matrix, 16, -kFarthest, kFarthest) || !set_pose(matrix, rig.views[index])) {
     in.fail("matrix", "is a place and an attitude: 16 numbers in rows, without scale or mirroring");
   }
+  rig.matrices.push_back(std::move(matrix));
   in.finish();
 }
 
@@ -151,7 +159,7 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   SlitOptions options;
   read_options(in, options);
   const Json* camera = in.find("camera");
-  if (!camera) in.fail("camera", "is missing");
+  if (!camera || !camera->is_object()) in.fail("camera", "is an object {...}: the picture's camera");
   const CameraFile file = read_camera(camera->dump(), name, warnings);
   const std::string fault = slit_fault(file.rig, file.eye, options);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);

@@ -19,6 +19,9 @@ inline constexpr int kSlitFileVersion = 1;
 // along -Z) to the world's: four rows of four, the last column is where it stands.
 std::string write_slit_rig(const SlitRig& rig);
 
+// That of a view, 16 numbers: the file's own, if the rig was read from one.
+std::vector<float> view_matrix(const SlitRig& rig, size_t view);
+
 // `name` stands for the text in messages. Where a view looks and stands is what its matrix says, and may be what people
 // have made of it; its number and place in the list may not. Keys that we do not know are named in `warnings`.
 // Throws Error(kInput): not JSON, no rig, a newer version, a value out of range, views that are missing, a matrix that

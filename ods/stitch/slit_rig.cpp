@@ -179,7 +179,7 @@ std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& o
   }
   if (options.pitches < 1 || options.pitches > 64) return "there are 1 to 64 views above each other";
   if (options.caps && options.pitches < 3) return "caps are two of at least 3 pitches";
-  const SlitRig rig{camera, eye, {kRight}, options, {}, {}};
+  const SlitRig rig{camera, eye, {kRight}, options, {}, {}, {}};
   const Window window = place_views(rig).window;
   if (!(window.x < kWidestTangent && window.y < kWidestTangent)) {
     return "a view would have to see more than 170 degrees: more slits, more pitches, or eyes toed in on a farther "
@@ -193,7 +193,7 @@ std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& o
 
 SlitRig make_slit_rig(const CameraRig& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options) {
   assert(slit_fault(camera, eye, options).empty());
-  SlitRig rig{camera, eye, eyes, options, {}, {}};
+  SlitRig rig{camera, eye, eyes, options, {}, {}, {}};
   Views all = place_views(rig);
   rig.views = std::move(all.views);
   rig.view = {pixels_for(all.window.x, rig), pixels_for(all.window.y, rig)};

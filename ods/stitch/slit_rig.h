@@ -50,6 +50,9 @@ struct SlitRig {
   // One perspective picture each, without ipd; where it looks is its pose. Eye by eye; of each, slit by slit from the
   // left; of each, from the top.
   std::vector<CameraRig> views;
+  // Of a rig that was read from a file: each view's matrix as it stands there, 16 numbers, row by row. `views` are the
+  // same places and directions, but angles round them.
+  std::vector<std::vector<float>> matrices;
 };
 
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);

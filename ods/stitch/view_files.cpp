@@ -13,12 +13,15 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 
+#include "ods/base/atomic_file.h"
 #include "ods/base/error.h"
 #include "ods/base/frames.h"
 #include "ods/base/read_file.h"
 #include "ods/base/scratch.h"
 #include "ods/image/reproject.h"
+#include "ods/stitch/rig_mark.h"
 #include "ods/stitch/slit_file.h"
 
 namespace ods {
@@ -87,11 +90,13 @@ void turn_normals(const StoredPicture& picture, const Camera& camera) {
   }
 }
 
-StoredPicture open_file(const std::string& path, const CameraRig& pose) {
+// `mark`: of the rig that the file should be of.
+StoredPicture open_file(const std::string& path, const CameraRig& pose, const std::string& mark) {
   OpenOptions options;
   options.form.one_eye = true;
   options.form.camera = pose;
   StoredPicture picture = open_picture(path, options);
+  if (!picture.rig_mark.empty()) check_rig_mark(picture.rig_mark, mark, path);
   call_depth_z(picture);
   return picture;
 }
@@ -118,7 +123,7 @@ StoredPicture part_of(StoredPicture sheet, const ViewFiles& files, Extent view, 
 // Sheets of which some views are still to come.
 class Sheets {
  public:
-  Sheets(const SlitRig& rig, ViewFiles files) : rig_(rig), files_(std::move(files)) {}
+  Sheets(const SlitRig& rig, ViewFiles files) : rig_(rig), mark_(rig_mark(rig)), files_(std::move(files)) {}
 
   StoredPicture view(size_t index) {
     const std::string path = view_path(rig_, files_, index);
@@ -148,12 +153,13 @@ class Sheets {
   };
 
   StoredPicture open_whole(const std::string& path, size_t index) {
-    StoredPicture whole = open_file(path, rig_.views[index]);
+    StoredPicture whole = open_file(path, rig_.views[index], mark_);
     check_size(whole.size, {rig_.view.width * files_.columns, rig_.view.height * files_.rows}, path);
     return whole;
   }
 
   const SlitRig& rig_;
+  const std::string mark_;
   ViewFiles files_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Sheet>> sheets_;
@@ -180,6 +186,45 @@ std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view) {
   return path_for_eye(frame_names(files.names)->path(name.number), name.eye);
 }
 
+// --- marks of folders ------------------------------------------------------------------------------------------------
+
+std::vector<std::string> view_folders(const SlitRig& rig, const ViewFiles& files) {
+  std::set<std::string> folders;
+  for (size_t i = 0; i < rig.views.size(); i++) {
+    const std::string path = view_path(rig, files, i);
+    folders.insert(path.substr(0, path.rfind('/') + 1));
+  }
+  return {folders.begin(), folders.end()};
+}
+
+bool has_rig_marks(const SlitRig& rig, const ViewFiles& files) {
+  constexpr size_t kLargestMark = 1 << 16;
+  const std::string expected = rig_mark(rig);
+  bool all = true;
+  for (const std::string& folder : view_folders(rig, files)) {
+    const std::string path = folder + kRigMarkFile;
+    if (!std::filesystem::exists(path)) {
+      all = false;
+      continue;
+    }
+    const std::vector<unsigned char> bytes = read_file(path, kLargestMark);
+    check_rig_mark(mark_in_file({bytes.begin(), bytes.end()}), expected, path);
+  }
+  return all;
+}
+
+void mark_folders(const SlitRig& rig, const ViewFiles& files) {
+  if (has_rig_marks(rig, files)) return;
+  const std::string text = mark_file_text(rig_mark(rig));
+  for (const std::string& folder : view_folders(rig, files)) {
+    std::error_code ignored;  // writing says what is wrong
+    if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
+    write_file(folder + kRigMarkFile, text);
+  }
+}
+
+// --- views -----------------------------------------------------------------------------------------------------------
+
 OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
   return [&rig, sheets = std::make_shared<Sheets>(rig, files), turn = files.own_normals](size_t view) {
     StoredPicture picture = sheets->view(view);
@@ -189,13 +234,14 @@ OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
 }
 
 // What is wrong with a file, in words; empty: nothing.
-static std::string fault_of(const std::string& path, const CameraRig& pose, Extent size, bool thorough) {
+static std::string fault_of(const std::string& path, const CameraRig& pose, Extent size, const std::string& mark,
+                            bool thorough) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   if (error || bytes == 0) return fmt::format("'{}' is {}", path, error ? "not there" : "empty");
   if (!thorough) return "";
   try {
-    check_size(open_file(path, pose).size, size, path);
+    check_size(open_file(path, pose, mark).size, size, path);
   } catch (const Error& fault) {
     if (fault.kind() != ErrorKind::kInput) throw;
     return fault.what();
@@ -207,10 +253,11 @@ std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files,
   std::map<std::string, std::vector<size_t>> views_of;  // a file's
   for (size_t i = 0; i < rig.views.size(); i++) views_of[view_path(rig, files, i)].push_back(i);
   const Extent size{rig.view.width * files.columns, rig.view.height * files.rows};
+  const std::string mark = rig_mark(rig);
   std::vector<std::string> found(rig.views.size());
   tbb::parallel_for_each(views_of, [&](const auto& file) {
     const auto& [path, views] = file;
-    const std::string fault = fault_of(path, rig.views[views.front()], size, thorough);
+    const std::string fault = fault_of(path, rig.views[views.front()], size, mark, thorough);
     for (const size_t view : views) found[view] = fault;
   });
   std::vector<ViewFault> faults;

@@ -30,11 +30,23 @@ std::string names_fault(const SlitRig& rig, const ViewFiles& files);
 // The file that a view is in. Precondition: no names_fault().
 std::string view_path(const SlitRig& rig, const ViewFiles& files, size_t view);
 
-// Opens views for stitch(). Their depth is the layer Z, or NAME.Depth.Z of Blender's files of many layers. Normals, the
-// layers N, Normal or NAME.Normal of X, Y and Z, become those along the world's axes.
+// The folders of the views, each with a "/" at its end; empty: the current one.
+std::vector<std::string> view_folders(const SlitRig& rig, const ViewFiles& files);
+
+// Whether every folder has the mark of this rig (ods/stitch/rig_mark.h). Throws Error(kInput): one has that of another.
+bool has_rig_marks(const SlitRig& rig, const ViewFiles& files);
+
+// Marks the folders, which are made where they are missing. A folder belongs to one rig: throws Error(kInput) if one
+// has the mark of another, before anything is written; Error(kOutput).
+void mark_folders(const SlitRig& rig, const ViewFiles& files);
+
+// Opens views for stitch(). One whose header has the mark of another rig is at fault. Their depth is the layer Z, or
+// NAME.Depth.Z of Blender's files of many layers. Normals, the layers N, Normal or NAME.Normal of X, Y and Z, become
+// those along the world's axes.
 OpenView open_view_files(const SlitRig& rig, const ViewFiles& files);
 
-// The views whose files are not there or are empty, or, with `thorough`, cannot be opened or have another size.
+// The views whose files are not there or are empty, or, with `thorough`, cannot be opened, have another size or are of
+// another rig.
 std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough);
 
 // Tells rigs with their views from others: another number where the rig or a view's file is another one.

@@ -58,6 +58,20 @@ def set_up(scene):
     return camera
 
 
+def mark(folder):
+    """Says which rig the views are of. A folder is of one rig: its views stay, and another's would be mixed with them."""
+    path = os.path.join(folder, "ods-rig.txt")
+    if os.path.exists(path):
+        with open(path) as file:
+            if MARK.split('"')[1] not in file.read():
+                sys.exit("ods: %s: views of another rig. Remove the folder, or name another one" % path)
+        return
+    unfinished = "%s.%d" % (path, os.getpid())
+    with open(unfinished, "w") as file:
+        file.write(MARK)
+    os.replace(unfinished, path)
+
+
 def render_view(scene, camera, number, folder):
     name = "%04d.exr" % number
     path, unfinished = os.path.join(folder, name), os.path.join(folder, ".unfinished." + name)
@@ -81,6 +95,7 @@ def main():
     if not 1 <= first <= last <= len(VIEWS):
         sys.exit("ods: views are 1 to %d" % len(VIEWS))
     os.makedirs(folder, exist_ok=True)
+    mark(folder)
     scene = bpy.context.scene
     camera = set_up(scene)
     for number in range(first, last + 1):
@@ -108,6 +123,7 @@ RigExport rig_to_blender(const SlitRig& rig, const std::string& name) {
   text +=
       "\nFOLDER = \"//views\"  # // is where the .blend is, or where Blender was started; a third word is another\n";
   text += "COMPOSITING = False  # True: the scene's compositor has its say on every view\nSEED = 0\n";
+  text += fmt::format("MARK = {}\n", mark_literal(rig));
   text += fmt::format("DEPTH = {}\nSIZE = ({}, {})\n", depth ? "True" : "False", rig.view.width, rig.view.height);
   text += fmt::format("HALF_WIDTH = {:.10g}  # of a view, a metre ahead of it\n", half_size(rig).x);
   text += "# Three rows of four each: a view's matrix in Blender's world, whose z is our y and whose y is our -z.\n";

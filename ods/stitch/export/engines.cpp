@@ -37,12 +37,14 @@ export function download(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-// Renders the views from first to last; save(name, blob) gets each, as a PNG, and may be asynchronous.
+// Renders the views from first to last; save(name, blob) gets each, as a PNG, and may be asynchronous. Before them it gets
+// ods-rig.txt, which says which rig they are of.
 export async function renderViews(THREE, renderer, scene, options = {}) {
   const { save = download, first = 1, last = views.length, near, far } = options;
   renderer.setPixelRatio(1);
   renderer.setSize(width, height, false);
   renderer.setRenderTarget(null);
+  await save("ods-rig.txt", new Blob([mark], { type: "text/plain" }));
   for (let number = first; number <= last; number++) {
     renderer.render(scene, viewCamera(THREE, number, near, far));
     const blob = await new Promise((done) => renderer.domElement.toBlob(done, "image/png"));
@@ -68,6 +70,7 @@ RigExport rig_to_three(const SlitRig& rig, const std::string& name) {
                        result.warnings));
   text += fmt::format("export const width = {};\nexport const height = {};\nexport const verticalFov = {:.10g};\n",
                       rig.view.width, rig.view.height, degrees_of(half.y));
+  text += fmt::format("export const mark = {};\n", mark_literal(rig));
   text += "// Three rows of four each: a view's matrix.\nexport const views = [\n";
   for (const CameraRig& view : rig.views) text += fmt::format("  [{}],\n", matrix_rows(pose_of(view)));
   text += "];\n";
@@ -81,6 +84,12 @@ static constexpr const char* kUnityBody = R"(
   [MenuItem("Tools/Render ODS views")]
   static void Render() {
     Directory.CreateDirectory(Folder);
+    string mark = Path.Combine(Folder, "ods-rig.txt");
+    if (!File.Exists(mark)) File.WriteAllText(mark, Mark);
+    if (!File.ReadAllText(mark).Contains(Mark.Split('"')[1])) {
+      Debug.LogError(mark + ": views of another rig. Remove the folder.");
+      return;
+    }
     var eye = new GameObject("ods view");
     var camera = eye.AddComponent<Camera>();
     if (Camera.main != null) camera.CopyFrom(Camera.main);
@@ -142,6 +151,7 @@ RigExport rig_to_unity(const SlitRig& rig, const std::string& name) {
   text += fmt::format("  const string Folder = \"views\";\n  const int Width = {};\n  const int Height = {};\n",
                       rig.view.width, rig.view.height);
   text += fmt::format("  const float VerticalFov = {:.9g}f;\n", degrees_of(half_size(rig).y));
+  text += fmt::format("  const string Mark = {};\n", mark_literal(rig));
   text += "  // Place, ahead, up of each view. Unity's world is left-handed: its z is ours turned round.\n";
   text += "  static readonly float[] Views = {\n";
   for (const CameraRig& view : rig.views) {
@@ -181,9 +191,21 @@ def still(settings):
     return settings
 
 
+def mark(folder):
+    """Says which rig the views are of. A folder is of one rig: its views stay, and another's would be mixed with them."""
+    path = os.path.join(folder, "ods-rig.txt")
+    if not os.path.exists(path):
+        with open(path, "w") as file:
+            file.write(MARK)
+    with open(path) as file:
+        if MARK.split('"')[1] not in file.read():
+            raise RuntimeError("ods: %s: views of another rig. Remove the folder" % path)
+
+
 def main():
     folder = os.path.join(unreal.Paths.convert_relative_path_to_full(unreal.Paths.project_dir()), FOLDER)
     os.makedirs(folder, exist_ok=True)
+    mark(folder)
     world = unreal.EditorLevelLibrary.get_editor_world()
     actor = unreal.EditorLevelLibrary.spawn_actor_from_class(unreal.SceneCapture2D, unreal.Vector(0, 0, 0))
     capture = actor.capture_component2d
@@ -232,6 +254,7 @@ RigExport rig_to_unreal(const SlitRig& rig, const std::string& name) {
   text += "\nFOLDER = \"views\"\n";
   text += fmt::format("SIZE = ({}, {})\nHORIZONTAL_FOV = {:.9g}\n", rig.view.width, rig.view.height,
                       degrees_of(half_size(rig).x));
+  text += fmt::format("MARK = {}\n", mark_literal(rig));
   text += "# Place (centimetres), ahead, up of each view. Unreal's x is our -z, its y our x, its z our y.\nVIEWS = [\n";
   for (const CameraRig& view : rig.views) {
     const ViewPose pose = turned(pose_of(view), turn_to_unreal);

@@ -5,6 +5,8 @@
 // stands still, so that a scene that moves by its clock does so, too.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ods/stitch/export/writers.h"
 
 namespace ods {
@@ -18,12 +20,44 @@ static std::string vectors(const SlitRig& rig, const char* word, glm::dvec3 View
   return text + "}\n";
 }
 
+// Which rig the views are of. A folder is of one rig, or +C would go on among another's views. POV-Ray's strings have
+// at most 255 letters.
+static std::string mark_text(const SlitRig& rig) {
+  constexpr size_t kLongest = 100;
+  const std::string literal = mark_literal(rig);
+  std::string pieces;
+  for (size_t i = 1, end = literal.size() - 1; i < end;) {
+    size_t count = std::min(kLongest, end - i);
+    if (literal[i + count - 1] == '\\') count++;
+    pieces += fmt::format("{}    \"{}\"", pieces.empty() ? "" : ",\n", literal.substr(i, count));
+    i += count;
+  }
+  const std::string file = mark_file_text(rig_mark(rig)), views = file.substr(0, file.find('\n'));
+  return fmt::format(R"(#declare ods_mark = "views/ods-rig.txt";
+#if (file_exists(ods_mark))
+  #fopen ods_file ods_mark read
+  #read (ods_file, ods_rig)
+  #fclose ods_file
+  #if (strcmp(ods_rig, {}) != 0)
+    #error concat(ods_mark, ": views of another rig. Remove the folder views\n")
+  #end
+#else
+  #fopen ods_file ods_mark write
+  #write (ods_file,
+{})
+  #fclose ods_file
+#end
+)",
+                     views, pieces);
+}
+
 static std::string camera_text(const SlitRig& rig, const std::vector<std::string>& head) {
   const glm::dvec2 half = half_size(rig);
   std::string text = commented("//", head);
   text += "// POV-Ray's world is left-handed: its z is ours turned round. Lengths are metres.\n";
   text += vectors(rig, "place", &ViewPose::place, 1.0) + vectors(rig, "ahead", &ViewPose::back, -1.0) +
           vectors(rig, "right", &ViewPose::right, 1.0) + vectors(rig, "up", &ViewPose::up, 1.0);
+  text += mark_text(rig);
   text += fmt::format("#declare ods_view = min(max(frame_number, 1), {}) - 1;\n", rig.views.size());
   text += fmt::format(
       "camera {{\n  perspective\n  location ods_place[ods_view]\n  direction ods_ahead[ods_view]\n"

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "ods/stitch/export.h"
+#include "ods/stitch/rig_mark.h"
 
 namespace ods {
 
@@ -29,6 +30,9 @@ double degrees_of(double half);  // the whole angle
 std::string list(std::initializer_list<double> numbers);
 std::string list(glm::dvec3 v);
 std::string matrix_rows(const ViewPose& pose);  // 12 numbers: three rows of right, up, back, place
+
+// The text of the folder's mark (ods/stitch/rig_mark.h) as a string in Python, JavaScript and C#.
+std::string mark_literal(const SlitRig& rig);
 
 // What every script says first: what it is for, what has to stand still, what comes then. `views` are the names of the
 // files that it writes, with a mark for the number.
