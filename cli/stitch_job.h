@@ -19,6 +19,7 @@ struct StitchJob {
   bool has_tone = false;
   bool partial = false;
   bool says_files = true;
+  bool claims = true;  // false: the caller holds a claim on what the frames are for
   bool list_missing = false;
   bool skip_existing = false;
   int threads = 0;

@@ -39,7 +39,9 @@ class Claim {
   // Gives the claim back. A signal handler that calls remove_unfinished_files() does so, too.
   ~Claim();
 
-  // Throws Error(kOutput) once another machine took the claim over.
+  // Whether another machine took the claim over.
+  bool is_lost() const { return lost_; }
+  // Throws Error(kOutput) where that is so.
   void check() const;
 
  private:

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "ods/base/base64.h"
 #include "ods/base/error.h"
@@ -334,6 +335,21 @@ static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
   return read_file(file.path, kLongestText);
+}
+
+std::vector<std::string> gltf_files(const std::string& path) {
+  GltfFile file;
+  file.path = path;
+  const std::vector<unsigned char> bytes = read_scene_file(file);
+  const Json json = parse_json(file, split_container(file, bytes).json);
+  std::set<std::string> names;
+  for (const char* list : {"buffers", "images"}) {
+    for (const Json& each : member(json, list)) {
+      const std::string uri = text_in(each, "uri");
+      if (!uri.empty() && !uri.starts_with("data:")) names.insert(uri_key(uri));
+    }
+  }
+  return {names.begin(), names.end()};
 }
 
 GltfFile open_gltf(const std::string& path) {
