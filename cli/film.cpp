@@ -88,23 +88,24 @@ ods::FilmPlan expect(const RenderJob& render, const std::vector<int>& eyes, ods:
 }
 
 // Frames of the views of a rig.
-std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, const StitchReport& report) {
+std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, FilmJournal& journal,
+                              const StitchReport& report) {
   StitchJob stitch;
   stitch.views.names = job.render.scene.name;
   stitch.output = job.render.output;
   stitch.frames = job.render.time.frames;
   stitch.save = job.render.save;
-  stitch.skip_existing = true, stitch.says_files = false;
+  stitch.skip_existing = true, stitch.claims = false, stitch.says_files = false;
   if (stitch.frames.empty()) throw UsageError("--rig: --frames says which folders of views there are");
+  journal.plan(ods::parse_frames(stitch.frames));
   return stitch_frames(stitch, rig, report);
 }
 
-void make_film(FilmJob job, const std::vector<std::string>& words, ProgressLines& lines) {
+void make_film(FilmJob job, ProgressLines& lines) {
   const double kRendering = 0.95;  // of the time
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
-  std::optional<ods::SlitRig> rig;
-  if (!job.rig.empty()) rig = open_rig(job.rig);
+  const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
   const ods::FilmPlan expected =
       rig ? expect(render, rig->eyes, rig->eye, rig->camera.projection)
           : expect(render, ods::eye_list(render.render.eyes), {render.render.width, render.render.height},
@@ -112,12 +113,15 @@ void make_film(FilmJob job, const std::vector<std::string>& words, ProgressLines
   const ods::EncodeOptions options = encode_options(job.film, expected.size, job.render.render.threads);
   ods::check_packing(expected, options.packing);
   say_what_players_need(job.film, expected, options);
-
-  const FilmJournal journal(job.film.output, words, job.restart);
+  FilmJournal journal(job.film.output,
+                      rig ? stitch_settings(job.rig, render.scene.name, render.save) : frame_settings(render),
+                      job.restart);
   job.render.output = journal.pattern();
   const auto report = [&](double done) { lines.report(done, seconds_since(start)); };
-  const auto rendered = [&](double done) { report(kRendering * done); };
-  const std::vector<int> frames = rig ? stitch_views(job, *rig, rendered) : render_frames(render, rendered);
+  const auto rendered = [&](double done) { journal.check(), report(kRendering * done); };
+  const auto planned = [&](const std::vector<int>& numbers) { journal.plan(numbers); };
+  const std::vector<int> frames =
+      rig ? stitch_views(job, *rig, journal, rendered) : render_frames(render, rendered, planned);
 
   const ods::FrameFiles files = ods::find_frames(journal.pattern(), frames);
   const ods::FilmPlan plan = ods::plan_film(files, {}, {});
@@ -134,11 +138,9 @@ void make_film(FilmJob job, const std::vector<std::string>& words, ProgressLines
 }
 
 void film(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);  // reading them moves them about
   FilmJob job;
   if (!read_options(job, argc, argv)) return;
-  run_long_job(job.render.progress, job.render.render.threads,
-               [&](ProgressLines& lines) { make_film(job, words, lines); });
+  run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { make_film(job, lines); });
 }
 
 }  // namespace

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 #include "cli/console.h"
+#include "cli/disk_room.h"
 #include "cli/form_options.h"
 #include "cli/long_job.h"
+#include "cli/shared_frames.h"
 #include "ods/base/frames.h"
 #include "ods/cpu/render.h"
 #include "ods/image/layout.h"
@@ -22,6 +25,7 @@ using ods::FrameNames;
 namespace {
 
 struct Frame {
+  int number;
   double time;  // seconds
   std::string path;
   uint32_t seed;
@@ -30,18 +34,23 @@ struct Frame {
 Frame make_frame(const RenderJob& job, const FrameNames& names, int number) {
   const auto bits = static_cast<ods::uint>(number);
   const bool changing = job.time.noise == FilmNoise::kChanging;
-  return {number / static_cast<double>(job.time.fps), names.path(number),
+  return {number, number / static_cast<double>(job.time.fps), names.path(number),
           changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
 }
 
 std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) {
-  if (!asks_for_film(time)) return {{static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
+  if (!asks_for_film(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
   const FrameNames names = film_names(job.output);
   std::vector<Frame> frames;
   size_t skipped = 0;
   for (const int number : film_frames(time)) {
     Frame frame = make_frame(job, names, number);
-    time.skip_existing&& ods::is_saved(frame.path) ? skipped++ : (frames.push_back(std::move(frame)), 0);
+    if (time.skip_existing && ods::is_saved(frame.path)) {
+      remove_dead_claim(frame.path);
+      skipped++;
+    } else {
+      frames.push_back(std::move(frame));
+    }
   }
   if (skipped > 0) note(fmt::format("{} of {} frames are there already", skipped, skipped + frames.size()));
   return frames;
@@ -54,10 +63,10 @@ void check_outputs(const RenderJob& job) {
   note_misleading_name(path, job.save, eyes.size(), job.camera.rig.projection);
 }
 
-void tell_speed(const RenderJob& job, const std::vector<Frame>& frames, const std::string& file, double seconds) {
+void tell_speed(const RenderJob& job, size_t frames, const std::string& file, double seconds) {
   double samples = 1.0 * job.render.width * job.render.height * job.render.samples;
-  samples *= static_cast<double>(ods::eye_list(job.render.eyes).size() * frames.size());
-  const std::string what = frames.size() == 1 ? file : fmt::format("{} frames", frames.size());
+  samples *= static_cast<double>(ods::eye_list(job.render.eyes).size() * frames);
+  const std::string what = frames == 1 ? file : fmt::format("{} frames", frames);
   note(fmt::format("{} in {}, {:.3g} Msamples/s", what, duration_text(seconds), samples / seconds * 1e-6));
 }
 
@@ -95,25 +104,59 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
 using Report = std::function<void(double done)>;
 using Saved = std::function<void(const std::vector<std::string>& files)>;
 
-// Renders the frames and saves each.
-void render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
-                const Report& report, const Saved& saved) {
-  const Shot first = make_shot(job, time, scene, frames.front());
-  place_camera(job.camera, scene);
-  ods::CpuRenderer renderer(scene, job.render.threads);
-  for (size_t i = 0; i < frames.size(); i++) {
-    const Frame& frame = frames[i];
-    const Shot shot = i == 0 ? first : make_shot(job, time, scene, frame);
-    if (i > 0) renderer.update(shot.change);
-    ods::RenderOptions options = job.render;
+// Renders frames one after the other. The trees of what stands still stay from frame to frame.
+class FrameRenderer {
+ public:
+  FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
+      : job_(job), time_(time), scene_(scene) {}
+
+  // Returns the files.
+  std::vector<std::string> render(const Frame& frame, const Report& report) {
+    const Shot shot = make_shot(job_, time_, scene_, frame);
+    if (renderer_) {
+      renderer_->update(shot.change);
+    } else {
+      place_camera(job_.camera, scene_);  // says where
+      renderer_.emplace(scene_, job_.render.threads);
+    }
+    ods::RenderOptions options = job_.render;
     options.seed = frame.seed;
     ods::Progress progress;
-    progress.report = [&](double done) {
-      report((static_cast<double>(i) + done) / static_cast<double>(frames.size()));
-    };
-    const ods::Picture picture = renderer.render(shot.rigs, options, progress);
-    saved(ods::save_picture(picture, shot.rigs[shot.rigs.size() / 2], job.save, frame.path));
+    progress.report = report;
+    const ods::Picture picture = renderer_->render(shot.rigs, options, progress);
+    return ods::save_picture(picture, shot.rigs[shot.rigs.size() / 2], job_.save, frame.path);
   }
+
+ private:
+  const RenderJob& job_;
+  const TimeOptions& time_;
+  ods::Scene& scene_;
+  std::optional<ods::CpuRenderer> renderer_;
+};
+
+// Renders the frames and saves each; `shared`: but those that other processes render. Returns how many it rendered.
+size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
+                  bool shared, const Report& report, const Saved& saved) {
+  FrameRenderer renderer(job, time, scene);
+  size_t rendered = 0;
+  const auto render = [&](size_t i) {
+    saved(renderer.render(
+        frames[i], [&](double done) { report((static_cast<double>(i) + done) / static_cast<double>(frames.size())); }));
+    rendered++;
+  };
+  if (!shared) {
+    for (size_t i = 0; i < frames.size(); i++) render(i);
+    return rendered;
+  }
+  std::vector<SharedFrame> files;
+  for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
+  make_shared_frames(files, render);
+  return rendered;
+}
+
+void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
+  if (!asks_for_film(job.time) || frames.empty()) return;
+  say_disk_room(job.output, frames.size(), largest_frame(job.output, job.render, job.save));
 }
 
 }  // namespace
@@ -125,19 +168,22 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   start_clock(time, scene);
   const std::vector<Frame> frames = choose_frames(job, time);
   if (frames.empty()) return;
+  say_room(job, frames);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
+  const auto report = [&](double done) { lines.report(done, seconds_since(start)); };
   const auto saved = [&](const std::vector<std::string>& files) {
     lines.clear();
     first = files.front();
     for (const std::string& file : files) std::cout << file << std::endl;
   };
-  render_all(
-      job, scene, time, frames, [&](double done) { lines.report(done, seconds_since(start)); }, saved);
-  tell_speed(job, frames, first, seconds_since(start));
+  const bool shared = asks_for_film(time) && time.skip_existing;
+  const size_t rendered = render_all(job, scene, time, frames, shared, report, saved);
+  if (rendered > 0) tell_speed(job, rendered, first, seconds_since(start));
 }
 
-std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report) {
+std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report,
+                               const std::function<void(const std::vector<int>& frames)>& planned) {
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene);
   TimeOptions time = job.time;
@@ -147,11 +193,14 @@ std::vector<int> render_frames(const RenderJob& job, const std::function<void(do
     throw UsageError(
         "nothing moves in it: --duration says how long the film is; --turntable or --fly-to move the camera");
   }
+  const std::vector<int> numbers = film_frames(time);
+  planned(numbers);
   const std::vector<Frame> frames = choose_frames(job, time);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} an eye, {} samples a pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
-    render_all(job, scene, time, frames, report, [](const std::vector<std::string>&) {});
+    say_room(job, frames);
+    render_all(job, scene, time, frames, false, report, [](const std::vector<std::string>&) {});
   }
-  return film_frames(time);
+  return numbers;
 }

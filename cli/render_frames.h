@@ -10,9 +10,12 @@
 #include "cli/render_job.h"
 
 // Renders what the job asks for, a picture or a film, and says every file on stdout once it is there. A frame's file
-// exists only when it is complete, so that a run that was killed is resumed with --skip-existing.
+// exists only when it is complete, so that a run that was killed is resumed with --skip-existing; several processes
+// that run with it share the frames (cli/shared_frames.h).
 void render_job(const RenderJob& job, ProgressLines& lines);
 
-// The same of a film for who goes on with its frames: says nothing of files, and returns the numbers of all of them,
-// those too that were there. Throws UsageError where nothing moves and nobody said how long.
-std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report);
+// Renders the frames of a film whose caller goes on with them: says nothing of files, and returns the numbers of all of
+// them, also of those that were there. `planned` hears of these numbers before the first is rendered. Throws UsageError
+// where nothing moves and nobody said how long.
+std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report,
+                               const std::function<void(const std::vector<int>& frames)>& planned);

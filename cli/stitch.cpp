@@ -9,6 +9,7 @@
 #include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "cli/stitch_frames.h"
+#include "ods/base/claim.h"
 
 namespace {
 
@@ -30,6 +31,7 @@ void run(const StitchJob& job, ProgressLines& lines) {
   if (is_film) {
     stitch_frames(job, rig, report);
   } else {
+    const std::unique_ptr<ods::Claim> own = ods::claim(job.output);
     stitch_picture(job, rig, job.views, job.output, report);
   }
   report(1.0);

@@ -11,6 +11,8 @@
 
 #include "cli/console.h"
 #include "cli/form_options.h"
+#include "cli/shared_frames.h"
+#include "ods/base/claim.h"
 #include "ods/base/error.h"
 #include "ods/stitch/rig_mark.h"
 #include "ods/stitch/seams.h"
@@ -102,14 +104,24 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
   const std::string file = std::filesystem::path(job.views.names).filename().string();
   const std::vector<int> frames = ods::parse_frames(job.frames);
   StitchJob each = job;
-  for (size_t i = 0; i < frames.size(); i++) {
-    const std::string output = outputs.path(frames[i]);
-    if (job.skip_existing && ods::is_saved(output)) continue;
+  const auto stitch_frame = [&](size_t i) {
     ViewFiles views = job.views;
     views.names = folders.path(frames[i]) + "/" + file;
-    stitch_picture(each, rig, views, output,
+    stitch_picture(each, rig, views, outputs.path(frames[i]),
                    [&](double part) { report((static_cast<double>(i) + part) / static_cast<double>(frames.size())); });
     each.says_unmarked = false;  // once is enough
+  };
+  std::vector<SharedFrame> files;
+  for (const int frame : frames) files.push_back({frame, outputs.path(frame)});
+  if (job.skip_existing && job.claims) {
+    for (const SharedFrame& file : files) remove_dead_claim(file.path);
+    make_shared_frames(files, stitch_frame);
+    return frames;
+  }
+  for (size_t i = 0; i < frames.size(); i++) {
+    if (job.skip_existing && ods::is_saved(files[i].path)) continue;
+    const std::unique_ptr<ods::Claim> own = job.claims ? ods::claim(files[i].path) : nullptr;
+    stitch_frame(i);
   }
   return frames;
 }

@@ -3,11 +3,12 @@
 //
 // ods film as its users meet it: one command, and what becomes of it when it is killed.
 #include <filesystem>
-#include <random>
-#include <thread>
+#include <map>
+#include <set>
 
 #include "ods/video/encode.h"
 #include "tests/cli_runner.h"
+#include "tests/gltf_builder.h"
 
 namespace {
 
@@ -61,7 +62,7 @@ TEST_F(Film, FramesOfAnotherJobAreNotMixedIn) {
   const std::string film = folder.read("a.mp4");
   EXPECT_EQ(run(words("a.mp4", "--samples 2")), 2);
   EXPECT_NE(err.find("--restart"), std::string::npos) << err;
-  EXPECT_NE(err.find("nothing then, '--samples' now"), std::string::npos) << err;
+  EXPECT_NE(err.find("frames of other options: --samples was 1, now 2;"), std::string::npos) << err;
   EXPECT_EQ(folder.read("a.mp4"), film);
   ASSERT_EQ(run(words("a.mp4", "--samples 2 --restart")), 0) << err;
   EXPECT_NE(folder.read("a.mp4"), film);
@@ -81,24 +82,243 @@ TEST_F(Film, TheSceneIsOfTheJob) {
   EXPECT_NE(err.find("4 of 4 frames are there already"), std::string::npos) << err;
   ASSERT_EQ(run("render furnace --width 32 --samples 1 --eyes mono -q -o " + folder.path("sky.png")), 0) << err;
   EXPECT_EQ(run(film), 2);
-  EXPECT_NE(err.find("sky.png ("), std::string::npos) << err;
+  EXPECT_NE(err.find("--env '" + folder.path("sky.png") + "' has changed"), std::string::npos) << err;
+}
+
+// The files of a scene are known by what is in them, wherever they lie and however old they are.
+TEST_F(Film, ACopyOfTheSceneIsTheSameSceneAndAChangedFileIsNamed) {
+  ods::GltfBuilder scene = ods::make_triangle();
+  scene.json["images"] = ods::Json::parse(R"([{"uri": "wood%20panel.png"}])");
+  scene.json["textures"] = ods::Json::parse(R"([{"source": 0}])");
+  scene.json["materials"] = ods::Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+  scene.primitive()["material"] = 0;
+  scene.json["buffers"] = {{{"byteLength", scene.binary.size()}, {"uri", "shape.bin"}}};
+  const ods::Binary png = ods::small_png();
+  const auto write = [&](const std::string& to) {
+    std::filesystem::create_directory(folder.path(to));
+    folder.write(to + "/scene.gltf", scene.json.dump());
+    folder.write(to + "/shape.bin", {scene.binary.begin(), scene.binary.end()});
+    folder.write(to + "/wood panel.png", {png.begin(), png.end()});
+  };
+  const auto film = [&](const std::string& from) {
+    return run("film " + folder.path(from) + "/scene.gltf --width 16 --samples 1 --frames 1-2 --keep-frames -o " +
+               folder.path("a.mp4"));
+  };
+  write("one"), write("two");
+  ASSERT_EQ(film("one"), 0) << err;
+  ASSERT_EQ(film("two"), 0) << err;
+  EXPECT_NE(err.find("2 of 2 frames are there already"), std::string::npos) << err;
+  scene.binary[0] ^= 1;
+  write("two");
+  EXPECT_EQ(film("two"), 2);
+  EXPECT_NE(err.find("SCENE's file shape.bin '" + folder.path("two/shape.bin") + "' has changed"), std::string::npos)
+      << err;
+  scene.binary[0] ^= 1;
+  write("two");
+  folder.write("two/wood panel.png", "x");
+  EXPECT_EQ(film("two"), 2);
+  EXPECT_NE(err.find("wood panel.png' has changed"), std::string::npos) << err;
+  write("two");
+  EXPECT_EQ(film("two"), 0) << err;
+}
+
+// Of every option of ods film it is known whether it changes frames: what changes the film alone may change while its
+// frames are being made, what changes a frame is refused by name.
+class FilmOptions : public Film {
+ protected:
+  void SetUp() override {
+    Film::SetUp();
+    if (IsSkipped()) return;
+    ASSERT_EQ(run(job), 0) << err;
+    const std::string frame = folder.path("a.mp4.frames/frame.000001.exr");
+    made = std::filesystem::last_write_time(frame);
+  }
+  bool frames_are_those() const {
+    return std::filesystem::last_write_time(folder.path("a.mp4.frames/frame.000001.exr")) == made;
+  }
+
+  const std::string job = "film furnace --width 16 --samples 1 --frames 1-2 --keep-frames -o " + folder.path("a.mp4");
+  std::filesystem::file_time_type made;
+};
+
+const std::map<std::string, std::string> kFilmAlone = {
+    {"--target", "youtube"}, {"--codec", "h264"},      {"--encoder", "libx264"}, {"--preset", "ultrafast"},
+    {"--crf", "30"},         {"--bitrate", "1"},       {"--bits", "10"},         {"--chroma", "444"},
+    {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
+    {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
+    {"--keep-frames", ""},   {"--skip-existing", ""},  {"--duration", "3"},      {"--quality", "draft"},
+};
+const std::map<std::string, std::string> kOfFrames = {
+    {"--scene", "0"},
+    {"--env", "0.5"},
+    {"--width", "32"},
+    {"--height", "10"},
+    {"--eyes", "mono"},
+    {"--layout", "sbs"},
+    {"--camera", "other"},
+    {"--position", "0,1,0"},
+    {"--yaw", "10"},
+    {"--pitch", "10"},
+    {"--roll", "10"},
+    {"--like", "google:IPD=0.1"},
+    {"--ipd", "0.06"},
+    {"--merge", "cosine"},
+    {"--merge-top", "power"},
+    {"--merge-bottom", "linear"},
+    {"--convergence", "shift,3"},
+    {"--neck", "0.1"},
+    {"--axis", "1,1,0"},
+    {"--lens", "0.01,2"},
+    {"--mirrored", ""},
+    {"--projection", "vr180"},
+    {"--face", "up"},
+    {"--range", "-90,90"},
+    {"--animation", "walk"},
+    {"--fps", "25"},
+    {"--turntable", "1"},
+    {"--fly-to", "0,1,0"},
+    {"--shutter", "180"},
+    {"--noise", "changing"},
+    {"--samples", "2"},
+    {"--bounces", "2"},
+    {"--filter", "box"},
+    {"--seed", "7"},
+};
+// These ask for other files (tested elsewhere), say where, or need another one; --time and --sidecar are refused.
+const std::set<std::string> kOthers = {
+    "--output", "--audio", "--rig",     "--restart",           "--size", "--merge-map", "--fov",
+    "--look",   "--time",  "--sidecar", "--merge-map-inverted"};
+
+TEST_F(FilmOptions, EveryOptionIsOneOrTheOther) {
+  ASSERT_EQ(run("film --help"), 0);
+  std::istringstream help(out);
+  std::set<std::string> options;
+  for (std::string line; std::getline(help, line);) {
+    const size_t dashes = line.find("--");
+    if (!line.starts_with("  -") || dashes > 5) continue;
+    options.insert(line.substr(dashes, line.find_first_of(" ,", dashes) - dashes));
+  }
+  EXPECT_GT(options.size(), 60u);
+  for (const std::string& option : options) {
+    const size_t known = kFilmAlone.count(option) + kOfFrames.count(option) + kOthers.count(option);
+    EXPECT_EQ(known, 1u) << option << ": does it change frames? Then cli/frame_settings.cpp has to know it";
+  }
+}
+
+TEST_F(FilmOptions, WhatChangesTheFilmAloneMayChange) {
+  for (const auto& [option, value] : kFilmAlone) {
+    EXPECT_EQ(run(job + " " + option + " " + value), 0) << option << err;
+    EXPECT_TRUE(frames_are_those()) << option;
+  }
+}
+
+TEST_F(FilmOptions, WhatChangesAFrameIsRefusedByName) {
+  for (const auto& [option, value] : kOfFrames) {
+    EXPECT_EQ(run(job + " " + option + " " + value), 2) << option << err;
+    const std::map<std::string, std::string> kSaidAs = {
+        {"--merge", "--merge-top"}, {"--like", "--ipd"}, {"--face", "--projection"}};
+    const auto other = kSaidAs.find(option);
+    const std::string said = other == kSaidAs.end() ? option : other->second;
+    EXPECT_NE(err.find(said + " was "), std::string::npos) << option << ": " << err;
+    EXPECT_TRUE(frames_are_those()) << option;
+  }
+  ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("map.png")), 0) << err;
+  EXPECT_EQ(run(job + " --merge-map " + folder.path("map.png")), 2);
+  EXPECT_NE(err.find("--merge-top was none, now map"), std::string::npos) << err;
+  EXPECT_EQ(run(job + " --projection fisheye --fov 100 --look 20,10"), 2);
+  EXPECT_NE(err.find("; and 1 more; --restart"), std::string::npos) << err;
+}
+
+// --- two at once, and what is not ours ------------------------------------------------------------------------------
+
+TEST_F(Film, OneProcessAtATimeMakesAFilm) {
+  const std::vector<std::string> job = {"film", "toys",     "--width", "32", "--samples",
+                                        "64",   "--frames", "1-4",     "-o", folder.path("a.mp4")};
+  Ods first(job);
+  first.wait_for("to render: ");
+  first.kill(SIGSTOP);  // so that it is at work for as long as we like
+  for (const std::string other : {"", "--samples 2 --restart", "--crf 30 --keep-frames"}) {
+    EXPECT_EQ(run(words("a.mp4", other)), 4) << err;
+    const std::string who = "another ods is at work on '" + folder.path("a.mp4") + "': process " +
+                            std::to_string(first.process()) + " on '";
+    EXPECT_NE(err.find(who), std::string::npos) << err;
+    EXPECT_NE(err.find(", since 20"), std::string::npos) << err;
+  }
+  first.kill(SIGCONT);
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mp4"});
+  Ods killed(job);
+  killed.wait_for("to render: ");
+  killed.kill(SIGKILL);
+  killed.finish();
+  EXPECT_EQ(run(words("a.mp4", "--samples 64")), 0) << "the dead hold nothing: " << err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mp4"});
+  Ods interrupted(job);
+  interrupted.wait_for("to render: ");
+  interrupted.kill(SIGTERM);
+  EXPECT_EQ(interrupted.finish(), 128 + SIGTERM);
+  EXPECT_FALSE(std::filesystem::exists(folder.path(".a.mp4.claim")));
+}
+
+TEST_F(Film, FramesBehindALinkAreNotOurs) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  std::filesystem::rename(folder.path("a.mp4.frames"), folder.path("precious"));
+  std::filesystem::create_directory_symlink(folder.path("precious"), folder.path("a.mp4.frames"));
+  for (const std::string more : {"", "--restart", "--restart --samples 2"}) {
+    EXPECT_EQ(run(words("a.mp4", more)), 2) << err;
+    EXPECT_NE(err.find("it is a link"), std::string::npos) << err;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path("precious")), {}), 5);
+}
+
+TEST_F(Film, FramesThatNoJobOfOursMadeStay) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  folder.write("a.mp4.frames/frame.000005.exr", "mine");
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames --restart --samples 2")), 0) << err;
+  EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
+  EXPECT_EQ(run(words("a.mp4", "--samples 2 --frames 1-5")), 2);
+  EXPECT_NE(err.find("frame.000005.exr' is no frame of this film"), std::string::npos) << err;
+  ASSERT_EQ(run(words("a.mp4", "--samples 2")), 0) << err;
+  EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
+  // A folder without our note: nothing in it is taken for a frame, nothing is written through a link.
+  std::filesystem::create_directory(folder.path("b.mp4.frames"));
+  folder.write("b.mp4.frames/frame.000002.exr", "mine");
+  EXPECT_EQ(run(words("b.mp4", "--restart")), 2);
+  EXPECT_EQ(folder.read("b.mp4.frames/frame.000002.exr"), "mine");
+  folder.write("victim", "mine");
+  std::filesystem::create_directory(folder.path("c.mp4.frames"));
+  std::filesystem::create_symlink(folder.path("victim"), folder.path("c.mp4.frames/job.txt"));
+  EXPECT_EQ(run(words("c.mp4", "--restart")), 2);
+  EXPECT_EQ(folder.read("victim"), "mine");
+}
+
+TEST_F(Film, HowMuchRoomTheFramesNeedIsSaid) {
+  ASSERT_EQ(run("film furnace --width 512 --samples 1 --frames 1-4 -o " + folder.path("a.mp4")), 0) << err;
+  EXPECT_NE(err.find("the frames need up to 6 MB in '" + folder.path("a.mp4.frames") + "'; "), std::string::npos)
+      << err;
+  const ods::TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: a small tmpfs can only be mounted by root with CAP_SYS_ADMIN";
+  EXPECT_EQ(run("film furnace --width 512 --samples 1 --frames 1-4 -o " + disk.folder().path("a.mp4")), 4) << err;
+  EXPECT_NE(err.find("warning: the frames need up to 6 MB"), std::string::npos) << err;
 }
 
 // However often it is killed, wherever: at last there is the film of an undisturbed run.
 TEST_F(Film, AKilledFilmGoesOnWhereItWas) {
   ASSERT_EQ(run(words("whole.mp4", "-q")), 0) << err;
-  std::mt19937 random(9);
-  const std::vector<std::string> job = {
-      "film", "toys", "--width", "32", "--samples", "1", "--frames", "1-4", "-o", folder.path("killed.mp4"), "-q"};
-  for (int i = 0; i < 8; i++) {
+  const std::vector<std::string> job = {"film",       "toys",     "--width", "32", "--samples",
+                                        "1",          "--frames", "1-4",     "-o", folder.path("killed.mp4"),
+                                        "--progress", "json"};
+  for (const char* line :
+       {"players that go", "to render: ", "\"progress\":0.2", "\"progress\":0.7", "\"progress\":0.9"}) {
     Ods command(job);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200 + random() % 700));
+    command.wait_for(line);
     command.kill(SIGKILL);
-    if (command.finish() == 0) break;
+    EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
   }
-  ASSERT_EQ(run(words("killed.mp4", "-q")), 0) << err;
+  ASSERT_EQ(run(words("killed.mp4")), 0) << err;
+  EXPECT_NE(err.find(" of 4 frames are there already"), std::string::npos) << err;
   EXPECT_EQ(folder.read("killed.mp4"), folder.read("whole.mp4"));
-  EXPECT_FALSE(std::filesystem::exists(folder.path("killed.mp4.frames")));
+  EXPECT_EQ(files(), 2u);
 }
 
 TEST_F(Film, WhatCannotBeIsSaidBeforeAnythingIsRendered) {

@@ -55,6 +55,8 @@ class Ods {
 
   void kill(int number) { ::kill(pid_, number); }
 
+  pid_t process() const { return pid_; }
+
   // Of its process, now.
   size_t threads() const {
     const auto tasks = std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/task");
@@ -75,6 +77,7 @@ class Ods {
 
  private:
   bool read_some() {
+    if (out_[0] < 0 && err_[0] < 0) return false;
     std::array<pollfd, 2> ends = {pollfd{out_[0], POLLIN, 0}, pollfd{err_[0], POLLIN, 0}};
     poll(ends.data(), ends.size(), -1);
     return read_end(ends[0], out_[0], out) | read_end(ends[1], err_[0], err);

@@ -42,8 +42,16 @@ static void replace_unfinished(const char* old_name, const char* new_name) {
   }
 }
 
+void remember_unfinished(const char* path) {
+  replace_unfinished(nullptr, path);
+}
+
+void forget_unfinished(const char* path) {
+  replace_unfinished(path, nullptr);
+}
+
 static void forget(std::string& temporary) {
-  replace_unfinished(temporary.c_str(), nullptr);
+  forget_unfinished(temporary.c_str());
   temporary.clear();
 }
 

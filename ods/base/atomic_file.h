@@ -52,4 +52,8 @@ void commit_all(std::list<AtomicFile>& files);
 // async-signal-safe. (Of files open at once it knows the first 16.)
 void remove_unfinished_files();
 
+// Has it remove one more file, until that is forgotten. The name must stay where it is in memory until then.
+void remember_unfinished(const char* path);
+void forget_unfinished(const char* path);
+
 }  // namespace ods

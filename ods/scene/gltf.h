@@ -30,6 +30,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "ods/scene/scene.h"
 
@@ -45,5 +46,9 @@ Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 
 // The same from memory; path stands in messages, and the files that the scene names are looked for beside it.
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options = {});
+
+// The files beside it that it refers to, buffers and pictures, as paths from its folder: sorted, each once. They need
+// not exist. Throws Error(kInput) where its JSON cannot be read.
+std::vector<std::string> gltf_files(const std::string& path);
 
 }  // namespace ods

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "ods/base/base64.h"
 #include "ods/base/confined_file.h"
@@ -277,6 +278,21 @@ static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
   return read_file(opened.path(), kLongestText);
+}
+
+std::vector<std::string> gltf_files(const std::string& path) {
+  GltfFile file;
+  file.path = path;
+  const std::vector<unsigned char> bytes = read_scene_file(file);
+  const JsonDocument json = parse_gltf_json(split_container(file, bytes).json, path, is_read);
+  std::set<std::string> names;
+  for (const char* list : {"buffers", "images"}) {
+    for (const JsonValue& each : json.root()[list]) {
+      const std::string& uri = *each["uri"].text;
+      if (!uri.empty() && !uri.starts_with("data:")) names.insert(uri_key(uri));
+    }
+  }
+  return {names.begin(), names.end()};
 }
 
 GltfFile open_gltf(const std::string& path, const std::string& confine) {
