@@ -42,15 +42,17 @@ int fail(ExitCode code, const std::string& text) {
 
 ExitCode exit_code(ods::ErrorKind kind) {
   switch (kind) {
+    case ods::ErrorKind::kUsage:
+      return kExitUsage;
     case ods::ErrorKind::kInput:
       return kExitInput;
     case ods::ErrorKind::kOutput:
       return kExitOutput;
     case ods::ErrorKind::kMemory:
     case ods::ErrorKind::kCancelled:  // by nobody: interrupts end the process themselves
-      return kExitRenderError;
+      return kExitFailure;
   }
-  return kExitRenderError;
+  return kExitFailure;
 }
 
 }  // namespace
@@ -74,13 +76,11 @@ int run_command(const std::function<void()>& body) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       return fail(kExitOutput, "standard output could not be written");
     return kExitOk;
-  } catch (const UsageError& error) {
-    return fail(kExitUsage, error.what());
   } catch (const ods::Error& error) {
     return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
-    return fail(kExitRenderError, "not enough memory; a smaller scene or picture needs less");
+    return fail(kExitFailure, "not enough memory; a smaller scene or picture needs less");
   } catch (const std::exception& error) {
-    return fail(kExitRenderError, error.what());
+    return fail(kExitFailure, error.what());
   }
 }

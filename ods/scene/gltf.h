@@ -38,7 +38,8 @@ struct SceneOptions {
   int scene = -1;  // which of the file's scenes; -1: its default, or the first
 };
 
-// Throws Error(kInput) naming the file: absent, damaged, or not supported.
+// Throws Error(kInput) naming the file: absent, damaged, or not supported. Throws Error(kUsage): no scene of that
+// number.
 Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 
 // The same from memory; path stands in messages, and the files that the scene names are looked for beside it.

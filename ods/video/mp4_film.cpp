@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "ods/video/apple.h"
 #include "ods/video/box_offsets.h"
@@ -194,9 +195,7 @@ static bool tag_entry(Box& entry, const std::optional<FilmForm>& form) {
 
 static TagResult tag_track(Box& track, const std::optional<FilmForm>& form) {
   TagResult result;
-  if (form && !fits_v2(*form)) {
-    throw Broken(fmt::format("mp4 and mov have no words for {}", form_text(*form)));
-  }
+  assert(!form || fits_v2(*form));
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     result.has_vexu = tag_entry(entry, form);
     result.has_v2 = form.has_value();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ods/base/error.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
@@ -93,10 +94,13 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
 // The nodes of one scene of the file, in the order of the tree; -1 for its default, or all where it has no scenes.
 static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen) {
   const std::vector<tinygltf::Scene>& scenes = file.model->scenes;
-  if (chosen == -1) chosen = std::max(0, file.model->defaultScene);
+  const bool is_asked_for = chosen != -1;
+  if (!is_asked_for) chosen = std::max(0, file.model->defaultScene);
   if (scenes.empty() && chosen == 0) return tree.order;
   if (chosen < 0 || static_cast<size_t>(chosen) >= scenes.size()) {
-    fail(file, fmt::format("has no scene {}, only {} (counted from 0)", chosen, scenes.size()));
+    const std::string what = fmt::format("has no scene {}, only {} (counted from 0)", chosen, scenes.size());
+    if (is_asked_for) throw Error(ErrorKind::kUsage, fmt::format("--scene: '{}' {}", file.path, what));
+    fail(file, what);
   }
   std::vector<char> inside(tree.order.size(), 0);
   for (const int root : scenes[static_cast<size_t>(chosen)].nodes) {
