@@ -15,7 +15,7 @@
 namespace {
 
 constexpr const char* kExamples =
-    "  ods title 'The Long Way Home' --at 0,10,3 --height 0.3 -o title.exr\n"
+    "  ods title 'The Long Way Home' --at 0,10,3 -o title.exr\n"
     "  ods title 'first line\\nsecond line' --font 'DejaVu Serif Bold' --color '#ffd070' -o title.png\n"
     "  ods title 'Chapter 2' --frames 1-120 --fps 30 --fade-in 0.5 --fade-out 1 -o title.####.exr";
 
