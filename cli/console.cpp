@@ -49,7 +49,7 @@ int fail_without_memory() {
   const std::string_view line = console.json ? json : plain;
   const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
   static_cast<void>(ignored);
-  return kExitRenderError;
+  return kExitFailure;
 }
 
 // Some functions of libraries promise not to throw and allocate all the same, destructors of theirs among them. When
@@ -69,15 +69,17 @@ int fail_without_memory() {
 
 ExitCode exit_code(ods::ErrorKind kind) {
   switch (kind) {
+    case ods::ErrorKind::kUsage:
+      return kExitUsage;
     case ods::ErrorKind::kInput:
       return kExitInput;
     case ods::ErrorKind::kOutput:
       return kExitOutput;
     case ods::ErrorKind::kMemory:
     case ods::ErrorKind::kCancelled:  // by nobody: interrupts end the process themselves
-      return kExitRenderError;
+      return kExitFailure;
   }
-  return kExitRenderError;
+  return kExitFailure;
 }
 
 }  // namespace
@@ -102,13 +104,11 @@ int run_command(const std::function<void()>& body) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       return fail(kExitOutput, "standard output could not be written");
     return kExitOk;
-  } catch (const UsageError& error) {
-    return fail(kExitUsage, error.what());
   } catch (const ods::Error& error) {
     return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     return fail_without_memory();
   } catch (const std::exception& error) {
-    return fail(kExitRenderError, error.what());
+    return fail(kExitFailure, error.what());
   }
 }

@@ -4,12 +4,13 @@
 // What the command says to people: on stderr, one line each. stdout is for results only.
 #pragma once
 #include <functional>
-#include <stdexcept>
 #include <string>
 
+#include "ods/base/error.h"
+
 // The command line makes no sense. what() is one line.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct UsageError : ods::Error {
+  explicit UsageError(const std::string& message) : Error(ods::ErrorKind::kUsage, message) {}
 };
 
 struct Console {

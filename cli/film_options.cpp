@@ -129,7 +129,7 @@ void warn_of_hardware(const ods::Packing& packing) {
 }  // namespace
 
 Container container_for(const std::string& path) {
-  if (path.empty()) throw UsageError("where to? -o film.mp4");
+  if (path.empty()) throw UsageError("no output file: add -o film.mp4");
   if (const std::optional<Container> container = ods::container_of_path(path)) return *container;
   throw UsageError(fmt::format("'{}' is no name of a film: it ends in .mp4, .mov, .mkv or .webm", path));
 }

@@ -18,7 +18,7 @@ ods::KnownForm known_form(const InjectJob& job) {
   if (!named) {
     std::vector<std::string> names;
     for (const ods::NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
-    throw UsageError(fmt::format("--projection: there is no projection '{}'{} of pictures", job.projection,
+    throw UsageError(fmt::format("--projection: pictures have no projection '{}'{}", job.projection,
                                  ods::did_you_mean(job.projection, names)));
   }
   known.projection = named->setting;

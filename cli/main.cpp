@@ -60,7 +60,13 @@ void print_help(std::FILE* out) {
   for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
   std::fputs(
       "\nods COMMAND --help explains a command, ods --version lists the versions of ods and its libraries.\n"
-      "Exit codes: 0 done, 1 render error, 2 usage, 3 input, 4 output, 130 interrupted.\n",
+      "Exit codes:\n"
+      "  0    done\n"
+      "  1    anything else: not enough memory, a limit of ods compare, a fault that ods lint found\n"
+      "  2    the command line is wrong: a value, a conflict, a name that is unknown or not in the file\n"
+      "  3    a file is absent, broken or not supported\n"
+      "  4    a file could not be written\n"
+      "  130  interrupted (Ctrl-C), 143 terminated (SIGTERM), 129 hung up (SIGHUP)\n",
       out);
 }
 
@@ -69,7 +75,7 @@ int run(const Command& command, int argc, char** argv) {
   void* symbol = library ? dlsym(library, command.function) : nullptr;
   if (!symbol) {
     std::fprintf(stderr, "ods: error: the commands cannot be loaded: %s\n", dlerror());
-    return kExitRenderError;
+    return kExitFailure;
   }
   return reinterpret_cast<int (*)(int, char**)>(symbol)(argc, argv);
 }

@@ -71,7 +71,8 @@ void lay_frames(const OverJob& job, Footage& back, Footage& front, ProgressLines
     if (is_there) lines.report(static_cast<double>(i + 1) / count, seconds_since(start));
     if (is_there) continue;
     if (to_the_end && i > 0) return;
-    throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no picture {} in '{}'", frame, job.background));
+    const ods::ErrorKind kind = job.frames ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;
+    throw ods::Error(kind, fmt::format("there is no picture {} in '{}'", frame, job.background));
   }
 }
 

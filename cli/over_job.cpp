@@ -57,7 +57,7 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   console.json = job.progress == ProgressMode::kJson;
   job.has_tone = options.given("--tone"), job.has_exposure = options.given("--exposure");
   job.has_target = options.given("--target");
-  if (job.output.empty()) throw UsageError("where to? -o picture.png");
+  if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
   return true;
 }
 

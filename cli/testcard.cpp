@@ -52,7 +52,7 @@ bool read_options(TestcardJob& job, int argc, char** argv) {
   add_progress_options(options, job.film.progress);
   if (!options.parse(argc, argv)) return false;
   console.json = job.film.progress == ProgressMode::kJson;
-  if (job.output.empty()) throw UsageError("where to? -o card.png");
+  if (job.output.empty()) throw UsageError("no output file: add -o card.png");
   finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
   job.film.is_film = job.film.is_film || ods::container_of_path(job.output).has_value();

@@ -35,6 +35,15 @@ void warn_if_too_near(const TitleJob& job, const ods::CameraRig& rig) {
                    nearest));
 }
 
+void warn_if_too_wide(const ods::Title& title) {
+  const float width = ods::title_width(title);
+  if (width <= ods::kComfortableWidth) return;
+  warn(fmt::format(
+      "the text is {:.0f} degrees wide; beyond {:g}, viewers turn their heads to read it: --height {:.2g}, a "
+      "larger distance or a line break (\\n) makes it narrower",
+      width, ods::kComfortableWidth, ods::comfortable_height(title)));
+}
+
 // Of a frame's middle, from the first one's beginning.
 float fade(const TitleJob& job, int frame) {
   const auto [first, last] = std::minmax_element(job.frames->begin(), job.frames->end());
@@ -67,6 +76,7 @@ void title(int argc, char** argv) {
   note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
   warn_if_too_near(job, rig);
   ods::Title title = make_title(rig, eye, job.title, letter(job, rig, eye));
+  warn_if_too_wide(title);
   if (!job.frames) return save(job, title, rig, job.output);
   for (const int frame : *job.frames) {
     title.setting.opacity = job.title.opacity * fade(job, frame);

@@ -15,7 +15,7 @@
 namespace {
 
 constexpr const char* kExamples =
-    "  ods title 'The Long Way Home' --at 0,10,3 --height 0.3 -o title.exr\n"
+    "  ods title 'The Long Way Home' --at 0,10,3 -o title.exr\n"
     "  ods title 'first line\\nsecond line' --font 'DejaVu Serif Bold' --color '#ffd070' -o title.png\n"
     "  ods title 'Chapter 2' --frames 1-120 --fps 30 --fade-in 0.5 --fade-out 1 -o title.####.exr";
 
@@ -94,7 +94,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   options.group("Console");
   options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   if (!options.parse(argc, argv)) return false;
-  if (job.output.empty()) throw UsageError("where to? -o title.exr");
+  if (job.output.empty()) throw UsageError("no output file: add -o title.exr");
   if (!ods::has_alpha(job.output)) throw UsageError("a title needs alpha: .exr, .png, .tif and .webp have it");
   const bool fades = options.given("--fps") || options.given("--fade-in") || options.given("--fade-out");
   if (fades && !job.frames) throw UsageError("--fps and fades are for films: --frames 1-100");

@@ -327,7 +327,7 @@ TEST_F(Film, WhatCannotBeIsSaidBeforeAnythingIsRendered) {
       {words("a.mp4", "--codec prores"), 2, "not prores, which goes into mov, mkv"},
       {words("a.mp4", "--layout anaglyph"), 2, "a film's layout is top-bottom or side-by-side"},
       {words("a.mp4", "--time 3"), 2, "--frames"},
-      {words("a.mp4", "--width 30"), 3, "its sides are even"},
+      {words("a.mp4", "--width 30"), 2, "its sides are even"},
       {words("a.mp4", "--audio " + folder.path("none.wav")), 3, "no such file"},
       {"film room --width 32 -o " + folder.path("a.mp4"), 2, "nothing moves in it"},
       {"film none.glb --width 32 -o " + folder.path("a.mp4"), 3, "none.glb"},

@@ -6,6 +6,7 @@
 #include "ods/image/picture.h"
 
 #include <gtest/gtest.h>
+#include <time.h>
 
 #include <cmath>
 #include <filesystem>
@@ -148,6 +149,57 @@ TEST(Title, DepthIsAlongTheRay) {
     }
   }
   EXPECT_GT(seen, 1000);
+}
+
+TEST(Title, ItsWidthIsAnAngle) {
+  TitleSetting setting;
+  setting.distance = 2.0f, setting.height = 0.5f;
+  const Lettering lettering = draw_lettering("HHHHHHHH", 64.0f);
+  const float metres = static_cast<float>(lettering.coverage.width) / lettering.em * 0.5f;
+  EXPECT_NEAR(title_width(make_title(CameraRig(), kEye, setting, lettering)), glm::degrees(metres / 2.0f), 1e-3f);
+  for (const bool curved : {true, false}) {
+    setting.curved = curved;
+    setting.height = 0.5f;
+    const Title wide = make_title(CameraRig(), kEye, setting, lettering);
+    EXPECT_GT(title_width(wide), kComfortableWidth);
+    setting.height = comfortable_height(wide);
+    const Title narrow = make_title(CameraRig(), kEye, setting, lettering);
+    EXPECT_NEAR(title_width(narrow), kComfortableWidth, 1e-3f);
+    EXPECT_NEAR(comfortable_height(narrow), setting.height, 1e-6f);
+  }
+}
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// A line that goes all around covers few rows; the others cost no more than those of a word.
+TEST(Title, ALongLineCostsWhatItCovers) {
+  const auto seconds = [](const std::string& text) {
+    const double start = cpu_seconds();
+    draw(CameraRig(), {}, kLeft, text);
+    return cpu_seconds() - start;
+  };
+  seconds("W");  // fonts
+  EXPECT_LT(seconds(std::string(100, 'W')), 4.0 * seconds("WWWW"));
+}
+
+// There a pixel's neighbours are so far off that the card seems to lie between them.
+TEST(Title, NothingIsSeenAtGrazingAngles) {
+  CameraRig rig;
+  rig.neck = 0.2f;
+  TitleSetting setting;
+  setting.yaw = 20.0f, setting.pitch = 10.0f, setting.distance = 1.0f, setting.height = 2.0f, setting.curved = false;
+  const Lettering lettering = draw_lettering(std::string(100, 'W'), lettering_em(rig, kEye, setting));
+  const Title title = make_title(rig, kEye, setting, lettering);
+  std::vector<float> row(static_cast<size_t>(5 * kEye.width));
+  for (int y = 0; y < kEye.height; y++) {
+    if (std::abs(phi_of(y + 0.5)) < glm::radians(70.0)) continue;  // the card ends at 45, and leans by 10
+    fill_title_row(title, kLeft, y, row);
+    for (size_t i = 3; i < row.size(); i += 5) ASSERT_EQ(row[i], 0.0f) << i / 5 << " " << y;
+  }
 }
 
 TEST(Title, IsMultipliedByItsAlpha) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one exception of the library: the outside world did not give what was needed.
+// The one exception of the library: the outside world did not give what was needed, or the caller asked for what
+// cannot be.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -10,6 +11,7 @@ namespace ods {
 
 // What was wrong decides the command's exit code.
 enum class ErrorKind {
+  kUsage,      // what was asked for makes no sense, contradicts itself or is not in the file that was named
   kInput,      // a file that is absent, broken or not supported
   kOutput,     // a file that could not be written
   kMemory,     // the machine has not enough

@@ -37,7 +37,7 @@ struct Reader {
   std::string_view rest;
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw Error(ErrorKind::kInput,
+    throw Error(ErrorKind::kUsage,
                 fmt::format("frames '{}': {}; they are written like 1-100, 1-100x2 or 1,5,10-20", whole, why));
   }
 

@@ -12,7 +12,7 @@ namespace ods {
 // "1-100", "1-100x2" or "1-100:2" (every second), "1..10", "1,5,10-20", "-10-5", "10-1" and "10-1x-2" (backwards), and
 // commas between any of these. Spaces do not matter. In the order given, every frame once, at most a million; numbers
 // have at most nine digits. In some programs ':' staggers; here it is a step, as in Open Job Description.
-// Throws Error(kInput): which part of the text makes no sense.
+// Throws Error(kUsage): which part of the text makes no sense.
 std::vector<int> parse_frames(const std::string& text);
 
 // The shortest such text: "1-7,9-19x2". Precondition: no frame twice.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ods/base/error.h"
+#include "ods/base/text.h"
 
 namespace ods {
 
@@ -46,7 +47,12 @@ struct Fontconfig {
   ~Fontconfig() { FcConfigDestroy(config); }
 };
 
+// A misspelt file must not pass for the name of a font, for which another one would stand in.
 bool is_font_file(const std::string& font) {
+  const std::string extension = small_letters(std::filesystem::path(font).extension().native());
+  for (const char* known : {".ttf", ".otf", ".ttc", ".otc", ".pfb", ".woff", ".woff2"}) {
+    if (extension == known) return true;
+  }
   std::error_code ignored;
   return font.find('/') != std::string::npos || std::filesystem::is_regular_file(font, ignored);
 }
@@ -57,7 +63,7 @@ std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   const bool added = FcConfigAppFontAddFile(fonts.config, name);
   const FcFontSet* own = added ? FcConfigGetFonts(fonts.config, FcSetApplication) : nullptr;
   if (!own || own->nfont == 0)
-    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': it is no font file", path));
+    throw Error(ErrorKind::kInput, fmt::format("--font: '{}' is absent or not a font file", path));
   PangoFontDescription* description = pango_fc_font_description_from_pattern(own->fonts[0], FALSE);
   char* text = pango_font_description_to_string(description);
   const std::string found = text;
@@ -155,7 +161,7 @@ Lettering draw_lettering(const std::string& text, float em, const LetteringOptio
   assert(em > 0.0f);
   const double kMostPixels = 1 << 26;
   if (!g_utf8_validate(text.data(), static_cast<gssize>(text.size()), nullptr)) {
-    throw Error(ErrorKind::kInput, "the text is no UTF-8");
+    throw Error(ErrorKind::kUsage, "the text is not valid UTF-8");
   }
   Text drawn(text, options);
   Lettering lettering;
@@ -168,7 +174,7 @@ Lettering draw_lettering(const std::string& text, float em, const LetteringOptio
     drawn.set_em(lettering.em);
     ink = drawn.ink();
   }
-  if (ink.width < 1 || ink.height < 1) throw Error(ErrorKind::kInput, "the text has nothing to see");
+  if (ink.width < 1 || ink.height < 1) throw Error(ErrorKind::kUsage, "the text has no visible characters");
   lettering.coverage = drawn.draw();
   lettering.font = drawn.family();
   const bool is_any = options.font.starts_with("Sans");  // no family's name

@@ -30,7 +30,8 @@ struct Lettering {
 };
 
 // Lines are parted by newlines. The font's size is `em` pixels, or less where the picture would have more than 2^26.
-// Throws Error(kInput): text that is no UTF-8 or has nothing to see, a file that is no font, a machine without fonts.
+// Throws Error(kUsage): text that is not UTF-8 or has no visible characters; Error(kInput): a file that is no font, a
+// machine without fonts.
 Lettering draw_lettering(const std::string& text, float em, const LetteringOptions& options = {});
 
 }  // namespace ods

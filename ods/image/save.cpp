@@ -31,7 +31,7 @@ static Layout layout_for(const std::string& path, const SaveOptions& options, si
 }
 
 static Error unfit(const std::string& path, const std::string& why) {
-  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
+  return Error(ErrorKind::kUsage, fmt::format("cannot write '{}': {}", path, why));
 }
 
 static void check_layout(const std::string& path, FileFormat format, const SaveOptions& options,

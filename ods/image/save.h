@@ -44,9 +44,9 @@ struct SaveOptions {
   bool sidecar = false;  // picture.camera.json too (ods/image/camera_file.h); one that is there is always written anew
 };
 
-// Throws Error(kOutput) where save_picture() would, as far as that can be known before rendering: unknown extension, a
-// folder that is missing its write permission, a name that is a folder, a layout that does not fit, a size too large
-// for the format, a projection (where it is known) that a Cardboard photo has no word for. `eyes` as in EyeImage, `eye`
+// Throws what save_picture() would, as far as that can be known before rendering. Error(kUsage): an unknown extension,
+// a layout that does not fit, a size too large for the format, a projection (where it is known) that a Cardboard photo
+// cannot hold. Error(kOutput): a folder without write permission, a name that is a folder. `eyes` as in EyeImage, `eye`
 // the size of one. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
                   const ProjectionSetting* projection = nullptr);
@@ -62,7 +62,8 @@ bool is_saved(const std::string& path);
 
 // Writes one file, or one per eye, and the sidecar behind them; all of them complete, or none. Creates missing folders.
 // Returns the names written.
-// Layers that are empty are left out. Throws Error(kOutput). Precondition: one eye or two, all of one size, with light.
+// Layers that are empty are left out. Throws as check_output(), and Error(kOutput). Precondition: one eye or two, all
+// of one size, with light.
 std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
                                       const std::string& path);
 
@@ -90,7 +91,7 @@ struct PictureRows {
 size_t count_channels(const std::vector<RowLayer>& layers);
 
 // The same of such a picture. No rig: the file says nothing of one. Squeezed eyes take of a kNearest layer, of the
-// pixels that become one, that whose first channel is least. Throws Error(kOutput), and what `fill` throws.
+// pixels that become one, that whose first channel is least. Throws as above, and what `fill` throws.
 std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
                                       const std::string& path);
 

@@ -37,8 +37,10 @@ Title make_title(const CameraRig& rig, Extent eye, const TitleSetting& setting, 
   const float across = setting.curved ? half.x : std::atan(half.x);
   const float away = std::hypot(0.5f * rig.ipd, rig.neck) / setting.distance;
   const float step = 4.0f / static_cast<float>(std::max(1.0, pixels_per_radian(rig.projection, eye.width)));
-  const float angle = std::hypot(across, std::atan(half.y)) + std::asin(std::min(1.0f, away)) + step;
+  const float slack = std::asin(std::min(1.0f, away)) + step, up_or_down = std::atan(half.y);
+  const float angle = std::hypot(across, up_or_down) + slack;
   title.reach = angle < kPi ? std::cos(angle) : -1.0f;
+  title.rise = up_or_down + slack < 0.5f * kPi ? std::sin(up_or_down + slack) : 1.0f;
   return title;
 }
 
@@ -103,6 +105,7 @@ void fill_title_row(const Title& title, int eye, int y, std::span<float> row) {
     const vec2 uv = (vec2(x, y) + 0.5f) * pixel;
     const Ray ray = camera_ray(title.camera, eye, uv);
     if (ray.direction == vec3(0.0f) || dot(ray.direction, title.middle) < title.reach) continue;
+    if (std::abs(dot(ray.direction, title.up)) > title.rise) continue;  // a long line covers a narrow band
     const auto beside = [&](vec2 step) {
       return meet(title, camera_ray(title.camera, eye, uv, uv + step, vec2(0.0f)));
     };
@@ -115,6 +118,22 @@ void fill_title_row(const Title& title, int eye, int y, std::span<float> row) {
     out[3] = alpha;
     out[4] = spot->depth;
   }
+}
+
+// Metres from the text's middle to its end over its distance: the angle on a curved card, its tangent on a flat one.
+static float half_width(const Title& title) {
+  return static_cast<float>(title.coverage.width) * 0.5f / title.pixels / title.setting.distance;
+}
+
+float title_width(const Title& title) {
+  const float half = half_width(title);
+  return 2.0f * glm::degrees(title.setting.curved ? half : std::atan(half));
+}
+
+float comfortable_height(const Title& title) {
+  const float angle = glm::radians(0.5f * kComfortableWidth);
+  const float most = title.setting.curved ? angle : std::tan(angle);
+  return title.setting.height * std::min(1.0f, most / half_width(title));
 }
 
 float nearest_comfortable(const CameraRig& rig, float pitch) {

@@ -33,6 +33,7 @@ struct Title {
   vec3 right, up, middle;  // of the card, unit vectors
   float pixels = 0.0f;     // of the coverage to a metre
   float reach = -1.0f;     // cosine of the angle from its middle that no ray to it exceeds
+  float rise = 1.0f;       // sine of the angle above or below its middle line that no ray to it exceeds
 };
 
 // How many of the lettering's pixels an em should have, so that it is as sharp as the picture.
@@ -45,6 +46,15 @@ Title make_title(const CameraRig& rig, Extent eye, const TitleSetting& setting, 
 // Row y of one eye: R, G, B multiplied by A, A, and Z (metres along the ray, kFarDepth where there is no letter) of
 // every pixel.
 void fill_title_row(const Title& title, int eye, int y, std::span<float> row);
+
+// Degrees that the text spans, seen from the viewing circle's middle.
+float title_width(const Title& title);
+
+// Degrees. A wider text cannot be read without turning the head: eyes turn some 30 degrees to either side with ease.
+inline constexpr float kComfortableWidth = 60.0f;
+
+// Metres. The setting's height, or what makes the text no wider than is comfortable.
+float comfortable_height(const Title& title);
 
 // Metres. What is nearer strains the eyes, by the source's two rules and this rig's distance between the eyes.
 float nearest_comfortable(const CameraRig& rig, float pitch);

@@ -41,7 +41,8 @@ struct SceneOptions {
   std::string confine;  // a folder: no file outside of it is read (ods/base/confined_file.h); empty: no such limit
 };
 
-// Throws Error(kInput) naming the file: absent, damaged, or not supported.
+// Throws Error(kInput) naming the file: absent, damaged, or not supported. Throws Error(kUsage): no scene of that
+// number.
 Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 
 // The same from memory; path stands in messages, and the files that the scene names are looked for beside it.

@@ -11,7 +11,8 @@
 namespace ods {
 
 // A built-in scene's name (ods/scene/builtin.h), or the path of a glTF file; ./room is always a path. Throws
-// Error(kInput); where nothing of that name exists it says which built-in scene may have been meant.
+// Error(kInput); where nothing of that name exists it says which built-in scene may have been meant. Throws
+// Error(kUsage): it has no scene of that number.
 Scene load_scene(const std::string& name_or_path, const SceneOptions& options = {});
 
 }  // namespace ods

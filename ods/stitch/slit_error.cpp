@@ -149,9 +149,9 @@ int slits_for(const CameraRig& camera, Extent eye, const SlitOptions& options, f
   if (!fits(enough)) {
     tried.slits = enough;
     const std::string fault = slit_fault(camera, eye, tried);
-    if (!fault.empty()) throw Error(ErrorKind::kInput, fault);
+    if (!fault.empty()) throw Error(ErrorKind::kUsage, fault);
     throw Error(
-        ErrorKind::kInput,
+        ErrorKind::kUsage,
         fmt::format(
             "even a slit for every column is off by {:.3g} pixels at {:g} m: the pole merge moves the eyes from "
             "one pitch to the next. More --pitches, --merge none, or views with depth",

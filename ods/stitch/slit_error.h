@@ -34,7 +34,7 @@ float arc_minutes(float angle);
 // The fewest slits with which no surface beyond `nearest` metres is off by more than `pixels`, nor stepped. With views
 // that have depth, a tenth of that: their surfaces are put where they belong, and ten times as much may be seen only
 // where one hides another.
-// Throws Error(kInput): no number of slits does it, and what does.
+// Throws Error(kUsage): no number of slits does it, and what does.
 int slits_for(const CameraRig& camera, Extent eye, const SlitOptions& options, float nearest, float pixels);
 
 }  // namespace ods

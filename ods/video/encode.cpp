@@ -42,7 +42,7 @@ static const EncoderFacts& choose_encoder(const EncodeOptions& options) {
       others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", film_codec_name(facts.codec), facts.name);
     }
   }
-  throw Error(ErrorKind::kInput,
+  throw Error(ErrorKind::kUsage,
               fmt::format("this machine cannot encode {} {}{}: it has {}", film_codec_name(packing.codec),
                           chroma_name(packing.chroma), wanted.empty() ? "" : ", which takes " + wanted,
                           others.empty() ? "no encoder that ods knows" : others));
@@ -86,7 +86,7 @@ static Owned<AVFrame> wrapped(const std::shared_ptr<const FilmFrame>& frame, con
 // --- the pictures' encoder -------------------------------------------------------------------------------------------
 
 static void set(AVCodecContext& context, std::string_view name, const std::string& value) {
-  checked(av_opt_set(context.priv_data, std::string(name).c_str(), value.c_str(), 0), ErrorKind::kInput,
+  checked(av_opt_set(context.priv_data, std::string(name).c_str(), value.c_str(), 0), ErrorKind::kUsage,
           fmt::format("{} does not know {}={}", context.codec->name, name, value));
 }
 
@@ -99,7 +99,7 @@ static void set_groups(AVCodecContext& context, const EncodeOptions& options) {
 static void set_quality(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   if (!options.preset.empty() &&
       fmt::format(" {} ", facts.presets).find(" " + options.preset + " ") == std::string::npos) {
-    throw Error(ErrorKind::kInput,
+    throw Error(ErrorKind::kUsage,
                 fmt::format("{} has the presets {}, not '{}'", facts.name, facts.presets, options.preset));
   }
   if (!facts.preset_option.empty()) {
@@ -154,7 +154,7 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   set_groups(*context, options);
   set_quality(*context, facts, options);
   set_own_words(*context, facts, options);
-  checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kInput,
+  checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kUsage,
           fmt::format("{} cannot encode {}x{} pixels of {} bits, {}", facts.name, size.width, size.height,
                       options.packing.bits, chroma_name(options.packing.chroma)));
   return context;

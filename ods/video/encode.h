@@ -52,7 +52,7 @@ struct SoundInfo {
 };
 SoundInfo read_sound_info(const std::string& path);
 
-// Throws Error(kInput) where this machine cannot encode such pictures or sound: what it lacks, and what it has. Writes
+// Throws Error(kUsage) where this machine cannot encode such pictures or sound: what it lacks, and what it has. Writes
 // nothing.
 void check_encoder(Container container, const EncodeOptions& options);
 
@@ -60,7 +60,7 @@ void check_encoder(Container container, const EncodeOptions& options);
 // the same machine give the same bytes.
 class FilmEncoder {
  public:
-  // Throws Error(kInput), Error(kOutput). Precondition: can_hold(), can_have(), `size` of whole blocks.
+  // Throws Error(kUsage), Error(kInput), Error(kOutput). Precondition: can_hold(), can_have(), `size` of whole blocks.
   FilmEncoder(const AtomicFile& file, Container container, Extent size, const EncodeOptions& options);
   FilmEncoder(const FilmEncoder&) = delete;
   FilmEncoder& operator=(const FilmEncoder&) = delete;

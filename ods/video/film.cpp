@@ -70,7 +70,9 @@ const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, cons
     if (id && track.id == static_cast<uint64_t>(*id)) return track;
     ids += fmt::format("{}{} ({}x{})", ids.empty() ? "" : ", ", track.id, track.size.width, track.size.height);
   }
-  if (id) throw unusable(path, fmt::format("it has no video track {}, but {}", *id, ids));
+  if (id) {
+    throw Error(ErrorKind::kUsage, fmt::format("--track: '{}' has no video track {}, but {}", path, *id, ids));
+  }
   const auto smaller = [](const VideoTrack& a, const VideoTrack& b) { return pixels(a) < pixels(b); };
   const VideoTrack& largest = *std::max_element(film.video.begin(), film.video.end(), smaller);
   const auto as_large = [&](const VideoTrack& track) { return pixels(track) == pixels(largest); };
@@ -89,6 +91,10 @@ TagResult tag_film(const std::string& path, const std::string& to, uint64_t trac
   const bool matroska = is_of_matroska(file);
   AtomicFile output(to);
   TagResult result;
+  if (form && !matroska && !fits_v2(*form)) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("cannot tag '{}': mp4 and mov have no words for {}; .mkv has", path, form_text(*form)));
+  }
   try {
     result = matroska ? tag_matroska(file, output, track, form) : tag_mp4(file, output, track, form, sound);
   } catch (const Broken& broken) {

@@ -53,7 +53,8 @@ bool is_film(const std::string& path);
 // Throws Error(kInput): not such a file, cut short, damaged.
 FilmInfo read_film(const std::string& path);
 
-// The track of that id; without one, that with the largest pictures. Throws Error(kInput), also where two are largest.
+// The track of that id; without one, that with the largest pictures. Throws Error(kUsage): there is none of
+// that id; Error(kInput): there is none at all, or two are largest.
 const VideoTrack& choose_track(const FilmInfo& film, std::optional<int> id, const std::string& path);
 
 struct TagResult {

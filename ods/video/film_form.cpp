@@ -26,7 +26,7 @@ FilmStereo film_stereo(Layout layout) {
     case Layout::kCrossEyed:
       return FilmStereo::kRightLeft;
     default:
-      throw Error(ErrorKind::kInput, fmt::format("films have no word for eyes that are {}", layout_name(layout)));
+      throw Error(ErrorKind::kUsage, fmt::format("films have no word for eyes that are {}", layout_name(layout)));
   }
 }
 
@@ -37,7 +37,7 @@ void set_projection(FilmForm& form, const ProjectionSetting& projection) {
     return;
   }
   if (projection.kind != kLatLong || projection.longitude.x < -180.0f || projection.longitude.y > 180.0f) {
-    throw Error(ErrorKind::kInput,
+    throw Error(ErrorKind::kUsage,
                 fmt::format("films have no word for the projection {}: they know lat-long, parts of it such as vr180, "
                             "cubemap and flat",
                             projection_name(projection)));

@@ -12,10 +12,10 @@
 
 namespace ods {
 
-// A layout as films have it; squeezed eyes are laid out as whole ones. Throws Error(kInput) for those that films have
+// A layout as films have it; squeezed eyes are laid out as whole ones. Throws Error(kUsage) for those that films have
 // no word for.
 FilmStereo film_stereo(Layout layout);
-// A lat-long that does not cross the seam, or a flat window; throws Error(kInput) for all others. (The cubemap of films
+// A lat-long that does not cross the seam, or a flat window; throws Error(kUsage) for all others. (The cubemap of films
 // has another order of faces than any that projection.h knows.)
 void set_projection(FilmForm& form, const ProjectionSetting& projection);
 

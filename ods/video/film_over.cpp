@@ -242,7 +242,7 @@ class FilmOver {
     const StoredPicture& like = back_.film().like;
     const std::string fault = over_fault(front, like, over_);
     if (fault.empty()) return make_cover(front, like, over_);
-    throw Error(ErrorKind::kInput, fmt::format("'{}' over '{}': {}", front_.path(), back_.path(), fault));
+    throw Error(ErrorKind::kUsage, fmt::format("'{}' over '{}': {}", front_.path(), back_.path(), fault));
   }
 
   Footage& back_;
@@ -291,7 +291,10 @@ int over_film(Footage& back, Footage& front, int first, int last, const OverOpti
                          tbb::make_filter<void, WorkPointer>(filter_mode::serial_in_order, decode) &
                              tbb::make_filter<WorkPointer, WorkPointer>(filter_mode::parallel, lay) &
                              tbb::make_filter<WorkPointer, void>(filter_mode::serial_in_order, encode));
-  if (done == 0) throw Error(ErrorKind::kInput, fmt::format("there is no picture {} in '{}'", first, back.path()));
+  if (done == 0) {
+    const ErrorKind kind = first > 0 ? ErrorKind::kUsage : ErrorKind::kInput;
+    throw Error(kind, fmt::format("there is no picture {} in '{}'", first, back.path()));
+  }
   encoder.finish();
   const FilmInfo film = read_film(untagged.temporary());
   std::optional<Ambisonics> ambisonics;

@@ -43,7 +43,7 @@ std::optional<Packing> packing_like(const FilmStream& stream, Container containe
 
 // Lays `front` over frames first..last of `back`, a film, which become a film of the same form; where there is no such
 // frame in front, it stays as it is. Its sound is what `options` say. Throws Error as FilmEncoder and FilmDecoder do;
-// kInput for a foreground that cannot be laid over. Returns how many frames there were.
+// kUsage for a foreground that cannot be laid over. Returns how many frames there were.
 int over_film(Footage& back, Footage& front, int first, int last, const OverOptions& over, const EncodeOptions& options,
               const std::string& path, const Progress& progress = {});
 

@@ -23,7 +23,7 @@ namespace ods {
 
 static FrameNames names_in(const std::string& pattern) {
   if (const std::optional<FrameNames> names = frame_names(pattern)) return *names;
-  throw Error(ErrorKind::kInput,
+  throw Error(ErrorKind::kUsage,
               fmt::format("'{}' has no place for the number of a frame; it is written like shot.####.exr", pattern));
 }
 
@@ -107,7 +107,7 @@ static Layout wished_layout(Layout own, std::optional<Layout> wish) {
   if (!wish || *wish == own) return own;
   const Extent squeeze = squeeze_of(own, 2);
   if (squeeze.width * squeeze.height > 1) {
-    throw Error(ErrorKind::kInput, fmt::format("the frames are {} and cannot become {}; ods convert unsqueezes them",
+    throw Error(ErrorKind::kUsage, fmt::format("the frames are {} and cannot become {}; ods convert unsqueezes them",
                                                layout_name(own), layout_name(*wish)));
   }
   return *wish;
@@ -147,7 +147,7 @@ FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optiona
 void check_packing(const FilmPlan& plan, const Packing& packing) {
   const Extent block = chroma_block(packing.chroma);
   if (plan.eye.width % block.width == 0 && plan.eye.height % block.height == 0) return;
-  throw Error(ErrorKind::kInput, fmt::format("eyes of {}x{} pixels cannot be a film of chroma {}: its sides are even",
+  throw Error(ErrorKind::kUsage, fmt::format("eyes of {}x{} pixels cannot be a film of chroma {}: its sides are even",
                                              plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
 }
 

@@ -20,8 +20,8 @@ struct FrameFiles {
   std::string path(size_t index) const;  // of a frame; with %V as the pattern has it
 };
 
-// The frames asked for, or all that there are. Throws Error(kInput): the pattern has no place for a number; frames that
-// are missing, all at once ("7,9-12"), also between the first and the last of those found.
+// The frames asked for, or all that there are. Throws Error(kUsage): the pattern has no place for a number. Throws
+// Error(kInput): frames that are missing, all at once ("7,9-12"), also between the first and the last of those found.
 FrameFiles find_frames(const std::string& pattern, const std::optional<std::vector<int>>& wanted = {});
 
 // What a film of such frames is like, by the first of them.
@@ -40,10 +40,10 @@ FilmPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSett
 
 // `known` goes before what the files say; `layout` is kTopBottom or kSideBySide. Reads the first frame, and of the
 // others what they say of themselves. Throws Error(kInput): a frame that cannot be read, frames of another size
-// (which), a layout that squeezed eyes cannot have.
+// (which); Error(kUsage): a layout that squeezed eyes cannot have.
 FilmPlan plan_film(const FrameFiles& files, const KnownForm& known, std::optional<Layout> layout);
 
-// What the plan's size is not fit for. Throws Error(kInput): odd sides.
+// What the plan's size is not fit for. Throws Error(kUsage): odd sides.
 void check_packing(const FilmPlan& plan, const Packing& packing);
 
 // Writes the film; whatever happens there is a complete one or none. The frames are read ahead, as many as half of the

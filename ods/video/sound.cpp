@@ -77,7 +77,7 @@ static Owned<AVCodecContext> open_sound_encoder(Container container, int channel
   const char* name = container == Container::kMp4 ? "aac" : container == Container::kMov ? "pcm_s24le" : "libopus";
   const AVCodec* codec = avcodec_find_encoder_by_name(name);
   if (codec == nullptr) {
-    throw Error(ErrorKind::kInput, fmt::format("this machine's libavcodec has no {}, which sound in {} takes", name,
+    throw Error(ErrorKind::kUsage, fmt::format("this machine's libavcodec has no {}, which sound in {} takes", name,
                                                container_name(container)));
   }
   Owned<AVCodecContext> context(made(avcodec_alloc_context3(codec)));

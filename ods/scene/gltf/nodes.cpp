@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/scene/gltf/parts.h"
 
@@ -100,10 +101,13 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
 // The nodes of one scene of the file, in the order of the tree; -1 for its default, or all where it has no scenes.
 static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen) {
   const Records& scenes = file.scenes;
-  if (chosen == -1) chosen = std::max(0, index_in(file, file.json.root(), "scene"));
+  const bool is_asked_for = chosen != -1;
+  if (!is_asked_for) chosen = std::max(0, index_in(file, file.json.root(), "scene"));
   if (scenes.empty() && chosen == 0) return tree.order;
   if (chosen < 0 || static_cast<size_t>(chosen) >= scenes.size()) {
-    fail(file, fmt::format("has no scene {}, only {} (counted from 0)", chosen, scenes.size()));
+    const std::string what = fmt::format("has no scene {}, only {} (counted from 0)", chosen, scenes.size());
+    if (is_asked_for) throw Error(ErrorKind::kUsage, fmt::format("--scene: '{}' {}", file.path, what));
+    fail(file, what);
   }
   std::vector<char> inside(tree.order.size(), 0);
   for (const int root : indices(file, *scenes[static_cast<size_t>(chosen)], "nodes")) {
