@@ -266,7 +266,7 @@ CameraExport to_osl(const CameraFile& file) {
       "// camera.cycles_custom[\"ipd\"]. Turn the scene's own stereo off: the whole picture is one render. Blender "
       "must\n"
       "// be built with OSL, else the picture is black: look at _cycles.with_osl.\n"
-      "// camera_shader_raster_position() is from memory of Blender's own examples: not checked by a render.\n";
+      "// Untested: by Blender's manual, \"Custom Camera\"; never rendered with.\n";
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Resolution {} x {}.\n", size.width, size.height);
   text += fmt::format("// Place the camera object: position {:.6g}, {:.6g}, {:.6g} (x, -z, y of ours), {}.\n",
