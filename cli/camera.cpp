@@ -28,7 +28,8 @@ void camera(int argc, char** argv) {
   Options options("camera", "Says a camera in the words of another renderer; what that cannot do is a comment there.",
                   kExamples);
   options.group("Output");
-  options.choice("--for", target, ods::kCameraTargets, ods::camera_target_name, "whose words");
+  options.choice("--for", target, ods::kCameraTargets, ods::camera_target_name,
+                 "whose words; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");
   options.text("-o,--output", "FILE", output, "where to; the terminal by default");
   options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   add_camera_source(options, source);

@@ -29,6 +29,8 @@ class CliStitch : public Cli {
 TEST_F(CliStitch, ARigBecomesAPicture) {
   ASSERT_EQ(plan(), 0) << err;
   EXPECT_NE(out.find("12 slits of 2 views for 2 eyes: 48 views"), std::string::npos) << out;
+  EXPECT_NE(out.find("\n  elevation           85     75     60     30      0    -30"), std::string::npos) << out;
+  EXPECT_NE(out.find("\n  columns "), std::string::npos) << out;
   ASSERT_EQ(render(), 0) << err;
   ASSERT_EQ(stitch("picture.exr", "--report " + folder.path("seams.png")), 0) << err;
   EXPECT_EQ(err, "");

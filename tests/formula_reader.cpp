@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -135,12 +136,18 @@ TextCamera TextCamera::from_povray(const std::string& text) {
   TextCamera camera;
   while (in.take("#declare")) {
     const std::string name = in.next();
-    if (camera.names_.contains(name)) throw std::runtime_error("declared twice: " + name);
+    if (camera.names_.contains(name) || camera.functions_.contains(name))
+      throw std::runtime_error("declared twice: " + name);
     in.expect("=");
     if (in.take("function")) {
-      for (const char* word : {"(", "x", ",", "y", ")", "{"}) in.expect(word);
-      camera.names_[name] = in.expression();
+      Function function;
+      for (const char* word : {"(", "x", ",", "y"}) in.expect(word);
+      while (in.take(",")) function.parameters.push_back(in.next());
+      for (const char* word : {")", "{"}) in.expect(word);
+      function.body = in.expression();
       in.expect("}");
+      camera.check_calls(*function.body);
+      camera.functions_[name] = function;
     } else {
       camera.names_[name] = in.expression();
       in.expect(";");
@@ -184,17 +191,55 @@ std::array<double, 3> TextCamera::vector(const std::vector<Node>& parts, double 
   return {value(*parts[0], x, y, known), value(*parts[1], x, y, known), value(*parts[2], x, y, known)};
 }
 
+int TextCamera::operations(double x, double y) const {
+  operations_ = 0;
+  for (const std::vector<Node>& parts : {location_, direction_}) {
+    for (const Node& part : parts) {
+      Values known;
+      value(*part, x, y, known);
+    }
+  }
+  return operations_;
+}
+
+// With values of its own.
+double TextCamera::call(const TextNode& n, double x, double y, Values& known) const {
+  const Function& function = functions_.at(n.word);
+  if (n.operands.size() != 2 + function.parameters.size()) throw std::runtime_error("other arguments: " + n.word);
+  Values given;
+  for (size_t i = 0; i < function.parameters.size(); i++) {
+    given[function.parameters[i]] = value(*n.operands[2 + i], x, y, known);
+  }
+  const double own_x = value(*n.operands[0], x, y, known), own_y = value(*n.operands[1], x, y, known);
+  return value(*function.body, own_x, own_y, given);
+}
+
+// POV-Ray knows what was declared before.
+void TextCamera::check_calls(const TextNode& n) const {
+  static const std::set<std::string> kOwn = {"sin", "cos", "tan",   "asin",   "atan2", "sqrt", "exp", "pow", "abs",
+                                             "min", "max", "floor", "select", "+",     "-",    "*",   "/"};
+  if (!n.operands.empty() && !kOwn.contains(n.word) && !functions_.contains(n.word)) {
+    throw std::runtime_error("not declared before it is called: " + n.word);
+  }
+  for (const Node& operand : n.operands) check_calls(*operand);
+}
+
 double TextCamera::value(const TextNode& n, double x, double y, Values& known) const {
   const std::string& word = n.word;
   if (word.empty()) return n.number;
+  if (functions_.contains(word)) return call(n, x, y, known);
+  if (const auto found = known.find(word); found != known.end()) return found->second;
   if (const auto name = names_.find(word); name != names_.end()) {
-    const auto found = known.find(word);
-    if (found != known.end()) return found->second;
     return known[word] = value(*name->second, x, y, known);
   }
   if (word == "x") return x;
   if (word == "y") return y;
   if (word == "pi") return std::acos(-1.0);
+  operations_++;
+  if (word == "select" && n.operands.size() == 3) {
+    const bool below = value(*n.operands[0], x, y, known) < 0.0;
+    return value(*n.operands[below ? 1 : 2], x, y, known);
+  }
   std::vector<double> a;
   for (const Node& operand : n.operands) a.push_back(value(*operand, x, y, known));
   if (a.size() == 1) {
@@ -218,7 +263,6 @@ double TextCamera::value(const TextNode& n, double x, double y, Values& known) c
     if (word == "min") return std::min(a[0], a[1]);
     if (word == "max") return std::max(a[0], a[1]);
   }
-  if (a.size() == 3 && word == "select") return a[0] < 0.0 ? a[1] : a[2];
   throw std::runtime_error("unknown word '" + word + "'");
 }
 

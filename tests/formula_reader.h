@@ -16,8 +16,8 @@ struct TextNode;
 // A camera as a text: numbers and formulas by name, and a ray at every image position.
 class TextCamera {
  public:
-  // POV-Ray: #declare NAME = NUMBER; #declare NAME = function(x, y) { ... } camera { user_defined location { function
-  // { ... } x 3 } direction { ... } }. Throws std::runtime_error where the text is anything else.
+  // POV-Ray: #declare NAME = NUMBER; #declare NAME = function(x, y, ...) { ... } camera { user_defined location {
+  // function { ... } x 3 } direction { ... } }. Throws std::runtime_error where the text is anything else.
   static TextCamera from_povray(const std::string& text);
 
   // Lines of a shading language: float NAME = ...; location = TYPE(..., ..., ...); what else there is, is passed over.
@@ -25,15 +25,27 @@ class TextCamera {
 
   std::array<double, 3> location(double x, double y) const { return vector(location_, x, y); }
   std::array<double, 3> direction(double x, double y) const { return vector(direction_, x, y); }
+  // What POV-Ray does for a ray: operators and functions of mathematics, of all six parts. It remembers nothing from
+  // one call to the next, and computes the condition of select() and the value that it chooses.
+  int operations(double x, double y) const;
   void set(const std::string& name, double value);  // of a number that the text declares
 
  private:
   using Node = std::shared_ptr<const TextNode>;
   using Values = std::map<std::string, double>;
+  // A function that is called, of x, y and whatever else it is given.
+  struct Function {
+    std::vector<std::string> parameters;
+    Node body;
+  };
   double value(const TextNode& node, double x, double y, Values& known) const;
+  void check_calls(const TextNode& node) const;
+  double call(const TextNode& node, double x, double y, Values& known) const;
   std::array<double, 3> vector(const std::vector<Node>& parts, double x, double y) const;
 
   std::map<std::string, Node> names_;
+  std::map<std::string, Function> functions_;
+  mutable int operations_ = 0;
   std::vector<Node> location_;
   std::vector<Node> direction_;
 };

@@ -132,6 +132,22 @@ TEST(SlitError, PlansTheFewestSlitsThatAreEnough) {
   EXPECT_THROW(slits_for(merged, eye, SlitOptions(), 1.0f, 0.25f), Error);
 }
 
+// A view's pixel is a step of its tangent; the way out from its middle makes it smaller, twice as fast along as across.
+TEST(ViewDetail, IsTheClosedForm) {
+  for (const float scale : {1.0f, 2.0f}) {
+    SlitOptions options;
+    options.slits = 360, options.scale = scale;
+    const SlitRig rig = make_slit_rig({}, {4096, 2048}, kBoth, options);
+    for (const float degrees : {-89.0f, -75.0f, -60.0f, -20.0f, 10.0f, 45.0f, 80.0f, 85.0f}) {
+      const float latitude = glm::radians(degrees), out = std::cos(std::abs(latitude) - 0.25f * kPi) / scale;
+      const ViewDetail detail = view_detail(rig, latitude);
+      EXPECT_NEAR(detail.across, out / std::cos(latitude), 0.01f * detail.across) << degrees;
+      EXPECT_NEAR(detail.along, out * out * scale, 0.01f * detail.along) << degrees;
+      EXPECT_NEAR(detail.angle, out * 2.0f * kPi / 4096.0f, 0.01f * detail.angle) << degrees;
+    }
+  }
+}
+
 // --- pictures -------------------------------------------------------------------------------------------------------
 
 // What a ray meets on a ball of 2 m around the centre, its colours smooth; before it, if wished, a smaller grey ball.
@@ -235,6 +251,49 @@ TEST(Stitch, ConvergesWithMoreSlits) {
   const double all = stitched_psnr(make_rig(256, {256, 128}, camera)).psnr;
   EXPECT_GT(more, few + 8.0);
   EXPECT_GT(all, more + 3.0);
+}
+
+// Decibels of the lowest 15 degrees, of a pattern of waves about four pixels of the horizon long.
+double psnr_near_the_pole(int slits, float scale) {
+  SlitOptions options;
+  options.slits = slits, options.scale = scale;
+  const SlitRig rig = make_slit_rig({}, {128, 64}, {kLeft}, options);
+  const auto wave = [](const Camera& camera, int eye, vec2 uv, Extent size) {  // the mean of a pixel
+    constexpr int kSamples = 4;
+    float sum = 0.0f;
+    for (int i = 0; i < kSamples * kSamples; i++) {
+      const vec2 in_pixel((static_cast<float>(i % kSamples) + 0.5f) / kSamples - 0.5f,
+                          (static_cast<float>(i / kSamples) + 0.5f) / kSamples - 0.5f);
+      const Ray ray = camera_ray(camera, eye, uv + in_pixel / vec2(size.width, size.height));
+      const vec3 p = ray.origin + ray.direction * (1.6f / std::abs(ray.direction.y));  // floor and ceiling
+      sum += 0.5f + 0.4f * std::sin(20.0f * p.x) * std::sin(20.0f * p.z);
+    }
+    return sum / (kSamples * kSamples);
+  };
+  std::vector<MadePicture> made;
+  for (const CameraRig& view : rig.views) {
+    made.push_back(make_picture(view, rig.view, {kMono}));
+    made.back().memory.reserve(1);
+    add_colour(made.back(), [&, camera = make_camera(view)](int, vec2 uv, float* out) {
+      for (int c = 0; c < 3; c++) out[c] = wave(camera, kMono, uv, rig.view);
+    });
+  }
+  const Image image = images_of(stitch(rig, [&](size_t i) { return made[i].picture; }, {}).rows)[0];
+  double sum = 0.0;
+  const int from = image.height * 11 / 12;
+  for (int y = from; y < image.height; y++) {
+    for (int x = 0; x < image.width; x++) {
+      const vec2 uv((static_cast<float>(x) + 0.5f) / 128.0f, (static_cast<float>(y) + 0.5f) / 64.0f);
+      sum += std::pow(static_cast<double>(image.at(x, y)[0] - wave(make_camera(rig.camera), kLeft, uv, rig.eye)), 2.0);
+    }
+  }
+  return -10.0 * std::log10(sum / (128.0 * (image.height - from)));
+}
+
+TEST(Stitch, NearThePolesFinerViewsAreSharperAndMoreSlitsAreNot) {
+  const double usual = psnr_near_the_pole(32, 1.0f);
+  EXPECT_NEAR(psnr_near_the_pole(128, 1.0f), usual, 1.5);
+  EXPECT_GT(psnr_near_the_pole(32, 2.0f), usual + 3.0);
 }
 
 TEST(Stitch, PartsOfThePicture) {

@@ -34,6 +34,20 @@ bool same(const Formula& a, const Formula& b) {
   return std::equal(a->operands.begin(), a->operands.end(), b->operands.begin(), b->operands.end(), same);
 }
 
+int count_step(const Formula& a, const std::string& name) {
+  int count = a->operation == Operation::kStep && a->name == name ? 1 : 0;
+  for (const Formula& operand : a->operands) count += count_step(operand, name);
+  return count;
+}
+
+Formula replace_step(const Formula& a, const std::string& name, const Formula& by) {
+  if (a->operation == Operation::kStep && a->name == name) return by;
+  if (count_step(a, name) == 0) return a;
+  std::vector<Formula> operands;
+  for (const Formula& operand : a->operands) operands.push_back(replace_step(operand, name, by));
+  return make(a->operation, std::move(operands));
+}
+
 // A sum keeps its number behind, a product before: p + n, n * p.
 static bool has_number_behind(const Formula& a) {
   return a->operation == Operation::kAdd && is_number(a->operands[1]);
@@ -233,9 +247,8 @@ class Printer {
       case Operation::kVariable:
         return a->name;
       case Operation::kParameter:
-        return print_name(a->name, language_);
       case Operation::kStep:
-        return print_name(a->name, language_) + (language_ == Language::kPovray ? "(x, y)" : "");
+        return print_name(a->name, language_);
       case Operation::kSelect:
         return choice(text(a->operands[0], kSum), text(a->operands[1], kSum), text(a->operands[2], kSum));
       default:

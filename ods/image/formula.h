@@ -79,12 +79,15 @@ bool is_number(const Formula& a);
 bool is_number(const Formula& a, double value);
 bool same(const Formula& a, const Formula& b);
 
+// How often the step of this name stands in the formula itself, not in other steps of it; and the formula with another
+// one in place of that step.
+int count_step(const Formula& a, const std::string& name);
+Formula replace_step(const Formula& a, const std::string& name, const Formula& by);
+
 enum class Language { kPovray, kOsl, kGlsl, kHlsl, kPython, kPlain };
-inline constexpr Language kLanguages[] = {Language::kPovray, Language::kOsl,    Language::kGlsl,
-                                          Language::kHlsl,   Language::kPython, Language::kPlain};
 
 // A formula as an expression of the language. Pi is written `pi`, which Python and the shading languages must define;
-// a number has 10 digits. In POV-Ray names become odsName, and steps functions of (x, y).
+// a number has 10 digits. In POV-Ray names become odsName.
 std::string print(const Formula& formula, Language language);
 std::string print_name(const std::string& name, Language language);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ods/base/error.h"
+#include "ods/stitch/slit_rows.h"
 
 namespace ods {
 
@@ -83,6 +84,27 @@ std::vector<int> pitches_at(const SlitRig& rig, float latitude) {
 }
 
 }  // namespace
+
+ViewDetail view_detail(const SlitRig& rig, float latitude) {
+  const float width = static_cast<float>(rig.eye.width), height = static_cast<float>(rig.eye.height);
+  const PictureRays rays{make_camera(rig.camera), rig.eyes[0], {width, height}};
+  const vec2 range = glm::radians(rig.camera.projection.latitude);
+  const float x = 0.5f * width / static_cast<float>(rig.options.slits);
+  const float y = std::clamp(height * (range.y - latitude) / (range.y - range.x), 0.5f, height - 0.5f);
+  ViewDetail coarsest;
+  for (const int pitch : pitches_at(rig, std::clamp(latitude, range.x, range.y))) {
+    const Camera view = make_camera(rig.views[view_index(rig, 0, 0, pitch)]);
+    const auto at = [&](float dx, float dy) { return ray_in_view(view, rig.view, rays, x + dx, y + dy).at; };
+    const float across = 1.0f / length(at(0.5f, 0.0f) - at(-0.5f, 0.0f));
+    const float along = 1.0f / length(at(0.0f, 0.5f) - at(0.0f, -0.5f));
+    coarsest.across = std::max(coarsest.across, across);
+    coarsest.along = std::max(coarsest.along, along);
+  }
+  const vec2 longitude = glm::radians(rig.camera.projection.longitude);
+  const float shown = range.y - (range.y - range.x) * y / height;
+  coarsest.angle = coarsest.across * std::cos(shown) * (longitude.y - longitude.x) / width;
+  return coarsest;
+}
 
 static SlitError error_at(const Judge& judge, float latitude, float distance, float beyond = 0.0f) {
   const SlitRig& rig = judge.rig;

@@ -27,6 +27,17 @@ SlitError slit_error(const SlitRig& rig, float latitude, float distance);
 // The largest at any latitude.
 SlitError largest_slit_error(const SlitRig& rig, float distance);
 
+// How much of the picture one pixel of a view covers at a latitude (radians): a view's pixels have about the same size
+// on the sphere everywhere, but the picture's columns narrow towards the poles, as the cosine of the latitude. Where
+// `across` is well above 1, neighbouring columns show much the same, and a picture rendered directly has more detail
+// sideways. More slits do not change it; SlitOptions::scale does.
+struct ViewDetail {
+  float across = 0.0f;  // columns of the picture
+  float along = 0.0f;   // rows
+  float angle = 0.0f;   // radians: as wide is the pixel on the sphere
+};
+ViewDetail view_detail(const SlitRig& rig, float latitude);
+
 // Pixels of the picture as wide as an angle, and the angle in minutes of arc.
 float picture_pixels(const SlitRig& rig, float angle);
 float arc_minutes(float angle);

@@ -203,7 +203,8 @@ bool has_rig_marks(const SlitRig& rig, const ViewFiles& files) {
   bool all = true;
   for (const std::string& folder : view_folders(rig, files)) {
     const std::string path = folder + kRigMarkFile;
-    if (!std::filesystem::exists(path)) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error) && !error) {
       all = false;
       continue;
     }

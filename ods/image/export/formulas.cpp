@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "ods/image/export/writers.h"
 
 namespace ods {
@@ -44,7 +46,7 @@ struct Shader {
 };
 
 std::string steps_text(const CameraFormula& formula, Language language, std::string_view declare,
-                        std::string_view end) {
+                       std::string_view end) {
   std::string text;
   for (const NamedFormula& step : formula.steps) {
     text += fmt::format("  {}{} = {}{}\n", declare, step.name, print(step.value, language), end);
@@ -79,11 +81,122 @@ CameraExport to_shader(const CameraFile& file, const FormulaView& view, const Sh
   return result;
 }
 
-std::string povray_vector(const std::string& name, const std::array<Formula, 3>& v) {
-  std::string text = fmt::format("  {} {{\n", name);
-  for (const Formula& part : v) text += fmt::format("    function {{ {} }}\n", print(part, Language::kPovray));
-  return text + "  }\n";
-}
+// A vector in POV-Ray, whose functions know no local variables: what a function calls twice is computed twice, and what
+// that calls twice, four times. So a step that a part would compute more than once becomes a link of a chain: a
+// function of the links before it that are still needed, which hands these and its own value to the next function. The
+// last one chooses among the parts. All other steps are written out where they are used.
+class PovrayVector {
+ public:
+  PovrayVector(const std::string& name, const std::array<Formula, 3>& v, const std::vector<NamedFormula>& steps)
+      : name_(name), v_(v), chain_(steps) {
+    std::vector<std::string> links;
+    for (const NamedFormula& step : steps) {
+      if (evaluations(step.name) > 1) links.push_back(step.name);
+    }
+    for (const NamedFormula& step : steps) {
+      const bool shared = !links.empty() && occurrences(step.name) > 1;
+      if (!shared && std::find(links.begin(), links.end(), step.name) == links.end()) write_out(step.name);
+    }
+  }
+
+  // The last function first, or POV-Ray would not know it when it reads the call.
+  std::string functions() const {
+    if (chain_.empty()) return "";
+    std::string text = declare(chain_.size(), chosen());
+    for (size_t i = chain_.size(); i-- > 0;) {
+      std::vector<std::string> values;
+      for (const std::string& name : needed_from(i + 1)) {
+        values.push_back(name == chain_[i].name ? print(chain_[i].value, Language::kPovray)
+                                                : print_name(name, Language::kPovray));
+      }
+      text += declare(i, fmt::format("{}(x, y, odsPart, {})", function_name(i + 1), fmt::join(values, ", ")));
+    }
+    return text;
+  }
+
+  std::string camera_part() const {
+    std::string text = fmt::format("  {} {{\n", name_);
+    for (size_t i = 0; i < 3; i++) {
+      text +=
+          fmt::format("    function {{ {} }}\n", uses_chain(v_[i]) ? fmt::format("{}(x, y, {})", function_name(0), i)
+                                                                   : print(v_[i], Language::kPovray));
+    }
+    return text + "  }\n";
+  }
+
+ private:
+  bool uses_chain(const Formula& part) const {
+    return std::any_of(chain_.begin(), chain_.end(),
+                       [&](const NamedFormula& step) { return count_step(part, step.name) > 0; });
+  }
+
+  // How often a part computes a step if all are written out; of the part that does so most often.
+  double evaluations(const std::string& name) const {
+    double most = 0.0;
+    for (const Formula& part : v_) {
+      std::vector<double> counts(chain_.size());
+      size_t found = 0;
+      for (size_t i = chain_.size(); i-- > 0;) {
+        counts[i] = count_step(part, chain_[i].name);
+        for (size_t user = i + 1; user < chain_.size(); user++) {
+          counts[i] += counts[user] * count_step(chain_[user].value, chain_[i].name);
+        }
+        if (chain_[i].name == name) found = i;
+      }
+      most = std::max(most, counts[found]);
+    }
+    return most;
+  }
+
+  // In the text.
+  int occurrences(const std::string& name) const {
+    int count = 0;
+    for (const Formula& part : v_) count += count_step(part, name);
+    for (const NamedFormula& step : chain_) count += count_step(step.value, name);
+    return count;
+  }
+
+  void write_out(const std::string& name) {
+    const auto step = std::find_if(chain_.begin(), chain_.end(), [&](const auto& each) { return each.name == name; });
+    const Formula value = step->value;
+    chain_.erase(step);
+    for (NamedFormula& each : chain_) each.value = replace_step(each.value, name, value);
+    for (Formula& part : v_) part = replace_step(part, name, value);
+  }
+
+  // The values that function i is given: of the links before it, those that it or a later one needs.
+  std::vector<std::string> needed_from(size_t i) const {
+    std::vector<std::string> names;
+    for (size_t link = 0; link < i; link++) {
+      const std::string& name = chain_[link].name;
+      bool needed = std::any_of(v_.begin(), v_.end(), [&](const Formula& part) { return count_step(part, name) > 0; });
+      for (size_t later = i; later < chain_.size(); later++) {
+        needed = needed || count_step(chain_[later].value, name) > 0;
+      }
+      if (needed) names.push_back(name);
+    }
+    return names;
+  }
+
+  std::string chosen() const {
+    return fmt::format("select(odsPart - 0.5, {}, select(odsPart - 1.5, {}, {}))", print(v_[0], Language::kPovray),
+                       print(v_[1], Language::kPovray), print(v_[2], Language::kPovray));
+  }
+
+  std::string function_name(size_t i) const {
+    return fmt::format("{}{}", print_name(name_, Language::kPovray), i == 0 ? "" : fmt::format("{}", i));
+  }
+
+  std::string declare(size_t i, const std::string& body) const {
+    std::string parameters = "x, y, odsPart";
+    for (const std::string& name : needed_from(i)) parameters += ", " + print_name(name, Language::kPovray);
+    return fmt::format("#declare {} = function({}) {{ {} }}\n", function_name(i), parameters, body);
+  }
+
+  std::string name_;
+  std::array<Formula, 3> v_;
+  std::vector<NamedFormula> chain_;
+};
 
 }  // namespace
 
@@ -102,19 +215,23 @@ CameraExport to_povray(const CameraFile& file) {
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Render with +W{} +H{}.\n", size.width, size.height);
   if (is_fisheye(file.rig.projection.kind)) {
-    text += "// Where the picture is empty the direction is 0; not checked what POV-Ray makes of it.\n";
+    text += "// Where the picture is empty the direction is 0, which POV-Ray 3.8 paints black with alpha 0.\n";
   }
   text += eye_hint(file, formula, "//", "odsEye");
   for (const NamedFormula& parameter : formula.parameters) {
     text += fmt::format("#declare {} = {};{}\n", print_name(parameter.name, Language::kPovray),
                         print(parameter.value, Language::kPovray), remark(parameter.meaning, "//"));
   }
-  for (const NamedFormula& step : formula.steps) {
-    text += fmt::format("#declare {} = function(x, y) {{ {} }}\n", print_name(step.name, Language::kPovray),
-                        print(step.value, Language::kPovray));
+  const PovrayVector location("location", formula.location, formula.steps);
+  const PovrayVector direction("direction", formula.direction, formula.steps);
+  const std::string functions = location.functions() + direction.functions();
+  if (!functions.empty()) {
+    text +=
+        "// Read each group of functions from its last: every function computes one value and hands it on, with those\n"
+        "// that are still needed. So POV-Ray computes each value once. odsPart: 0 is x, 1 is y, 2 is z.\n";
   }
-  text += "camera {\n  user_defined\n" + povray_vector("location", formula.location) +
-          povray_vector("direction", formula.direction) + "}\n";
+  text += functions;
+  text += "camera {\n  user_defined\n" + location.camera_part() + direction.camera_part() + "}\n";
   return result;
 }
 
@@ -149,7 +266,7 @@ CameraExport to_osl(const CameraFile& file) {
       "// camera.cycles_custom[\"ipd\"]. Turn the scene's own stereo off: the whole picture is one render. Blender "
       "must\n"
       "// be built with OSL, else the picture is black: look at _cycles.with_osl.\n"
-      "// camera_shader_raster_position() is from memory of Blender's own examples: not checked by a render.\n";
+      "// Untested: by Blender's manual, \"Custom Camera\"; never rendered with.\n";
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Resolution {} x {}.\n", size.width, size.height);
   text += fmt::format("// Place the camera object: position {:.6g}, {:.6g}, {:.6g} (x, -z, y of ours), {}.\n",

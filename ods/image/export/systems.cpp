@@ -161,7 +161,7 @@ VrCamera vr_camera(const CameraFile& file, std::vector<std::string>& warnings) {
 }
 
 constexpr const char* kArnoldNote =
-    "Merge angles are measured from the pole, as Arnold's manual has it; not checked by a render.\n";
+    "Untested: merge angles are measured from the pole, as Arnold's manual has it; never rendered with.\n";
 
 }  // namespace
 
@@ -197,8 +197,9 @@ CameraExport to_mtoa(const CameraFile& file) {
   text = comment_block("//", "MtoA's vr_camera, in MEL: " + camera_title(file) + ". Centimetres.", result.warnings);
   text += std::string("// ") + kArnoldNote;
   text +=
-      "// Attributes are Arnold's parameters behind ai, and menus count from 0 in the manual's order: not checked in\n"
-      "// Maya. Look at the camera's Arnold section after running this.\n"
+      "// Untested in Maya. Names and the order of menus are those of MtoA's camera attributes; look at the camera's "
+      "Arnold\n"
+      "// section after running this.\n"
       "string $c[] = `camera -name \"ods\"`;\n";
   text += fmt::format("setAttr ($c[0] + \".rotateOrder\") 2;  // zxy: roll, then pitch, then yaw\n");
   text += fmt::format("setAttr ($c[0] + \".translate\") -type \"double3\" {} {} {};\n", 100.0f * rig.position.x,
@@ -270,7 +271,7 @@ CameraExport to_unreal(const CameraFile& file) {
   text = comment_block("//", "Unreal's panoramic capture, console: " + camera_title(file) + ". Centimetres.", warnings);
   text +=
       "// It captures slits of one eye point each: one degree of heading at a time by default.\n"
-      "// SP.EyeSeparation, SP.StepCaptureWidth: the manual's parameters behind SP., not checked in the editor.\n";
+      "// Untested in the editor: the names are those that the plug-in's source registers.\n";
   text +=
       fmt::format("// Camera: X={:.6g} Y={:.6g} Z={:.6g}, Pitch={} Yaw={} Roll={}\n", -100.0f * rig.position.z + 0.0f,
                   100.0f * rig.position.x, 100.0f * rig.position.y, rig.pitch, rig.yaw, rig.roll);
