@@ -135,6 +135,29 @@ TEST_F(MadeFilm, TwoRunsAreTheSameBytes) {
   EXPECT_EQ(folder.read("one.mkv"), folder.read("two.mkv"));
 }
 
+// Of every encoder, and of a film so small that few threads find work.
+TEST_F(MadeFilm, TheNumberOfThreadsChangesNoByte) {
+  made::write_frames(folder.path("small.#.png"), {1, 2, 3}, Layout::kTopBottom, {64, 32});
+  const FrameFiles small = find_frames(folder.path("small.#.png"));
+  const FilmPlan plan = plan_film(small, {}, {});
+  for (const EncoderFacts& facts : known_encoders()) {
+    if (!has_encoder(facts.name)) continue;
+    options.packing.codec = facts.codec;
+    options.packing.bits = facts.codec == FilmCodec::kProRes ? 10 : 8;
+    options.packing.chroma = facts.codec == FilmCodec::kProRes ? Chroma::k422 : Chroma::k420;
+    options.encoder = facts.name;
+    std::string one, small_one;
+    for (const int threads : {1, 2, 4, 7, 0}) {
+      options.threads = threads;
+      make("film.mkv");
+      make_film(small, plan, {}, options, folder.path("small.mkv"));
+      if (threads == 1) one = folder.read("film.mkv"), small_one = folder.read("small.mkv");
+      EXPECT_TRUE(folder.read("film.mkv") == one) << facts.name << threads;
+      EXPECT_TRUE(folder.read("small.mkv") == small_one) << facts.name << threads;
+    }
+  }
+}
+
 TEST_F(MadeFilm, TheHeaderComesFirst) {
   make("film.mp4");
   const std::string bytes = folder.read("film.mp4");
@@ -175,6 +198,18 @@ TEST_F(MadeFilm, ADamagedFrameInTheMiddleLeavesNothing) {
   expect_error([&] { make("film.mp4"); }, folder.path("a.5.png"));
   EXPECT_EQ(folder.read("film.mp4"), "the old one");
   EXPECT_EQ(folder.names().size(), before);
+}
+
+// Wherever the damaged one is, those that are read meanwhile go, too: the leak sanitizer is the judge.
+TEST_F(MadeFilm, ADamagedFrameLeavesNoneOfTheOthersInMemory) {
+  for (const char* damaged : {"a.1.png", "a.4.png", "a.9.png"}) {
+    const std::string png = folder.read(damaged);
+    folder.write(damaged, png.substr(0, png.size() / 2));
+    for (int i = 0; i < 20; i++) {
+      expect_error([&] { make("film.mp4"); }, folder.path(damaged));
+    }
+    folder.write(damaged, png);
+  }
 }
 
 TEST_F(MadeFilm, AFrameThatChangedMeanwhileIsFound) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <thread>
 
 #include "ods/base/error.h"
 #include "ods/video/av.h"
@@ -113,14 +114,31 @@ static void set_quality(AVCodecContext& context, const EncoderFacts& facts, cons
   }
 }
 
+// The same frames give the same bytes whatever the number of threads. What x264 writes depends on how many it has, so
+// that this is always the same; what x265 writes depends on how many frames it has in work. libvpx and libaom write one
+// thing alone and another with company; SVT-AV1 and ProRes do not care.
+static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
+  constexpr int kX264Threads = 12;
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  const int wanted = options.threads > 0 ? options.threads : std::max(1, processors);
+  context.thread_count = options.threads;
+  if (facts.name == "libx264") context.thread_count = kX264Threads;
+  if (facts.name == "libx265") {
+    constexpr int kFrames = 3, kBlock = 64;  // pixels of its largest block; a frame is some rows behind the one before
+    const int rows = (context.height + kBlock - 1) / kBlock;
+    context.thread_count = std::clamp((rows + 1) / 2, 1, kFrames);
+  }
+  if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") context.thread_count = std::clamp(wanted, 2, 64);
+}
+
 static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const std::string_view name = facts.name;
   const Extent size{context.width, context.height};
   if (name == "libx264" && smallest_level(Codec::kH264, size, options.rate.value()) > "5.2") {
     set(context, "x264-params", "mvrange=511");  // else the decoders of early headsets show rubbish
   }
-  if (name == "libx265") {  // which speaks to the console by itself
-    std::string words = "log-level=none:open-gop=0";
+  if (name == "libx265") {                                   // which speaks to the console by itself
+    std::string words = "log-level=none:open-gop=0:info=0";  // its settings would name the threads
     if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
     set(context, "x265-params", words);
   }
@@ -148,11 +166,11 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   context->colorspace = AVCOL_SPC_BT709;
   context->chroma_sample_location =
       options.packing.chroma == Chroma::k420 ? AVCHROMA_LOC_LEFT : AVCHROMA_LOC_UNSPECIFIED;
-  context->thread_count = options.threads;
   context->flags |= AV_CODEC_FLAG_BITEXACT;
   if (header_apart) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   set_groups(*context, options);
   set_quality(*context, facts, options);
+  set_threads(*context, facts, options);
   set_own_words(*context, facts, options);
   checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kUsage,
           fmt::format("{} cannot encode {}x{} pixels of {} bits, {}", facts.name, size.width, size.height,

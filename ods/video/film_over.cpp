@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/pipeline.h"
 
 namespace ods {
 
@@ -198,7 +198,6 @@ struct Work {
   std::optional<StoredPicture> front;  // of a film, which only one at a time can read
   std::shared_ptr<FilmFrame> frame;
 };
-using WorkPointer = std::shared_ptr<Work>;
 
 class FilmOver {
  public:
@@ -207,18 +206,17 @@ class FilmOver {
     if (front_.kind() == FootageKind::kPicture) still_ = cover_of(*front_.picture(0));
   }
 
-  // Null behind the last one.
-  WorkPointer decode(int number) {
+  // False behind the last one.
+  bool decode(int number, Work& work) {
     std::optional<DecodedFrame> decoded = back_.decode(number);
-    if (!decoded) return nullptr;
-    auto work = std::make_shared<Work>();
-    work->number = number;
-    work->back = std::move(*decoded);
+    if (!decoded) return false;
+    work.number = number;
+    work.back = std::move(*decoded);
     if (front_.kind() == FootageKind::kFilm && !front_ended_) {
-      work->front = front_.picture(number);
-      front_ended_ = !work->front;
+      work.front = front_.picture(number);
+      front_ended_ = !work.front;
     }
-    return work;
+    return true;
   }
 
   void lay(Work& work) const {
@@ -271,26 +269,17 @@ int over_film(Footage& back, Footage& front, int first, int last, const OverOpti
   FilmEncoder encoder(untagged, *container_of_path(path), back.stream().size, options);
   const int expected = std::max(1, std::min(last, back.stream().count - 1) - first + 1);
   int next = first, done = 0;
-  const auto decode = [&](tbb::flow_control& control) -> WorkPointer {
+  const auto decode = [&](Work& work) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    WorkPointer work = next <= last ? job.decode(next++) : nullptr;
-    if (!work) control.stop();
-    return work;
+    return next <= last && job.decode(next++, work);
   };
-  const auto lay = [&](const WorkPointer& work) {
-    job.lay(*work);
-    return work;
-  };
-  const auto encode = [&](const WorkPointer& work) {
-    encoder.add(std::move(work->frame));
+  const auto lay = [&](Work& work) { job.lay(work); };
+  const auto encode = [&](const Work& work) {
+    encoder.add(work.frame);
     done++;
     if (progress.report) progress.report(std::min(1.0, static_cast<double>(done) / expected));
   };
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(frames_at_once(back.stream(), front.kind()),
-                         tbb::make_filter<void, WorkPointer>(filter_mode::serial_in_order, decode) &
-                             tbb::make_filter<WorkPointer, WorkPointer>(filter_mode::parallel, lay) &
-                             tbb::make_filter<WorkPointer, void>(filter_mode::serial_in_order, encode));
+  run_pipeline<Work>(frames_at_once(back.stream(), front.kind()), decode, lay, encode);
   if (done == 0) {
     const ErrorKind kind = first > 0 ? ErrorKind::kUsage : ErrorKind::kInput;
     throw Error(kind, fmt::format("there is no picture {} in '{}'", first, back.path()));

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/pipeline.h"
 #include "ods/base/read_file.h"
 #include "ods/video/film_form.h"
 
@@ -180,26 +180,25 @@ static size_t frames_ahead(const FilmPlan& plan, const Packing& packing) {
 
 static void encode_frames(const FrameFiles& files, const FilmPlan& plan, const Development& development,
                           const EncodeOptions& options, FilmEncoder& encoder, const Progress& progress) {
-  using Frame = std::shared_ptr<FilmFrame>;
+  struct Work {
+    size_t index = 0;
+    std::shared_ptr<FilmFrame> frame;
+  };
   size_t next = 0, done = 0;
-  const auto number = [&](tbb::flow_control& control) {
-    if (next == files.frames.size()) control.stop();
-    return next++;
+  const auto number = [&](Work& work) {
+    work.index = next++;
+    return work.index < files.frames.size();
   };
-  const auto read = [&](size_t index) -> Frame {
+  const auto read = [&](Work& work) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    return read_frame(files.path(index), plan, development, options.packing);
+    work.frame = read_frame(files.path(work.index), plan, development, options.packing);
   };
-  const auto encode = [&](const Frame& frame) {
-    encoder.add(frame);
+  const auto encode = [&](const Work& work) {
+    encoder.add(work.frame);
     done++;
     if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(files.frames.size()));
   };
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(frames_ahead(plan, options.packing),
-                         tbb::make_filter<void, size_t>(filter_mode::serial_in_order, number) &
-                             tbb::make_filter<size_t, Frame>(filter_mode::parallel, read) &
-                             tbb::make_filter<Frame, void>(filter_mode::serial_in_order, encode));
+  run_pipeline<Work>(frames_ahead(plan, options.packing), number, read, encode);
 }
 
 TagResult make_film(const FrameFiles& files, const FilmPlan& plan, const Development& development,

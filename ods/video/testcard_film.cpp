@@ -3,7 +3,6 @@
 #include "ods/video/testcard_film.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/pipeline.h"
 #include "ods/video/film_over.h"
 
 namespace ods {
@@ -136,27 +136,27 @@ std::string testcard_sound(int frames, double fps) {
 // --- the film --------------------------------------------------------------------------------------------------------
 
 static void encode_frames(const TestcardFilm& film, int frames, FilmEncoder& encoder, const Progress& progress) {
-  using Frame = std::shared_ptr<FilmFrame>;
+  struct Work {
+    int number = 0;
+    std::shared_ptr<FilmFrame> frame;
+  };
   int next = 0, done = 0;
-  const auto number = [&](tbb::flow_control& control) {
-    if (next == frames) control.stop();
-    return next++;
+  const auto number = [&](Work& work) {
+    work.number = next++;
+    return work.number < frames;
   };
-  const auto draw = [&](int each) {
+  const auto draw = [&](Work& work) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    return testcard_frame(film, each);
+    work.frame = testcard_frame(film, work.number);
   };
-  const auto encode = [&](const Frame& frame) {
-    encoder.add(frame);
+  const auto encode = [&](const Work& work) {
+    encoder.add(work.frame);
     done++;
     if (progress.report) progress.report(static_cast<double>(done) / frames);
   };
   const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
   const size_t at_once = std::clamp<size_t>(available_memory() / 8 / film.still->bytes(), 1, threads + 1);
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(at_once, tbb::make_filter<void, int>(filter_mode::serial_in_order, number) &
-                                      tbb::make_filter<int, Frame>(filter_mode::parallel, draw) &
-                                      tbb::make_filter<Frame, void>(filter_mode::serial_in_order, encode));
+  run_pipeline<Work>(at_once, number, draw, encode);
 }
 
 void write_testcard_film(const TestcardFilm& film, const FilmPlan& plan, int frames, EncodeOptions options,
