@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From a scene to a stitched picture, as its user goes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -103,6 +104,22 @@ TEST_F(CliStitch, NothingIsWrittenThroughALink) {
   EXPECT_EQ(folder.read("victim"), "a diary");
   EXPECT_EQ(folder.read("other.exr.stitching"), "a diary");
   EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr")));
+}
+
+TEST_F(CliStitch, ViewsAreShared) {
+  ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
+  const std::vector<std::string> job = {"render", "axis", "--samples", "64", "--skip-existing",
+                                        "--rig",  rig,    "-o",        views};
+  Ods first(job), second(job);
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_EQ(second.finish(), 0) << second.err;
+  for (int view = 1; view <= 24; view++) {
+    const std::string name = fmt::format("/{:04}.exr\n", view);
+    const bool by_first = first.out.find(name) != std::string::npos;
+    EXPECT_NE(by_first, second.out.find(name) != std::string::npos) << view;
+  }
+  EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 0) << err;
+  EXPECT_EQ(out, "");
 }
 
 TEST_F(CliStitch, FramesAreShared) {
