@@ -49,7 +49,7 @@ bool read_options(FilmJob& job, int argc, char** argv) {
   add_film_options(options, job.film);
   options.text("--rig", "FILE", job.rig, "stitch the views of this rig (ods rig); SCENE is then their names");
   options.flag("--keep-frames", job.keep_frames, "leave FILM.frames, which ods encode reads, where it is");
-  options.flag("--restart", job.restart, "render the frames anew that are there of other options");
+  options.flag("--restart", job.restart, "remove the frames that exist and render them anew");
   options.group("Picture");
   add_form_options(options, render.render, render.save);
   options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "stops");

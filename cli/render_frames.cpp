@@ -150,7 +150,7 @@ size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& ti
   }
   std::vector<SharedFrame> files;
   for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
-  make_shared_frames(files, render);
+  make_shared_frames(files, "frame", render);
   return rendered;
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/console.h"
 #include "cli/long_job.h"
+#include "cli/shared_frames.h"
 #include "cli/stitch_frames.h"
 #include "ods/cpu/render.h"
 #include "ods/kernel/random.h"
@@ -33,9 +34,8 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   options.width = rig.view.width, options.height = rig.view.height, options.eyes = ods::Eyes::kMonoEye;
   const auto start = std::chrono::steady_clock::now();
   ods::CpuRenderer renderer(scene, options.threads);
-  for (size_t i = 0; i < rig.views.size(); i++) {
+  const auto render_view = [&](size_t i) {
     const std::string path = view_path(rig, files, i);
-    if (time.skip_existing && ods::is_saved(path)) continue;
     options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // or noise would repeat, slit by slit
     ods::Progress progress;
     progress.report = [&](double part) {
@@ -45,6 +45,13 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
     save_picture(picture, rig.views[i], save, path);
     lines.clear();
     std::cout << path << std::endl;
+  };
+  std::vector<SharedFrame> views;
+  for (size_t i = 0; i < rig.views.size(); i++) views.push_back({static_cast<int>(i) + 1, view_path(rig, files, i)});
+  if (time.skip_existing) {
+    make_shared_frames(views, "view", render_view);
+  } else {
+    for (size_t i = 0; i < views.size(); i++) render_view(i);
   }
   note(fmt::format("{} views in {}", rig.views.size(), duration_text(seconds_since(start))));
 }

@@ -15,16 +15,17 @@
 #include "ods/base/frames.h"
 #include "ods/image/save.h"
 
-static void say_who(const std::vector<SharedFrame>& frames, const std::vector<size_t>& others,
+static void say_who(const std::vector<SharedFrame>& frames, const std::vector<size_t>& others, const std::string& noun,
                     const std::string& holder) {
   std::vector<int> numbers;
   for (const size_t i : others) numbers.push_back(frames[i].number);
   const bool one = others.size() == 1;
-  note(fmt::format("waiting for frame{} {}, which {} made by {}{}", one ? "" : "s", ods::frames_text(numbers),
+  note(fmt::format("waiting for {}{} {}, which {} made by {}{}", noun, one ? "" : "s", ods::frames_text(numbers),
                    one ? "is being" : "are being", holder, one ? "" : " and others"));
 }
 
-void make_shared_frames(const std::vector<SharedFrame>& frames, const std::function<void(size_t index)>& make) {
+void make_shared_frames(const std::vector<SharedFrame>& frames, const std::string& noun,
+                        const std::function<void(size_t index)>& make) {
   std::vector<size_t> open(frames.size());
   std::iota(open.begin(), open.end(), size_t{0});
   size_t said = 0;  // how many were waited for when it was last said
@@ -32,7 +33,10 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::funct
     std::vector<size_t> others;
     std::string holder, first;
     for (const size_t i : open) {
-      if (ods::is_saved(frames[i].path)) continue;
+      if (ods::is_saved(frames[i].path)) {
+        remove_dead_claim(frames[i].path);
+        continue;
+      }
       if (const std::unique_ptr<ods::Claim> own = ods::try_claim(frames[i].path, holder)) {
         if (!ods::is_saved(frames[i].path)) make(i);  // whoever had it before may just have saved it
         continue;
@@ -43,7 +47,7 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::funct
     const bool waits = others.size() == open.size();
     open = std::move(others);
     if (!waits) continue;
-    if (open.size() != said) say_who(frames, open, first);
+    if (open.size() != said) say_who(frames, open, noun, first);
     said = open.size();
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
   }

@@ -14,9 +14,11 @@ struct SharedFrame {
 };
 
 // Calls `make` with the index of every frame that is not saved yet and that no other process makes. Then names the
-// frames that others are still making, and waits until they are saved; a frame whose process died is made here. So all
-// frames are there when it returns. Throws ods::Error(kOutput), and what `make` throws.
-void make_shared_frames(const std::vector<SharedFrame>& frames, const std::function<void(size_t index)>& make);
+// frames (`noun`: "frame", or what they are) that others are still making, and waits until they are saved; a frame
+// whose process died is made here. So all frames are there when it returns. Throws ods::Error(kOutput), and what `make`
+// throws.
+void make_shared_frames(const std::vector<SharedFrame>& frames, const std::string& noun,
+                        const std::function<void(size_t index)>& make);
 
 // Removes the claim that a process left on a frame when it was killed just after saving it.
 void remove_dead_claim(const std::string& path);

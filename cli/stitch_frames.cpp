@@ -114,8 +114,7 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
   std::vector<SharedFrame> files;
   for (const int frame : frames) files.push_back({frame, outputs.path(frame)});
   if (job.skip_existing && job.claims) {
-    for (const SharedFrame& frame : files) remove_dead_claim(frame.path);
-    make_shared_frames(files, stitch_frame);
+    make_shared_frames(files, "frame", stitch_frame);
     return frames;
   }
   for (size_t i = 0; i < frames.size(); i++) {

@@ -35,7 +35,8 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.group("Views");
   options.text("--frames", "RANGE", job.frames,
                "a film: a mark in the name of the views' folder is the frame's number");
-  options.flag("--skip-existing", job.skip_existing, "frames that are there stay");
+  options.flag("--skip-existing", job.skip_existing,
+               "keep the frames whose files exist; processes with this option share the others");
   options.custom(
       "--sheet", "CxR", "", [&](const std::string& word) { set_sheet(word, job.views); },
       "every file holds so many columns and rows of views, row by row");

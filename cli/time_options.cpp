@@ -72,7 +72,8 @@ void add_time_options(Options& options, TimeOptions& time) {
                  "motion blur: degrees for which it is open around the frame's time, 360 are the time between two "
                  "frames and 180 is usual; 0: none");
   options.choice("--noise", time.noise, kFilmNoises, film_noise_name, "the same grain in every frame, or each its own");
-  options.flag("--skip-existing", time.skip_existing, "frames whose files are there are left as they are");
+  options.flag("--skip-existing", time.skip_existing,
+               "keep the frames whose files exist; processes with this option share the others");
 }
 
 bool asks_for_film(const TimeOptions& time) {

@@ -8,8 +8,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <random>
-#include <thread>
 
 #include "tests/cli_runner.h"
 #include "tests/moving_files.h"
@@ -93,19 +91,87 @@ TEST_F(CliFrames, EyesInTheirOwnFilesCountTogether) {
 }
 
 TEST_F(CliFrames, KilledAndResumedItIsTheSame) {
-  ASSERT_EQ(run(film("--frames 0-5", "whole.#.png")), 0) << err;
-  std::mt19937 random(5);
-  for (int round = 0; round < 4; round++) {
-    Ods command({"render", scene, "--position", "0,0,0", "--width", "32", "--samples", "1", "--fps", "10", "--frames",
-                 "0-5", "-o", folder.path("cut.#.png"), "--skip-existing"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(250 + random() % 150));
+  ASSERT_EQ(run(film("--frames 0-5 --samples 256", "whole.#.png")), 0) << err;
+  for (const char* line : {"camera at", "\"progress\":0.2", "\"progress\":0.5"}) {
+    Ods command({"render", scene, "--position", "0,0,0", "--width", "32", "--samples", "256", "--fps", "10", "--frames",
+                 "0-5", "-o", folder.path("cut.#.png"), "--skip-existing", "--progress", "json"});
+    command.wait_for(line);
     command.kill(SIGKILL);
-    command.finish();
+    EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
   }
-  ASSERT_EQ(run(film("--frames 0-5 --skip-existing", "cut.#.png")), 0) << err;
+  ASSERT_EQ(run(film("--frames 0-5 --samples 256 --skip-existing", "cut.#.png")), 0) << err;
+  EXPECT_NE(err.find(" of 6 frames are there already"), std::string::npos) << err;
   for (const char* frame : {"0", "1", "2", "3", "4", "5"}) {
     EXPECT_TRUE(bytes(std::string("cut.") + frame + ".png") == bytes(std::string("whole.") + frame + ".png")) << frame;
   }
+  EXPECT_EQ(files(), 12u) << "no claims, no halves";
+}
+
+// --- several processes ----------------------------------------------------------------------------------------------
+
+const std::vector<std::string> kFrames = {"1", "2", "3", "4", "5", "6"};
+
+class SharedFrames : public CliFrames {
+ protected:
+  std::vector<std::string> job(const std::string& samples) const {
+    return {"render",
+            scene,
+            "--position",
+            "0,0,0",
+            "--width",
+            "64",
+            "--samples",
+            samples,
+            "--frames",
+            "1-6",
+            "--skip-existing",
+            "-o",
+            folder.path("shot.#.png")};
+  }
+};
+
+TEST_F(SharedFrames, EachIsRenderedOnce) {
+  Ods first(job("256")), second(job("256"));
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_EQ(second.finish(), 0) << second.err;
+  for (const std::string& frame : kFrames) {
+    const std::string name = "shot." + frame + ".png\n";
+    const bool by_first = first.out.find(name) != std::string::npos,
+               by_second = second.out.find(name) != std::string::npos;
+    EXPECT_NE(by_first, by_second) << frame;
+  }
+  EXPECT_EQ(files(), kFrames.size()) << "no claims are left";
+}
+
+TEST_F(SharedFrames, TheFrameOfAProcessThatDiedIsTakenOver) {
+  Ods first(job("1024"));
+  first.wait_for("camera at");
+  first.kill(SIGSTOP);
+  Ods second(job("1"));
+  second.wait_for("which is being made by process " + std::to_string(first.process()) + " on '");
+  EXPECT_NE(second.err.find("waiting for frame "), std::string::npos) << second.err;
+  first.kill(SIGKILL);
+  first.finish();
+  EXPECT_EQ(second.finish(), 0) << second.err;
+  for (const std::string& frame : kFrames) EXPECT_GT(bytes("shot." + frame + ".png").size(), 100u) << frame;
+  EXPECT_EQ(files(), kFrames.size()) << "no claims, no halves";
+}
+
+TEST_F(SharedFrames, OfAnotherMachineAreWaitedFor) {
+  folder.write(".shot.2.png.claim", "omnistereo claim\nhost render7\nboot none-of-ours\nprocess 812\nsince now\n");
+  Ods sharing(job("1"));
+  sharing.wait_for("waiting for frame 2, which is being made by process 812 on 'render7', since now");
+  std::filesystem::copy(folder.path("shot.1.png"), folder.path("shot.2.png"));
+  EXPECT_EQ(sharing.finish(), 0) << sharing.err;
+  EXPECT_EQ(sharing.out.find("shot.2.png"), std::string::npos) << sharing.out;
+  // Without --skip-existing every frame is rendered, whoever else may be at it.
+  EXPECT_EQ(run(film("--frames 2", "shot.#.png")), 0) << err;
+  // Silent for longer than a minute it is nobody's.
+  std::filesystem::remove(folder.path("shot.2.png"));
+  std::filesystem::last_write_time(folder.path(".shot.2.png.claim"),
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::seconds(70));
+  EXPECT_EQ(run(film("--frames 1-3 --skip-existing", "shot.#.png")), 0) << err;
+  EXPECT_EQ(out, folder.path("shot.2.png") + "\n");
 }
 
 TEST_F(CliFrames, ATimeIsAPicture) {

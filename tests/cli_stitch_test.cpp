@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From a scene to a stitched picture, as its user goes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -139,6 +140,56 @@ TEST_F(CliStitch, FramesBecomeAFilm) {
   EXPECT_EQ(film.video[0].size.height, 64);
   EXPECT_EQ(form_text(*film.video[0].v2), "top-bottom, lat-long");
   EXPECT_EQ(run("film " + of + "--rig " + rig + " -q -o " + folder.path("b.mkv")), 2);
+}
+
+// The journal is opened for writing: nothing else may be.
+TEST_F(CliStitch, NothingIsWrittenThroughALink) {
+  ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
+  ASSERT_EQ(render(), 0) << err;
+  folder.write("victim", "a diary");
+  std::filesystem::create_symlink(folder.path("victim"), folder.path("picture.exr.stitching"));
+  EXPECT_EQ(stitch("picture.exr"), 4);
+  EXPECT_NE(err.find("picture.exr.stitching': it is a link; remove it"), std::string::npos) << err;
+  std::filesystem::copy(folder.path("victim"), folder.path("other.exr.stitching"));
+  EXPECT_EQ(stitch("other.exr"), 4);
+  EXPECT_NE(err.find("rename or remove it"), std::string::npos) << err;
+  EXPECT_EQ(folder.read("victim"), "a diary");
+  EXPECT_EQ(folder.read("other.exr.stitching"), "a diary");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr")));
+}
+
+TEST_F(CliStitch, ViewsAreShared) {
+  ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
+  const std::vector<std::string> job = {"render", "axis", "--samples", "64", "--skip-existing",
+                                        "--rig",  rig,    "-o",        views};
+  Ods first(job), second(job);
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_EQ(second.finish(), 0) << second.err;
+  for (int view = 1; view <= 24; view++) {
+    const std::string name = fmt::format("/{:04}.exr\n", view);
+    const bool by_first = first.out.find(name) != std::string::npos;
+    EXPECT_NE(by_first, second.out.find(name) != std::string::npos) << view;
+  }
+  EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 0) << err;
+  EXPECT_EQ(out, "");
+}
+
+TEST_F(CliStitch, FramesAreShared) {
+  ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
+  for (const char* frame : {"1", "2", "3"}) {
+    const std::string to = folder.path(std::string("views.") + frame + "/####.png");
+    ASSERT_EQ(run("render axis -q --samples 1 --rig " + rig + " -o " + to), 0) << err;
+  }
+  folder.write(".shot.2.png.claim", "omnistereo claim\nhost render7\nboot none-of-ours\nprocess 812\nsince now\n");
+  Ods sharing({"stitch", rig, folder.path("views.#/####.png"), "--frames", "1-3", "--skip-existing", "-o",
+               folder.path("shot.#.png")});
+  sharing.wait_for("waiting for frame 2, which is being made by process 812 on 'render7', since now");
+  std::filesystem::copy(folder.path("shot.1.png"), folder.path("shot.2.png"));
+  EXPECT_EQ(sharing.finish(), 0) << sharing.err;
+  EXPECT_EQ(sharing.out, folder.path("shot.1.png") + "\n" + folder.path("shot.3.png") + "\n");
+  EXPECT_EQ(run("stitch " + rig + " " + folder.path("views.1/####.png") + " -o " + folder.path("shot.2.png")), 4);
+  EXPECT_NE(err.find("another ods is at work on '" + folder.path("shot.2.png") + "': process 812"), std::string::npos)
+      << err;
 }
 
 TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {

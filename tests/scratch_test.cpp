@@ -3,7 +3,9 @@
 #include "ods/base/scratch.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -78,19 +80,45 @@ TEST(Scratch, AFileOutlivesWhoWroteIt) {
   const TemporaryFolder folder;
   const std::string file = folder.path("journal");
   {
-    const Scratch scratch(5000, file);
+    const Scratch scratch(5000, file, "mark");
     scratch.data()[4999] = std::byte{7};
-    EXPECT_THROW(Scratch(5000, file), Error);  // it is in use
+    EXPECT_THROW(Scratch(5000, file, "mark"), Error);  // it is in use
   }
-  EXPECT_EQ(Scratch(5000, file).data()[4999], std::byte{7});
-  EXPECT_EQ(Scratch(6000, file).data()[4999], std::byte{0});  // another size, another thing
-  EXPECT_THROW(Scratch(10, folder.path("absent/journal")), Error);
+  EXPECT_EQ(Scratch(5000, file, "mark").data()[4999], std::byte{7});
+  EXPECT_EQ(Scratch(6000, file, "mark").data()[4999], std::byte{0});  // another size, another thing
+  EXPECT_EQ(Scratch(6000, file, "mark").data()[3], std::byte{'k'});
+  EXPECT_THROW(Scratch(10, folder.path("absent/journal"), "mark"), Error);
+}
+
+TEST(Scratch, AFileThatIsNotOursIsLeftAsItIs) {
+  const TemporaryFolder folder;
+  folder.write("diary", "what happened today");
+  std::filesystem::create_symlink(folder.path("diary"), folder.path("link"));
+  std::filesystem::create_hard_link(folder.path("diary"), folder.path("hard"));
+  std::filesystem::create_symlink(folder.path("nothing"), folder.path("dangling"));
+  std::filesystem::create_directory(folder.path("folder"));
+  ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
+  for (const char* name : {"diary", "link", "hard", "dangling", "folder", "pipe"}) {
+    for (const size_t size : {size_t{19}, size_t{5000}}) {
+      try {
+        const Scratch scratch(size, folder.path(name), "mark");
+        ADD_FAILURE() << name;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::kOutput);
+        EXPECT_NE(std::string(error.what()).find(folder.path(name)), std::string::npos) << error.what();
+      }
+    }
+  }
+  EXPECT_EQ(folder.read("diary"), "what happened today");
+  EXPECT_EQ(folder.names().size(), 6u);
+  folder.write("empty", "");  // of a process that was killed at its start
+  EXPECT_EQ(Scratch(5000, folder.path("empty"), "mark").data()[4999], std::byte{0});
 }
 
 TEST(Scratch, AFileThatFindsNoRoomIsRemoved) {
   const TinyDisk disk;
   if (!disk.mounted()) GTEST_SKIP() << "skipped: a small tmpfs can only be mounted by root with CAP_SYS_ADMIN";
-  EXPECT_THROW(Scratch(1 << 20, disk.folder().path("journal")), Error);
+  EXPECT_THROW(Scratch(1 << 20, disk.folder().path("journal"), "mark"), Error);
   EXPECT_TRUE(disk.folder().names().empty());
 }
 

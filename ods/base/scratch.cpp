@@ -49,12 +49,44 @@ static void* map_file(const std::string& folder, size_t size) {
   return map;
 }
 
-static int open_locked(const std::string& path) {
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) throw Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-  if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+static Error cannot_write(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
+}
+
+// What stands in the way of using an open file; empty: nothing. An empty file is what a killed process left.
+static std::string fault_of(int file, std::string_view mark) {
+  struct stat info;
+  if (fstat(file, &info) != 0) return std::strerror(errno);
+  if (!S_ISREG(info.st_mode)) return "it is not an ordinary file";
+  if (info.st_uid != geteuid() && geteuid() != 0) return "it is another user's; remove it, or write to another folder";
+  std::string start(mark.size(), '\0');
+  const bool has_mark = pread(file, start.data(), start.size(), 0) == std::ssize(mark) && start == mark;
+  return has_mark || info.st_size == 0 ? ""
+                                       : "ods keeps its work there, and this file is not ods's; rename or remove it";
+}
+
+// Locked. Nothing in it has been touched.
+static int open_marked(const std::string& path, std::string_view mark) {
+  int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0 && errno == EEXIST) file = open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) throw cannot_write(path, errno == ELOOP ? "it is a link; remove it" : std::strerror(errno));
+  const bool is_busy = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;  // not every disk has locks
+  const std::string fault = is_busy ? "" : fault_of(file, mark);
+  if (!is_busy && fault.empty()) return file;
   close(file);
-  throw Error(ErrorKind::kOutput, fmt::format("another ods is at work on '{}'", path));
+  if (is_busy) throw Error(ErrorKind::kOutput, fmt::format("another ods is at work on '{}'", path));
+  throw cannot_write(path, fault);
+}
+
+// A file of zeros behind the mark, unless it has the size already.
+static int make_room(int file, off_t length, std::string_view mark) {
+  struct stat info;
+  if (fstat(file, &info) != 0) return errno;
+  if (info.st_size != length) {
+    if (ftruncate(file, 0) != 0) return errno;
+    if (pwrite(file, mark.data(), mark.size(), 0) != std::ssize(mark)) return errno == 0 ? ENOSPC : errno;
+  }
+  return posix_fallocate(file, 0, length);
 }
 
 // By the heap, which has the pages of pictures that are gone for the next ones.
@@ -70,13 +102,10 @@ Scratch::Scratch(size_t size, const std::string& folder, size_t most_in_memory)
   data_ = static_cast<std::byte*>(on_disk_ ? map_file(folder, size_) : allocate(size_));
 }
 
-Scratch::Scratch(size_t size, const std::string& file)
-    : size_(std::max<size_t>(size, 1)), on_disk_(true), file_(open_locked(file)) {
-  struct stat info;
-  int code = fstat(file_, &info) == 0 ? 0 : errno;
-  const off_t length = static_cast<off_t>(size_);
-  if (code == 0 && info.st_size != length && ftruncate(file_, 0) != 0) code = errno;
-  if (code == 0) code = posix_fallocate(file_, 0, length);
+Scratch::Scratch(size_t size, const std::string& file, std::string_view mark)
+    : size_(std::max<size_t>(size, 1)), on_disk_(true), file_(open_marked(file, mark)) {
+  errno = 0;
+  int code = make_room(file_, static_cast<off_t>(size_), mark);
   void* map = MAP_FAILED;
   if (code == 0) {
     map = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);

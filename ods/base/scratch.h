@@ -6,6 +6,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace ods {
 
@@ -16,8 +17,11 @@ class Scratch {
   // not.
   Scratch(size_t size, const std::string& folder, size_t most_in_memory);
   // The same in a file that stays when the process ends: its bytes as another process left them where they are as many,
-  // else zeros. Throws Error(kOutput) as above, and where another process has it open.
-  Scratch(size_t size, const std::string& file);
+  // else zeros behind `mark`, with which the file begins. Which of the bytes had reached the disk when the machine lost
+  // its power is for the caller to find out. Throws Error(kOutput) as above, where another process has it open, and
+  // where something else has that name, which is left as it is: a link, another user's file, one that does not begin
+  // with the mark. Precondition: size >= mark.size().
+  Scratch(size_t size, const std::string& file, std::string_view mark);
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   ~Scratch();

@@ -13,7 +13,10 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <string_view>
 
+#include "ods/base/checksum.h"
 #include "ods/base/error.h"
 #include "ods/base/scratch.h"
 #include "ods/stitch/view.h"
@@ -66,6 +69,21 @@ struct RowSums {
   }
 };
 
+// What a journal begins with. Behind it lie marks, one of every batch, then pixels: eyes, batches, rows, pixels,
+// channels.
+constexpr std::string_view kMark = "omnistereo stitching journal\n";
+struct JournalHead {
+  char mark[32];
+  uint64_t key;
+};
+
+// The checksum is that of the batch's pixels, the key and `done`: when the machine loses its power, marks may reach the
+// disk before the pixels that they speak of, and a new key before old marks are gone.
+struct BatchMark {
+  int64_t done;  // 0, or 1 + the batch's pixels that are unseen
+  uint64_t checksum;
+};
+
 class Stitcher {
  public:
   Stitcher(const SlitRig& rig, const OpenView& open) : rig_(rig), open_(open) {}
@@ -75,7 +93,11 @@ class Stitcher {
 
  private:
   std::vector<Batch> batches_of(size_t eye) const;
-  int64_t* done_of(size_t batch) const { return reinterpret_cast<int64_t*>(picture_->data()) + 1 + batch; }
+  JournalHead& head() const { return *reinterpret_cast<JournalHead*>(picture_->data()); }
+  BatchMark& mark_of(const Batch& batch) const {
+    return reinterpret_cast<BatchMark*>(picture_->data() + sizeof(JournalHead))[batch.index];
+  }
+  uint32_t checksum_of(const Batch& batch, int64_t done) const;
   float* pixels() const { return reinterpret_cast<float*>(picture_->data() + pixels_from_); }
   bool was_done(const Batch& batch);
   void set_done(const Batch& batch);
@@ -97,9 +119,8 @@ class Stitcher {
   std::optional<StoredPicture> sample_;  // the view that told it
   size_t sample_index_ = 0;
   std::vector<std::vector<Batch>> batches_;  // of each eye
-  // A key; of every batch, once it is done, 1 + its pixels that are unseen; then eyes, batches, rows, pixels, channels.
-  std::shared_ptr<Scratch> picture_;
-  size_t pixels_from_ = 0;  // bytes
+  std::shared_ptr<Scratch> picture_;         // a journal, or in memory as one
+  size_t pixels_from_ = 0;                   // bytes
   std::mutex mutex_;
   std::vector<ViewFault> faults_;
   std::atomic<int64_t> unseen_{0};  // pixels of the batch
@@ -132,18 +153,20 @@ void Stitcher::choose_form(const StitchOptions& options) {
   form_ = form_of(*sample_);
   for (size_t eye = 0; eye < rig_.eyes.size(); eye++) batches_.push_back(batches_of(eye));
   const size_t batches = rig_.eyes.size() * batches_[0].size();
-  pixels_from_ = (sizeof(int64_t) * (1 + batches) + 4095) / 4096 * 4096;
+  pixels_from_ = (sizeof(JournalHead) + sizeof(BatchMark) * batches + 4095) / 4096 * 4096;
   const size_t pixels = rig_.eyes.size() * static_cast<size_t>(rig_.eye.width) * static_cast<size_t>(rig_.eye.height);
   const size_t size = pixels_from_ + pixels * form_.channels * sizeof(float);
   if (options.journal.empty()) {
     picture_ = std::make_shared<Scratch>(size, "", 0);
     return;
   }
-  picture_ = std::make_shared<Scratch>(size, options.journal);
-  uint64_t& key = *reinterpret_cast<uint64_t*>(picture_->data());
-  constexpr uint64_t kForm = 2;  // how pixels lie in a journal: one of another form is not gone on with
-  if (key != options.journal_key + kForm) std::memset(picture_->data(), 0, pixels_from_);
-  key = options.journal_key + kForm;
+  picture_ = std::make_shared<Scratch>(size, options.journal, kMark);
+  constexpr uint64_t kForm = 3;  // how pixels lie in a journal: one of another form is not gone on with
+  const uint64_t key = options.journal_key + kForm;
+  if (head().key != key) {
+    std::memset(picture_->data() + sizeof(JournalHead), 0, pixels_from_ - sizeof(JournalHead));
+    head().key = key;
+  }
 }
 
 std::vector<Batch> Stitcher::batches_of(size_t eye) const {
@@ -164,16 +187,27 @@ std::vector<Batch> Stitcher::batches_of(size_t eye) const {
   return batches;
 }
 
+uint32_t Stitcher::checksum_of(const Batch& batch, int64_t done) const {
+  const Strip& strip = batch.strip;
+  const std::span<const float> batch_pixels(pixels() + strip.pixel(0) * form_.channels,
+                                            (strip.pixel(rig_.eye.height) - strip.pixel(0)) * form_.channels);
+  const int64_t facts[] = {done, static_cast<int64_t>(head().key)};
+  return crc32(std::as_bytes(batch_pixels), crc32(std::as_bytes(std::span(facts))));
+}
+
 bool Stitcher::was_done(const Batch& batch) {
-  const int64_t done = *done_of(batch.index);
-  unseen_all_ += std::max<int64_t>(done - 1, 0);
-  return done > 0;
+  const BatchMark& mark = mark_of(batch);
+  if (mark.done <= 0 || mark.checksum != checksum_of(batch, mark.done)) return false;
+  unseen_all_ += mark.done - 1;
+  return true;
 }
 
 // One with views at fault is done again by who comes after us.
 void Stitcher::set_done(const Batch& batch) {
   unseen_all_ += unseen_;
-  if (faults_.empty()) *done_of(batch.index) = 1 + unseen_;
+  if (!faults_.empty() || !picture_->on_disk()) return;
+  const int64_t done = 1 + unseen_;
+  mark_of(batch) = {done, checksum_of(batch, done)};
 }
 
 std::shared_ptr<const View> Stitcher::open_view(size_t index) {

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -18,6 +17,7 @@
 #include "ods/base/atomic_file.h"
 #include "ods/base/error.h"
 #include "ods/base/frames.h"
+#include "ods/base/md5.h"
 #include "ods/base/read_file.h"
 #include "ods/base/scratch.h"
 #include "ods/image/reproject.h"
@@ -271,7 +271,7 @@ std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files,
 uint64_t views_key(const SlitRig& rig, const ViewFiles& files) {
   std::string all = write_slit_rig(rig) + (files.own_normals ? "own normals" : "");
   for (size_t i = 0; i < rig.views.size(); i++) all += file_identity(view_path(rig, files, i)) + "\n";
-  return std::hash<std::string>{}(all);
+  return std::stoull(md5(all).substr(0, 16), nullptr, 16);
 }
 
 std::string view_ranges(const SlitRig& rig, const ViewFiles& files, const std::vector<ViewFault>& faults) {

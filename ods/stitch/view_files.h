@@ -49,7 +49,8 @@ OpenView open_view_files(const SlitRig& rig, const ViewFiles& files);
 // another rig.
 std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough);
 
-// Tells rigs with their views from others: another number where the rig or a view's file is another one.
+// Tells rigs with their views from others: another number where the rig differs, or the size or time of a view's file
+// (views are too many bytes to read them twice). The same number on every machine.
 uint64_t views_key(const SlitRig& rig, const ViewFiles& files);
 
 // The numbers of views in their files' names, of one eye or of all, as frame ranges: "12-15,80". With %V in the names:
