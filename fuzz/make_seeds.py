@@ -87,6 +87,36 @@ def moving():
     return document, binary
 
 
+def as_reals(value):
+    """The same with every whole number written as a real."""
+    if isinstance(value, dict):
+        return {key: as_reals(member) for key, member in value.items()}
+    if isinstance(value, list):
+        return [as_reals(member) for member in value]
+    return float(value) if type(value) is int else value
+
+
+def odd_texts():
+    """JSON as nobody should write it: lawful, strange and broken."""
+    asset = '"asset":{"version":"2.0"}'
+    yield "extras", "{%s,\"extras\":[%s{}]}" % (asset, "0,[],{}," * 20)
+    yield "nested", "{%s,\"extras\":%s%s}" % (asset, "[" * 90, "]" * 90)
+    yield "too-deep", "{%s,\"nodes\":%s" % (asset, "[{\"extras\":" * 60)
+    yield "twice", '{%s,"nodes":[{"mesh":0,"mesh":1}],"nodes":[{}],"asset":{"version":"2.0"}}' % asset
+    yield "nulls", '{%s,"nodes":[{"mesh":null,"children":null,"extensions":null}],"scenes":null,"scene":null}' % asset
+    yield "kinds", '{%s,"nodes":[{"mesh":"0","children":{},"matrix":5,"rotation":[[],"x",0,1]}],"meshes":[{}]}' % asset
+    yield "numbers", '{%s,"nodes":[{"mesh":-0,"scale":[1e308,-1e-308,0.1e+2],"skin":18446744073709551616}]}' % asset
+    yield "infinite", '{%s,"nodes":[{"scale":[1e999,1,1]}]}' % asset
+    yield "strings", '{%s,"nodes":[{"name":"\\u0000\\ud83d\\ude00\\n\\u001b[31m"}],"x\\u0000y":1}' % asset
+    yield "surrogate", '{%s,"nodes":[{"name":"\\ud83d"}]}' % asset
+    yield "cut", '{%s,"nodes":[{"name":"a' % asset
+    yield "comma", '{%s,"nodes":[{},],}' % asset
+    yield "after", "{%s} {}" % asset
+    yield "empties", '{%s,"nodes":[%s{}],"accessors":[{},{}],"materials":[{}],"meshes":[{}]}' % (asset, "{}," * 40)
+    for i, uri in enumerate(["../a.bin", "%2e%2e/a.bin", "/etc/passwd", "file:///etc/passwd", "%00", "", "data:,"]):
+        yield f"uri{i}", '{%s,"buffers":[{"byteLength":1,"uri":"%s"}],"images":[{"uri":"%s"}]}' % (asset, uri, uri)
+
+
 def seeds():
     yield "triangles", quad()
     yield "flat", quad(normals=False)
@@ -125,9 +155,19 @@ def seeds():
                           "extensions": {"KHR_lights_punctual": {"light": 0}}}]
     yield "nodes", (document, binary)
     yield "moving", moving()
+    document, binary = moving()
+    yield "reals", (as_reals(document), binary)
+    document, binary = quad()
+    document["accessors"][2].pop("bufferView")
+    document["accessors"][4] = {"componentType": 5123, "count": 6, "type": "SCALAR", "sparse": {
+        "count": 4, "indices": {"bufferView": 4, "byteOffset": 2, "componentType": 5123}, "values": {"bufferView": 4}}}
+    yield "zeros", (document, binary)
 
 
 os.makedirs(sys.argv[1], exist_ok=True)
+for name, text in odd_texts():
+    with open(os.path.join(sys.argv[1], name + ".gltf"), "w") as file:
+        file.write(text)
 for name, (document, binary) in seeds():
     with open(os.path.join(sys.argv[1], name + ".glb"), "wb") as file:
         file.write(glb(document, binary))
