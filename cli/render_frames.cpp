@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -92,12 +91,11 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
   return shot;
 }
 
-using Report = std::function<void(double done)>;
 using Saved = std::function<void(const std::vector<std::string>& files)>;
 
 // Renders the frames and saves each.
 void render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
-                const Report& report, const Saved& saved) {
+                const StepReport& report, const Saved& saved) {
   const Shot first = make_shot(job, time, scene, frames.front());
   place_camera(job.camera, scene);
   ods::CpuRenderer renderer(scene, job.render.threads);
@@ -107,10 +105,10 @@ void render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time
     if (i > 0) renderer.update(shot.change);
     ods::RenderOptions options = job.render;
     options.seed = frame.seed;
+    const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
+    const ProgressStep step{"render", number, asks_for_film(time) ? count : 0, frame.path};
     ods::Progress progress;
-    progress.report = [&](double done) {
-      report((static_cast<double>(i) + done) / static_cast<double>(frames.size()));
-    };
+    progress.report = [&](double done) { report((static_cast<double>(i) + done) / count, step); };
     const ods::Picture picture = renderer.render(shot.rigs, options, progress);
     saved(ods::save_picture(picture, shot.rigs[shot.rigs.size() / 2], job.save, frame.path));
   }
@@ -136,14 +134,15 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   const auto saved = [&](const std::vector<std::string>& files) {
     lines.clear();
     first = files.front();
-    for (const std::string& file : files) std::cout << file << std::endl;
+    for (const std::string& file : files) announce_file(file);
   };
   render_all(
-      job, scene, time, frames, [&](double done) { lines.report(done, seconds_since(start)); }, saved);
+      job, scene, time, frames,
+      [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); }, saved);
   tell_speed(job, frames, first, seconds_since(start));
 }
 
-std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report) {
+std::vector<int> render_frames(const RenderJob& job, const StepReport& report) {
   ods::Scene scene = open_lit_scene(job);
   TimeOptions time = job.time;
   start_clock(time, scene);

@@ -15,4 +15,4 @@ void render_job(const RenderJob& job, ProgressLines& lines);
 
 // The same of a film for who goes on with its frames: says nothing of files, and returns the numbers of all of them,
 // those too that were there. Throws UsageError where nothing moves and nobody said how long.
-std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report);
+std::vector<int> render_frames(const RenderJob& job, const StepReport& report);

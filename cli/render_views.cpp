@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "cli/console.h"
 #include "cli/long_job.h"
 #include "cli/stitch_frames.h"
@@ -35,13 +33,15 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
     if (time.skip_existing && ods::is_saved(path)) continue;
     options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // or noise would repeat, slit by slit
     ods::Progress progress;
+    const int number = static_cast<int>(i) + 1, count = static_cast<int>(rig.views.size());
+    const ProgressStep step{"render", number, count, path};
     progress.report = [&](double part) {
-      lines.report((static_cast<double>(i) + part) / static_cast<double>(rig.views.size()), seconds_since(start));
+      lines.report((static_cast<double>(i) + part) / count, seconds_since(start), step);
     };
     const ods::Picture picture = renderer.render({rig.views[i]}, options, progress);
     save_picture(picture, rig.views[i], job.save, path);
     lines.clear();
-    std::cout << path << std::endl;
+    announce_file(path);
   }
   note(fmt::format("{} views in {}", rig.views.size(), duration_text(seconds_since(start))));
 }

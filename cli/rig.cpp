@@ -49,13 +49,13 @@ void add_slit_options(Options& options, RigJob& job) {
 }
 
 bool read_options(RigJob& job, int argc, char** argv) {
-  Options options("rig", "Plans perspective cameras for an ODS picture, for renderers that know no other camera.",
-                  kExamples);
+  Options options("rig", "Plans the perspective cameras that other renderers can make an ODS picture with.", kExamples);
   options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; without it, the plan alone");
   add_script_option(options, job.targets);
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   add_slit_options(options, job);
   add_camera_source(options, job.source);
+  options.group("Console");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   if (job.count && options.given("--max-error")) throw UsageError("--slits is instead of --max-error");
   if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes beside the rig: where? -o rig.json");
@@ -118,9 +118,8 @@ std::string cost_text(const ods::SlitRig& rig) {
 void print_plan(const ods::SlitRig& rig, float nearest) {
   fmt::print("{}\n", cost_text(rig));
   print_errors(rig, nearest);
-  if (rig.options.depth != ods::ViewDepth::kNone) {
-    fmt::print("that is where one thing hides another; by their depth things themselves are put right\n");
-  }
+  if (rig.options.depth != ods::ViewDepth::kNone)
+    fmt::print("these are errors where one thing hides another; depth puts the things themselves right\n");
   ods::SlitOptions every = rig.options;
   every.slits = rig.eye.width;
   if (!slit_fault(rig.camera, rig.eye, every).empty()) return;
@@ -139,7 +138,7 @@ void rig(int argc, char** argv) {
   const std::string fault = slit_fault(file.rig, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);
   const ods::SlitRig made = make_slit_rig(file.rig, file.eye, file.eyes, job.slits);
-  print_plan(made, nearest);
+  if (job.output.empty() || !console.quiet) print_plan(made, nearest);
   if (!job.output.empty()) write_rig(made, job.targets, job.output);
 }
 

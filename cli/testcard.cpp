@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "cli/camera_options.h"
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -51,7 +49,6 @@ bool read_options(TestcardJob& job, int argc, char** argv) {
   options.number("--threads", job.film.threads, 0, 1024, "0: all processors");
   add_progress_options(options, job.film.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = job.film.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("no output file: add -o card.png");
   finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
@@ -80,7 +77,7 @@ void draw(const TestcardJob& job, const ods::CameraRig& rig, ods::Extent eye, co
   rows.fill = [&](int index, int y, std::span<float> row) {
     fill_testcard_row(card, eyes[static_cast<size_t>(index)], y, row);
   };
-  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) std::cout << file << std::endl;
+  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) announce_file(file);
 }
 
 void testcard(int argc, char** argv) {
