@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/camera_options.h"
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -69,9 +71,17 @@ std::vector<std::string> lettering(const TestcardJob& job, const ods::CameraRig&
           fmt::format("{:g} mm between the eyes", 1000.0f * rig.ipd)};
 }
 
+void warn_if_illegible(const ods::ProjectionSetting& projection, int width) {
+  const double height = ods::letter_height(projection, width);
+  if (height >= ods::kLegible) return;
+  const int enough = static_cast<int>(std::ceil(width * ods::kLegible / height / 128.0)) * 128;
+  warn(fmt::format("its small letters are {:.2g} pixels high and cannot be read: --width {} or more", height, enough));
+}
+
 void draw(const TestcardJob& job, const ods::CameraRig& rig, ods::Extent eye, const std::vector<int>& eyes) {
   ods::check_output(job.output, job.save, eyes, eye);
   note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
+  warn_if_illegible(rig.projection, eye.width);
   const ods::Testcard card = make_testcard(rig, eye, lettering(job, rig, eye, eyes));
   ods::PictureRows rows{eye, eyes, {{{"R", "G", "B"}}}, {}, {}};
   rows.fill = [&](int index, int y, std::span<float> row) {
@@ -90,6 +100,7 @@ void testcard(int argc, char** argv) {
     end_on_interrupts("ods: interrupted\n");
     return draw(job, rig, eye, eyes);
   }
+  warn_if_illegible(rig.projection, eye.width);
   run_long_job(job.film.progress, job.film.threads, [&](ProgressLines& lines) {
     make_film_of_card(rig, eye, eyes, job.save.layout, lettering(job, rig, eye, eyes), job.film, lines);
   });
