@@ -31,8 +31,9 @@ void camera(int argc, char** argv) {
   options.choice("--for", target, ods::kCameraTargets, ods::camera_target_name,
                  "whose words; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");
   options.text("-o,--output", "FILE", output, "where to; the terminal by default");
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   add_camera_source(options, source);
+  options.group("Console");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return;
   const ods::CameraExport result = ods::export_camera(read_camera_source(source), target);
   if (!result.refusal.empty()) {
@@ -47,7 +48,7 @@ void camera(int argc, char** argv) {
     throw UsageError(fmt::format("'{}' would be a picture; what a camera is said in is text", output));
   }
   ods::write_file(output, result.text);
-  std::puts(output.c_str());
+  announce_file(output);
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ bool read_options(CompareJob& job, int argc, char** argv) {
   options.number("--max-error", job.max_error, 0.0f, 1e30f, "the largest of any value");
   options.group("Console");
   options.flag("--json", job.json, "for programs");
+  add_console_options(options);
   return options.parse(argc, argv);
 }
 

@@ -25,15 +25,14 @@ bool stderr_is_terminal() {
 
 namespace {
 
-void print_json(const char* key, const std::string& text) {
+void print_json(const nlohmann::ordered_json& line) {
   // A file's name may be no UTF-8.
-  const nlohmann::json line = {{key, text}};
-  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 int fail(ExitCode code, const std::string& text) {
   if (console.json) {
-    print_json("error", text);
+    print_json({{"error", text}, {"exit_code", static_cast<int>(code)}});
     return code;
   }
   const char* no_color = std::getenv("NO_COLOR");
@@ -86,14 +85,20 @@ ExitCode exit_code(ods::ErrorKind kind) {
 
 void note(const std::string& text) {
   if (console.quiet) return;
-  if (console.json) return print_json("note", text);
+  if (console.json) return print_json({{"note", text}});
   std::fprintf(stderr, "ods: %s\n", ods::one_line(text).c_str());
 }
 
 void warn(const std::string& text) {
   if (console.quiet) return;
-  if (console.json) return print_json("warning", text);
+  if (console.json) return print_json({{"warning", text}});
   std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(text).c_str());
+}
+
+void announce_file(const std::string& file) {
+  if (console.quiet) return;
+  std::puts(file.c_str());
+  std::fflush(stdout);  // a program may wait for it
 }
 
 int run_command(const std::function<void()>& body) {

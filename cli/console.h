@@ -14,9 +14,9 @@ struct UsageError : ods::Error {
 };
 
 struct Console {
-  bool quiet = false;     // says nothing but errors
+  bool quiet = false;     // prints only errors, and text that is a command's result
   bool no_color = false;  // NO_COLOR, TERM=dumb and a stderr that is no terminal do the same
-  bool json = false;      // every line is a JSON object: what follows in quotes below
+  bool json = false;      // every line is a JSON object, as given below
 };
 
 extern Console console;
@@ -30,6 +30,9 @@ void note(const std::string& text);
 // "ods: warning: text" or {"warning":"text"}, unless quiet.
 void warn(const std::string& text);
 
-// Runs a command's body. What it throws becomes one line on stderr, "ods: error: text" or {"error":"text"}, and an exit
-// code (cli/exit_code.h).
+// The name of a file that was written, on stdout, unless quiet.
+void announce_file(const std::string& file);
+
+// Runs a command's body. What it throws becomes one line on stderr, "ods: error: text" or
+// {"error":"text","exit_code":3}, and that exit code (cli/exit_code.h).
 int run_command(const std::function<void()>& body);

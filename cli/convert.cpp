@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <iostream>
 #include <mutex>
 
 #include "cli/console.h"
@@ -18,7 +17,8 @@
 namespace {
 
 // Tells the lines how many rows are made.
-void count_rows(ods::PictureRows& rows, ProgressLines& lines, std::chrono::steady_clock::time_point start) {
+void count_rows(ods::PictureRows& rows, const std::string& output, ProgressLines& lines,
+                std::chrono::steady_clock::time_point start) {
   const double all = static_cast<double>(rows.eyes.size()) * rows.eye.height;
   const auto done = std::make_shared<std::atomic<int>>(0);
   const auto speaks = std::make_shared<std::mutex>();
@@ -27,7 +27,7 @@ void count_rows(ods::PictureRows& rows, ProgressLines& lines, std::chrono::stead
     const int count = ++*done;
     if (!speaks->try_lock()) return;
     const std::lock_guard<std::mutex> lock(*speaks, std::adopt_lock);
-    lines.report(std::min(count / all, 1.0), seconds_since(start));
+    lines.report(std::min(count / all, 1.0), seconds_since(start), {"convert", 0, 0, output});
   };
 }
 
@@ -51,11 +51,11 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
     note(fmt::format("{}: {} of its depths are no distances (NaN, 0 or less): taken for far away", job.input,
                      conversion.no_depth));
   }
-  count_rows(conversion.rows, lines, start);
+  count_rows(conversion.rows, job.output, lines, start);
   const auto files = ods::save_picture(conversion.rows, &job.target.rig, job.save, job.output);
-  lines.report(1.0, seconds_since(start));
+  lines.report(1.0, seconds_since(start), {"convert", 0, 0, job.output});
   lines.clear();
-  for (const std::string& file : files) std::cout << file << std::endl;
+  for (const std::string& file : files) announce_file(file);
   say_what_is_missing(conversion);
   const ods::Extent eye = job.target.eye;
   note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.rig.projection), eye.width,

@@ -153,7 +153,6 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   } catch (const UsageError&) {
     if (job.input.empty() || job.output.empty()) throw;  // else judged again, knowing what there is
   }
-  console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
   ods::check_output(job.output, {}, {ods::kLeft, ods::kRight},
                     {2, 2});  // before the picture is opened, which takes time

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/film_options.h"
@@ -67,7 +66,6 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   options.number("--threads", job.threads, 0, 1024, "0: all processors");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = job.progress == ProgressMode::kJson;
   return true;
 }
 
@@ -82,10 +80,12 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   say_what_players_need(job.film, plan, options);
   say_length_of_sound(options, files.frames.size());
   ods::Progress progress;
-  progress.report = [&](double done) { lines.report(done, seconds_since(start)); };
+  progress.report = [&](double done) {
+    lines.report(done, seconds_since(start), film_step("encode", done, files.frames.size(), job.film.output));
+  };
   ods::make_film(files, plan, job.development, options, job.film.output, progress);
   lines.clear();
-  std::cout << job.film.output << std::endl;
+  announce_file(job.film.output);
   note(fmt::format("{}: {}, in {}", job.film.output, film_text(plan, options, files.frames.size()),
                    duration_text(seconds_since(start))));
 }

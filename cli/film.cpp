@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/film_journal.h"
@@ -60,7 +59,6 @@ bool read_options(FilmJob& job, int argc, char** argv) {
   options.group("Console");
   add_progress_options(options, render.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = render.progress == ProgressMode::kJson;
   if (render.time.time) throw UsageError("--time is for one picture; --frames says which of a film");
   if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a film says itself what it shows");
   finish_render_job(options, quality, render);
@@ -89,7 +87,7 @@ ods::FilmPlan expect(const RenderJob& render, const std::vector<int>& eyes, ods:
 
 // Frames of the views of a rig.
 std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, FilmJournal& journal,
-                              const StitchReport& report) {
+                              const StepReport& report) {
   StitchJob stitch;
   stitch.views.names = job.render.scene.name;
   stitch.output = job.render.output;
@@ -117,8 +115,10 @@ void make_film(FilmJob job, ProgressLines& lines) {
                       rig ? stitch_settings(job.rig, render.scene.name, render.save) : frame_settings(render),
                       job.restart);
   job.render.output = journal.pattern();
-  const auto report = [&](double done) { lines.report(done, seconds_since(start)); };
-  const auto rendered = [&](double done) { journal.check(), report(kRendering * done); };
+  const auto rendered = [&](double done, const ProgressStep& step) {
+    journal.check();
+    lines.report(kRendering * done, seconds_since(start), step);
+  };
   const auto planned = [&](const std::vector<int>& numbers) { journal.plan(numbers); };
   const std::vector<int> frames =
       rig ? stitch_views(job, *rig, journal, rendered) : render_frames(render, rendered, planned);
@@ -127,10 +127,13 @@ void make_film(FilmJob job, ProgressLines& lines) {
   const ods::FilmPlan plan = ods::plan_film(files, {}, {});
   say_length_of_sound(options, frames.size());
   ods::Progress progress;
-  progress.report = [&](double done) { report(kRendering + (1.0 - kRendering) * done); };
+  progress.report = [&](double done) {
+    lines.report(kRendering + (1.0 - kRendering) * done, seconds_since(start),
+                 film_step("encode", done, frames.size(), job.film.output));
+  };
   ods::make_film(files, plan, job.development, options, job.film.output, progress);
   lines.clear();
-  std::cout << job.film.output << std::endl;
+  announce_file(job.film.output);
   note(fmt::format("{}: {}, in {}", job.film.output, film_text(plan, options, frames.size()),
                    duration_text(seconds_since(start))));
   if (job.keep_frames) return note(fmt::format("the frames are in {}", journal.folder()));

@@ -100,6 +100,7 @@ void info(int argc, char** argv) {
   add_place_options(options, camera);
   options.group("Console");
   options.flag("--json", json, "for programs");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return;
   console.quiet = true;  // what notes would say stands in the result
   const ods::Scene scene = open_scene(source);

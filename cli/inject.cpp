@@ -4,8 +4,6 @@
 // ods inject: makes a film or a picture say what it is, without encoding it again.
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "cli/apple_option.h"
 #include "cli/console.h"
 #include "cli/inject_job.h"
@@ -68,7 +66,7 @@ void inject(int argc, char** argv) {
   if (!read_options(job, mode, argc, argv)) return;
   const bool is_film = ods::is_film(job.file);
   run_long_job(mode, 0, [&](ProgressLines& lines) { is_film ? inject_film(job, lines) : inject_picture(job); });
-  std::cout << job.output << std::endl;
+  announce_file(job.output);
 }
 
 }  // namespace

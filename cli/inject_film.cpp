@@ -125,7 +125,8 @@ void inject_film(const InjectJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](double done) {
     const double kSoon = 1.0;  // seconds: what takes less needs no lines
-    if (const double seconds = seconds_since(start); seconds > kSoon) lines.report(done, seconds);
+    if (const double seconds = seconds_since(start); seconds > kSoon)
+      lines.report(done, seconds, {"inject", 0, 0, job.output});
   };
   const ods::TagResult result = tag_film(job.file, job.output, track.id, form, sound, progress);
   lines.clear();

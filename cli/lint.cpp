@@ -52,6 +52,7 @@ bool read_options(LintJob& job, int argc, char** argv) {
   add_projection_options(options, job.projection);
   options.group("Console");
   options.flag("--json", job.json, "for programs");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   const std::string fault = ods::projection_fault(job.projection);
   if (!fault.empty()) throw UsageError(fault);

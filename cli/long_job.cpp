@@ -15,10 +15,17 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 void add_progress_options(Options& options, ProgressMode& mode) {
-  options.choice("--progress", mode, kProgressModes, progress_mode_name,
-                 "deadline, openjd and tractor go to stdout; json makes every line on stderr an object");
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
-  options.flag("--no-color", console.no_color, "as the environment variable NO_COLOR");
+  std::vector<std::string> names;
+  for (const ProgressMode each : kProgressModes) names.emplace_back(progress_mode_name(each));
+  const auto set = [&mode](size_t i) {
+    mode = kProgressModes[i];
+    console.json = mode == ProgressMode::kJson;
+  };
+  options.choice("--progress", names, std::string(progress_mode_name(mode)), set,
+                 "how to report progress: deadline, openjd and tractor print their lines on stdout; json makes every "
+                 "line on stderr a JSON object");
+  options.at_once("--progress");  // or errors in other options would not be JSON
+  add_console_options(options);
 }
 
 static ProgressMode resolved(ProgressMode mode) {

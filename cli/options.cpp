@@ -160,6 +160,16 @@ void Options::choice(const std::string& name, const std::vector<std::string>& na
   custom(name, fmt::format("{}", fmt::join(names, "|")), fallback, pick, text);
 }
 
+void add_console_options(Options& options) {
+  options.flag("-q,--quiet", console.quiet,
+               "print only errors, and text that is the result; no notes, warnings or names of written files");
+  options.flag("--no-color", console.no_color, "no colours, as with the environment variable NO_COLOR");
+}
+
+void Options::at_once(const std::string& name) {
+  app_->get_option(name)->trigger_on_parse();
+}
+
 bool Options::given(const std::string& name) const {
   return app_->count(name) > 0;
 }

@@ -51,6 +51,10 @@ class Options {
         name, names, std::string(name_of(value)), [&value, &all](size_t i) { value = all[i]; }, text);
   }
 
+  // The same, by its place in the list of names.
+  void choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
+              const std::function<void(size_t)>& set, const std::string& text);
+
   // The same where nobody need choose.
   template <class T, size_t kCount>
   void choice(const std::string& name, std::optional<T>& value, const T (&all)[kCount], std::string_view (*name_of)(T),
@@ -65,14 +69,15 @@ class Options {
   void custom(const std::string& name, const std::string& unit, const std::string& fallback,
               const std::function<void(const std::string&)>& set, const std::string& text);
 
+  // Sets this option while the command line is read, before the values of others are judged.
+  void at_once(const std::string& name);
+
   bool given(const std::string& name) const;
 
   // False when help was asked for: it has been printed. Throws UsageError.
   bool parse(int argc, char** argv);
 
  private:
-  void choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
-              const std::function<void(size_t)>& set, const std::string& text);
   void explain(const std::string& name, const std::string& unit, const std::string& text);
   std::string describe_extras() const;
 
@@ -80,6 +85,9 @@ class Options {
   std::string usage_;  // what help starts with, up to the arguments
   std::string help_;   // their explanation and the options'
 };
+
+// --quiet and --no-color, which every command has, under their heading.
+void add_console_options(Options& options);
 
 // "1.5" or "1,0.5,2": numbers between commas, NaN and infinity among them; empty when it is anything else.
 std::vector<float> parse_numbers(const std::string& text);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -38,7 +37,7 @@ void lay(const OverJob& job, const std::optional<StoredPicture>& front, const St
     overlay.rows = convert(back, own_form(back)).rows;
   }
   if (is_first) note_misleading_name(output, save, back.eyes.size(), back.rig.projection);
-  for (const std::string& file : save_picture(overlay.rows, &back.rig, save, output)) std::cout << file << std::endl;
+  for (const std::string& file : save_picture(overlay.rows, &back.rig, save, output)) announce_file(file);
   const std::string behind = behind_warning(overlay);
   if (is_first && !behind.empty()) warn(behind);
 }
@@ -68,7 +67,8 @@ void lay_frames(const OverJob& job, Footage& back, Footage& front, ProgressLines
     const int frame = to_the_end ? static_cast<int>(i) : frames[i];
     const bool is_there = lay_frame(job, back, front, frame, output.path(frame), i == 0);
     const auto count = static_cast<double>(std::max(frames.size(), i + 1));
-    if (is_there) lines.report(static_cast<double>(i + 1) / count, seconds_since(start));
+    const ProgressStep step{"over", static_cast<int>(i) + 1, static_cast<int>(count), output.path(frame)};
+    if (is_there) lines.report(static_cast<double>(i + 1) / count, seconds_since(start), step);
     if (is_there) continue;
     if (to_the_end && i > 0) return;
     const ods::ErrorKind kind = job.frames ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -115,10 +114,14 @@ void lay_over_film(const OverJob& job, Footage& back, Footage& front, ProgressLi
   const ods::FilmPlan plan = plan_like(film, back.stream());
   say_what_players_need(wishes, plan, options);
   ods::Progress progress;
-  progress.report = [&](double done) { lines.report(done, seconds_since(start)); };
+  const int last = std::min(range.last, std::max(back.stream().count - 1, range.first));
+  const size_t expected = static_cast<size_t>(last - range.first) + 1;
+  progress.report = [&](double done) {
+    lines.report(done, seconds_since(start), film_step("over", done, expected, job.output));
+  };
   const int count = over_film(back, front, range.first, range.last, job.over, options, job.output, progress);
   lines.clear();
-  std::cout << job.output << std::endl;
+  announce_file(job.output);
   note(fmt::format("{}: {}, in {}", job.output, film_text(plan, options, static_cast<size_t>(count)),
                    duration_text(seconds_since(start))));
 }

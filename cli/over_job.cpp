@@ -54,7 +54,6 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   options.number("--threads", job.threads, 0, 1024, "0: all processors");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = job.progress == ProgressMode::kJson;
   job.has_tone = options.given("--tone"), job.has_exposure = options.given("--exposure");
   job.has_target = options.given("--target");
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");

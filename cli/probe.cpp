@@ -71,6 +71,7 @@ void run(int argc, char** argv) {
   options.argument("FILE", path, "a film or a picture");
   options.group("Console");
   options.flag("--json", json, "for programs");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return;
   end_on_interrupts("ods: interrupted\n");
   const ProbeReport report = probe(path);

@@ -3,6 +3,7 @@
 //
 // How far a long job is, for people, logs and render farms.
 #pragma once
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -10,8 +11,8 @@
 enum class ProgressMode {
   kAuto,      // the bar on a terminal, plain lines elsewhere
   kBar,       // one line that redraws itself
-  kPlain,     // a line for every tenth, at most one a second
-  kJson,      // {"progress":0.42,"seconds":10.5,"seconds_left":14.5} for every hundredth; console.json goes with it
+  kPlain,     // a line after 1, 10 and 30 seconds, then every 30, and for every tenth, at most one a second
+  kJson,      // an object for every hundredth, and whenever kPlain has a line; docs/console.md has its keys
   kNone,      //
   kDeadline,  // "Progress: 42%"           AWS Thinkbox Deadline
   kOpenJd,    // "openjd_progress: 42"     Open Job Description
@@ -32,6 +33,20 @@ const char* interrupted_line(ProgressMode mode);
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);
 
+// What a job is at. A job that makes one picture has no frames.
+struct ProgressStep {
+  std::string_view kind;  // render, stitch, encode, ...: a word that outlives the call
+  int frame = 0;          // counted from 1
+  int frames = 0;         // in all; 0: not a film
+  std::string file;       // that is being made
+};
+
+// The share done of all, 0..1, and what it is at.
+using StepReport = std::function<void(double done, const ProgressStep& step)>;
+
+// The step of a job that has done this share of a film's frames.
+ProgressStep film_step(std::string_view kind, double done, size_t frames, const std::string& file);
+
 // Writes one job's progress; kAuto is the caller's to resolve.
 class ProgressLines {
  public:
@@ -41,7 +56,7 @@ class ProgressLines {
   ProgressLines& operator=(const ProgressLines&) = delete;
 
   // The share done, 0..1, after so many seconds.
-  void report(double done, double seconds);
+  void report(double done, double seconds, const ProgressStep& step = {});
 
   // Tells the farm why the job failed, where there is a way to.
   void fail(const std::string& why);
@@ -50,11 +65,13 @@ class ProgressLines {
   void clear();
 
  private:
-  void draw_bar(double done, double seconds);
+  void draw_bar(double done, double seconds, const ProgressStep& step);
+  bool is_due(double seconds);
 
   ProgressMode mode_;
   std::ostream& out_;
   int last_step_ = -1;
+  double due_ = 1.0;         // seconds: when the next line comes, whatever is done
   double last_drawn_ = 0.0;  // seconds
   bool drawn_ = false;       // the bar is on the screen
 };

@@ -102,8 +102,9 @@ void project(int argc, char** argv) {
   options.arguments("X,Y,Z...", words, "points, metres; without any, lines of stdin");
   options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "the way back: the point at that depth along the pixel's ray");
   options.flag("--json", json, "for programs: an object a line");
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   add_camera_source(options, source);
+  options.group("Console");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return;
   const CameraFile file = read_camera_source(source);
   const Camera camera = make_camera(file.rig);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <optional>
 
 #include "cli/console.h"
@@ -101,7 +100,6 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
   return shot;
 }
 
-using Report = std::function<void(double done)>;
 using Saved = std::function<void(const std::vector<std::string>& files)>;
 
 // Renders frames one after the other. The trees of what stands still stay from frame to frame.
@@ -111,7 +109,7 @@ class FrameRenderer {
       : job_(job), time_(time), scene_(scene) {}
 
   // Returns the files.
-  std::vector<std::string> render(const Frame& frame, const Report& report) {
+  std::vector<std::string> render(const Frame& frame, const std::function<void(double done)>& report) {
     const Shot shot = make_shot(job_, time_, scene_, frame);
     if (renderer_) {
       renderer_->update(shot.change);
@@ -136,12 +134,13 @@ class FrameRenderer {
 
 // Renders the frames and saves each; `shared`: but those that other processes render. Returns how many it rendered.
 size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
-                  bool shared, const Report& report, const Saved& saved) {
+                  bool shared, const StepReport& report, const Saved& saved) {
   FrameRenderer renderer(job, time, scene);
   size_t rendered = 0;
   const auto render = [&](size_t i) {
-    saved(renderer.render(
-        frames[i], [&](double done) { report((static_cast<double>(i) + done) / static_cast<double>(frames.size())); }));
+    const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
+    const ProgressStep step{"render", number, asks_for_film(time) ? count : 0, frames[i].path};
+    saved(renderer.render(frames[i], [&](double done) { report((static_cast<double>(i) + done) / count, step); }));
     rendered++;
   };
   if (!shared) {
@@ -171,18 +170,18 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   say_room(job, frames);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
-  const auto report = [&](double done) { lines.report(done, seconds_since(start)); };
   const auto saved = [&](const std::vector<std::string>& files) {
     lines.clear();
     first = files.front();
-    for (const std::string& file : files) std::cout << file << std::endl;
+    for (const std::string& file : files) announce_file(file);
   };
   const bool shared = asks_for_film(time) && time.skip_existing;
+  const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
   const size_t rendered = render_all(job, scene, time, frames, shared, report, saved);
   if (rendered > 0) tell_speed(job, rendered, first, seconds_since(start));
 }
 
-std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report,
+std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
                                const std::function<void(const std::vector<int>& frames)>& planned) {
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene);

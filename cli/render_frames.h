@@ -14,8 +14,8 @@
 // that run with it share the frames (cli/shared_frames.h).
 void render_job(const RenderJob& job, ProgressLines& lines);
 
-// Renders the frames of a film whose caller goes on with them: says nothing of files, and returns the numbers of all of
-// them, also of those that were there. `planned` hears of these numbers before the first is rendered. Throws UsageError
-// where nothing moves and nobody said how long.
-std::vector<int> render_frames(const RenderJob& job, const std::function<void(double done)>& report,
+// Renders the frames of a film for a caller that goes on with them: prints no file names, and returns the numbers of
+// all frames, also of those that were there. `planned` hears of these numbers before the first is rendered. Throws
+// UsageError where nothing moves and no length was given.
+std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
                                const std::function<void(const std::vector<int>& frames)>& planned);

@@ -79,7 +79,6 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = job.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
   if (options.given("--exposure") && keeps_light(job.output))
     note("--exposure leaves .exr and .hdr as the scene is lit");

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "cli/console.h"
 #include "cli/long_job.h"
 #include "cli/shared_frames.h"
@@ -38,13 +36,15 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
     const std::string path = view_path(rig, files, i);
     options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // or noise would repeat, slit by slit
     ods::Progress progress;
+    const int number = static_cast<int>(i) + 1, count = static_cast<int>(rig.views.size());
+    const ProgressStep step{"render", number, count, path};
     progress.report = [&](double part) {
-      lines.report((static_cast<double>(i) + part) / static_cast<double>(rig.views.size()), seconds_since(start));
+      lines.report((static_cast<double>(i) + part) / count, seconds_since(start), step);
     };
     const ods::Picture picture = renderer.render({rig.views[i]}, options, progress);
     save_picture(picture, rig.views[i], save, path);
     lines.clear();
-    std::cout << path << std::endl;
+    announce_file(path);
   };
   std::vector<SharedFrame> views;
   for (size_t i = 0; i < rig.views.size(); i++) views.push_back({static_cast<int>(i) + 1, view_path(rig, files, i)});

@@ -50,13 +50,13 @@ void add_slit_options(Options& options, RigJob& job) {
 }
 
 bool read_options(RigJob& job, int argc, char** argv) {
-  Options options("rig", "Plans perspective cameras for an ODS picture, for renderers that know no other camera.",
-                  kExamples);
+  Options options("rig", "Plans the perspective cameras that other renderers can make an ODS picture with.", kExamples);
   options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; without it, the plan alone");
   add_script_option(options, job.targets);
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
   add_slit_options(options, job);
   add_camera_source(options, job.source);
+  options.group("Console");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   if (job.count && options.given("--max-error")) throw UsageError("--slits is instead of --max-error");
   if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes beside the rig: where? -o rig.json");
@@ -95,7 +95,7 @@ void rig(int argc, char** argv) {
   const std::string fault = slit_fault(file.rig, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);
   const ods::SlitRig made = make_slit_rig(file.rig, file.eye, file.eyes, job.slits);
-  print_plan(made, nearest);
+  if (job.output.empty() || !console.quiet) print_plan(made, nearest);
   if (!job.output.empty()) write_rig(made, job.targets, job.output);
 }
 

@@ -64,7 +64,7 @@ void print_plan(const ods::SlitRig& rig, float nearest) {
   print_errors(rig, nearest);
   print_detail(rig);
   if (rig.options.depth != ods::ViewDepth::kNone) {
-    fmt::print("that is where one thing hides another; by their depth things themselves are put right\n");
+    fmt::print("these are errors where one thing hides another; depth puts the things themselves right\n");
   }
   ods::SlitOptions every = rig.options;
   every.slits = rig.eye.width;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <sstream>
 
 #include "cli/console.h"
@@ -48,7 +47,7 @@ void write_rig(const ods::SlitRig& rig, const std::vector<RigTarget>& targets, c
   const std::filesystem::path path(output);
   const std::filesystem::path base = path.extension() == ".json" ? path.parent_path() / path.stem() : path;
   save_slit_rig(rig, output);
-  std::cout << output << std::endl;
+  announce_file(output);
   for (const RigTarget target : targets) {
     const ods::RigExport made = export_rig(rig, target, base.filename().native());
     for (const std::string& warning : made.warnings) {
@@ -57,7 +56,7 @@ void write_rig(const ods::SlitRig& rig, const std::vector<RigTarget>& targets, c
     for (const ods::RigScript& script : made.scripts) {
       const std::string script_path = base.native() + script.ending;
       ods::write_file(script_path, script.text);
-      std::cout << script_path << std::endl;
+      announce_file(script_path);
     }
   }
 }

@@ -11,6 +11,8 @@
 extern "C" int ods_scenes(int argc, char** argv) {
   return run_command([=] {
     Options options("scenes", "Lists the scenes that can stand where a file would.", "  ods render room -o room.png");
+    options.group("Console");
+    add_console_options(options);
     if (!options.parse(argc, argv)) return;
     for (const ods::BuiltinScene& scene : ods::builtin_scenes()) std::printf("%-12s %s\n", scene.name, scene.summary);
   });

@@ -104,6 +104,7 @@ void sizes(int argc, char** argv) {
   options.optional_argument("NAME", name, "one of them");
   options.group("Console");
   options.flag("--json", json, "for programs: a list");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return;
   const std::span<const NamedSize> chosen = name.empty() ? ods::named_sizes() : std::span(&size_by_name(name), 1);
   if (json) return print_json(chosen);

@@ -27,14 +27,14 @@ void run(const StitchJob& job, ProgressLines& lines) {
   }
   const bool is_film = !job.frames.empty();
   ods::check_output(is_film ? film_names(job.output).path(0) : job.output, job.save, rig.eyes, rig.eye);
-  const auto report = [&](double part) { lines.report(part, seconds_since(start)); };
+  const auto report = [&](double part, const ProgressStep& step) { lines.report(part, seconds_since(start), step); };
   if (is_film) {
     stitch_frames(job, rig, report);
   } else {
     const std::unique_ptr<ods::Claim> own = ods::claim(job.output);
     stitch_picture(job, rig, job.views, job.output, report);
   }
-  report(1.0);
+  report(1.0, {"stitch", 0, 0, job.output});
   lines.clear();
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -44,7 +43,7 @@ void tell_faults(const std::vector<ViewFault>& faults, const std::function<void(
 // --- a picture ------------------------------------------------------------------------------------------------------
 
 void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFiles& views, const std::string& output,
-                    const StitchReport& report) {
+                    const StepReport& report) {
   const bool has_marks = has_rig_marks(rig, views);
   if (!job.partial) {
     const std::vector<ViewFault> missing = missing_views(rig, views, false);
@@ -64,7 +63,9 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
     if (!has_marks && picture.rig_mark.empty()) unmarked = true;
     return picture;
   };
-  const ods::Stitched stitched = stitch(rig, open, options, [&](double part) { report(0.9 * part); });
+  const ods::Stitched stitched = stitch(rig, open, options, [&](double part) {
+    report(0.9 * part, {"stitch", 0, 0, output});
+  });
   if (!stitched.faults.empty() && !job.partial) {
     std::filesystem::remove(options.journal);
     refuse(rig, views, stitched.faults);
@@ -84,11 +85,11 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   }
   std::filesystem::remove(options.journal);
   if (!job.says_files) return;
-  for (const std::string& file : files) std::cout << file << std::endl;
+  for (const std::string& file : files) announce_file(file);
   if (job.report.empty()) return;
   const ods::SeamReport seams = measure_seams(rig, stitched.rows);
   note(fmt::format("borders of slits show {:.3f} of what the rest does; 1 is as much", seams.ratio));
-  for (const std::string& file : save_picture(seams.picture, {}, job.report)) std::cout << file << std::endl;
+  for (const std::string& file : save_picture(seams.picture, {}, job.report)) announce_file(file);
 }
 
 // --- pictures of a film ---------------------------------------------------------------------------------------------
@@ -99,7 +100,7 @@ static FrameNames folder_names(const std::string& views) {
   throw UsageError("--frames: the views' folder has no mark for the frame: 'views/####/####.exr'");
 }
 
-std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StitchReport& report) {
+std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report) {
   const FrameNames folders = folder_names(job.views.names), outputs = film_names(job.output);
   const std::string file = std::filesystem::path(job.views.names).filename().string();
   const std::vector<int> frames = ods::parse_frames(job.frames);
@@ -107,8 +108,11 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
   const auto stitch_frame = [&](size_t i) {
     ViewFiles views = job.views;
     views.names = folders.path(frames[i]) + "/" + file;
-    stitch_picture(each, rig, views, outputs.path(frames[i]),
-                   [&](double part) { report((static_cast<double>(i) + part) / static_cast<double>(frames.size())); });
+    const std::string output = outputs.path(frames[i]);
+    const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
+    const ProgressStep step{"stitch", number, count, output};
+    stitch_picture(each, rig, views, output,
+                   [&](double part, const ProgressStep&) { report((static_cast<double>(i) + part) / count, step); });
     each.says_unmarked = false;  // once is enough
   };
   std::vector<SharedFrame> files;

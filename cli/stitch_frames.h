@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/progress.h"
 #include "cli/stitch_job.h"
-
-using StitchReport = std::function<void(double part)>;
 
 // Says what in it is not known.
 ods::SlitRig open_rig(const std::string& path);
@@ -20,7 +19,7 @@ void tell_faults(const std::vector<ods::ViewFault>& faults, const std::function<
 // Stitches the views into the output, and says its files on stdout where the job wants that. Throws UsageError and
 // ods::Error, which says all views that cannot be used.
 void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ods::ViewFiles& views,
-                    const std::string& output, const StitchReport& report);
+                    const std::string& output, const StepReport& report);
 
 // The same of every frame of a film, whose views lie in a folder each. Returns their numbers.
-std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StitchReport& report);
+std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report);

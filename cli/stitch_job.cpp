@@ -50,7 +50,6 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = job.progress == ProgressMode::kJson;
   job.has_tone = options.given("--tone");
   if (job.output.empty() && !job.list_missing) throw UsageError("no output file: add -o picture.exr");
   if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing is for --frames");

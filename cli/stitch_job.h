@@ -20,7 +20,7 @@ struct StitchJob {
   bool partial = false;
   bool says_files = true;
   bool says_unmarked = true;  // notes views that do not say which rig they are of
-  bool claims = true;  // false: the caller holds a claim on what the frames are for
+  bool claims = true;         // false: the caller holds a claim on what the frames are for
   bool list_missing = false;
   bool skip_existing = false;
   int threads = 0;

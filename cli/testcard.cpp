@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
+#include <cmath>
 
 #include "cli/camera_options.h"
 #include "cli/console.h"
@@ -51,7 +51,6 @@ bool read_options(TestcardJob& job, int argc, char** argv) {
   options.number("--threads", job.film.threads, 0, 1024, "0: all processors");
   add_progress_options(options, job.film.progress);
   if (!options.parse(argc, argv)) return false;
-  console.json = job.film.progress == ProgressMode::kJson;
   if (job.output.empty()) throw UsageError("no output file: add -o card.png");
   finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
@@ -72,15 +71,23 @@ std::vector<std::string> lettering(const TestcardJob& job, const ods::CameraRig&
           fmt::format("{:g} mm between the eyes", 1000.0f * rig.ipd)};
 }
 
+void warn_if_illegible(const ods::ProjectionSetting& projection, int width) {
+  const double height = ods::letter_height(projection, width);
+  if (height >= ods::kLegible) return;
+  const int enough = static_cast<int>(std::ceil(width * ods::kLegible / height / 128.0)) * 128;
+  warn(fmt::format("its small letters are {:.2g} pixels high and cannot be read: --width {} or more", height, enough));
+}
+
 void draw(const TestcardJob& job, const ods::CameraRig& rig, ods::Extent eye, const std::vector<int>& eyes) {
   ods::check_output(job.output, job.save, eyes, eye);
   note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
+  warn_if_illegible(rig.projection, eye.width);
   const ods::Testcard card = make_testcard(rig, eye, lettering(job, rig, eye, eyes));
   ods::PictureRows rows{eye, eyes, {{{"R", "G", "B"}}}, {}, {}};
   rows.fill = [&](int index, int y, std::span<float> row) {
     fill_testcard_row(card, eyes[static_cast<size_t>(index)], y, row);
   };
-  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) std::cout << file << std::endl;
+  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) announce_file(file);
 }
 
 void testcard(int argc, char** argv) {
@@ -93,6 +100,7 @@ void testcard(int argc, char** argv) {
     end_on_interrupts("ods: interrupted\n");
     return draw(job, rig, eye, eyes);
   }
+  warn_if_illegible(rig.projection, eye.width);
   run_long_job(job.film.progress, job.film.threads, [&](ProgressLines& lines) {
     make_film_of_card(rig, eye, eyes, job.save.layout, lettering(job, rig, eye, eyes), job.film, lines);
   });

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/long_job.h"
@@ -60,10 +59,13 @@ void make_film_of_card(const ods::CameraRig& rig, ods::Extent eye, const std::ve
   const ods::Testcard card = make_testcard(rig, plan.eye, lines);
   const ods::TestcardFilm film = make_testcard_film(card, rig, eyes, plan, options.rate, options.packing);
   ods::Progress progress;
-  progress.report = [&](double done) { progress_lines.report(done, seconds_since(start)); };
+  progress.report = [&](double done) {
+    progress_lines.report(done, seconds_since(start),
+                          film_step("encode", done, static_cast<size_t>(frames), wishes.film.output));
+  };
   write_testcard_film(film, plan, frames, options, wishes.film.output, progress);
   progress_lines.clear();
-  std::cout << wishes.film.output << std::endl;
+  announce_file(wishes.film.output);
   note(fmt::format("{}: {}, in {}", wishes.film.output, film_text(plan, options, static_cast<size_t>(frames)),
                    duration_text(seconds_since(start))));
 }

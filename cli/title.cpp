@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -62,7 +61,7 @@ void save(const TitleJob& job, const ods::Title& title, const ods::CameraRig& ri
   rows.fill = [&](int index, int y, std::span<float> row) {
     fill_title_row(title, eyes[static_cast<size_t>(index)], y, row);
   };
-  for (const std::string& file : save_picture(rows, &rig, job.save, path)) std::cout << file << std::endl;
+  for (const std::string& file : save_picture(rows, &rig, job.save, path)) announce_file(file);
 }
 
 void title(int argc, char** argv) {

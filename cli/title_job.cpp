@@ -92,7 +92,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   add_form_options_but_height(options, job.picture, job.save);
   add_sceneless_camera_options(options, job.camera);
   options.group("Console");
-  options.flag("-q,--quiet", console.quiet, "say nothing but errors");
+  add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o title.exr");
   if (!ods::has_alpha(job.output)) throw UsageError("a title needs alpha: .exr, .png, .tif and .webp have it");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the command answers to options that are wrong.
+// What the command answers to options that are wrong, and to those that every command has.
 #include <gtest/gtest.h>
 
 #include "tests/cli_runner.h"
@@ -23,6 +23,53 @@ TEST_F(Cli, BadOptionsAreUsageErrors) {
   EXPECT_EQ(run("render"), 2);
   EXPECT_EQ(run("render furnace"), 2);
   expect_one_error();
+}
+
+struct Quiet {
+  std::string words;
+  bool has_result = false;  // text, which is what the command is for
+};
+
+// Every command takes -q: it writes nothing to stderr, and nothing to stdout but a result that is text.
+TEST_F(Cli, QuietIsQuietInEveryCommand) {
+  const auto at = [&](const std::string& name) { return folder.path(name); };
+  const std::string tiny = " --width 32 --samples 1 ", png = at("p_TB.png"), film = at("f_360_TB.mp4");
+  const std::vector<Quiet> commands = {
+      {"render furnace" + tiny + "-o " + png},
+      {"render furnace --sidecar" + tiny + "-o " + at("eye_%V.png")},
+      {"render furnace" + tiny + "--frames 0-1 -o " + at("f.####.png")},
+      {"render furnace" + tiny + "--transparent --eyes mono -o " + at("front.exr")},
+      {"render furnace" + tiny + "--eyes mono -o " + at("back.exr")},
+      {"render axis --width 512 --samples 1 --filter box -o " + at("axis_TB.png")},
+      {"convert " + png + " -o " + at("c.png")},
+      {"encode " + at("f.####.png") + " -o " + film},
+      {"film furnace --duration 0.1" + tiny + "-o " + at("film.mp4")},
+      {"title X --width 64 --height 3 -o " + at("title.exr")},
+      {"over " + at("front.exr") + " " + at("back.exr") + " -o " + at("over.png")},
+      {"rig --nearest 1 --width 64 -o " + at("rig.json") + " --for blender"},
+      {"rig --nearest 1 --width 64", true},
+      {"render furnace --samples 1 --rig " + at("rig.json") + " -o " + at("v.####.exr")},
+      {"stitch " + at("rig.json") + " " + at("v.####.exr") + " -o " + at("s.png")},
+      {"stitch " + at("rig.json") + " " + at("w.####.exr") + " --list-missing", true},
+      {"inject " + film},
+      {"inject " + at("back.exr")},
+      {"testcard --width 64 -o " + at("card.png")},
+      {"testcard --width 64 --duration 0.1 -o " + at("card.mp4")},
+      {"camera --for unity --neck 0.1 -o " + at("camera.txt")},
+      {"camera --for unity --neck 0.1", true},
+      {"project 0,0,-1", true},
+      {"compare " + png + " " + at("c.png"), true},
+      {"lint " + at("axis_TB.png"), true},
+      {"probe " + film, true},
+      {"info furnace", true},
+      {"scenes", true},
+      {"sizes", true},
+  };
+  for (const Quiet& command : commands) {
+    EXPECT_EQ(run(command.words + " -q"), 0) << command.words << "\n" << err;
+    EXPECT_EQ(err, "") << command.words;
+    EXPECT_EQ(!out.empty(), command.has_result) << command.words << "\n" << out;
+  }
 }
 
 TEST_F(Cli, BadCamerasAreUsageErrors) {

@@ -164,13 +164,8 @@ TEST_F(Cli, StdoutHoldsTheFileAndNothingElse) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(Cli, QuietIsQuiet) {
-  EXPECT_EQ(run(render("-q")), 0);
-  EXPECT_EQ(err, "");
-}
-
 TEST_F(Cli, EveryEyeItsFile) {
-  EXPECT_EQ(run("render furnace -q --width 16 --samples 1 -o " + folder.path("eye_%V.png")), 0) << err;
+  EXPECT_EQ(run("render furnace --width 16 --samples 1 -o " + folder.path("eye_%V.png")), 0) << err;
   EXPECT_EQ(out, folder.path("eye_left.png") + "\n" + folder.path("eye_right.png") + "\n");
   EXPECT_EQ(files(), 2u);
 }
@@ -239,12 +234,18 @@ TEST_F(Cli, JsonIsAllThatAProgramReads) {
     EXPECT_EQ(run(words), code) << err;
     std::istringstream lines(err);
     for (std::string line; std::getline(lines, line);) {
-      const nlohmann::json object = nlohmann::json::parse(line, nullptr, false);
+      const auto object = nlohmann::ordered_json::parse(line, nullptr, false);
       EXPECT_TRUE(object.is_object()) << line;
       if (object.is_object()) keys.insert(object.begin().key());
     }
   }
   EXPECT_EQ(keys, (std::set<std::string>{"error", "note", "progress", "warning"}));
+  EXPECT_EQ(run("render furnace --progress json --width 0"), 2);
+  EXPECT_EQ(nlohmann::json::parse(err, nullptr, false)["exit_code"], 2) << err;
+  EXPECT_EQ(run("render furnace --width 0 --progress json -o " + folder.path("c.png")), 2);
+  EXPECT_EQ(nlohmann::json::parse(err, nullptr, false)["exit_code"], 2) << err;
+  EXPECT_EQ(run("inject absent.mp4 --progress json"), 3);
+  EXPECT_EQ(nlohmann::json::parse(err, nullptr, false)["exit_code"], 3) << err;
 }
 
 // A scene's pictures are read on all processors, unless told otherwise.
@@ -373,6 +374,7 @@ TEST_F(Cli, ATestcardTakesEveryForm) {
   EXPECT_EQ(run("testcard --layout multiview --width 64 --sidecar -o " + card + ".exr"), 0) << err;
   EXPECT_EQ(out, card + ".exr\n" + card + ".camera.json\n");
   EXPECT_EQ(run("testcard --size tb-quick-test-512 -o " + card + "_b.png"), 0) << err;
+  EXPECT_NE(err.find("2 pixels high and cannot be read: --width 1536 or more"), std::string::npos) << err;
   EXPECT_EQ(run("compare --max-error 0 " + card + "_b.png " + card + "_b.png"), 0) << err;
   for (const auto& [words, code] : std::vector<std::pair<std::string, int>>{
            {"", 2}, {" --projection cube-3x2 --width 100 -o " + card + "_.png", 2}, {" -o " + card + ".xyz", 2}}) {

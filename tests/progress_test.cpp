@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -37,9 +38,10 @@ TEST(Progress, OnlyTheBarMovesTheCursor) {
   }
 }
 
-TEST(Progress, PlainIsALineForEveryTenth) {
+TEST(Progress, PlainIsALineForEveryTenthAndEveryHalfMinute) {
   const std::string text = shown(ProgressMode::kPlain);
-  EXPECT_EQ(count(text, "\n"), 10u) << text;
+  EXPECT_EQ(count(text, "\n"), 11u) << text;
+  EXPECT_TRUE(text.starts_with("ods: 1.0 %, 1:39 min left\nods: 10 %, ")) << text;
   EXPECT_NE(text.find("ods: 40 %, 1:00 min left\n"), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("ods: 100 %\n")) << text;
 }
@@ -54,7 +56,50 @@ TEST(Progress, PlainSaysNothingOfAShortJob) {
 TEST(Progress, JsonIsALineForEveryHundredth) {
   const std::string text = shown(ProgressMode::kJson);
   EXPECT_EQ(count(text, "\n"), 101u);
-  EXPECT_NE(text.find("{\"progress\":0.25,\"seconds\":25.0,\"seconds_left\":75.0}\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("{\"progress\":0.2500,\"seconds\":25.0,\"seconds_left\":75.0}\n"), std::string::npos) << text;
+}
+
+// A film of 300 frames that takes ten hours, of which five minutes are over.
+std::string film_shown(ProgressMode mode) {
+  std::ostringstream out;
+  ProgressLines lines(mode, out);
+  for (int i = 0; i <= 600; ++i) {
+    const double done = i / 72000.0;
+    lines.report(done, i / 2.0, {"render", 1 + i / 240, 300, "a.\"\xff.exr"});
+  }
+  lines.clear();
+  return out.str();
+}
+
+TEST(Progress, ALongFilmIsReportedByTime) {
+  const std::string text = film_shown(ProgressMode::kPlain);
+  EXPECT_TRUE(text.starts_with("ods: 0 %, frame 1 of 300, 9:59:59 h left\nods: 0 %, frame 1 of 300, ")) << text;
+  EXPECT_NE(text.find("\nods: 0.1 %, frame 1 of 300, "), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("\nods: 0.8 %, frame 3 of 300, 9:55:00 h left\n")) << text;
+  EXPECT_EQ(count(text, "\n"), 12u) << text;  // 1, 10, 30, 60, 90 ... 300 seconds
+  EXPECT_EQ(count(film_shown(ProgressMode::kJson), "\n"), 13u);
+  EXPECT_NE(film_shown(ProgressMode::kBar).find("] 0.8 %, frame 3 of 300, 9:55:00 h left"), std::string::npos);
+  for (ProgressMode mode : {ProgressMode::kDeadline, ProgressMode::kTractor, ProgressMode::kOpenJd}) {
+    EXPECT_EQ(count(film_shown(mode), "\n"), 1u) << "farms expect whole percents";
+  }
+}
+
+TEST(Progress, JsonNamesTheFrameAndTheFile) {
+  const std::string text = film_shown(ProgressMode::kJson);
+  const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+  const nlohmann::json object = nlohmann::json::parse(last, nullptr, false);
+  ASSERT_TRUE(object.is_object()) << last;
+  EXPECT_EQ(object["kind"], "render");
+  EXPECT_EQ(object["frame"], 3);
+  EXPECT_EQ(object["frames"], 300);
+  EXPECT_EQ(object["file"], "a.\"\xef\xbf\xbd.exr");  // what is no UTF-8 is replaced
+  EXPECT_NEAR(object["progress"].get<double>(), 300.0 / 36000.0, 1e-4);
+}
+
+TEST(Progress, AShareOfAFilmIsAFrame) {
+  EXPECT_EQ(film_step("encode", 0.0, 10, "a.mp4").frame, 1);
+  EXPECT_EQ(film_step("encode", 0.55, 10, "a.mp4").frame, 6);
+  EXPECT_EQ(film_step("encode", 1.0, 10, "a.mp4").frame, 10);
 }
 
 TEST(Progress, FarmsGetTheirOwnLines) {
@@ -70,7 +115,7 @@ TEST(Progress, FarmsGetTheirOwnLines) {
 
 TEST(Progress, OpenJobDescriptionHearsOfFailure) {
   std::ostringstream out;
-  ProgressLines(ProgressMode::kOpenJd, out).fail("the disk is full");
+  ProgressLines(ProgressMode::kOpenJd, out).fail("the disk\nis full");
   EXPECT_EQ(out.str(), "openjd_fail: the disk is full\n");
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "ods/image/tone.h"
 #include "ods/kernel/camera/project.h"
@@ -31,6 +32,23 @@ vec3 pixel_at(const Image& image, vec2 uv) {
 bool is_plate(vec3 color) {
   const float most = std::max({color.x, color.y, color.z}), least = std::min({color.x, color.y, color.z});
   return most < 0.02f || most > 0.3f || most - least > 0.1f;
+}
+
+TEST(Testcard, KnowsHowHighItsLettersAre) {
+  const int width = 4096;
+  float capital = 1.0f;  // tangents: of the smallest letters
+  for (const Card& card : make_testcard(CameraRig(), {width, width / 2}, {"A LINE"}).cards) {
+    if (card.strokes.empty()) continue;
+    float low = 1.0f, high = -1.0f;
+    for (const Stroke& stroke : card.strokes) {
+      low = std::min({low, stroke.from.y, stroke.to.y}), high = std::max({high, stroke.from.y, stroke.to.y});
+    }
+    if (high > low) capital = std::min(capital, high - low);
+  }
+  const double pixels = static_cast<double>(capital) * width / (2.0 * std::numbers::pi);
+  EXPECT_NEAR(letter_height({}, width), pixels, 0.15 * pixels);
+  EXPECT_GT(letter_height({}, 1536), kLegible);
+  EXPECT_LT(letter_height({}, 1024), kLegible);
 }
 
 TEST(Testcard, HoldsLightInEveryProjection) {

@@ -15,6 +15,8 @@ namespace ods {
 
 // --- what stands on the card -----------------------------------------------------------------------------------------
 
+constexpr float kSmallPlate = 2.4f;  // degrees high
+
 // Each line is for one eye alone.
 static void add_eyes(CardView& view, float y) {
   view.letter("LEFT EYE", 0.0f, y + 2.4f, 26.0f, 4.4f, kLeftColor).eye = kLeft;
@@ -34,7 +36,7 @@ static void add_sharpness(CardView& view, float y) {
   float x = -26.0f;
   for (int pixels : {1, 2, 3, 4}) {
     view.add(CardPattern::kBars, x, y + 1.7f, 7.0f, 8.0f).pixels = pixels;
-    view.letter(fmt::format("{} PX", pixels), x, y - 4.2f, 7.0f, 2.4f);
+    view.letter(fmt::format("{} PX", pixels), x, y - 4.2f, 7.0f, kSmallPlate);
     x += 8.5f;
   }
   view.add(CardPattern::kStar, 15.0f, y - 0.5f, 13.0f, 13.0f);
@@ -50,7 +52,7 @@ static void add_quarter(std::vector<Card>& cards, float yaw, const std::string& 
   add_eyes(view, 11.0f);
   view.add(CardPattern::kGreys, 0.0f, 19.0f, 36.0f, 5.0f);
   add_depths(view, -8.0f, kDistances, 0.6f);
-  view.letter("DISTANCES IN METRES", 0.0f, -13.3f, 30.0f, 2.4f);
+  view.letter("DISTANCES IN METRES", 0.0f, -13.3f, 30.0f, kSmallPlate);
   add_sharpness(view, -21.0f);
 }
 
@@ -70,7 +72,7 @@ static void add_degrees(std::vector<Card>& cards) {
     if (yaw % 90 != 0) view.letter(fmt::format("{}", yaw), 0.0f, -1.6f, 6.0f, 2.6f);
     for (int pitch : {-60, -30, 30, 60}) {
       CardView(cards, static_cast<float>(yaw), static_cast<float>(pitch))
-          .letter(fmt::format("{}{}", pitch > 0 ? "+" : "", pitch), 0.0f, 1.6f, 5.0f, 2.4f);
+          .letter(fmt::format("{}{}", pitch > 0 ? "+" : "", pitch), 0.0f, 1.6f, 5.0f, kSmallPlate);
     }
   }
 }
@@ -83,6 +85,11 @@ void set_reach(std::vector<Card>& cards, const CameraRig& rig, Extent eye) {
     const float angle = std::atan(length(each.half)) + std::asin(std::min(1.0f, away * each.nearness)) + step;
     each.reach = std::cos(std::min(angle, 1.5f));
   }
+}
+
+double letter_height(const ProjectionSetting& projection, int width) {
+  const double angle = glm::radians(kCapital * static_cast<double>(kSmallPlate));
+  return angle * pixels_per_radian(projection, width);
 }
 
 Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::string>& lines) {
@@ -101,7 +108,7 @@ Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::
   add_pole(card.cards, -90.0f, "DOWN");
   CardView front(card.cards, 0.0f, 0.0f);
   float y = 31.0f;
-  for (const std::string& line : lines) front.letter(line, 0.0f, y -= 2.6f, 44.0f, 2.4f);
+  for (const std::string& line : lines) front.letter(line, 0.0f, y -= 2.6f, 44.0f, kSmallPlate);
   set_reach(card.cards, rig, eye);
   const auto nearer = [](const Card& a, const Card& b) { return a.nearness < b.nearness; };
   std::stable_sort(card.cards.begin(), card.cards.end(), nearer);

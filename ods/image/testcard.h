@@ -53,6 +53,10 @@ struct Testcard {
 // Precondition: as of make_camera(); sides above 0.
 Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::string>& lines);
 
+// How high the capitals of the small plates are in such a picture, pixels; below kLegible they cannot be read.
+double letter_height(const ProjectionSetting& projection, int width);
+inline constexpr double kLegible = 6.0;
+
 // Row y of one eye: R, G, B of every pixel, linear; black where the projection is empty.
 void fill_testcard_row(const Testcard& card, int eye, int y, std::span<float> row);
 

@@ -25,6 +25,8 @@ inline const vec3 kWhite(1.0f), kBlack(0.0f), kPlateColor = code(24, 26, 32);
 inline const vec3 kLeftColor = code(90, 190, 255), kRightColor = code(255, 120, 90);
 inline const vec3 kSafe = code(110, 220, 120), kNotSafe = code(255, 80, 70), kAmber = code(255, 200, 80);
 
+constexpr double kCapital = 0.6;  // the height of a capital letter over that of its plate
+
 // One view: what somebody sees who looks that way. Places and sizes are degrees in it.
 class CardView {
  public:
@@ -49,7 +51,7 @@ class CardView {
   Card& letter(std::string_view text, float x, float y, float width, float height, vec3 color = kWhite) {
     Card& card = add(CardPattern::kPlate, x, y, width, height);
     const float letters = 6.0f * static_cast<float>(text.size());
-    const float unit = std::min(1.2f * card.half.y / 6.0f, 1.8f * card.half.x / letters);
+    const float unit = std::min(2.0f * static_cast<float>(kCapital) * card.half.y / 6.0f, 1.8f * card.half.x / letters);
     std::string capitals(text);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     card.strokes = text_strokes(capitals);
