@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "ods/base/confined_file.h"
 #include "ods/base/md5.h"
 #include "ods/base/text.h"
 #include "ods/scene/builtin.h"
@@ -38,28 +39,33 @@ std::string text_of(const ods::vec3& point) {
 }
 
 // Whoever reads a file that is not there says so.
-void add_file(Settings& settings, const std::string& option, const std::string& path) {
+void add_file(Settings& settings, const std::string& option, const std::string& path, const std::string& confine = {}) {
   std::error_code error;
-  const bool there = std::filesystem::is_regular_file(path, error);
-  settings.push_back({option, there ? ods::md5_of_file(path) : "missing", ods::one_line(path)});
+  if (!std::filesystem::is_regular_file(path, error)) {
+    settings.push_back({option, "missing", ods::one_line(path)});
+    return;
+  }
+  const ods::ConfinedFile file(path, confine);
+  settings.push_back({option, ods::md5_of_file(file.path()), ods::one_line(path)});
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, environment, catchers] = source;
+  const auto& [name, scene, environment, catchers, confine] = source;
+  const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
   if (is_file) {
-    add_file(settings, "SCENE", name);
+    add_file(settings, "SCENE", name, confined_to);
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
-    for (const std::string& file : ods::gltf_files(name)) {
-      add_file(settings, fmt::format("SCENE's file {}", ods::one_line(file)), (folder / file).native());
+    for (const std::string& file : ods::gltf_files(name, confined_to)) {
+      add_file(settings, fmt::format("SCENE's file {}", ods::one_line(file)), (folder / file).native(), confined_to);
     }
   } else {
     add(settings, "SCENE", name);
   }
   add(settings, "--scene", scene ? fmt::format("{}", *scene) : "of the file");
   if (std::filesystem::is_regular_file(environment, error)) {
-    add_file(settings, "--env", environment);
+    add_file(settings, "--env", environment, confined_to);
   } else {
     add(settings, "--env", environment.empty() ? "of the scene" : environment);
   }
@@ -146,7 +152,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
 
 // A frame keeps the scene's light: exposure, tone and quality are the film's.
 void add_save(Settings& settings, const ods::SaveOptions& save) {
-  const auto& [layout, exposure, tone, jpeg_quality, sidecar] = save;
+  const auto& [layout, exposure, tone, jpeg_quality, attributes, sidecar] = save;
   add(settings, "--layout", std::string(ods::layout_name(layout)));
 }
 

@@ -55,7 +55,7 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
 }
 
 // The folder of --confine without links; empty where there is none.
-static std::string confining_folder(const SceneSource& source) {
+std::string confining_folder(const SceneSource& source) {
   if (source.confine.empty()) return "";
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::canonical(source.confine, error);

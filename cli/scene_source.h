@@ -23,6 +23,9 @@ void add_scene_argument(Options& options, SceneSource& source);
 void add_scene_option(Options& options, SceneSource& source, const char* help);
 void add_light_options(Options& options, SceneSource& source);
 
+// The folder of --confine without links; empty where there is none. Throws Error(kInput): there is no such folder.
+std::string confining_folder(const SceneSource& source);
+
 // Reads the scene, makes catchers of what is named so, and notes what of it is not rendered.
 ods::Scene open_scene(const SceneSource& source);
 

@@ -49,7 +49,8 @@ Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options = {});
 
 // The files beside it that it refers to, buffers and pictures, as paths from its folder: sorted, each once. They need
-// not exist. Throws Error(kInput) where its JSON cannot be read.
-std::vector<std::string> gltf_files(const std::string& path);
+// not exist. Throws Error(kInput) where its JSON cannot be read. confine: as in SceneOptions; the files found are not
+// checked against it.
+std::vector<std::string> gltf_files(const std::string& path, const std::string& confine = {});
 
 }  // namespace ods

@@ -280,9 +280,9 @@ static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   return read_file(opened.path(), kLongestText);
 }
 
-std::vector<std::string> gltf_files(const std::string& path) {
+std::vector<std::string> gltf_files(const std::string& path, const std::string& confine) {
   GltfFile file;
-  file.path = path;
+  file.path = path, file.confine = confine;
   const std::vector<unsigned char> bytes = read_scene_file(file);
   const JsonDocument json = parse_gltf_json(split_container(file, bytes).json, path, is_read);
   std::set<std::string> names;
