@@ -9,7 +9,7 @@
 
 inline void add_apple_option(Options& options, bool& for_apple) {
   options.flag("--apple", for_apple,
-               "write vexu, too, for Apple's players; FFmpeg from 7.1 on then no longer knows the layout");
+               "also write a vexu box for Apple's players; FFmpeg 7.1 and later then misread the layout");
 }
 
 // Throws UsageError.

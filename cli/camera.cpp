@@ -25,12 +25,13 @@ void camera(int argc, char** argv) {
   CameraSource source;
   CameraTarget target = CameraTarget::kNumbers;
   std::string output;
-  Options options("camera", "Says a camera in the words of another renderer; what that cannot do is a comment there.",
+  Options options("camera",
+                  "Exports a camera to another renderer. What that renderer cannot do is a comment in the result.",
                   kExamples);
   options.group("Output");
   options.choice("--for", target, ods::kCameraTargets, ods::camera_target_name,
-                 "whose words; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");
-  options.text("-o,--output", "FILE", output, "where to; the terminal by default");
+                 "the target; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");
+  options.text("-o,--output", "FILE", output, "output file; by default stdout");
   add_camera_source(options, source);
   options.group("Console");
   add_console_options(options);

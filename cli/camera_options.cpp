@@ -38,13 +38,14 @@ vec3 parse_point(const std::string& name, const std::string& word) {
 static void add_position_option(Options& options, CameraOptions& camera) {
   options.custom(
       "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_point("--position", word); },
-      "metres, +Y up; eyes stand left and right of it");
+      "midpoint between the eyes, in metres; +Y is up");
 }
 
 static void add_attitude_options(Options& options, CameraOptions& camera) {
-  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right; at 0 the middle looks along -Z");
-  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; tilts the horizon");
-  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; tilts the horizon");
+  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f,
+                 "turn to the right, degrees; at 0 the picture's centre looks along -Z");
+  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "tilt up, degrees; tilts the horizon too");
+  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "roll clockwise, degrees; tilts the horizon too");
   add_dialect_option(options, camera);
   add_eye_options(options, camera);
   add_projection_options(options, camera.rig.projection);
@@ -53,7 +54,7 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
 void add_place_options(Options& options, CameraOptions& camera) {
   options.group("Camera");
   options.text("--camera", "NAME", camera.view_point,
-               "a camera of the file (ods info lists them); its first by default");
+               "a camera in the file (ods info lists them); by default the first");
   add_position_option(options, camera);
 }
 

@@ -30,10 +30,10 @@ void add_camera_source(Options& options, CameraSource& source) {
   options.group("Picture");
   options.custom(
       "--from", "FILE", "", [&](const std::string& path) { load(path, source); },
-      "a camera sidecar (ods render --sidecar); the options below change what it says");
-  options.number("--width", source.width, 2, 32768, "of one eye in pixels");
-  options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
-  add_layout_option(options, source.file.layout, "how two eyes share the file");
+      "a .camera.json file (ods render --sidecar); the options below override it");
+  options.number("--width", source.width, 2, 32768, "width of one eye in pixels");
+  options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  add_layout_option(options, source.file.layout, "how both eyes share the file");
   add_sceneless_camera_options(options, source.camera);
 }
 

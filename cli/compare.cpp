@@ -28,9 +28,11 @@ constexpr const char* kExamples =
     "  ods compare reference.png picture.jpg --min-psnr 40 || echo too far off";
 
 constexpr const char* kSummary =
-    "Measures how far picture B is from picture A: RMSE, PSNR, WS-PSNR (rows weighed by what they cover of the\n"
-    "sphere), the largest error and where it is, for each eye and both. Files of code values are compared in those,\n"
-    "0..1; floats, and floats with code values, in linear light; the peak is 1. Exit code 1: a limit was passed.";
+    "Measures the difference between pictures A and B: RMSE, PSNR, WS-PSNR (rows weighted by their area on the "
+    "sphere)\n"
+    "and the largest error and its place, per eye and overall. Two integer files are compared as code values from 0 "
+    "to\n"
+    "1, all others in linear light; the peak is 1. Exit code 1: a limit was exceeded.";
 
 struct CompareJob {
   std::string a, b;
@@ -42,20 +44,20 @@ struct CompareJob {
 
 bool read_options(CompareJob& job, int argc, char** argv) {
   Options options("compare", kSummary, kExamples);
-  options.argument("A", job.a, "a picture file; %V in its name: a file per eye");
-  options.argument("B", job.b, "another, of the same size, perhaps in another layout");
-  add_layout_option(options, job.layout,
-                    "of both files, where what they say, their names (_TB, _LR, ...) and shapes do not tell; separate "
-                    "is one eye");
+  options.argument("A", job.a, "a picture; %V in the name: one file per eye");
+  options.argument("B", job.b, "a picture of the same size; its layout may differ");
+  add_layout_option(
+      options, job.layout,
+      "layout of both files, if neither the files nor their names (_TB, _LR, ...) tell; separate: one eye");
   options.text("--diff", "FILE", job.difference,
-               "write a picture of the difference, the left eye on top: .exr holds B - A; all others hold |B - A|, its "
-               "largest value white");
+               "write a picture of the difference, left eye on top: .exr holds B - A; other formats hold |B - A|, "
+               "scaled so that the largest value is white");
   options.group("Limits, for scripts");
-  options.number("--max-rmse", job.max_rmse, 0.0f, 1e30f, "of all eyes");
-  options.number("--min-psnr", job.min_psnr, -1e4f, 1e4f, "of all eyes, dB");
-  options.number("--max-error", job.max_error, 0.0f, 1e30f, "the largest of any value");
+  options.number("--max-rmse", job.max_rmse, 0.0f, 1e30f, "limit of the RMSE of all eyes");
+  options.number("--min-psnr", job.min_psnr, -1e4f, 1e4f, "limit of the PSNR of all eyes, dB");
+  options.number("--max-error", job.max_error, 0.0f, 1e30f, "limit of the largest error of any value");
   options.group("Console");
-  options.flag("--json", job.json, "for programs");
+  options.flag("--json", job.json, "print JSON");
   add_console_options(options);
   return options.parse(argc, argv);
 }

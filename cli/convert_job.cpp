@@ -24,10 +24,11 @@ constexpr const char* kExamples =
     "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90";
 
 constexpr const char* kSummary =
-    "Makes another of a stereo 360 picture: of another projection, layout, size, convergence, of other eyes; with a\n"
-    "depth layer (.exr of ods render) of eyes at another distance or merged otherwise, too. What is not given stays "
-    "as\n"
-    "it is in the picture.";
+    "Converts a stereo 360 picture to another projection, layout, size or convergence, or extracts single eyes. "
+    "Pictures\n"
+    "with depth (.exr of ods render) can also get another eye distance or pole merge. Everything that is not given "
+    "stays\n"
+    "as it is.";
 
 // What the command line says, on top of the picture's own camera.
 struct Wishes {
@@ -42,12 +43,13 @@ struct Given {
 };
 
 void add_input_options(Options& options, ConvertJob& job) {
-  options.argument("IN", job.input, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
-  options.group("Picture that there is, where it and its name do not tell");
+  options.argument("IN", job.input,
+                   "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+  options.group("Input, if neither the file nor its name tells");
   options.custom(
       "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
       "its projection");
-  add_layout_option(options, job.known.layout, "its layout; separate is one eye", "--from-layout");
+  add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
   options.custom(
       "--from-camera", "FILE", "",
       [&](const std::string& path) {
@@ -57,30 +59,34 @@ void add_input_options(Options& options, ConvertJob& job) {
         if (!job.known.layout) job.known.layout = file.eyes.size() == 2 ? file.layout : Layout::kSeparate;
         for (const std::string& warning : warnings) note(warning);
       },
-      "its camera: a sidecar (ods render --sidecar)");
+      "its camera: a .camera.json file (ods render --sidecar)");
 }
 
 void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
-  options.group("Picture that is made");
-  options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  options.group("Output");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   add_size_option(options, wishes.size, layout_of_size);
-  options.number("--width", wishes.size.width, 0, 32768, "of one eye in pixels; 0: as sharp as the picture");
-  options.number("--height", wishes.size.height, 0, 32768, "0: as its projection's shape has it");
-  options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
-  options.flag("--mono", wishes.mono, "one eye for both, the left one or that of --eyes");
-  add_layout_option(options, wishes.layout, "how two eyes share the file");
-  options.flag("--sidecar", job.save.sidecar, "write picture.camera.json too, which ods camera reads");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
+  options.number("--width", wishes.size.width, 0, 32768, "width of one eye in pixels; 0: keeps the input's resolution");
+  options.number("--height", wishes.size.height, 0, 32768,
+                 "height of one eye in pixels; 0: follows from the width and projection");
+  options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
+  add_layout_option(options, wishes.layout, "how both eyes share the file");
+  options.flag("--sidecar", job.save.sidecar,
+               "also write the camera to picture.camera.json, which --from of other commands reads");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
-                 "tone curve, of .hdr and .exr to the others");
+                 "tone curve, when converting .hdr or .exr to another format");
 }
 
 void add_camera(Options& options, CameraOptions& camera) {
   add_projection_options(options, camera.rig.projection, "--to");
   options.group("Turn");
-  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "degrees to the right of where the picture looks");
-  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "degrees up; of mono pictures");
-  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "degrees clockwise; of mono pictures");
+  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "turn to the right, degrees");
+  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "tilt up, degrees; mono pictures only");
+  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "roll clockwise, degrees; mono pictures only");
   add_circle_options(options, camera);
 }
 
@@ -93,7 +99,7 @@ bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv)
   add_output_options(options, job, wishes, layout_of_size);
   add_camera(options, wishes.camera);
   options.group("Console");
-  options.number("--threads", job.threads, 0, 1024, "0: all processors");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   given = {wishes.size.width > 0, options.given("--eyes") || options.given("--size"), options.given("--tone"),

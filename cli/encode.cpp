@@ -21,10 +21,10 @@ constexpr const char* kExamples =
     "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --from vr180 --codec av1 --bits 10";
 
 constexpr const char* kSummary =
-    "Makes a film of frames, whoever rendered them, that players know as stereo 360: both eyes in a frame, the left "
-    "one\n"
-    "on top; BT.709; Spherical Video V1 and V2. #### in the name (or %04d, $F4) is the number of a frame, %V an eye.\n"
-    "How the frames are laid out is found as ods convert does it.";
+    "Encodes frames from any renderer as a video that players recognize as stereo 360: both eyes in a frame, the left\n"
+    "one on top; BT.709; Spherical Video V1 and V2. #### in the name (or %04d, $F4) is the frame's number, %V the "
+    "eye.\n"
+    "Projection and layout are detected as in ods convert.";
 
 struct EncodeJob {
   std::string pattern;
@@ -45,25 +45,28 @@ ods::Layout film_layout(const std::string& word) {
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
   Options options("encode", kSummary, kExamples);
-  options.argument("FRAMES", job.pattern, "shot.####.exr, of any format that ods reads; in quotes");
+  options.argument("FRAMES", job.pattern, "the frames' file names, in quotes: 'shot.####.exr'; any picture format");
   options.group("Frames");
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
-      "1-100, 1-100x2, 1,5,10-20: which of them, in this order; else all");
+      "frames to encode, in this order: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.custom(
       "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
-      "their projection, where they and their names do not tell");
-  add_layout_option(options, job.known.layout, "their layout, likewise; separate is one eye", "--from-layout");
-  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "stops; of .hdr and .exr");
-  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
+      "the frames' projection, if neither the files nor their names tell");
+  add_layout_option(options, job.known.layout,
+                    "the frames' layout, if neither the files nor their names tell; separate: one eye",
+                    "--from-layout");
+  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
+  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name,
+                 "tone curve; ignored as --exposure is");
   add_film_options(options, job.film);
   options.custom(
-      "--fps", "X|N/M", "30", [&](const std::string& text) { job.film.rate = parse_rate(text); }, "frames a second");
+      "--fps", "X|N/M", "30", [&](const std::string& text) { job.film.rate = parse_rate(text); }, "frames per second");
   options.custom(
       "--layout", "LAYOUT", "", [&](const std::string& word) { job.layout = film_layout(word); },
-      "how both eyes share a frame: top-bottom, or side-by-side, which is usual for vr180");
+      "how both eyes share a frame: top-bottom, or side-by-side (usual for vr180)");
   options.group("Console");
-  options.number("--threads", job.threads, 0, 1024, "0: all processors");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   return true;

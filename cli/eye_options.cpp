@@ -127,31 +127,33 @@ void parse_dialect(const std::string& text, CameraOptions& camera) {
 void add_dialect_option(Options& options, CameraOptions& camera) {
   options.custom(
       "--like", "SYSTEM[:PARAMETER=VALUE,..]", "", [&](const std::string& text) { parse_dialect(text, camera); },
-      "see as another system does, by its own parameters: google, povray, arnold, cycles, ospray, ..; the options "
-      "below change what it sets");
+      "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
+      "the options below override it");
 }
 
 void add_circle_options(Options& options, CameraOptions& camera) {
   CameraRig& rig = camera.rig;
   options.group("Eyes");
-  options.number("--ipd", rig.ipd, 0.0f, 1e4f, "distance between the eyes, metres");
+  options.number("--ipd", rig.ipd, 0.0f, 1e4f, "distance between the eyes (interpupillary distance), metres");
   const auto set_both = [&](const std::string& text) { rig.top = rig.bottom = parse_merge("--merge", text); };
   const auto set_top = [&](const std::string& text) { rig.top = parse_merge("--merge-top", text); };
   const auto set_bottom = [&](const std::string& text) { rig.bottom = parse_merge("--merge-bottom", text); };
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
-  options.custom(
-      "--merge", merge_unit, "none,60,90,1", set_both,
-      "bring the eyes together towards the poles: none, linear, cosine, smoothstep, gaussian, power, tilt-brush or "
-      "map; from START to END degrees of elevation; the curve raised to the power EXP");
-  options.custom("--merge-top", merge_unit, "", set_top, "above only");
-  options.custom("--merge-bottom", merge_unit, "", set_bottom, "below only");
+  options.custom("--merge", merge_unit, "none,60,90,1", set_both,
+                 "reduce the eye distance to 0 towards the poles: none, linear, cosine, smoothstep, gaussian, power, "
+                 "tilt-brush or map; between the elevations START and END, degrees; EXP is the curve's exponent");
+  options.custom("--merge-top", merge_unit, "", set_top, "the same for the upper pole only");
+  options.custom("--merge-bottom", merge_unit, "", set_bottom, "the same for the lower pole only");
   options.text("--merge-map", "FILE", camera.merge_map,
-               "a lat-long picture that merges by direction: white is full stereo, black none");
-  options.flag("--merge-map-inverted", camera.merge_map_inverted, "black is full stereo, as Arnold's manual has it");
+               "lat-long picture for --merge map: white is full stereo, black is none");
+  options.flag("--merge-map-inverted", camera.merge_map_inverted,
+               "invert the map: black is full stereo, as in Arnold's manual");
   options.custom(
       "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, rig); },
-      "parallel; toe-in: rays meet at the distance; shift: the pictures are turned against each other for it");
-  options.number("--neck", rig.neck, -10.0f, 10.0f, "metres that the eyes stand before the neck's axis");
+      "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
+      "METRES coincide");
+  options.number("--neck", rig.neck, -10.0f, 10.0f,
+                 "distance of the eyes in front of the axis they turn about, metres");
 }
 
 void add_eye_options(Options& options, CameraOptions& camera) {
@@ -159,11 +161,11 @@ void add_eye_options(Options& options, CameraOptions& camera) {
   add_circle_options(options, camera);
   options.custom(
       "--axis", "AXIS", "camera", [&](const std::string& text) { parse_axis(text, rig); },
-      "what the viewing circle lies square to: the camera's up, the world's, or X,Y,Z");
+      "normal of the viewing circle: the camera's up axis, the world's up axis, or X,Y,Z");
   options.custom(
       "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { parse_lens(text, rig); },
-      "blur what is not at FOCUS metres; RADIUS of the lens in metres");
-  options.flag("--mirrored", rig.mirrored, "front and back change places: a left-handed world as it stands");
+      "depth of field: radius of the lens and focus distance, in metres");
+  options.flag("--mirrored", rig.mirrored, "swap front and back, to show a left-handed world as it is");
 }
 
 static void read_merge_map(CameraOptions& camera) {

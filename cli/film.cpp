@@ -27,9 +27,8 @@ constexpr const char* kExamples =
     "  ods film 'views/####/####.exr' --rig rig.json -o film_360_TB.mp4 --frames 1-250   as ods stitch";
 
 constexpr const char* kSummary =
-    "Renders a scene frame by frame, encodes the frames and says in the film what it is. The frames lie in\n"
-    "FILM.frames until the film is there: a film that was interrupted or killed goes on where it was when the same\n"
-    "command is given again.";
+    "Renders a scene frame by frame, encodes the frames and writes the 360 metadata that players need. The frames are\n"
+    "kept in FILM.frames until the video is complete: after an interruption, give the same command again to continue.";
 
 struct FilmJob {
   RenderJob render;
@@ -46,12 +45,13 @@ bool read_options(FilmJob& job, int argc, char** argv) {
   add_scene_argument(options, render.scene);
   add_light_options(options, render.scene);
   add_film_options(options, job.film);
-  options.text("--rig", "FILE", job.rig, "stitch the views of this rig (ods rig); SCENE is then their names");
-  options.flag("--keep-frames", job.keep_frames, "leave FILM.frames, which ods encode reads, where it is");
-  options.flag("--restart", job.restart, "remove the frames that exist and render them anew");
+  options.text("--rig", "FILE", job.rig,
+               "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
+  options.flag("--keep-frames", job.keep_frames, "keep FILM.frames, which ods encode can read");
+  options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
   options.group("Picture");
   add_form_options(options, render.render, render.save);
-  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "stops");
+  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops");
   options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);

@@ -161,19 +161,20 @@ void add_film_options(Options& options, FilmWishes& wishes) {
 
 void add_packing_options(Options& options, FilmWishes& wishes) {
   options.choice("--target", wishes.target, ods::kFilmTargets, ods::film_target_name,
-                 "whom it is for; what follows goes before it");
-  options.choice("--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name, "by default as the target has it");
+                 "preset for a destination; the options below override it");
+  options.choice("--codec", wishes.codec, ods::kFilmCodecs, ods::film_codec_name,
+                 "video codec; by default the target's");
   options.custom(
       "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
-      "which of those of the codec: " + encoder_list());
-  options.text("--preset", "NAME", wishes.preset, "how hard it tries, in the encoder's words");
+      "encoder for the codec: " + encoder_list());
+  options.text("--preset", "NAME", wishes.preset, "the encoder's own preset name, e.g. slow");
   options.number("--crf", wishes.crf, 0, 63,
-                 "quality, less is better; by default 18 of h264, 20 of hevc, 28 of av1, 24 of vp9");
-  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "million bits a second, in place of --crf");
-  options.number("--bits", wishes.bits, 8, 10, "8 or 10");
-  options.choice("--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "what of the colour is kept");
+                 "quality, lower is better; by default 18 for h264, 20 for hevc, 28 for av1, 24 for vp9");
+  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "bit rate in Mbit/s, instead of --crf");
+  options.number("--bits", wishes.bits, 8, 10, "bits per channel: 8 or 10");
+  options.choice("--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "chroma subsampling");
   options.text("--audio", "FILE", wishes.sound,
-               "its sound: mono, stereo, or four channels of first-order ambisonics (AmbiX)");
+               "sound file: mono, stereo, or first-order ambisonics with four channels (AmbiX)");
   add_apple_option(options, wishes.for_apple);
 }
 

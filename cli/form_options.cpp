@@ -31,20 +31,23 @@ void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layo
     layout = size.layout.value_or(layout);
     if (!size.layout) picture.eyes = ods::Eyes::kMonoEye;
   };
-  options.custom("--size", "NAME", "", set, "width, height, layout and mono at once, by a name of ods sizes");
+  options.custom("--size", "NAME", "", set,
+                 "set width, height, layout and eyes to a named size (ods sizes lists them)");
 }
 
 void add_form_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {
   add_form_options_but_height(options, picture, save);
-  options.number("--height", picture.height, 0, 32768, "0: as its projection's shape has it, half for lat-long");
+  options.number("--height", picture.height, 0, 32768,
+                 "height of one eye in pixels; 0: follows from the width and projection (lat-long: half the width)");
 }
 
 void add_form_options_but_height(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {
   add_size_option(options, picture, save.layout);
-  options.number("--width", picture.width, 1, 32768, "of one eye in pixels");
-  options.choice("--eyes", picture.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
-  add_layout_option(options, save.layout, "how two eyes share the file (vr180: side-by-side)");
-  options.flag("--sidecar", save.sidecar, "write picture.camera.json too, which ods camera reads");
+  options.number("--width", picture.width, 1, 32768, "width of one eye in pixels");
+  options.choice("--eyes", picture.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  add_layout_option(options, save.layout, "how both eyes share the file (default for vr180: side-by-side)");
+  options.flag("--sidecar", save.sidecar,
+               "also write the camera to picture.camera.json, which --from of other commands reads");
 }
 
 void finish_form_options(const Options& options, const ods::ProjectionSetting& projection, ods::RenderOptions& picture,

@@ -95,11 +95,11 @@ void info(int argc, char** argv) {
   SceneSource source;
   CameraOptions camera;
   bool json = false;
-  Options options("info", "Tells what is in a scene, and which parts of it are not rendered.", kExamples);
+  Options options("info", "Shows what is in a scene, and which parts of it are not rendered.", kExamples);
   add_scene_argument(options, source);
   add_place_options(options, camera);
   options.group("Console");
-  options.flag("--json", json, "for programs");
+  options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
   console.quiet = true;  // what notes would say stands in the result

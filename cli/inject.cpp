@@ -21,33 +21,35 @@ constexpr const char* kExamples =
     "  ods inject panorama_360.jpg --yaw 90       GPano, which viewers of pictures read";
 
 constexpr const char* kSummary =
-    "Writes into a film (mp4, mov, mkv, webm) how its eyes are laid out and what of the sphere it shows, in place of\n"
-    "what it said before: Spherical Video V2, and V1 where that can say it; into a picture of one eye (jpg, png, tif)\n"
-    "GPano, into an exr its camera. Nothing is encoded, samples and pixels stay as they are. A complete new file "
-    "takes\n"
-    "the old one's place. What is not given is found by a sidecar, the name (_360_TB, _180_LR ...), the shape.";
+    "Writes into a video (mp4, mov, mkv, webm) how its eyes are laid out and which part of the sphere it shows, "
+    "replacing\n"
+    "what was there: Spherical Video V2, and V1 where possible. Writes GPano into a picture of one eye (jpg, png, "
+    "tif),\n"
+    "and the camera into an exr. Nothing is encoded again; samples and pixels stay the same. The new file replaces "
+    "the\n"
+    "old one when it is complete. What is not given comes from a sidecar, the name (_360_TB, _180_LR, ...) or the "
+    "shape.";
 
 bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
   Options options("inject", kSummary, kExamples);
   std::string layout;
-  options.argument("FILE", job.file, "mp4, mov, mkv, webm; jpg, png, tif, exr");
-  options.text("-o,--output", "FILE", job.output, "leave FILE as it is and write this one");
-  options.group("What it says");
-  options.text("--layout", "LAYOUT", layout,
-               "mono, or how both eyes share a frame: top-bottom, side-by-side, ... by the names of ods render");
+  options.argument("FILE", job.file, "the file: mp4, mov, mkv, webm; jpg, png, tif, exr");
+  options.text("-o,--output", "FILE", job.output, "write this file and leave FILE unchanged");
+  options.group("Metadata");
+  options.text("--layout", "LAYOUT", layout, "mono, top-bottom, side-by-side, ...: how both eyes share a frame");
   options.text("--projection", "NAME", job.projection,
-               "lat-long, vr180 or flat; of films cubemap (right, left, up over down, front, back); of an exr all of "
-               "ods convert --help");
-  options.number(
-      "--yaw", job.yaw, -180.0f, 180.0f,
-      "turn what a film shows to the left, degrees; of a picture: how far to the right of north its middle is");
-  options.number("--pitch", job.pitch, -90.0f, 90.0f, "and up");
-  options.number("--roll", job.roll, -180.0f, 180.0f, "and clockwise");
-  options.number("--track", job.track, 0, 2147483647, "of several video tracks, by its number (the largest picture)");
+               "lat-long, vr180 or flat; videos also cubemap (right, left, up over down, front, back); .exr also any "
+               "projection of ods convert");
+  options.number("--yaw", job.yaw, -180.0f, 180.0f,
+                 "video: turn the view to the left, degrees; picture: compass heading of its centre");
+  options.number("--pitch", job.pitch, -90.0f, 90.0f, "tilt up, degrees");
+  options.number("--roll", job.roll, -180.0f, 180.0f, "roll clockwise, degrees");
+  options.number("--track", job.track, 0, 2147483647,
+                 "number of the video track; by default the one with the largest picture");
   options.flag("--ambisonics", job.ambisonics,
-               "its sound of four channels is first-order ambisonics (AmbiX: W Y Z X, SN3D); of mp4 and mov");
+               "mark four-channel sound as first-order ambisonics (AmbiX: W Y Z X, SN3D); mp4 and mov only");
   add_apple_option(options, job.for_apple);
-  options.flag("--remove", job.remove, "make it say nothing");
+  options.flag("--remove", job.remove, "remove all 360 and stereo metadata");
   options.group("Console");
   add_progress_options(options, mode);
   if (!options.parse(argc, argv)) return false;

@@ -26,13 +26,13 @@ constexpr const char* kExamples =
     "  ods lint film_frame.jpg --layout side-by-side --projection vr180 || echo do not ship it";
 
 constexpr const char* kSummary =
-    "Looks for what is wrong with a stereo 360 picture: swapped eyes, one eye twice, a wrong layout, a mirrored "
-    "viewing\n"
-    "circle, two fixed cameras, a ragged seam, no pole merge, a wrong shape, words that do not fit the pixels. Says "
-    "of\n"
-    "each how sure it is (0 to 1), what it measured and what cures it. docs/lint.md explains them. Exit code 1: a "
-    "fault\n"
-    "was found; warnings and information alone are 0.";
+    "Finds faults in a stereo 360 picture: swapped eyes, one eye twice, a wrong layout, a mirrored viewing circle, "
+    "two\n"
+    "fixed cameras, a visible seam, no pole merge, a wrong shape, metadata that contradicts the pixels. Each finding "
+    "has\n"
+    "a certainty (0 to 1), the evidence and a cure; docs/lint.md explains them. Exit code 1: a fault was found; "
+    "warnings\n"
+    "and information do not count.";
 
 struct LintJob {
   std::string path;
@@ -44,14 +44,13 @@ struct LintJob {
 
 bool read_options(LintJob& job, int argc, char** argv) {
   Options options("lint", kSummary, kExamples);
-  options.argument("PICTURE", job.path, "a picture file; %V in its name: a file per eye");
-  add_layout_option(
-      options, job.lint.layout,
-      "where what the file says, its name (_TB, _LR, ...) and its shape do not tell; separate is one eye");
-  options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "what is less sure than this is not told");
+  options.argument("PICTURE", job.path, "a picture; %V in the name: one file per eye");
+  add_layout_option(options, job.lint.layout,
+                    "layout, if neither the file nor its name (_TB, _LR, ...) tells; separate: one eye");
+  options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
   add_projection_options(options, job.projection);
   options.group("Console");
-  options.flag("--json", job.json, "for programs");
+  options.flag("--json", job.json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   const std::string fault = ods::projection_fault(job.projection);

@@ -28,38 +28,38 @@ struct Command {
 };
 
 constexpr Command kCommands[] = {
-    {"render", "make a stereo 360 picture of a scene", "ods_render"},
-    {"convert", "make another of a picture: projection, layout, eyes, size", "ods_convert"},
-    {"film", "make a film of a scene", "ods_film"},
-    {"encode", "make a film of frames", "ods_encode"},
-    {"title", "make text that stands in a stereo 360 picture", "ods_title"},
-    {"over", "lay a picture with alpha over another", "ods_over"},
-    {"rig", "plan perspective cameras for any renderer", "ods_rig"},
-    {"stitch", "make a picture of what those cameras saw", "ods_stitch"},
-    {"info", "tell what is in a scene", "ods_info"},
-    {"camera", "say a camera in the words of another renderer", "ods_camera"},
-    {"project", "tell where world points fall in each eye", "ods_project"},
-    {"compare", "measure how far one picture is from another", "ods_compare"},
-    {"lint", "find what is wrong with a stereo 360 picture", "ods_lint"},
-    {"probe", "tell what a film or picture says, and what players take it for", "ods_probe"},
-    {"inject", "make a film or a picture say that it is 360", "ods_inject", "ods_inject.so"},
-    {"testcard", "make a picture that judges players", "ods_testcard"},
+    {"render", "render a scene as a stereo 360 picture or frames", "ods_render"},
+    {"convert", "change a picture's projection, layout, size or eyes", "ods_convert"},
+    {"film", "render a scene as a stereo 360 video", "ods_film"},
+    {"encode", "encode frames as a stereo 360 video", "ods_encode"},
+    {"title", "make a title with depth for stereo 360", "ods_title"},
+    {"over", "composite a picture or video over another", "ods_over"},
+    {"rig", "plan perspective cameras for other renderers", "ods_rig"},
+    {"stitch", "combine the views of those cameras into a picture", "ods_stitch"},
+    {"info", "show what is in a scene", "ods_info"},
+    {"camera", "export a camera to another renderer", "ods_camera"},
+    {"project", "project world points into each eye's picture", "ods_project"},
+    {"compare", "measure the difference between two pictures", "ods_compare"},
+    {"lint", "find faults in a stereo 360 picture", "ods_lint"},
+    {"probe", "show a file's 360 metadata and how players will interpret it", "ods_probe"},
+    {"inject", "write 360 and stereo metadata into a video or picture", "ods_inject", "ods_inject.so"},
+    {"testcard", "make a test card for players and headsets", "ods_testcard"},
     {"scenes", "list the built-in scenes", "ods_scenes"},
-    {"sizes", "list the sizes that have names", "ods_sizes"},
+    {"sizes", "list the named sizes", "ods_sizes"},
 };
 
 void print_help(std::FILE* out) {
   std::fputs(
-      "ods renders omni-directional stereo (stereo 360 degree) pictures of glTF scenes.\n\n"
+      "ods renders omni-directional stereo (stereo 360 degree) pictures and videos of glTF scenes.\n\n"
       "Examples:\n"
       "  ods render scene.glb -o picture.png        left eye on top, ready for a headset\n"
       "  ods render room -o room.png                a built-in scene\n"
-      "  ods info scene.glb                         what is in it\n\n"
+      "  ods info scene.glb                         what is in the scene\n\n"
       "Commands:\n",
       out);
   for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
   std::fputs(
-      "\nods COMMAND --help explains a command, ods --version lists the versions of ods and its libraries.\n"
+      "\nods COMMAND --help explains a command; ods --version prints the versions of ods and its libraries.\n"
       "Exit codes:\n"
       "  0    done\n"
       "  1    anything else: not enough memory, a limit of ods compare, a fault that ods lint found\n"

@@ -19,39 +19,44 @@ constexpr const char* kExamples =
     "  ods over 'title.####.exr' 'footage_TB.####.jpg' -o 'titled_TB.####.jpg'";
 
 constexpr const char* kSummary =
-    "Lays a stereo 360 picture with alpha over another, in linear light: titles and computer graphics over footage. "
-    "The\n"
-    "foreground is brought into the background's projection, layout and size. Both are pictures, frames (#### in the\n"
-    "name is the number) or films, whose frames count from 0; where the foreground has no such frame, the background\n"
-    "is left as it is. A film stays what it is: codec, frame rate, sound, what it says of itself.";
+    "Composites a stereo 360 picture with alpha over another, in linear light: titles and computer graphics over\n"
+    "footage. The foreground is converted to the background's projection, layout and size. Both can be pictures, "
+    "frames\n"
+    "(#### in the name is the number) or videos, whose frames count from 0. Background frames without a foreground "
+    "frame\n"
+    "stay as they are. A video keeps its codec, frame rate, sound and metadata.";
 
 }  // namespace
 
 bool read_over_job(OverJob& job, int argc, char** argv) {
   Options options("over", kSummary, kExamples);
   options.argument("FOREGROUND", job.foreground,
-                   "a picture, frames or a film with alpha, as ods title and ods render --transparent make");
-  options.argument("BACKGROUND", job.background, "a picture, frames or a film; %V in its name: a file per eye");
+                   "a picture, frames or a video with alpha, such as those of ods title and ods render --transparent");
+  options.argument("BACKGROUND", job.background, "a picture, frames or a video; %V in the name: one file per eye");
   options.group("Pictures");
   options.text("-o,--output", "FILE", job.output,
-               ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye; over a film .mp4 .mov .mkv .webm too");
+               "output file: .png .jpg .tif .webp .hdr .exr; over a video also .mp4 .mov .mkv .webm; %V in the name "
+               "writes one file per eye");
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
-      "1-100, 1-100x2, ..: which of the background's frames; else all");
+      "frames of the background: 1-100, 1-100x2, ...; by default all");
   options.custom(
       "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
-      "projection of the background, where it and its name do not tell");
-  add_layout_option(options, job.known.layout, "its layout, likewise", "--from-layout");
-  add_layout_option(options, job.layout, "of what is made; else the background's");
-  options.flag("--by-depth", job.over.by_depth, "what is farther than the background is behind it; both have depth");
-  options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "of the foreground");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the light");
+      "the background's projection, if neither the file nor its name tells");
+  add_layout_option(options, job.known.layout, "the background's layout, if neither the file nor its name tells",
+                    "--from-layout");
+  add_layout_option(options, job.layout, "layout of the output; by default the background's");
+  options.flag("--by-depth", job.over.by_depth,
+               "hide foreground that is farther away than the background; both need depth");
+  options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "opacity of the foreground");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
-                 "tone curve, of .hdr and .exr to the others");
-  options.group("A film, which is encoded as the background is, unless these say otherwise");
+                 "tone curve, when converting .hdr or .exr to another format");
+  options.group("Video (by default encoded like the background)");
   add_packing_options(options, job.film);
   options.group("Console");
-  options.number("--threads", job.threads, 0, 1024, "0: all processors");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   job.has_tone = options.given("--tone"), job.has_exposure = options.given("--exposure");

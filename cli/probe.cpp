@@ -22,9 +22,9 @@ constexpr const char* kExamples =
     "  ods probe film.mkv --json";
 
 constexpr const char* kSummary =
-    "Tells what a film (mp4, mov, mkv, webm) or a picture says of itself: its tracks, Spherical Video V1 and V2, "
-    "GPano,\n"
-    "the camera; what each kind of player will take it for, and why; and what is wrong with it.";
+    "Shows the metadata of a video (mp4, mov, mkv, webm) or picture: tracks, Spherical Video V1 and V2, GPano, "
+    "camera;\n"
+    "how each kind of player will interpret it, and why; and what is wrong with it.";
 
 // A photo whose right eye is damaged is still a picture of the left one.
 void probe_right_eye(PictureReport& report, const std::string& path, std::vector<std::string>& warnings) {
@@ -68,9 +68,9 @@ void run(int argc, char** argv) {
   std::string path;
   bool json = false;
   Options options("probe", kSummary, kExamples);
-  options.argument("FILE", path, "a film or a picture");
+  options.argument("FILE", path, "a video or a picture");
   options.group("Console");
-  options.flag("--json", json, "for programs");
+  options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
   end_on_interrupts("ods: interrupted\n");

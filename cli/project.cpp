@@ -97,11 +97,11 @@ void project(int argc, char** argv) {
   std::vector<std::string> words;
   std::string pixel;
   bool json = false;
-  Options options("project", "Tells where world points fall in each eye's picture; what hides them it does not know.",
+  Options options("project", "Projects world points into each eye's picture. It does not know what hides them.",
                   kExamples);
-  options.arguments("X,Y,Z...", words, "points, metres; without any, lines of stdin");
-  options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "the way back: the point at that depth along the pixel's ray");
-  options.flag("--json", json, "for programs: an object a line");
+  options.arguments("X,Y,Z...", words, "points, in metres; without any, reads lines from stdin");
+  options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "unproject: the point at that depth along the pixel's ray");
+  options.flag("--json", json, "print JSON, one object per line");
   add_camera_source(options, source);
   options.group("Console");
   add_console_options(options);

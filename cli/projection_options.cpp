@@ -94,20 +94,20 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
         projection = projection_by_name(option, text);
         *is_named = true;
       },
-      "of each eye's picture: " + names);
+      "projection of each eye's picture: " + names);
   options.custom(
       "--face", "NAME", "",
       [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },
-      "a single face of a cube: front, right, back, left, up or down");
+      "a single cube face: front, right, back, left, up or down");
   options.custom(
       "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },
-      "the part that a lat-long or a cylinder shows, degrees");
+      "the part of the sphere that a lat-long or cylinder shows, degrees");
   options.custom(
       "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
-      "of a fisheye from edge to edge (180), of a perspective window from left to right (90)");
+      "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
   options.custom(
       "--look", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
-      "where a fisheye or a window points, degrees right and up; the eyes stay level");
+      "direction of a fisheye or perspective view, degrees right and up; the eyes stay level");
 }
 
 void finish_projection(ProjectionSetting& projection, int width, int& height) {

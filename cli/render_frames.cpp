@@ -190,7 +190,7 @@ std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
   const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);
   if (is_still && time.frames.empty() && !time.duration) {
     throw UsageError(
-        "nothing moves in it: --duration says how long the film is; --turntable or --fly-to move the camera");
+        "the scene has no animation: add --duration SECONDS, or move the camera with --turntable or --fly-to");
   }
   const std::vector<int> numbers = film_frames(time);
   planned(numbers);

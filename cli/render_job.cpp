@@ -23,15 +23,19 @@ constexpr const char* kExamples =
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output, ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   add_form_options(options, job.render, job.save);
-  options.text("--rig", "FILE", job.rig, "render the views of this rig of slits (ods rig), for ods stitch");
+  options.text("--rig", "FILE", job.rig, "render the views of this rig (made by ods rig), for ods stitch");
   options.flag("--transparent", job.render.transparent,
-               "the sky lights the scene and is left out: alpha, for ods over (.exr .png .tif .webp)");
-  options.texts("--catch", "NAME", job.scene.catchers,
-                "an object or material of a transparent picture of which only the shadows on it are seen");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the scene's light");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, likewise");
+               "leave the background transparent, for ods over; the sky still lights the scene (.exr .png .tif .webp)");
+  options.texts(
+      "--catch", "NAME", job.scene.catchers,
+      "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+                 "tone curve; ignored as --exposure is");
 }
 
 // A rig has cameras and a size of its own.
@@ -51,12 +55,12 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
   std::string sizes;
   for (const Quality& q : kQualities) sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
   auto name_of = [](Quality each) { return each.name; };
-  options.choice("--quality", quality, kQualities, +name_of, "width and samples at once" + sizes);
-  options.number("--samples", job.render.samples, 1, 1 << 20, "per pixel");
-  options.number("--bounces", job.render.bounces, 0, 1024, "of light");
-  options.choice("--filter", job.render.filter, ods::kPixelFilters, ods::pixel_filter_name, "of the pixel");
-  options.number("--seed", job.render.seed, "the same seed gives the same picture");
-  options.number("--threads", job.render.threads, 0, 1024, "0: all processors");
+  options.choice("--quality", quality, kQualities, +name_of, "set width and samples together" + sizes);
+  options.number("--samples", job.render.samples, 1, 1 << 20, "samples per pixel");
+  options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
+  options.choice("--filter", job.render.filter, ods::kPixelFilters, ods::pixel_filter_name, "pixel filter");
+  options.number("--seed", job.render.seed, "random seed; the same seed gives the same picture");
+  options.number("--threads", job.render.threads, 0, 1024, "number of threads; 0: all processors");
 }
 
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
@@ -69,7 +73,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
 
 bool read_render_job(RenderJob& job, int argc, char** argv) {
   Quality quality;
-  Options options("render", "Makes a stereo 360 picture of a scene.", kExamples);
+  Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
   add_scene_argument(options, job.scene);
   add_light_options(options, job.scene);
   add_picture_options(options, job);

@@ -35,23 +35,24 @@ struct RigJob {
 void add_slit_options(Options& options, RigJob& job) {
   options.group("Slits");
   options.number("--max-error", job.max_error, 0.001f, 1000.0f,
-                 "pixels that the nearest thing may be off: chooses how many slits");
-  options.number("--nearest", job.nearest, 0.01f, 1e6f, "metres to the nearest thing; by default 1, or as measured");
-  add_scene_option(options, job.scene, "measure it in this scene, and stand where its camera does");
-  options.number("--slits", job.count, 3, 32768, "of each eye, whatever their error");
-  options.number("--pitches", job.slits.pitches, 1, 64, "views above each other");
-  options.flag("--caps", job.slits.caps, "the first of them looks straight up, the last straight down");
-  options.number("--blend", job.slits.blend, 0.0f, 1.0f, "the part of a slit that fades into the next");
-  options.number("--padding", job.slits.padding, 0, 4096,
-                 "pixels around what is used of a view; as many as effects after the render (bloom) reach");
-  options.number("--scale", job.slits.scale, 0.01f, 16.0f, "a view's pixels over the picture's");
+                 "largest error of the nearest object, pixels; sets the number of slits");
+  options.number("--nearest", job.nearest, 0.01f, 1e6f,
+                 "distance to the nearest object, metres; by default 1, or measured in --scene");
+  add_scene_option(options, job.scene, "measure --nearest in this scene, from its camera");
+  options.number("--slits", job.count, 3, 32768, "number of slits per eye, instead of --max-error");
+  options.number("--pitches", job.slits.pitches, 1, 64, "number of views above each other per slit");
+  options.flag("--caps", job.slits.caps, "point the top view straight up and the bottom view straight down");
+  options.number("--blend", job.slits.blend, 0.0f, 1.0f, "share of a slit that blends into the next one");
+  options.number("--padding", job.slits.padding, 0, 4096, "extra pixels around each view, for effects such as bloom");
+  options.number("--scale", job.slits.scale, 0.01f, 16.0f, "resolution of the views relative to the picture");
   options.choice("--depth", job.slits.depth, ods::kViewDepths, ods::view_depth_name,
-                 "what depth the views will have: along the ray, or a depth buffer's; a tenth of the slits will do");
+                 "depth that the views will have: along the ray, or of a depth buffer (plane); with depth, a tenth of "
+                 "the slits is enough");
 }
 
 bool read_options(RigJob& job, int argc, char** argv) {
   Options options("rig", "Plans the perspective cameras that other renderers can make an ODS picture with.", kExamples);
-  options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; without it, the plan alone");
+  options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; by default only prints the plan");
   add_script_option(options, job.targets);
   add_slit_options(options, job);
   add_camera_source(options, job.source);

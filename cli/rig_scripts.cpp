@@ -38,8 +38,8 @@ static std::vector<RigTarget> parse_targets(const std::string& words) {
 void add_script_option(Options& options, std::vector<RigTarget>& targets) {
   options.custom(
       "--for", "LIST", "", [&](const std::string& words) { targets = parse_targets(words); },
-      fmt::format("scripts that render the views, beside the rig, for any of: {}; untested in their programs: usd, "
-                  "unity, unreal",
+      fmt::format("write scripts that render the views, next to the rig, for any of: {}; untested in their programs: "
+                  "usd, unity, unreal",
                   fmt::join(all_names(), ", ")));
 }
 

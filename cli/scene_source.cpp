@@ -27,7 +27,7 @@ void add_scene_argument(Options& options, SceneSource& source) {
   options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
-                 "which of several scenes in the file, from 0; its own choice by default");
+                 "number of the scene in the file, counted from 0; by default the file's default scene");
   add_confine_option(options, source);
 }
 
@@ -37,10 +37,9 @@ void add_scene_option(Options& options, SceneSource& source, const char* help) {
 }
 
 void add_light_options(Options& options, SceneSource& source) {
-  options.text(
-      "--env", "FILE|R,G,B|X", source.environment,
-      "light from all around: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; replaces the scene's "
-      "own. A scene without lamps gets 1");
+  options.text("--env", "FILE|R,G,B|X", source.environment,
+               "sky light: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; 0 switches the sky off. "
+               "Replaces the scene's own sky. A scene without lights gets 1");
 }
 
 // What may have been meant, or else what there is.

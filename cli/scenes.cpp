@@ -10,7 +10,8 @@
 
 extern "C" int ods_scenes(int argc, char** argv) {
   return run_command([=] {
-    Options options("scenes", "Lists the scenes that can stand where a file would.", "  ods render room -o room.png");
+    Options options("scenes", "Lists the built-in scenes, whose names can be used in place of a file.",
+                    "  ods render room -o room.png");
     options.group("Console");
     add_console_options(options);
     if (!options.parse(argc, argv)) return;

@@ -100,10 +100,10 @@ void print_json(std::span<const NamedSize> sizes) {
 void sizes(int argc, char** argv) {
   std::string name;
   bool json = false;
-  Options options("sizes", "Lists the sizes that have names, and which film levels hold them.", kExamples);
-  options.optional_argument("NAME", name, "one of them");
+  Options options("sizes", "Lists the named sizes and the video levels that they fit in.", kExamples);
+  options.optional_argument("NAME", name, "show one size in detail");
   options.group("Console");
-  options.flag("--json", json, "for programs: a list");
+  options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
   const std::span<const NamedSize> chosen = name.empty() ? ods::named_sizes() : std::span(&size_by_name(name), 1);

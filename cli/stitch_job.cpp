@@ -22,31 +22,33 @@ static void set_sheet(const std::string& word, ods::ViewFiles& views) {
 }
 
 bool read_stitch_job(StitchJob& job, int argc, char** argv) {
-  Options options("stitch", "Puts the views of a rig (ods rig) together to a stereo 360 picture.", kExamples);
-  options.argument("RIG", job.rig_file, "what ods rig wrote");
-  options.argument("VIEWS", job.views.names, "the views' files, a mark (####) for their number; %V for the eye's name");
+  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kExamples);
+  options.argument("RIG", job.rig_file, "the rig file that ods rig wrote");
+  options.argument("VIEWS", job.views.names, "the views' file names, with #### for the view's number; %V is the eye");
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output, ".exr .png .jpg .tif .webp .hdr; layers and depth stay in .exr");
-  add_layout_option(options, job.save.layout, "how two eyes share the file");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the views' light");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
-                 "tone curve, of views that are light");
-  options.flag("--sidecar", job.save.sidecar, "write the camera beside the picture");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .exr .png .jpg .tif .webp .hdr; .exr keeps layers and depth");
+  add_layout_option(options, job.save.layout, "how both eyes share the file");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, for scene-linear views");
+  options.flag("--sidecar", job.save.sidecar, "also write the camera to picture.camera.json");
   options.group("Views");
   options.text("--frames", "RANGE", job.frames,
-               "a film: a mark in the name of the views' folder is the frame's number");
+               "frames to stitch; the views' folder has the frame's number: 'views/####/####.exr'");
   options.flag("--skip-existing", job.skip_existing,
-               "keep the frames whose files exist; processes with this option share the others");
+               "do not stitch frames whose files exist; several processes with this option share the rest");
   options.custom(
       "--sheet", "CxR", "", [&](const std::string& word) { set_sheet(word, job.views); },
-      "every file holds so many columns and rows of views, row by row");
-  options.flag("--by-columns", job.views.by_columns, "column by column: a strip for every eye, or pieces of one");
+      "each file is a contact sheet with this many columns and rows of views, row by row");
+  options.flag("--by-columns", job.views.by_columns, "the sheet's views are ordered column by column");
   options.flag("--own-normals", job.views.own_normals,
-               "the views' normals are along their own axes, not the world's: they become the world's");
-  options.flag("--partial", job.partial, "what views are missing stays black");
-  options.flag("--list-missing", job.list_missing, "only say which views to render again, as a range of frames");
-  options.text("--report", "FILE", job.report, "a picture of what borders of slits show, and its measure");
-  options.number("--threads", job.threads, 0, 1024, "0: all processors");
+               "the views' normals are in camera space; convert them to world space");
+  options.flag("--partial", job.partial, "stitch although views are missing; leave their parts black");
+  options.flag("--list-missing", job.list_missing, "only print which views to render again, as a frame range");
+  options.text("--report", "FILE", job.report,
+               "write a picture of the seams between slits, and print how visible they are");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;

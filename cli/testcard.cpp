@@ -25,10 +25,11 @@ constexpr const char* kExamples =
     "  ods testcard --film -o card_360_TB.mp4 --duration 60 --fps 60";
 
 constexpr const char* kSummary =
-    "Makes a picture that shows in one look what a player does with stereo 360: each eye reads its own name, the\n"
-    "plates stand at the metres they say, rings are round, and every direction has its degrees. As a film it also "
-    "shows\n"
-    "whether frames are dropped and whether sound and pictures go together.";
+    "Makes a picture that shows at a glance what a player does with stereo 360: each eye sees its own name, plates "
+    "stand\n"
+    "at the distances written on them, rings are round, and every direction has its degrees. A video also shows "
+    "dropped\n"
+    "frames and whether sound and picture are in sync.";
 
 struct TestcardJob {
   std::string output;
@@ -42,13 +43,13 @@ bool read_options(TestcardJob& job, int argc, char** argv) {
   Options options("testcard", kSummary, kExamples);
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output,
-               ".png .jpg .tif .webp .hdr .exr; %V in its name: a file per eye; a film");
+               "output file: .png .jpg .tif .webp .hdr .exr, or a video; %V in the name writes one file per eye");
   job.picture.width = 4096;
   add_form_options(options, job.picture, job.save);
   add_sceneless_camera_options(options, job.camera);
   add_testcard_film_options(options, job.film);
   options.group("Console");
-  options.number("--threads", job.film.threads, 0, 1024, "0: all processors");
+  options.number("--threads", job.film.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.film.progress);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o card.png");

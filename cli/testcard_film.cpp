@@ -15,14 +15,14 @@
 using ods::Container, ods::Layout;
 
 void add_testcard_film_options(Options& options, TestcardFilmWishes& wishes) {
-  options.group("A film (-o card.mp4 .mov .mkv .webm)");
-  options.flag(
-      "--film", wishes.is_film,
-      "numbers of frames for each eye, a cell for each frame of a second, a moving bar, and every second a flash "
-      "and a beep; a film's name says so, too");
-  options.number("--duration", wishes.duration, 0.1f, 36000.0f, "seconds");
+  options.group("Video (-o card.mp4 .mov .mkv .webm)");
+  options.flag("--film", wishes.is_film,
+               "make a video: adds frame numbers for each eye, a cell per frame, a moving bar, and every second a "
+               "flash and a beep; implied by a video's file name");
+  options.number("--duration", wishes.duration, 0.1f, 36000.0f, "length, seconds");
   options.custom(
-      "--fps", "X|N/M", "30", [&](const std::string& text) { wishes.film.rate = parse_rate(text); }, "frames a second");
+      "--fps", "X|N/M", "30", [&](const std::string& text) { wishes.film.rate = parse_rate(text); },
+      "frames per second");
   add_packing_options(options, wishes.film);
 }
 

@@ -52,28 +52,30 @@ bool names_frames(const TimeOptions& time) {
 void add_time_options(Options& options, TimeOptions& time) {
   options.group("Time");
   options.number("--time", time.time, -1e6f, 1e6f,
-                 "seconds into the scene's animation; without it the scene stands at rest");
+                 "render the animation at this time, seconds; by default the scene is in its rest pose");
   options.text("--animation", "NAME", time.animation,
-               "which of several (ods info lists them); by default all that do not move the same things");
+               "name of the animation (ods info lists them); by default all that do not move the same objects");
   options.text("--frames", "LIST|all", time.frames,
-               "a film, a file for each frame: -o shot.####.exr or shot.%04d.exr. As 1-100, 1-100x2 or 1,5,10-20; "
-               "all: the whole duration, as with a camera's move. Frame N is the scene at N / fps seconds");
-  options.number("--fps", time.fps, 0.01f, 1000.0f, "frames for each second");
+               "frames to render: 1-100, 1-100x2 (every other one), 1,5,10-20, or all. Frame N shows the scene at N / "
+               "fps seconds. "
+               "ods render writes a file per frame: -o shot.####.exr or shot.%04d.exr");
+  options.number("--fps", time.fps, 0.01f, 1000.0f, "frames per second");
   options.number("--duration", time.duration, 0.01f, 1e6f,
-                 "seconds of the film and of the camera's move; by default the animation's, or 10");
+                 "length of the video and of camera moves, seconds; by default the animation's length, or 10");
   options.custom(
       "--turntable", "TURNS|TURNS,X,Y,Z", "", [&](const std::string& word) { read_turntable(word, time.move); },
-      "in the duration the camera turns to the right on the spot, or goes around the upright line through X,Y,Z and "
-      "keeps facing it");
+      "turn the camera to the right on the spot, this many turns in the whole duration; with X,Y,Z: orbit the vertical "
+      "axis through that point and keep facing it");
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
-      "in the duration the camera flies from where it stands through these places, on a smooth curve");
+      "fly the camera from its position through these points, on a smooth curve, in the whole duration");
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
-                 "motion blur: degrees for which it is open around the frame's time, 360 are the time between two "
-                 "frames and 180 is usual; 0: none");
-  options.choice("--noise", time.noise, kFilmNoises, film_noise_name, "the same grain in every frame, or each its own");
+                 "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
+                 "usual, 0 is none");
+  options.choice("--noise", time.noise, kFilmNoises, film_noise_name,
+                 "noise pattern: the same in every frame, or different in each");
   options.flag("--skip-existing", time.skip_existing,
-               "keep the frames whose files exist; processes with this option share the others");
+               "do not render frames whose files exist; several processes with this option share the rest");
 }
 
 bool asks_for_film(const TimeOptions& time) {

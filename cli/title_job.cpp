@@ -20,9 +20,8 @@ constexpr const char* kExamples =
     "  ods title 'Chapter 2' --frames 1-120 --fps 30 --fade-in 0.5 --fade-out 1 -o title.####.exr";
 
 constexpr const char* kSummary =
-    "Makes a picture of text that stands at its distance in stereo 360, with nothing around it: alpha, and in .exr "
-    "depth.\n"
-    "ods over lays it over pictures and films. It has to see as they do: the same --ipd, --merge and so on.";
+    "Makes a transparent picture of text that stands at a given distance in stereo 360; .exr has depth, too. ods over\n"
+    "composites it over pictures and videos. Use the same --ipd, --merge, ... as for the footage.";
 
 void parse_place(const std::string& text, ods::TitleSetting& title) {
   const std::vector<float> numbers = parse_numbers(text);
@@ -53,29 +52,29 @@ std::string with_newlines(std::string text) {
 }
 
 void add_text_options(Options& options, TitleJob& job) {
-  options.argument("TEXT", job.text, "in any script; \\n begins a new line");
+  options.argument("TEXT", job.text, "the text, in any script; \\n starts a new line");
   options.group("Text");
   options.custom(
       "--at", "YAW,PITCH,METRES", "0,0,3", [&](const std::string& text) { parse_place(text, job.title); },
-      "where its middle is: degrees to the right and up, and its distance");
-  options.number("--height", job.title.height, 1e-3f, 1e5f, "of a line, metres");
-  options.text("--font", "FONT", job.lettering.font, "a name, as 'DejaVu Serif Bold Italic', or a font file");
-  options.choice("--align", job.lettering.align, ods::kTextAligns, ods::text_align_name, "its lines");
-  options.number("--spacing", job.lettering.spacing, 0.1f, 10.0f, "of its lines, times what the font asks for");
+      "position of the text's centre: degrees right, degrees up, distance in metres");
+  options.number("--height", job.title.height, 1e-3f, 1e5f, "line height, metres");
+  options.text("--font", "FONT", job.lettering.font, "font name, e.g. 'DejaVu Serif Bold Italic', or a font file");
+  options.choice("--align", job.lettering.align, ods::kTextAligns, ods::text_align_name, "alignment of the lines");
+  options.number("--spacing", job.lettering.spacing, 0.1f, 10.0f, "line spacing, as a multiple of the font's own");
   options.custom(
       "--color", "COLOR", "#ffffff", [&](const std::string& text) { parse_color(text, job.title.color); },
-      "#rrggbb as a display shows it, or R,G,B of light");
-  options.number("--opacity", job.title.opacity, 0.0f, 1.0f, "of the letters");
+      "#rrggbb (sRGB), or R,G,B in linear light");
+  options.number("--opacity", job.title.opacity, 0.0f, 1.0f, "opacity of the text");
 }
 
 void add_frame_options(Options& options, TitleJob& job) {
   options.group("Film");
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
-      "1-100, 1-100x2, ..: a picture for each, with #### in its name");
-  options.number("--fps", job.fps, 0.01f, 1000.0f, "frames a second");
-  options.number("--fade-in", job.fade_in, 0.0f, 1e5f, "seconds");
-  options.number("--fade-out", job.fade_out, 0.0f, 1e5f, "seconds");
+      "frames to write: 1-100, 1-100x2, ...; the name needs ####");
+  options.number("--fps", job.fps, 0.01f, 1000.0f, "frames per second");
+  options.number("--fade-in", job.fade_in, 0.0f, 1e5f, "length, seconds");
+  options.number("--fade-out", job.fade_out, 0.0f, 1e5f, "length, seconds");
 }
 
 }  // namespace
@@ -84,10 +83,13 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   Options options("title", kSummary, kExamples);
   add_text_options(options, job);
   bool flat = false;
-  options.flag("--flat", flat, "on a flat card; else on one about the viewer, every letter equally far");
+  options.flag(
+      "--flat", flat,
+      "place the text on a plane; by default it curves around the viewer, so that every letter is equally far");
   add_frame_options(options, job);
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output, ".exr .png .tif .webp; %V in its name: a file per eye");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .exr .png .tif .webp; %V in the name writes one file per eye");
   job.picture.width = 4096;
   add_form_options_but_height(options, job.picture, job.save);
   add_sceneless_camera_options(options, job.camera);

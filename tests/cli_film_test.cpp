@@ -328,7 +328,7 @@ TEST_F(Film, WhatCannotBeIsSaidBeforeAnythingIsRendered) {
       {words("a.mp4", "--time 3"), 2, "--frames"},
       {words("a.mp4", "--width 30"), 2, "its sides are even"},
       {words("a.mp4", "--audio " + folder.path("none.wav")), 3, "no such file"},
-      {"film room --width 32 -o " + folder.path("a.mp4"), 2, "nothing moves in it"},
+      {"film room --width 32 -o " + folder.path("a.mp4"), 2, "the scene has no animation: add --duration SECONDS"},
       {"film none.glb --width 32 -o " + folder.path("a.mp4"), 3, "none.glb"},
   };
   for (const auto& [command, code, why] : kCases) {

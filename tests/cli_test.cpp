@@ -28,11 +28,32 @@ constexpr bool kSanitized = false;
 #endif
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words : {"--help", "-h", "help", "render --help", "info --help", "camera --help", "project --help",
-                            "compare --help", "convert --help", "lint --help", "title --help", "over --help",
-                            "sizes --help", "scenes --help", "testcard --help", "film --help", "encode --help"}) {
+  for (const char* words : {"--help",
+                            "-h",
+                            "help",
+                            "render --help",
+                            "info --help",
+                            "camera --help",
+                            "project --help",
+                            "compare --help",
+                            "convert --help",
+                            "lint --help",
+                            "title --help",
+                            "over --help",
+                            "sizes --help",
+                            "scenes --help",
+                            "testcard --help",
+                            "film --help",
+                            "encode --help",
+                            "rig --help",
+                            "stitch --help",
+                            "probe --help",
+                            "inject --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
+    EXPECT_TRUE(out.find("Commands:") != std::string::npos || out.find("-q,--quiet") != std::string::npos) << words;
+    std::istringstream lines(out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 118u) << line;
     EXPECT_NE(out.find("Examples:\n  ods "), std::string::npos) << words;
     EXPECT_LT(out.find("Examples:"), std::min(out.find("Usage:"), out.find("Commands:"))) << words;
   }
