@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/cli_runner.h"
+#include "tests/gltf_builder.h"
 
 namespace {
 
@@ -245,10 +246,13 @@ TEST_F(Cli, AnInterruptEndsSaving) {
 
 // Every line on stderr is a JSON object.
 TEST_F(Cli, JsonIsAllThatAProgramReads) {
-  folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_\"unknown\""]})");
+  ods::GltfBuilder scene = ods::make_triangle();
+  scene.json["extensionsUsed"] = {"EXT_\"unknown\""};
+  const ods::Binary glb = scene.glb();
+  folder.write("a.glb", {glb.begin(), glb.end()});
   const std::vector<std::pair<std::string, int>> runs = {
       {render("--progress json --env 1"), 0},
-      {"render " + folder.path("a.gltf") + " --width 16 --samples 1 --progress json -o " + folder.path("b.png"), 0},
+      {"render " + folder.path("a.glb") + " --width 16 --samples 1 --progress json -o " + folder.path("b.png"), 0},
       {"render absent.glb --progress json -o " + folder.path("c.png"), 3}};
   std::set<std::string> keys;
   for (const auto& [words, code] : runs) {
@@ -273,15 +277,16 @@ TEST_F(Cli, JsonIsAllThatAProgramReads) {
 TEST_F(Cli, ThreadsAreLimitedFromTheStart) {
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "skipped: one processor starts no threads anyway";
   EXPECT_EQ(run(render("-q")), 0) << err;
-  nlohmann::json scene = {{"asset", {{"version", "2.0"}}}};
+  ods::GltfBuilder scene = ods::make_triangle();
   for (int i = 0; i < 32; i++) {
     const std::string name = std::to_string(i) + ".png";
     folder.write(name, folder.read("picture.png"));
-    scene["images"].push_back({{"uri", name}});
-    scene["textures"].push_back({{"source", i}});
-    scene["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+    scene.json["images"].push_back({{"uri", name}});
+    scene.json["textures"].push_back({{"source", i}});
+    scene.json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
   }
-  folder.write("a.gltf", scene.dump());
+  const ods::Binary glb = scene.glb();
+  folder.write("a.glb", {glb.begin(), glb.end()});
   const auto threads_with = [&](const std::string& name, const std::string& limit) {
     Ods command({"render", name, "--samples", "100000", "--threads", limit, "-o", folder.path("a.png")});
     command.wait_for("camera at");
@@ -296,8 +301,8 @@ TEST_F(Cli, ThreadsAreLimitedFromTheStart) {
     return threads;
   };
   const size_t idle = threads_with("axis", "1");  // what the libraries start for nothing
-  EXPECT_EQ(threads_with(folder.path("a.gltf"), "1"), idle);
-  EXPECT_GT(threads_with(folder.path("a.gltf"), "2"), idle);
+  EXPECT_EQ(threads_with(folder.path("a.glb"), "1"), idle);
+  EXPECT_GT(threads_with(folder.path("a.glb"), "2"), idle);
 }
 
 TEST_F(Cli, APictureThatDoesNotFitTheMemoryIsRefused) {

@@ -84,7 +84,7 @@ constexpr int64_t kWidest = int64_t{1} << 20;
 constexpr uint64_t kLargestChunk = uint64_t{1} << 28;  // bytes, unpacked
 
 struct Pipeline {
-  exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_decode_pipeline_t decode{};  // all zeros, as EXR_DECODE_PIPELINE_INITIALIZER
   exr_const_context_t file;
   explicit Pipeline(exr_const_context_t of) : file(of) {}
   Pipeline(const Pipeline&) = delete;

@@ -37,8 +37,8 @@
 namespace ods {
 
 struct SceneOptions {
-  int scene = -1;       // which of the file's scenes; -1: its default, or the first
-  std::string confine;  // a folder: no file outside of it is read (ods/base/confined_file.h); empty: no such limit
+  int scene = -1;         // which of the file's scenes; -1: its default, or the first
+  std::string confine{};  // a folder: no file outside of it is read (ods/base/confined_file.h); empty: no such limit
 };
 
 // Throws Error(kInput) naming the file: absent, damaged, or not supported. Throws Error(kUsage): no scene of that
