@@ -23,11 +23,13 @@ constexpr const char* kExamples =
     "  ods inject panorama_360.jpg --yaw 90       GPano, which viewers of pictures read";
 
 constexpr const char* kSummary =
-    "Writes into a film (mp4, mov, mkv, webm) how its eyes are laid out and what of the sphere it shows, in place of\n"
-    "what it said before: Spherical Video V2, and V1 where that can say it; into a picture of one eye (jpg, png, tif)\n"
-    "GPano, into an exr its camera. Nothing is encoded, samples and pixels stay as they are. A complete new file "
-    "takes\n"
-    "the old one's place. What is not given is found by a sidecar, the name (_360_TB, _180_LR ...), the shape.";
+    "Writes into a film (mp4, mov, mkv, webm) how its eyes are laid out and what of the sphere it shows: Spherical "
+    "Video\n"
+    "V2, and V1 where that can say it; into a picture of one eye (jpg, png, tif) GPano, into an exr its camera. Only "
+    "what\n"
+    "you ask for changes. What a film does not say is found by its sidecar, its name (_360_TB, _180_LR ...), its "
+    "shape.\n"
+    "Nothing is encoded again: samples and pixels stay as they are, and a complete new file takes the old one's place.";
 
 bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
   Options options("inject", kSummary, kExamples);
