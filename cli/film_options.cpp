@@ -93,19 +93,24 @@ void check_quality(const ods::EncodeOptions& options) {
   throw UsageError(fmt::format("{} does not encode {}", options.encoder, codec));
 }
 
-// A film that is not there yet, as ods probe would see it.
+// A film that is not there yet, as ods probe would see it; with the name that players would know it by.
 void warn_of_names(const FilmWishes& wishes, const ods::FilmPlan& plan) {
   ods::FilmInfo film;
   ods::VideoTrack track;
   track.size = plan.size;
   track.v2 = track.v1 = plan.form;
-  for (const std::string& warning : ods::film_warnings(film, track, wishes.output)) warn(warning);
-  const std::filesystem::path path(wishes.output);
-  if (plan.eyes == 1 || !ods::read_name(wishes.output).layout_word.empty()) return;
-  const char* words = plan.form.is_partial() ? "180" : plan.form.projection == ods::FilmProjection::kFlat ? "" : "360";
-  const bool beside = plan.form.stereo == ods::FilmStereo::kSideBySide;
-  note(fmt::format("players that go by the name would know it as {}{}{}_{}{}", path.stem().native(), *words ? "_" : "",
-                   words, beside ? "LR" : "TB", path.extension().native()));
+  const std::vector<std::string> warnings = ods::film_warnings(film, track, wishes.output);
+  for (const std::string& warning : warnings) warn(warning);
+  const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_word.empty();
+  const bool misleads = std::any_of(warnings.begin(), warnings.end(),
+                                    [](const std::string& warning) { return warning.starts_with("its name says"); });
+  if (has_words && !misleads) return;
+  std::string words = plan.form.is_partial() ? "_180" : "_360";
+  if (!plan.form.projection || plan.form.projection == ods::FilmProjection::kFlat) words = "";
+  if (plan.eyes == 2) words += plan.form.stereo == ods::FilmStereo::kSideBySide ? "_LR" : "_TB";
+  const std::string name = std::filesystem::path(ods::renamed(wishes.output, words)).filename().native();
+  if (name == std::filesystem::path(wishes.output).filename().native()) return;
+  note(fmt::format("players that go by the name would know it as {}", name));
 }
 
 void warn_of_level(const ods::FilmPlan& plan, const ods::EncodeOptions& options) {

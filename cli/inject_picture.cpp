@@ -4,6 +4,7 @@
 
 #include "cli/console.h"
 #include "cli/inject_job.h"
+#include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/image/tag_picture.h"
 
@@ -25,6 +26,17 @@ ods::KnownForm known_form(const InjectJob& job) {
   return known;
 }
 
+// A picture whose name contradicts its own words is not tagged on the name's word, nor silently against it.
+void settle_name(const InjectJob& job, const ods::PictureTag& tag) {
+  const std::string fault = ods::name_fault(job.file, tag.layout, tag.rig.projection);
+  if (fault.empty()) return;
+  const bool asks = job.is_mono || job.layout || !job.projection.empty() || job.yaw || job.pitch || job.roll;
+  if (asks) return warn(fmt::format("'{}': {}", job.file, fault));
+  throw ods::Error(
+      ods::ErrorKind::kInput,
+      fmt::format("'{}' contradicts itself: {}. Say which is true with --layout or --projection", job.file, fault));
+}
+
 }  // namespace
 
 void inject_picture(const InjectJob& job) {
@@ -33,6 +45,7 @@ void inject_picture(const InjectJob& job) {
   if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
   std::vector<std::string> guesses;
   ods::PictureTag tag = ods::complete_tag(known_form(job), job.file, guesses);
+  settle_name(job, tag);
   tag.rig.yaw = job.yaw.value_or(tag.rig.yaw);
   tag.rig.pitch = job.pitch.value_or(tag.rig.pitch);
   tag.rig.roll = job.roll.value_or(tag.rig.roll);

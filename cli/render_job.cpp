@@ -95,6 +95,5 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);
   finish_render_job(options, quality, job);
-  note_misleading_name(job.output, job.save, ods::eye_list(job.render.eyes).size(), job.camera.rig.projection);
   return true;
 }

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods convert as its user meets it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
+#include "ods/image/save.h"
 #include "ods/image/stored_picture.h"
 #include "tests/cli_runner.h"
+#include "tests/decoded_film.h"
 
 namespace {
 
@@ -162,6 +166,55 @@ TEST_F(CliConvert, RefusalsSayWhy) {
   EXPECT_EQ(run("convert " + room), 2);
   EXPECT_EQ(convert(folder.path("absent.png"), "no.png"), 3);
   EXPECT_EQ(convert(room, "no.bmp"), 2);
+}
+
+// docs/cameras.md has these words for who works with FFmpeg.
+TEST_F(CliConvert, OurCubesAreThoseOfV360InItsWords) {
+  if (!ods::is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
+  const int width = 512, height = 256;
+  ods::Picture sphere;  // smooth, so that filters do not matter, and different everywhere
+  sphere.eyes.push_back({ods::kMono, ods::Image(width, height, 3), {}, {}, {}});
+  for (int y = 0; y < height; y++) {
+    for (int x = 0; x < width; x++) {
+      const float right = (static_cast<float>(x) + 0.5f) / width * 6.2831853f - 3.14159265f;
+      const float up = 1.57079633f - (static_cast<float>(y) + 0.5f) / height * 3.14159265f;
+      const float d[] = {std::sin(right) * std::cos(up), std::sin(up), -std::cos(right) * std::cos(up)};
+      for (int c = 0; c < 3; c++) {
+        sphere.eyes[0].radiance.at(x, y)[c] = 0.3f + 0.2f * std::sin(2.0f * d[c] + 0.8f * static_cast<float>(c));
+      }
+    }
+  }
+  save_picture(sphere, ods::CameraRig(), ods::SaveOptions(), folder.path("sphere_360.png"));
+  const auto worst = [&](const std::string& one, const std::string& other) {
+    const std::string raw = " -f rawvideo -pix_fmt rgb24 -";
+    const std::string a = ods::output_of("ffmpeg -v error -i " + folder.path(one) + raw);
+    const std::string b = ods::output_of("ffmpeg -v error -i " + folder.path(other) + raw);
+    int most = a.size() == b.size() && !a.empty() ? 0 : 255;
+    for (size_t i = 0; most < 255 && i < a.size(); i++) {
+      most = std::max(most, std::abs(static_cast<unsigned char>(a[i]) - static_cast<unsigned char>(b[i])));
+    }
+    return most;
+  };
+  const auto filter = [&](const std::string& from, const std::string& words, const std::string& to) {
+    ods::output_of("ffmpeg -v error -y -i " + folder.path(from) + " -vf v360=" + words + ":interp=cubic " +
+                   folder.path(to));
+  };
+  const std::tuple<const char*, int, const char*, const char*, int> kCubes[] = {
+      {"cube-3x2", 384, "c3x2", ":{0}forder=fudrbl:{0}frot=022000", 3},
+      {"cube-6x1", 768, "c6x1", ":{0}forder=rlbfud:{0}frot=312002", 3},
+      {"cube-1x6", 128, "c1x6", ":{0}forder=rlbfud:{0}frot=312002", 3},
+      {"eac", 384, "eac", "", 9}};  // which it pads
+  for (const auto& [name, across, v360, words, most] : kCubes) {
+    ASSERT_EQ(convert(folder.path("sphere_360.png"), "ours.png", fmt::format("-q --to {} --width {}", name, across)),
+              0);
+    const ods::Extent size = open("ours.png").size;
+    const auto with = [words = words](const char* side) { return fmt::format(fmt::runtime(words), side); };
+    filter("sphere_360.png", fmt::format("e:{}{}:w={}:h={}", v360, with("out_"), size.width, size.height),
+           "theirs.png");
+    EXPECT_LE(worst("ours.png", "theirs.png"), most) << name;
+    filter("ours.png", fmt::format("{}:e{}:w={}:h={}", v360, with("in_"), width, height), "back.png");
+    EXPECT_LE(worst("back.png", "sphere_360.png"), most) << name;
+  }
 }
 
 }  // namespace

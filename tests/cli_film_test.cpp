@@ -42,6 +42,34 @@ TEST_F(Film, FormsOfFrames) {
   EXPECT_EQ(form_text(*ods::read_film(folder.path("b_360.mp4")).video[0].v2), "mono, lat-long");
 }
 
+// The words that mislead go; those of what is written come.
+TEST_F(Film, ANameThatPlayersUnderstandIsProposed) {
+  const std::tuple<const char*, const char*, const char*> kCases[] = {
+      {"a_180.mp4", "", "a_360_TB.mp4"},
+      {"a_180_LR.mp4", "", "a_360_TB.mp4"},
+      {"a_LR_180.mp4", "--layout side-by-side", "a_360_LR.mp4"},
+      {"a_360.mp4", "--projection vr180", "a_180_LR.mp4"},
+      {"a_360_TB.mp4", "--eyes mono", "a_360.mp4"},
+      {"a.mp4", "", "a_360_TB.mp4"},
+      {"a_360_TB.mp4", "", ""},
+      {"a_TB.mp4", "", ""},
+      {"a_180_LR.mp4", "--projection vr180", ""},
+      {"a.mp4", "--eyes mono --noise changing --turntable 1", ""},
+  };
+  for (const auto& [name, options, proposed] : kCases) {
+    ASSERT_EQ(run(words(name, options)), 0) << err;
+    const size_t at = err.find("would know it as ");
+    if (!*proposed) {
+      EXPECT_EQ(at, std::string::npos) << name << options << err;
+      continue;
+    }
+    ASSERT_NE(at, std::string::npos) << name << options << err;
+    EXPECT_EQ(err.substr(at + 17, err.find('\n', at) - at - 17), proposed) << options;
+    EXPECT_EQ(err.find("would know it as ", at + 1), std::string::npos) << "once";
+    EXPECT_EQ(err.find("players differ"), err.rfind("players differ")) << "once";
+  }
+}
+
 TEST_F(Film, FramesAreKeptWhereAskedAndUsedAgain) {
   ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
   ASSERT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "a.mp4.frames"}));

@@ -147,6 +147,21 @@ TEST_F(FilmCommand, PicturesAreTaggedToo) {
   expect_one_line();
 }
 
+TEST_F(FilmCommand, APictureWhoseNameContradictsItNeedsAWord) {
+  const std::string path = folder.path("a_360_LR.exr");
+  ASSERT_EQ(run("render furnace --width 32 --samples 1 -q -o " + path), 0) << err;  // top-bottom
+  const std::string before = folder.read("a_360_LR.exr");
+  EXPECT_EQ(run("inject " + path), 3);
+  expect_one_line();
+  EXPECT_NE(err.find("its name ends in _LR, but it is top-bottom"), std::string::npos) << err;
+  EXPECT_TRUE(folder.read("a_360_LR.exr") == before);
+  ASSERT_EQ(run("inject --yaw 10 " + path), 0);
+  EXPECT_NE(err.find("warning"), std::string::npos) << err;
+  EXPECT_EQ(probe(path)["picture"]["layout"], "top-bottom");
+  ASSERT_EQ(run("inject --layout side-by-side " + path), 0) << err;
+  EXPECT_EQ(probe(path)["picture"]["layout"], "side-by-side");
+}
+
 // The libraries that all other commands load would take more than that, and so would the tables of millions of samples
 // if they were there more than once.
 TEST_F(FilmCommand, InjectNeedsLittleMemory) {

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "ods/base/error.h"
+#include "ods/image/camera_file.h"
 #include "ods/video/make_film.h"
 #include "tests/decoded_film.h"
 #include "tests/made_frames.h"
@@ -167,6 +168,37 @@ TEST_F(FilmOver, FramesGoOverTheirPicturesAlone) {
   for (int frame = 0; frame < 6; frame++) {
     const double green = code_at(*titled.picture(frame), 0, 64, 32, 1);
     EXPECT_NEAR(green, frame == 3 ? 255.0 : 20.0, 8.0) << frame;
+  }
+}
+
+// What the film says in vexu, else what its sidecar does.
+TEST_F(FilmOver, ATitleForOtherEyesIsSaid) {
+  const std::string film = make_film_file("film.mp4", {});
+  CameraRig rig;
+  rig.ipd = 0.07f;
+  write_title(folder.path("title.exr"), rig);
+  const StoredPicture title = open_picture(folder.path("title.exr"));
+  const auto warning = [&] {
+    std::string all;
+    for (const std::string& each : over_warnings(title, open_film(film).like)) all += each;
+    return all;
+  };
+  CameraFile sidecar;
+  sidecar.rig.ipd = 0.05f;
+  save_camera(sidecar, folder.path("film.camera.json"));
+  EXPECT_NE(warning().find("for eyes 70 mm apart, the background for 50: make it with --ipd 0.05"), std::string::npos)
+      << warning();
+  FilmForm form = open_film(film).form;
+  form.for_apple = true;
+  for (const double ipd : {0.06, 0.07}) {
+    form.ipd = ipd;
+    tag_film(film, film, 1, form);
+    EXPECT_EQ(open_film(film).like.ipd_is_said, true);
+    EXPECT_EQ(
+        warning().find("for eyes 70 mm apart, the background for 60: make it with --ipd 0.06") != std::string::npos,
+        ipd == 0.06)
+        << warning();
+    EXPECT_EQ(warning().empty(), ipd == 0.07) << warning();
   }
 }
 

@@ -3,15 +3,18 @@
 //
 // Items that are made one by one, worked on at once, and taken in their order.
 //
-// They live in a ring of ours, and oneTBB passes only pointers: it destroys no item that is on its way when a stage
-// throws.
+// They live in a ring of ours, and oneTBB passes only their places: it destroys nothing that is on its way when a
+// stage throws.
 #pragma once
-#include <tbb/parallel_pipeline.h>
-
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace ods {
+
+// The same of the places of a ring of `most` items, by their index.
+void run_ring(size_t most, const std::function<bool(size_t place)>& make, const std::function<void(size_t place)>& work,
+              const std::function<void(size_t place)>& take);
 
 // `make(item)` fills an empty item, one at a time, and returns false when there are no more; `work(item)` runs for many
 // items at once; `take(item)` gets them one at a time in the order in which they were made. At most `most` items exist
@@ -19,24 +22,12 @@ namespace ods {
 template <typename Item, typename Make, typename Work, typename Take>
 void run_pipeline(size_t most, const Make& make, const Work& work, const Take& take) {
   std::vector<Item> ring(most);
-  size_t next = 0;
-  const auto first = [&](tbb::flow_control& control) -> Item* {
-    Item* item = &ring[next++ % most];  // its last use is over: items are taken in their order
-    if (!make(*item)) control.stop();
-    return item;
+  const auto take_away = [&](size_t place) {
+    take(ring[place]);
+    ring[place] = Item();
   };
-  const auto second = [&](Item* item) {
-    work(*item);
-    return item;
-  };
-  const auto third = [&](Item* item) {
-    take(*item);
-    *item = Item();
-  };
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(most, tbb::make_filter<void, Item*>(filter_mode::serial_in_order, first) &
-                                   tbb::make_filter<Item*, Item*>(filter_mode::parallel, second) &
-                                   tbb::make_filter<Item*, void>(filter_mode::serial_in_order, third));
+  run_ring(
+      most, [&](size_t place) { return make(ring[place]); }, [&](size_t place) { work(ring[place]); }, take_away);
 }
 
 }  // namespace ods

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <optional>
 
 #include "ods/image/reproject.h"
@@ -42,7 +43,8 @@ std::string over_fault(const StoredPicture& foreground, const StoredPicture& bac
 // --- what is suspicious ----------------------------------------------------------------------------------------------
 
 static void compare_eyes_of(const CameraRig& front, const CameraRig& back, std::vector<std::string>& warnings) {
-  if (front.ipd != back.ipd) {
+  const float micrometre = 1e-6f;  // finer than films have it
+  if (std::abs(front.ipd - back.ipd) > micrometre) {
     warnings.push_back(
         fmt::format("the foreground was made for eyes {:g} mm apart, the background for {:g}: make it with "
                     "--ipd {:g}, or it stands at other distances",

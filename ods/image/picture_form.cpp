@@ -59,6 +59,16 @@ NameWords read_name(const std::string& path) {
   return words;
 }
 
+std::string renamed(const std::string& path, const std::string& words) {
+  const std::filesystem::path file(path);
+  std::string name = file.stem().native();
+  const NameWords old = read_name(path);
+  for (const std::string& word : {old.layout_word, old.projection_word}) {
+    if (!word.empty()) name.erase(name.rfind(word), word.size());
+  }
+  return (file.parent_path() / (name + words + file.extension().native())).native();
+}
+
 // --- the shape -------------------------------------------------------------------------------------------------------
 
 static bool has_shape(const ProjectionSetting& setting, Extent eye) {

@@ -27,6 +27,9 @@ struct NameWords {
 };
 NameWords read_name(const std::string& path);
 
+// The same path with a name that ends in these words in place of those that it ends in: a_180.mp4 becomes a_360_TB.mp4.
+std::string renamed(const std::string& path, const std::string& words);
+
 // Who says how the eyes share a file; those behind kFile are guesses.
 enum class LayoutSource { kPair, kCaller, kSidecar, kFile, kName, kShape, kNothing };
 

@@ -77,6 +77,10 @@ FilmInput open_film(const std::string& path, const KnownForm& known) {
   all.projection = projection_of(film.form, path);
   like.rig = find_form(file, path, all).camera;
   set_attitude(like.rig, film.form);
+  if (film.form.ipd > 0.0) {
+    like.rig.ipd = static_cast<float>(film.form.ipd);
+    like.ipd_is_said = true;
+  }
   like.layout = *all.layout;
   like.layout_because = "the film says so";
   const std::optional<Extent> eye = unpacked_size(like.layout, track.size);

@@ -21,9 +21,10 @@ struct FilmInput {
   StoredPicture like;                    // every picture but for its pixels: eyes without layers
 };
 
-// What the film does not say is found as inject finds it; `known` goes before all. Its eyes' distance and the like come
-// from its sidecar. Throws Error(kInput): a film that is damaged, that is flat or of another projection than lat-long
-// and parts of it, or whose form nothing tells.
+// What the film does not say is found as inject finds it; `known` goes before all. Its eyes' distance is what
+// it says itself (vexu), else what its sidecar says, which tells the rest of its camera, too. Throws Error(kInput): a
+// film that is damaged, that is flat or of another projection than lat-long and parts of it, or whose form nothing
+// tells.
 FilmInput open_film(const std::string& path, const KnownForm& known = {});
 
 // Where an eye of a film's picture begins. Precondition: a layout that open_film() finds.
