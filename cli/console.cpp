@@ -10,6 +10,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 
 #include "cli/exit_code.h"
 #include "ods/base/atomic_file.h"
@@ -113,6 +114,9 @@ int run_command(const std::function<void()>& body) {
     return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     return fail_without_memory();
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitRenderError, error.what());
+    return fail(kExitRenderError, "cannot start a thread: the memory or the number of processes allowed is used up");
   } catch (const std::exception& error) {
     return fail(kExitFailure, error.what());
   }

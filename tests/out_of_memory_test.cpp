@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <system_error>
 #include <vector>
 
 #include "cli/console.h"
@@ -154,6 +155,11 @@ TEST(OutOfMemoryDeathTest, TheCommandSaysSoWhereNothingMayThrow) {
                 throw std::bad_alloc();
               })),
               testing::ExitedWithCode(1), "^ods: error: not enough memory; a smaller scene or picture needs less\n$");
+}
+
+TEST(OutOfMemoryDeathTest, TheCommandSaysThatNoThreadStarts) {
+  EXPECT_EXIT(_exit(run_command([] { throw std::system_error(EAGAIN, std::generic_category()); })),
+              testing::ExitedWithCode(1), "^ods: error: cannot start a thread");
 }
 
 INSTANTIATE_TEST_SUITE_P(Once, OutOfMemory, testing::Values(false));
