@@ -174,7 +174,8 @@ const std::map<std::string, std::string> kFilmAlone = {
     {"--crf", "30"},         {"--bitrate", "1"},       {"--bits", "10"},         {"--chroma", "444"},
     {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
     {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
-    {"--keep-frames", ""},   {"--skip-existing", ""},  {"--duration", "3"},      {"--quality", "draft"},
+    {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
+    {"--quality", "draft"},
 };
 const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},

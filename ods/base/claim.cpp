@@ -161,18 +161,20 @@ File open_claim(const std::string& path) {
   throw cannot_claim(path, errno == ELOOP ? "it is a link; remove it" : std::strerror(errno));
 }
 
-enum class Verdict { kGone, kHeld, kDied, kSilent };
+enum class Verdict { kGone, kEmpty, kHeld, kDied, kSilent };
 
-// What has become of the claim of another process. One whose holder is dead is removed.
-Verdict judge(const std::string& path, const ClaimTimes& times, std::string& words) {
+// What has become of the claim of another process. One whose holder is dead is removed, and one that is still empty:
+// its maker died before it wrote, or writes as soon as we let go of the lock, and then finds that it lost the claim.
+Verdict judge(const std::string& path, const ClaimTimes& times, bool was_empty, std::string& words) {
   const File file = open_claim(path);
   if (file.number() < 0) return Verdict::kGone;
   const Lock locked = lock(file.number(), LOCK_EX | LOCK_NB);
   const Holder holder = read_holder(file.number(), path);
   words = words_for(holder, times);
   if (locked == Lock::kTheirs) return Verdict::kHeld;
+  if (holder.empty() && !was_empty) return Verdict::kEmpty;
   const bool died = locked == Lock::kOurs && holder.boot == boot_name();
-  if (!died && silence_of(file.number(), path) < times.silence) return Verdict::kHeld;
+  if (!died && !holder.empty() && silence_of(file.number(), path) < times.silence) return Verdict::kHeld;
   if (is_at(file.number(), path) && unlink(path.c_str()) != 0 && errno != ENOENT) {
     throw cannot_claim(path,
                        fmt::format("{} died and left it, and it cannot be removed: {}", words, std::strerror(errno)));
@@ -195,15 +197,17 @@ std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, C
   std::error_code ignored;  // it is said when the file cannot be made
   if (!folder.empty()) fs::create_directories(folder, ignored);
   const int kLooks = 4;  // another process may just be taking over what a dead one left
-  bool was_silent = false;
+  bool was_silent = false, was_empty = false;
   for (int looks = 0; looks < kLooks;) {
     File file = make_claim(claim);
     if (file.number() >= 0) {
       if (was_silent) std::this_thread::sleep_for(times.settle);
       if (is_at(file.number(), claim)) return std::make_unique<Claim>(file.hand_on(), claim, times);
     }
-    const Verdict verdict = judge(claim, times, holder);
+    const Verdict verdict = judge(claim, times, was_empty, holder);
     was_silent = was_silent || verdict == Verdict::kSilent;
+    was_empty = verdict == Verdict::kEmpty;
+    if (was_empty) std::this_thread::sleep_for(times.settle);  // its maker may be on another machine
     if (verdict != Verdict::kHeld) continue;
     looks++;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
