@@ -148,6 +148,24 @@ TEST(GltfJson, TheLastMemberOfANameCounts) {
   EXPECT_EQ(error_of(make_glb(text, {})), "");
 }
 
+// Work that grows with the square of the file's size.
+TEST(GltfJson, ManyNodesOfManyPrimitives) {
+  GltfBuilder file = make_triangle();
+  file.json["meshes"][0]["primitives"] = std::vector<Json>(2000, Json::object());
+  file.json["nodes"] = std::vector<Json>(2000, Json{{"mesh", 0}});
+  file.json.erase("scenes");
+  EXPECT_NE(error_of(file.glb()).find("far more geometry"), std::string::npos);
+}
+
+TEST(GltfJson, ManyReasonsToWarn) {
+  GltfBuilder file = make_triangle();
+  for (int i = 0; i < 1000; i++) {
+    file.json["textures"].push_back(Json::object());
+    file.json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+  }
+  EXPECT_EQ(file.load().warnings.size(), 100u);
+}
+
 TEST(GltfJson, ObjectsWithManyMembersAreRefused) {
   GltfBuilder file = make_triangle();
   for (int i = 0; i < 300; i++) file.primitive()["attributes"][fmt::format("_{}", i)] = 0;

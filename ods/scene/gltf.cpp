@@ -29,6 +29,8 @@ std::string printable(const std::string& text) {
 }
 
 void warn(Scene& scene, const std::string& what) {
+  constexpr size_t kMost = 100;  // a file may give reason for millions
+  if (scene.warnings.size() >= kMost) return;
   if (std::find(scene.warnings.begin(), scene.warnings.end(), what) == scene.warnings.end()) {
     scene.warnings.push_back(what);
   }

@@ -199,7 +199,10 @@ Bending Placer::bending_of(int index) {
   const JsonValue& mesh = record(file_, file_.meshes, index_in(file_, node, "mesh"), "mesh");
   Bending bending;
   size_t targets = 0;
-  for (const JsonValue& primitive : mesh["primitives"]) targets = std::max(targets, primitive["targets"].size());
+  for (const JsonValue& primitive : mesh["primitives"]) {
+    spend(file_, 1);  // many nodes may name one mesh of many primitives
+    targets = std::max(targets, primitive["targets"].size());
+  }
   if (targets > 0) {
     spend(file_, targets);
     std::vector<double> weights;
