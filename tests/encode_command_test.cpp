@@ -197,7 +197,7 @@ TEST_F(EncodeCommand, ATitleGoesOverAFilm) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   folder.write("sound.wav", ods::made::wav(2, 0.2));
   const std::string film = folder.path("film_360_TB.mp4"), made = folder.path("made_360_TB.mp4");
-  const std::string title = folder.path("title.exr"), over = "over " + title + " " + film + " -q -o ";
+  const std::string title = folder.path("title.exr"), over = "over " + title + " " + film + " --progress none -o ";
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 --audio " + folder.path("sound.wav") + " -q -o " + film), 0);
   ASSERT_EQ(run("title End --at 0,0,2 --height 1 --width 64 -o " + title), 0) << err;
   ASSERT_EQ(run("over " + title + " " + film + " -o " + made), 0) << err;
