@@ -64,7 +64,9 @@ void add_environment(Scene& scene, const SceneSource& source) {
       throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
                                                    "'; a colour is written R,G,B, as 0.5,0.6,0.8");
     }
-    scene.environment = ods::load_environment(source.environment);
+    std::string color_fault;
+    scene.environment = ods::load_environment(source.environment, &color_fault);
+    if (!color_fault.empty()) warn(fmt::format("'{}': {}", source.environment, color_fault));
     if (scene.environment.width != 2 * scene.environment.height) {
       note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
     }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <filesystem>
 #include <iostream>
+#include <mutex>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -53,10 +54,14 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   options.journal = output + ".stitching";
   options.journal_key = views_key(rig, views);
   std::atomic<bool> shows_codes{false};
+  std::mutex mutex;
+  std::string color_fault;
   const ods::OpenView open_file = open_view_files(rig, views);
   const ods::OpenView open = [&](size_t view) {
     ods::StoredPicture picture = open_file(view);
     if (!picture.is_float) shows_codes = true;
+    const std::lock_guard lock(mutex);
+    if (color_fault.empty()) color_fault = picture.color_fault;
     return picture;
   };
   const ods::Stitched stitched = stitch(rig, open, options, [&](double part) { report(0.9 * part); });
@@ -68,6 +73,7 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
     tell_faults(stitched.faults, note);
     note(fmt::format("{} of {} views are missing: black", stitched.faults.size(), rig.views.size()));
   }
+  if (!color_fault.empty()) warn("the views: " + color_fault);
   ods::SaveOptions save = job.save;
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
   const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);
