@@ -74,6 +74,10 @@ CompareReport compare(const CompareJob& job) {
   auto& [a, b] = report.files;
   a = ods::load_eyes(job.a, job.layout);
   b = ods::load_eyes(job.b, job.layout);
+  for (size_t i = 0; i < 2; i++) {
+    const std::string& fault = report.files[i].color_fault;
+    if (!fault.empty()) warn(fmt::format("'{}': {}", report.paths[i], fault));
+  }
   if (a.projection != b.projection) {
     note(fmt::format("'{}' is taken for {}, '{}' for {}: pixels are compared as they lie", job.a, a.projection, job.b,
                      b.projection));

@@ -169,7 +169,9 @@ void add_eye_options(Options& options, CameraOptions& camera) {
 }
 
 static void read_merge_map(CameraOptions& camera) {
-  const ods::Image picture = ods::read_image(camera.merge_map);
+  std::string color_fault;
+  const ods::Image picture = ods::read_image(camera.merge_map, &color_fault);
+  if (!color_fault.empty()) warn(fmt::format("'{}': {}", camera.merge_map, color_fault));
   auto map = std::make_shared<ods::Image>(picture.width, picture.height, 1);
   for (int y = 0; y < picture.height; y++) {
     for (int x = 0; x < picture.width; x++) {

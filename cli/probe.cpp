@@ -60,6 +60,7 @@ ProbeReport probe(const std::string& path) {
   const bool has_gpano = report.picture->gpano.has_value();
   report.views.push_back(picture_views(info, form, has_gpano, path));
   report.warnings.push_back(picture_warnings(info, form, has_gpano, path));
+  if (!info.color_fault.empty()) report.warnings[0].push_back(info.color_fault);
   if (form.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
   return report;
 }

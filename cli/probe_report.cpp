@@ -81,6 +81,7 @@ void print_picture(const ProbeReport& report) {
   const PictureReport& picture = *report.picture;
   row("picture", fmt::format("{}x{}, {}", picture.info.width, picture.info.height,
                              picture.info.is_float ? "light" : "code values of a display"));
+  row("colour space", !picture.info.color.empty() ? picture.info.color : picture.info.is_float ? "none" : "none: sRGB");
   row("ods:projection", picture.info.text.contains("ods:projection") ? picture.info.text.at("ods:projection") : "none");
   if (!picture.info.is_float) row("GPano", picture.gpano ? camera_text(*picture.gpano) : "none");
   if (picture.info.is_float) row("envmap", picture.info.text.contains("textureformat") ? "lat-long" : "none");
@@ -143,6 +144,7 @@ Json picture_to_json(const ProbeReport& report) {
   const PictureReport& picture = *report.picture;
   Json json = {{"size", {picture.info.width, picture.info.height}},
                {"is_light", picture.info.is_float},
+               {"color_space", picture.info.color},
                {"gpano", picture.gpano.has_value()},
                {"right_eye", nullptr},
                {"layout", nullptr},

@@ -88,7 +88,9 @@ static void add_environment(Scene& scene, const SceneSource& source) {
                                                    "'; a colour is written R,G,B, as 0.5,0.6,0.8");
     }
     const ods::ConfinedFile checked(source.environment, confining_folder(source));
-    scene.environment = ods::load_environment(source.environment);
+    std::string color_fault;
+    scene.environment = ods::load_environment(source.environment, &color_fault);
+    if (!color_fault.empty()) warn(fmt::format("'{}': {}", source.environment, color_fault));
     if (scene.environment.width != 2 * scene.environment.height) {
       note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
     }

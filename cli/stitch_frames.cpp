@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <mutex>
 
 #include "cli/console.h"
 #include "cli/form_options.h"
@@ -56,11 +57,15 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   options.journal = output + ".stitching";
   options.journal_key = views_key(rig, views);
   std::atomic<bool> shows_codes{false}, unmarked{false};
+  std::mutex mutex;
+  std::string color_fault;
   const ods::OpenView open_file = open_view_files(rig, views);
   const ods::OpenView open = [&](size_t view) {
     ods::StoredPicture picture = open_file(view);
     if (!picture.is_float) shows_codes = true;
     if (!has_marks && picture.rig_mark.empty()) unmarked = true;
+    const std::lock_guard lock(mutex);
+    if (color_fault.empty()) color_fault = picture.color_fault;
     return picture;
   };
   const ods::Stitched stitched = stitch(rig, open, options, [&](double part) {
@@ -77,6 +82,7 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   if (unmarked && job.says_unmarked) {
     note(fmt::format("nothing says which rig the views are of: no {} in their folder", ods::kRigMarkFile));
   }
+  if (!color_fault.empty()) warn("the views: " + color_fault);
   ods::SaveOptions save = job.save;
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
   const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);

@@ -7,7 +7,10 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
+#include "ods/image/image_file.h"
+#include "ods/image/png_chunks.h"
 #include "ods/image/save.h"
 #include "ods/image/stored_picture.h"
 #include "tests/cli_runner.h"
@@ -75,6 +78,42 @@ TEST_F(CliConvert, ToItselfIsTheSamePicture) {
   EXPECT_EQ(run("compare " + room + " " + folder.path("same.png") + " --max-error 0"), 0) << err << out;
   ASSERT_EQ(convert(room, "wide.png", "-q --layout side-by-side"), 0) << err;
   EXPECT_EQ(run("compare " + room + " " + folder.path("wide.png") + " --max-error 0"), 0) << err << out;
+}
+
+// The same picture in linear light, as renderers write that know no sRGB, and with a profile that nobody can use.
+TEST_F(CliConvert, ColourSpacesAreHonoured) {
+  const std::string room = make("room_TB.png");
+  const ods::Image image = ods::read_image(room);
+  const auto save = [&](const std::string& name, const std::string& chunk) {
+    ods::AtomicFile file(folder.path("plain.png"));
+    ods::FileHeader header;
+    header.width = image.width, header.height = image.height;
+    for (const char* channel : {"R", "G", "B"}) header.channels.push_back({channel, ods::Sample::kUint16});
+    write_image(file, header,
+                [&](int y, std::span<float> row) { std::copy_n(image.at(0, y), row.size(), row.data()); });
+    file.commit();
+    std::string bytes = folder.read("plain.png");
+    std::ofstream(folder.path(name), std::ios::binary) << bytes.insert(ods::kPngAfterHeader, chunk);
+    return folder.path(name);
+  };
+  const std::string linear = save("linear_TB.png", ods::png_chunk("gAMA", {"\x00\x01\x86\xa0", 4}));
+  const std::string unknown = save("unknown_TB.png", ods::png_chunk("iCCP", {"a\0\0no profile", 13}));
+  EXPECT_EQ(run("compare " + room + " " + linear + " --max-error 0.002"), 0) << err << out;
+  ASSERT_EQ(convert(linear, "copy_TB.png"), 0) << err;
+  EXPECT_EQ(err.find("sRGB"), std::string::npos) << err;
+  EXPECT_EQ(run("compare " + room + " " + folder.path("copy_TB.png") + " --max-error 0"), 0) << err << out;
+
+  const std::string warning = "'" + unknown + "': its ICC profile is damaged: taken as sRGB";
+  EXPECT_EQ(run("compare " + room + " " + unknown), 0);
+  EXPECT_NE(err.find(warning), std::string::npos) << err;
+  EXPECT_EQ(convert(unknown, "copy_TB.png"), 0);
+  EXPECT_NE(err.find("its ICC profile is damaged: taken as sRGB"), std::string::npos) << err;
+  EXPECT_EQ(run("probe " + unknown), 0);
+  EXPECT_NE(out.find("its ICC profile is damaged: taken as sRGB"), std::string::npos) << out;
+  EXPECT_EQ(run("render room -q --width 8 --samples 1 --env " + unknown + " -o " + folder.path("a.png")), 0);
+  EXPECT_EQ(run("render room --progress none --width 8 --samples 1 --env " + unknown + " -o " + folder.path("a.png")),
+            0);
+  EXPECT_NE(err.find(warning), std::string::npos) << err;
 }
 
 TEST_F(CliConvert, GuessesAreSaid) {

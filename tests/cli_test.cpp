@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -78,6 +79,16 @@ TEST_F(Cli, VersionNamesTheLibraries) {
   for (const char* part : {"ods 0", "Embree 3", "OpenImageIO 2", "oneTBB 202", "nlohmann JSON 3", "fmt ", "CLI11 2"}) {
     if (std::string_view(part) == "Embree 3" && out.find("Embree 4") != std::string::npos) continue;
     EXPECT_NE(out.find(part), std::string::npos) << part << " in " << out;
+  }
+}
+
+// ods inject starts fast because it loads neither; the names of needed libraries stand in the file as they are.
+TEST_F(Cli, InjectLoadsNoImageOrFilmLibrary) {
+  std::ifstream file(std::filesystem::path(ODS_COMMAND).parent_path() / "ods_inject.so", std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  ASSERT_NE(bytes.find("libstdc++.so"), std::string::npos);
+  for (const char* library : {"libavutil.so", "libavcodec.so", "libOpenImageIO.so", "liblcms2.so"}) {
+    EXPECT_EQ(bytes.find(library), std::string::npos) << library;
   }
 }
 

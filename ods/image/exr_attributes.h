@@ -12,6 +12,7 @@
 #include "ods/base/file_input.h"
 #include "ods/image/attribute.h"
 #include "ods/image/file_info.h"
+#include "ods/image/image_limits.h"
 
 namespace ods {
 

@@ -5,9 +5,6 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cassert>
@@ -15,74 +12,34 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <mutex>
+#include <optional>
 
 #include "ods/base/error.h"
 #include "ods/base/read_file.h"
 #include "ods/base/text.h"
+#include "ods/image/color_tags.h"
 #include "ods/image/exr_header.h"
 #include "ods/image/exr_rows.h"
 #include "ods/image/jpeg_segments.h"
+#include "ods/image/openimageio.h"
 #include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
 
 namespace ods {
 
-static const char* plugin_name(FileFormat format) {
-  constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // as FileFormat counts
-  return kNames[static_cast<size_t>(format)];
-}
-
-// Debian builds OpenImageIO so that it comments on broken files on stderr; that is not a library's place. It and
-// OpenEXR have threads of their own: as many as TBB may have, so that one limit (tbb::global_control) holds for all.
-static void set_up_openimageio() {
-  static std::mutex setting;
-  static int threads = 0;
-  const std::lock_guard lock(setting);
-  const int allowed = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  if (allowed == threads) return;
-  threads = allowed;
-  OIIO::attribute("debug", 0);
-  OIIO::attribute("threads", threads);
-  OIIO::attribute("exr_threads", threads);
-}
-
 static OIIO::TypeDesc type_of(Sample sample) {
-  switch (sample) {
-    case Sample::kUint8:
-      return OIIO::TypeDesc::UINT8;
-    case Sample::kUint16:
-      return OIIO::TypeDesc::UINT16;
-    case Sample::kHalf:
-      return OIIO::TypeDesc::HALF;
-    case Sample::kFloat:
-      return OIIO::TypeDesc::FLOAT;
-  }
-  return OIIO::TypeDesc::FLOAT;
+  return OIIO::TypeDesc(type_name(sample));
 }
 
-// OpenImageIO made no reader or writer: it has none in this build, or else its constructor found no memory.
-static std::string no_plugin(const char* plugin, const char* kind) {
-  if (OIIO::get_string_attribute("format_list").find(plugin) != OIIO::string_view::npos) throw std::bad_alloc();
-  return fmt::format("OpenImageIO here has no {} {}", plugin, kind);
+static Error cannot_read(const std::string& name, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", name, why));
 }
-
-// --- reading -------------------------------------------------------------------------------------------------------
 
 static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std::string& name) {
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1) throw cannot_read(name, "it is not a flat image");
-  const int sides[] = {spec.width, spec.height, spec.tile_width, spec.tile_height};
-  if (spec.width < 1 || spec.height < 1) throw cannot_read(name, "it has no pixels");
-  const int64_t pixels = int64_t{spec.width} * spec.height;
-  const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_size));
-  if (*std::max_element(std::begin(sides), std::end(sides)) > kMaxSide || pixels > kMaxPixels) {
-    throw cannot_read(name, fmt::format("{}x{} pixels are more than the limit of {} a side, {} in all", spec.width,
-                                        spec.height, kMaxSide, kMaxPixels));
-  }
-  if (pixels > most) {
-    throw cannot_read(name, fmt::format("{}x{} pixels in {} bytes: the file is broken or hostile", spec.width,
-                                        spec.height, file_size));
-  }
+  const int longest = std::max({spec.width, spec.height, spec.tile_width, spec.tile_height});
+  const std::string fault = image_size_fault(spec.width, spec.height, longest, file_size);
+  if (!fault.empty()) throw cannot_read(name, fault);
 }
 
 namespace {
@@ -112,9 +69,41 @@ struct Reader {
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
   FileFormat format;
+  FileInfo info;
+  ColorSpace color;
 };
 
 }  // namespace
+
+// In a file of floats whole numbers are as large as floats, and become such.
+static Sample sample_of(const OIIO::TypeDesc& type, bool is_float) {
+  for (const Sample sample : {Sample::kUint8, Sample::kUint16, Sample::kHalf}) {
+    if (type == type_of(sample)) return sample;
+  }
+  return is_float ? Sample::kFloat : Sample::kUint16;
+}
+
+static FileInfo info_of(const OIIO::ImageSpec& spec) {
+  FileInfo info;
+  info.width = spec.width;
+  info.height = spec.height;
+  info.channels = spec.channelnames;
+  for (int c = 0; c < spec.nchannels; c++) {
+    info.is_float = info.is_float || spec.channelformat(c).is_floating_point();
+  }
+  for (int c = 0; c < spec.nchannels; c++) info.samples.push_back(sample_of(spec.channelformat(c), info.is_float));
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    const std::string name = attribute.name().string();
+    if (attribute.type() == OIIO::TypeString) info.text[name] = attribute.get_string();
+    const size_t count = attribute.type().basevalues();  // get_float_indexed() knows no vectors
+    const float* floats = static_cast<const float*>(attribute.data());
+    const int* ints = static_cast<const int*>(attribute.data());
+    const auto base = attribute.type().basetype;
+    if (base == OIIO::TypeDesc::FLOAT) info.numbers[name].assign(floats, floats + count);
+    if (base == OIIO::TypeDesc::INT) info.numbers[name].assign(ints, ints + count);
+  }
+  return info;
+}
 
 // `start` is that of the file.
 static Reader create_reader(std::span<const std::byte> start, const std::string& name) {
@@ -148,6 +137,7 @@ static void open(Reader& reader, size_t file_size, const std::string& name, bool
   config.attribute("oiio:UnassociatedAlpha", keep_alpha ? 1 : 0);
   if (!reader.input->open(name, reader.spec, config)) throw cannot_read(name, library_words(reader.input->geterror()));
   check_size(reader.spec, file_size, name);
+  reader.info = info_of(reader.spec);
 }
 
 static Reader open_reader(const std::string& path, bool keep_alpha = true) {
@@ -159,6 +149,9 @@ static Reader open_reader(const std::string& path, bool keep_alpha = true) {
   };
   check_whole(reader, file->size(), bytes, path);
   open(reader, file->size(), path, keep_alpha);
+  reader.color = read_color_space(path, reader.format, reader.info);
+  reader.info.color = reader.color.name;
+  reader.info.color_fault = reader.color.fault;
   return reader;
 }
 
@@ -177,8 +170,8 @@ static Reader open_memory(std::span<const std::byte> file, const std::string& na
   return reader;
 }
 
-// Channels of a file, by their numbers and in their order, as floats: integers decoded from sRGB.
-static Image read_linear(Reader& reader, const std::vector<int>& indices, const std::string& path) {
+// Channels of a file, by their numbers and in their order, as floats.
+static Image read_floats(Reader& reader, const std::vector<int>& indices, const std::string& path) {
   const int count = static_cast<int>(indices.size());
   Image image(reader.spec.width, reader.spec.height, count);
   // At once where they are neighbours, as decoding one decodes all.
@@ -193,49 +186,24 @@ static Image read_linear(Reader& reader, const std::vector<int>& indices, const 
       throw cannot_read(path, library_words(reader.input->geterror()));
     }
   }
-  if (!reader.spec.format.is_floating_point()) {
-    for (float& value : image.pixels) value = srgb_decode(value);
-  }
   return image;
 }
 
-Image read_image(const std::string& path) {
+Image read_image(const std::string& path, std::string* color_fault) {
   Reader reader = open_reader(path);
-  return read_linear(reader, reader.spec.nchannels < 3 ? std::vector{0, 0, 0} : std::vector{0, 1, 2}, path);
-}
-
-// In a file of floats whole numbers are as large as floats, and become such.
-static Sample sample_of(const OIIO::TypeDesc& type, bool is_float) {
-  for (const Sample sample : {Sample::kUint8, Sample::kUint16, Sample::kHalf}) {
-    if (type == type_of(sample)) return sample;
+  Image image = read_floats(reader, reader.spec.nchannels < 3 ? std::vector{0, 0, 0} : std::vector{0, 1, 2}, path);
+  const bool is_float = reader.spec.format.is_floating_point();
+  for (size_t i = 0; i < image.pixels.size() && !(is_float && reader.color.has_our_primaries); i += 3) {
+    vec3 value(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
+    value = is_float ? light_of_floats(reader.color, value) : light_of_codes(reader.color, value);
+    std::copy_n(&value.x, 3, &image.pixels[i]);
   }
-  return is_float ? Sample::kFloat : Sample::kUint16;
-}
-
-static FileInfo info_of(const OIIO::ImageSpec& spec) {
-  FileInfo info;
-  info.width = spec.width;
-  info.height = spec.height;
-  info.channels = spec.channelnames;
-  for (int c = 0; c < spec.nchannels; c++) {
-    info.is_float = info.is_float || spec.channelformat(c).is_floating_point();
-  }
-  for (int c = 0; c < spec.nchannels; c++) info.samples.push_back(sample_of(spec.channelformat(c), info.is_float));
-  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
-    const std::string name = attribute.name().string();
-    if (attribute.type() == OIIO::TypeString) info.text[name] = attribute.get_string();
-    const size_t count = attribute.type().basevalues();  // get_float_indexed() knows no vectors
-    const float* floats = static_cast<const float*>(attribute.data());
-    const int* ints = static_cast<const int*>(attribute.data());
-    const auto base = attribute.type().basetype;
-    if (base == OIIO::TypeDesc::FLOAT) info.numbers[name].assign(floats, floats + count);
-    if (base == OIIO::TypeDesc::INT) info.numbers[name].assign(ints, ints + count);
-  }
-  return info;
+  if (color_fault) *color_fault = reader.color.fault;
+  return image;
 }
 
 FileInfo read_info(const std::string& path) {
-  return info_of(open_reader(path).spec);
+  return open_reader(path).info;
 }
 
 Image read_channels(const std::string& path, const std::vector<std::string>& names) {
@@ -245,7 +213,11 @@ Image read_channels(const std::string& path, const std::vector<std::string>& nam
     indices.push_back(reader.spec.channelindex(name));
     if (indices.back() < 0) throw cannot_read(path, fmt::format("it has no channel '{}'", name));
   }
-  return read_linear(reader, indices, path);
+  Image image = read_floats(reader, indices, path);
+  if (!reader.spec.format.is_floating_point()) {
+    for (float& value : image.pixels) value = srgb_decode(value);
+  }
+  return image;
 }
 
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name) {
@@ -277,6 +249,7 @@ struct RowReader::State {
   OIIO::TypeDesc type;           // of all samples; UNKNOWN: as info.samples has them
   std::unique_ptr<ExrRows> exr;  // for rows of EXRs that it knows
   std::map<size_t, unsigned> beyond_floats;
+  std::optional<SrgbConverter> to_srgb;  // for integers of another colour space
   float multiplied = 0.0f;  // integers that OpenImageIO hands out multiplied by alpha to this power; 0: not
 };
 
@@ -284,9 +257,9 @@ static bool says_unassociated(const OIIO::ImageSpec& spec) {
   return spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
 }
 
-RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}, {}, {}}) {
+RowReader::RowReader(const std::string& path) : state_(new State{path, open_reader(path), {}, {}, {}, {}, {}}) {
   State& state = *state_;
-  state.info = info_of(state.reader.spec);
+  state.info = state.reader.info;
   if (state.info.is_float && says_unassociated(state.reader.spec)) state.reader = open_reader(path, false);
   const OIIO::ImageSpec& spec = state.reader.spec;
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
@@ -308,6 +281,10 @@ RowReader::RowReader(const std::string& path) : state_(new State{path, open_read
   if (!state.info.is_float && spec.alpha_channel >= 0 && !says_unassociated(spec)) {
     state.multiplied = state.reader.format == FileFormat::kWebp ? 1.0f / 2.2f : 1.0f;
   }
+  if (!state.info.is_float && !is_our_own(state.reader.color, false)) {
+    state.to_srgb.emplace(state.reader.color);
+    widen();
+  }
 }
 
 RowReader::RowReader(RowReader&&) noexcept = default;
@@ -315,6 +292,16 @@ RowReader::~RowReader() = default;
 
 const FileInfo& RowReader::info() const {
   return state_->info;
+}
+
+const ColorSpace& RowReader::color_space() const {
+  return state_->reader.color;
+}
+
+void RowReader::widen() {
+  if (state_->info.is_float) return;
+  state_->type = type_of(Sample::kUint16);
+  for (Sample& sample : state_->info.samples) sample = Sample::kUint16;
 }
 
 bool RowReader::is_whole_number(size_t channel) const {
@@ -349,6 +336,7 @@ void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
   if (state.multiplied != 0.0f && spec.alpha_channel < count) {
     divide_by_alpha(samples[0], {to, size}, channels, static_cast<size_t>(spec.alpha_channel), state.multiplied);
   }
+  if (state.to_srgb) state.to_srgb->convert({reinterpret_cast<uint16_t*>(to), size / sizeof(uint16_t)}, channels);
   size_t offset = 0;
   for (size_t c = 0; c < channels; offset += bytes_of(samples[c]), c++) {
     if (!is_whole_number(c) || state.type != OIIO::TypeDesc()) continue;
@@ -359,142 +347,6 @@ void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
 
 const std::map<size_t, unsigned>& RowReader::beyond_floats() const {
   return state_->beyond_floats;
-}
-
-// --- writing -------------------------------------------------------------------------------------------------------
-
-static void set_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
-  const std::string& name = attribute.name;
-  if (const int* i = std::get_if<int>(&attribute.value)) spec.attribute(name, *i);
-  if (const float* f = std::get_if<float>(&attribute.value)) spec.attribute(name, *f);
-  if (const std::string* s = std::get_if<std::string>(&attribute.value)) spec.attribute(name, *s);
-  if (const auto* list = std::get_if<std::vector<float>>(&attribute.value)) {
-    const int count = static_cast<int>(list->size());
-    const OIIO::TypeDesc vector3(OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::VEC3);
-    spec.attribute(name, count == 3 ? vector3 : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, count), list->data());
-  }
-  if (const auto* list = std::get_if<std::vector<std::string>>(&attribute.value)) {
-    std::vector<const char*> words;
-    for (const std::string& word : *list) words.push_back(word.c_str());
-    spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::STRING, static_cast<int>(words.size())), words.data());
-  }
-}
-
-static OIIO::ImageSpec make_spec(const FileHeader& header) {
-  OIIO::ImageSpec spec(header.width, header.height, static_cast<int>(header.channels.size()),
-                       type_of(header.channels.front().sample));
-  spec.channelnames.clear();
-  for (const Channel& channel : header.channels) {
-    spec.channelnames.push_back(channel.name);
-    spec.channelformats.push_back(type_of(channel.sample));
-  }
-  const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
-  spec.alpha_channel = alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
-  for (const Attribute& attribute : header.attributes) {
-    if (header.format != FileFormat::kPng || !is_gpano(attribute)) set_attribute(spec, attribute);
-  }
-  return spec;
-}
-
-namespace {
-
-// Where encoders write. It never reports a failure, because libjpeg would end the process; the stream remembers it for
-// AtomicFile::finish(). On the way it slips a chunk in behind a PNG's header.
-class Sink final : public OIIO::Filesystem::IOProxy {
- public:
-  Sink(std::FILE* stream, std::string chunk) : IOProxy("", Write), stream_(stream), chunk_(std::move(chunk)) {}
-  const char* proxytype() const override { return "ods"; }
-  void close() override {}
-  bool seek(int64_t offset) override {
-    m_pos = offset;
-    fseeko(stream_, offset, SEEK_SET);
-    return true;
-  }
-  size_t write(const void* bytes, size_t size) override {
-    const char* begin = static_cast<const char*>(bytes);
-    const size_t position = static_cast<size_t>(m_pos);
-    size_t head = 0;
-    if (!chunk_.empty() && position + size >= kPngAfterHeader) {
-      head = kPngAfterHeader - position;
-      std::fwrite(begin, 1, head, stream_);
-      std::fwrite(chunk_.data(), 1, chunk_.size(), stream_);
-      chunk_.clear();
-    }
-    std::fwrite(begin + head, 1, size - head, stream_);
-    m_pos += static_cast<int64_t>(size);
-    return size;
-  }
-
- private:
-  std::FILE* stream_;
-  std::string chunk_;
-};
-
-}  // namespace
-
-// Rows go out in bands: enough for OpenEXR to compress on all cores, few enough that no second picture is in memory.
-// The next band is made meanwhile, as most formats are compressed on one core.
-static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, const RowSource& rows,
-                       const std::function<void()>& band_done) {
-  const int kBand = 64;
-  // OpenImageIO makes integers of floats well, and halves slowly.
-  std::vector<Sample> samples;
-  size_t pixel_size = 0;
-  for (const Channel& channel : header.channels) {
-    samples.push_back(channel.sample == Sample::kHalf ? Sample::kHalf : Sample::kFloat);
-    pixel_size += bytes_of(samples.back());
-  }
-  const bool floats = pixel_size == samples.size() * sizeof(float);  // else as the file has them
-  const OIIO::TypeDesc type = floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc();
-  const size_t width = static_cast<size_t>(header.width), row_size = width * pixel_size;
-  std::vector<std::byte> made(row_size * static_cast<size_t>(std::min(kBand, header.height))), written(made.size());
-  const auto make = [&](int begin) {
-    tbb::parallel_for(begin, std::min(begin + kBand, header.height), [&](int y) {
-      std::vector<float> row(width * samples.size());
-      rows(y, row);
-      pack_floats(samples, row, &made[static_cast<size_t>(y - begin) * row_size]);
-    });
-    if (band_done) band_done();
-  };
-  make(0);
-  bool good = true;
-  for (int begin = 0; begin < header.height && good; begin += kBand) {
-    const int end = std::min(begin + kBand, header.height);
-    std::swap(made, written);
-    tbb::task_group next;
-    if (end < header.height) next.run([&] { make(end); });
-    good = output.write_scanlines(begin, end, 0, type, written.data());
-    next.wait();
-  }
-  return good;
-}
-
-void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
-                 const std::function<void()>& band_done) {
-  assert(header.width > 0 && header.height > 0 && !header.channels.empty());
-  set_up_openimageio();
-  const char* plugin = plugin_name(header.format);
-  const auto failed = [&](const std::string& why) {
-    return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", file.path(), one_line(why)));
-  };
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(plugin);
-  if (!output) throw failed(no_plugin(plugin, "writer"));
-
-  Sink sink(file.stream(), header.format == FileFormat::kPng ? gpano_chunk(header.attributes) : std::string());
-  // libtiff goes back and reads what it wrote, which OpenImageIO does not hand through.
-  if (header.format != FileFormat::kTiff) output->set_ioproxy(&sink);
-  const bool written =
-      output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows, band_done);
-  const bool closed = output->close();
-  // A full disk says so itself; what the format's library made of it is of no help. libtiff wrote through a stream of
-  // its own, so ours asks the disk for a little more.
-  if (!written || !closed) {
-    fseeko(file.stream(), 0, SEEK_END);
-    const std::vector<char> more(1 << 20);
-    std::fwrite(more.data(), 1, more.size(), file.stream());
-    file.finish();
-    throw failed(library_words(output->geterror()));
-  }
 }
 
 }  // namespace ods

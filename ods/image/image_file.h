@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Image files of every format of file_format.h, through OpenImageIO (image_file.cpp alone knows it).
+// Image files of every format of file_format.h, through OpenImageIO (only image_file.cpp and image_writer.cpp know it).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,23 +14,27 @@
 
 #include "ods/base/atomic_file.h"
 #include "ods/image/attribute.h"
+#include "ods/image/color_space.h"
 #include "ods/image/file_format.h"
 #include "ods/image/file_info.h"
 #include "ods/image/image.h"
+#include "ods/image/image_limits.h"
 
 namespace ods {
 
-// Linear light in three channels. Files of integers are decoded from sRGB, files of floats taken as they are; grey
-// becomes three equal channels, alpha is left out. Throws Error(kInput).
-Image read_image(const std::string& path);
+// Linear light of Rec. 709 in three channels, whatever the file's colour space is (color_tags.h); where the file does
+// not say, integers are sRGB and floats linear Rec. 709. Grey becomes three equal channels, alpha is left out. What the
+// file says of its colours and cannot be honoured goes into `color_fault`. Throws Error(kInput).
+Image read_image(const std::string& path, std::string* color_fault = nullptr);
 
 // Throws Error(kInput).
 FileInfo read_info(const std::string& path);
 
 // A file that is read in bands from the top, so that it is never in memory as a whole (but WebP, progressive JPEG and
-// interlaced PNG, whose decoders know no other way). In a file of integers colours are code values that are not
-// multiplied by alpha, in a file of floats they are light that is. Whole numbers in a file of floats (ids, 32 bits)
-// become floats.
+// interlaced PNG, whose decoders know no other way). In a file of integers colours are sRGB code values that are not
+// multiplied by alpha, whatever the file's colour space is: they are converted, to 16 bits, where it is another. In a
+// file of floats they are light that is multiplied, of the file's primaries: color_space() converts it. Whole numbers
+// in a file of floats (ids, 32 bits) become floats.
 class RowReader {
  public:
   // Throws Error(kInput): as read_image(), and an EXR whose data window is not its whole picture.
@@ -39,6 +43,9 @@ class RowReader {
   ~RowReader();
 
   const FileInfo& info() const;
+  const ColorSpace& color_space() const;
+  // Integers of 8 bits become such of 16. Before the first read().
+  void widen();
   bool is_whole_number(size_t channel) const;
 
   // Bands are `band_rows()` high, but for the last: what the file packs together.
@@ -55,12 +62,12 @@ class RowReader {
   std::unique_ptr<State> state_;
 };
 
-// Some channels of a file, by their names and in their order. Integers are decoded from sRGB as above.
+// Some channels of a file, by their names and in their order. Integers are decoded from sRGB, floats taken as they are.
 // Throws Error(kInput), also where there is no such channel.
 Image read_channels(const std::string& path, const std::vector<std::string>& names);
 
 // 8 bits each of R, G, B, A with R in the low byte, rows from the top, alpha not multiplied in: the code values of the
-// file. What is missing is grey or opaque.
+// file, whatever colour space it says they are of: glTF wants that. What is missing is grey or opaque.
 struct CodeImage {
   int width = 0;
   int height = 0;

@@ -66,6 +66,7 @@ LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout) {
   if (picture.eyes.size() == 2) loaded.guess.layout = picture.layout;
   loaded.projection = projection_name(picture.rig.projection);
   loaded.is_float = picture.is_float;
+  loaded.color_fault = picture.color_fault;
   for (const StoredEye& eye : picture.eyes) {
     loaded.eyes.push_back(linear_image(eye.layers[0], picture.size, picture.is_float));
     const LayerPixels* variance = find_variance(eye);

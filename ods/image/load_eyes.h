@@ -19,7 +19,8 @@ struct LoadedEyes {
   std::vector<Image> variance;          // of the noise in eyes, where an EXR has variance.R, G and B; else empty
   LayoutGuess guess;                    // how the file was understood
   std::string projection = "lat-long";  // by its name, as find_form() has it
-  bool is_float = false;                // the file holds light; else what a display shows, decoded from sRGB
+  bool is_float = false;                // the file holds light; else what a display shows, which is decoded
+  std::string color_fault;              // as StoredPicture has it
 };
 
 // %V or %v in the path stands for two files. A layout that is given is not guessed; kSeparate without %V takes the file

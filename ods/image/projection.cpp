@@ -89,7 +89,8 @@ std::string projection_fault(const ProjectionSetting& setting) {
     return "a fisheye sees 1 to 360 degrees";
   if (setting.kind == kPerspective) {
     if (!(setting.fov >= 0.001f && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
-    if (!(setting.aspect > 0.0001f && setting.aspect < 10000.0f)) return "a window's sides differ by at most 10000 to 1";
+    if (!(setting.aspect > 0.0001f && setting.aspect < 10000.0f))
+      return "a window's sides differ by at most 10000 to 1";
   }
   return {};
 }

@@ -269,6 +269,35 @@ static void put_rows(const Plane& plane, const Packing& packing, const std::byte
   });
 }
 
+// R, G and B first, or of one layer: albedo.R, ...
+static bool is_color(const Plane& plane) {
+  if (plane.rule == LayerRule::kNearest || plane.channels.size() < 3 || bytes_of(plane.sample) == 1) return false;
+  constexpr const char* kNames[] = {"R", "G", "B"};
+  for (size_t c = 0; c < 3; c++) {
+    if (split_name(plane.channels[c]).second != kNames[c]) return false;
+  }
+  return true;
+}
+
+// Light of the file's primaries becomes that of Rec. 709, in place.
+static void convert_rows(const Plane& plane, const ColorSpace& color, int begin, int end, int width) {
+  const size_t pixel = plane.pixel_size(), size = bytes_of(plane.sample), columns = static_cast<size_t>(width);
+  tbb::parallel_for(begin, end, [&](int y) {
+    std::byte* const row = plane.to + static_cast<size_t>(y) * columns * pixel;
+    std::vector<float> light(3 * columns);
+    for (size_t x = 0; x < columns; x++) {
+      vec3 rgb;
+      for (size_t c = 0; c < 3; c++) rgb[static_cast<int>(c)] = sample_value(plane.sample, row + x * pixel + c * size);
+      rgb = light_of_floats(color, rgb);
+      std::copy_n(&rgb.x, 3, &light[3 * x]);
+    }
+    std::vector<std::byte> packed(light.size() * size);
+    const Sample samples[] = {plane.sample, plane.sample, plane.sample};
+    pack_floats(samples, light, packed.data());
+    for (size_t x = 0; x < columns; x++) std::memcpy(row + x * pixel, &packed[3 * x * size], 3 * size);
+  });
+}
+
 // Straight to its place where a file is nothing but one layer; by way of a band where it has to be taken apart.
 static void read_file(RowReader& reader, const std::vector<FileShare>& shares, const Scratch& memory) {
   const size_t kOften = size_t{64} << 20;  // bytes between two releases
@@ -290,6 +319,8 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
     reader.read(begin, end, packing.count, straight ? planes[0]->to + static_cast<size_t>(begin) * row : band.data());
     for (const Plane* plane : planes) {
       if (!straight) put_rows(*plane, packing, band.data(), begin, end, info.width);
+      const bool foreign = info.is_float && !reader.color_space().has_our_primaries;
+      if (foreign && is_color(*plane)) convert_rows(*plane, reader.color_space(), begin, end, info.width);
     }
     held += row * static_cast<size_t>(end - begin);
     if (held > kOften) memory.release(), held = 0;
@@ -336,13 +367,17 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   return eye;
 }
 
-static void check_pair(const std::vector<RowReader>& readers, const std::string& path) {
+static void check_pair(std::vector<RowReader>& readers, const std::string& path) {
   const FileInfo &one = readers[0].info(), &other = readers[1].info();
   if (one.width != other.width || one.height != other.height) {
     throw unreadable(
         path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
   }
   if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
+  const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
+  if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // both become 16 bits if one has been converted to them
+    for (RowReader& reader : readers) reader.widen();
+  }
 }
 
 static std::vector<RowReader> open_files(const std::string& path) {
@@ -439,6 +474,10 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.ipd_is_said = form.ipd_is_said;
   picture.guesses = std::move(form.guesses);
   if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
+  for (const RowReader& reader : readers) {
+    if (picture.color_fault.empty()) picture.color_fault = reader.info().color_fault;
+  }
+  if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
   const auto parts = info.numbers.find("oiio:subimages");
   if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
     picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));

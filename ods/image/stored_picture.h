@@ -47,6 +47,7 @@ struct StoredPicture {
   bool ipd_is_said = false;          // by the caller, the file or its sidecar; else it is the usual one
   std::string rig_mark;              // ods:rig: the rig of slits that it is a view of; empty: not said
   std::vector<std::string> guesses;  // what the file did not say, to be said to people: "top-bottom: ..."
+  std::string color_fault;           // why what it says of its colours is ignored; empty: it is honoured
   std::shared_ptr<Scratch> memory;   // where the pixels lie
 };
 
@@ -59,7 +60,8 @@ struct OpenOptions {
 
 // Colour is R, G, B and perhaps A, grey made three; where it has no bare names, the layer that ends in Combined. The
 // colours of kUint8 and kUint16 are code values that are not multiplied by alpha: who decodes them multiplies. Those of
-// kHalf and kFloat are light that is.
+// kHalf and kFloat are light that is. Both are of sRGB's primaries: files of other colour spaces are converted
+// (image_file.h), and their 8 bits become 16.
 //
 // Of other channels, in EXR, those with one name before the last point are a layer. Its rule goes by name: kNearest are
 // Z, depth, ids and materials, whole numbers, cryptomatte and variance (of which the nearest pixel's is an upper bound

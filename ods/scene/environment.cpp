@@ -15,8 +15,8 @@ static float repaired(float value) {
   return std::isinf(value) ? kBrightest : std::min(value, 1e9f);
 }
 
-Environment load_environment(const std::string& path) {
-  const Image image = read_image(path);
+Environment load_environment(const std::string& path, std::string* color_fault) {
+  const Image image = read_image(path, color_fault);
   Environment environment;
   environment.radiance = vec3(1.0f);
   environment.width = image.width;

@@ -9,10 +9,11 @@
 
 namespace ods {
 
-// A lat-long picture in any format of ods/image/file_format.h: .hdr and .exr hold radiance, the others are decoded from
-// sRGB. It covers the sphere whatever its shape; one that is not twice as wide as high looks stretched (compare width
-// and height of what is returned). Negative texels and those that are not numbers become 0, infinite ones 65504, the
-// largest number of a half float, and none exceeds 1e9. Throws Error(kInput).
-Environment load_environment(const std::string& path);
+// A lat-long picture in any format of ods/image/file_format.h: .hdr and .exr hold radiance, the others what a display
+// shows; read_image() makes light of both, and says in `color_fault` what of a file's colours it ignores. It covers the
+// sphere whatever its shape; one that is not twice as wide as high looks stretched (compare width and height of what is
+// returned). Negative texels and those that are not numbers become 0, infinite ones 65504, the largest number of a half
+// float, and none exceeds 1e9. Throws Error(kInput).
+Environment load_environment(const std::string& path, std::string* color_fault = nullptr);
 
 }  // namespace ods

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a picture file says of its colours, wherever its format says it:
+//
+//   PNG    the first of cICP, iCCP, sRGB, gAMA with cHRM, as the PNG specification (third edition) ranks them
+//   JPEG   an ICC profile in APP2
+//   TIFF   an ICC profile, else TransferFunction, WhitePoint and PrimaryChromaticities
+//   WebP   an ICC profile
+//   EXR    chromaticities
+//
+// A gAMA within 5 % of 1/2.2 is taken for sRGB, as libpng does: programs write 0.45455 for sRGB.
+#pragma once
+#include <string>
+
+#include "ods/image/color_space.h"
+#include "ods/image/file_format.h"
+
+namespace ods {
+
+struct FileInfo;
+
+// The default colour space where nothing is said, and for files that cannot be read: reading their pixels tells why.
+// Floats are light: of what a file of floats says, only the primaries are used, and a curve is a fault.
+ColorSpace read_color_space(const std::string& path, FileFormat format, const FileInfo& info);
+
+}  // namespace ods

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What image_file.cpp and image_writer.cpp, which alone know OpenImageIO, share.
+#pragma once
+#include <string>
+
+#include "ods/image/file_format.h"
+#include "ods/image/sample.h"
+
+namespace ods {
+
+// OpenImageIO's names of its plugin and of a number type.
+const char* plugin_name(FileFormat format);
+const char* type_name(Sample sample);
+
+// Before anything else of it is called. Debian builds OpenImageIO so that it comments on broken files on stderr; that
+// is not a library's place. It and OpenEXR have threads of their own: as many as TBB may have, so that one limit
+// (tbb::global_control) holds for all.
+void set_up_openimageio();
+
+// Why there is no reader or writer of that name: this build has none. Throws std::bad_alloc where it has, and memory
+// was lacking to make it.
+std::string no_plugin(const char* plugin, const char* kind);
+
+}  // namespace ods
