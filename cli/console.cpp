@@ -115,8 +115,8 @@ int run_command(const std::function<void()>& body) {
   } catch (const std::bad_alloc&) {
     return fail_without_memory();
   } catch (const std::system_error& error) {
-    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitRenderError, error.what());
-    return fail(kExitRenderError, "cannot start a thread: the memory or the number of processes allowed is used up");
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitFailure, error.what());
+    return fail(kExitFailure, "cannot start a thread: the memory or the number of processes allowed is used up");
   } catch (const std::exception& error) {
     return fail(kExitFailure, error.what());
   }

@@ -31,10 +31,6 @@ static OIIO::TypeDesc type_of(Sample sample) {
   return OIIO::TypeDesc(type_name(sample));
 }
 
-static Error cannot_read(const std::string& name, const std::string& why) {
-  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", name, why));
-}
-
 static void check_size(const OIIO::ImageSpec& spec, size_t file_size, const std::string& name) {
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1) throw cannot_read(name, "it is not a flat image");
   const int longest = std::max({spec.width, spec.height, spec.tile_width, spec.tile_height});
