@@ -148,9 +148,9 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
   const std::string path = uri_path(file, uri);
   try {
     return share(read_start(path, most));
-  } catch (const Error&) {
-    fail(file, fmt::format("refers to {}, which is not there, cannot be read or is larger than the free memory",
-                           printable(uri)));
+  } catch (const Error& error) {
+    const size_t known = fmt::format("cannot read '{}': ", path).size();  // which the URI says in few words
+    fail(file, fmt::format("refers to {}: {}", printable(uri), std::string_view(error.what()).substr(known)));
   }
 }
 
