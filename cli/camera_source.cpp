@@ -33,7 +33,7 @@ void add_camera_source(Options& options, CameraSource& source) {
       "a camera sidecar (ods render --sidecar); the options below change what it says");
   options.number("--width", source.width, 2, 32768, "of one eye in pixels");
   options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes");
-  add_layout_option(options, source.file.layout, "how two eyes share the file");
+  add_layout_option(options, source.layout, "how two eyes share the file, by default top-bottom (vr180: side-by-side)");
   add_sceneless_camera_options(options, source.camera);
 }
 
@@ -42,6 +42,8 @@ CameraFile read_camera_source(CameraSource& source) {
   finish_camera_options(source.camera, source.width, height);
   CameraFile file = source.file;
   file.rig = place_camera(source.camera);
+  const ods::Layout kept = layout_of_converted(file.layout, source.file.rig.projection, file.rig.projection);
+  file.layout = source.layout.value_or(kept);
   file.eyes = ods::eye_list(source.eyes);
   file.eye = {source.width, height};
   return file;

@@ -94,6 +94,7 @@ std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, const
   stitch.output = job.render.output;
   stitch.frames = job.render.time.frames;
   stitch.save = job.render.save;
+  stitch.layout = job.render.save.layout;
   stitch.skip_existing = true, stitch.says_files = false;
   if (stitch.frames.empty()) throw UsageError("--rig: --frames says which folders of views there are");
   return stitch_frames(stitch, rig, report);
@@ -105,6 +106,7 @@ void make_film(FilmJob job, const std::vector<std::string>& words, ProgressLines
   const RenderJob& render = job.render;
   std::optional<ods::SlitRig> rig;
   if (!job.rig.empty()) rig = open_rig(job.rig);
+  if (rig && !render.has_layout) job.render.save.layout = ods::default_layout(rig->camera.projection);
   const ods::FilmPlan expected =
       rig ? expect(render, rig->eyes, rig->eye, rig->camera.projection)
           : expect(render, ods::eye_list(render.render.eyes), {render.render.width, render.render.height},

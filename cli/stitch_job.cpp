@@ -27,7 +27,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.argument("VIEWS", job.views.names, "the views' files, a mark (####) for their number; %V for the eye's name");
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output, ".exr .png .jpg .tif .webp .hdr; layers and depth stay in .exr");
-  add_layout_option(options, job.save.layout, "how two eyes share the file");
+  add_layout_option(options, job.layout, "how two eyes share the file, by default top-bottom (vr180: side-by-side)");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f, "stops; .hdr and .exr keep the views' light");
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
                  "tone curve, of views that are light");
