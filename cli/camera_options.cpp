@@ -8,10 +8,11 @@
 
 #include "cli/console.h"
 #include "cli/eye_options.h"
+#include "cli/field_option.h"
 #include "cli/projection_options.h"
 #include "ods/base/suggest.h"
 
-using ods::CameraRig, ods::Scene, ods::vec3, ods::ViewPoint;
+using ods::CameraField, ods::CameraRig, ods::Scene, ods::vec3, ods::ViewPoint;
 
 namespace {
 
@@ -30,7 +31,8 @@ const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
 
 vec3 parse_point(const std::string& name, const std::string& word) {
   const std::vector<float> p = parse_numbers(word);
-  const bool legal = p.size() == 3 && std::all_of(p.begin(), p.end(), [](float x) { return std::abs(x) <= 1e6f; });
+  const bool legal = p.size() == 3 && std::all_of(p.begin(), p.end(),
+                                                  [](float x) { return range_of(CameraField::kPosition).contains(x); });
   if (!legal) throw UsageError(fmt::format("{} is X,Y,Z in metres, each within 1e6, not '{}'", name, word));
   return {p[0], p[1], p[2]};
 }
@@ -42,10 +44,11 @@ static void add_position_option(Options& options, CameraOptions& camera) {
 }
 
 static void add_attitude_options(Options& options, CameraOptions& camera) {
-  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f,
-                 "turn to the right, degrees; at 0 the picture's centre looks along -Z");
-  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "tilt up, degrees; tilts the horizon too");
-  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "roll clockwise, degrees; tilts the horizon too");
+  add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw,
+                   "turn to the right, degrees; at 0 the picture's centre looks along -Z");
+  add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; tilts the horizon too");
+  add_field_option(options, "--roll", camera.roll, CameraField::kRoll,
+                   "roll clockwise, degrees; tilts the horizon too");
   add_dialect_option(options, camera);
   add_eye_options(options, camera);
   add_projection_options(options, camera.rig.projection);
@@ -85,6 +88,8 @@ CameraRig place_camera_again(const CameraOptions& camera, const Scene& scene) {
   rig.yaw = camera.yaw.value_or(view.yaw);
   rig.pitch = camera.pitch.value_or(0.0f);
   rig.roll = camera.roll.value_or(0.0f);
+  const std::string fault = camera_fault(rig);  // scenes may stand anywhere
+  if (!fault.empty()) throw UsageError("the camera's " + fault);
   return rig;
 }
 

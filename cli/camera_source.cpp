@@ -33,7 +33,8 @@ void add_camera_source(Options& options, CameraSource& source) {
       "a .camera.json file (ods render --sidecar); the options below override it");
   options.number("--width", source.width, 2, 32768, "width of one eye in pixels");
   options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
-  add_layout_option(options, source.file.layout, "how both eyes share the file");
+  add_layout_option(options, source.layout,
+                    "how both eyes share the file; by default top-bottom, side-by-side for vr180");
   add_sceneless_camera_options(options, source.camera);
 }
 
@@ -42,6 +43,8 @@ CameraFile read_camera_source(CameraSource& source) {
   finish_camera_options(source.camera, source.width, height);
   CameraFile file = source.file;
   file.rig = place_camera(source.camera);
+  const ods::Layout kept = layout_of_converted(file.layout, source.file.rig.projection, file.rig.projection);
+  file.layout = source.layout.value_or(kept);
   file.eyes = ods::eye_list(source.eyes);
   file.eye = {source.width, height};
   return file;

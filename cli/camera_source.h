@@ -3,6 +3,8 @@
 //
 // The options of a camera without a scene: from a sidecar, or as ods render takes them.
 #pragma once
+#include <optional>
+
 #include "cli/camera_options.h"
 #include "ods/image/camera_file.h"
 #include "ods/scene/render_options.h"
@@ -10,7 +12,8 @@
 struct CameraSource {
   CameraOptions camera;
   ods::CameraFile file;
-  int width = 2048;  // of one eye
+  std::optional<ods::Layout> layout;  // as --layout has it
+  int width = 2048;                   // of one eye
   ods::Eyes eyes = ods::Eyes::kBothEyes;
 };
 

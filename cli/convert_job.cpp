@@ -8,18 +8,19 @@
 
 #include "cli/console.h"
 #include "cli/eye_options.h"
+#include "cli/field_option.h"
 #include "cli/form_options.h"
 #include "cli/long_job.h"
 #include "cli/projection_options.h"
 #include "ods/image/camera_file.h"
 
-using ods::CameraRig, ods::Eyes, ods::Layout;
+using ods::CameraField, ods::CameraRig, ods::Eyes, ods::Layout;
 
 namespace {
 
 constexpr const char* kExamples =
     "  ods convert picture.png -o cubes.png --to cube-3x2\n"
-    "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --layout side-by-side --width 4096\n"
+    "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --width 4096\n"
     "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
     "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90";
 
@@ -72,7 +73,8 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
                  "height of one eye in pixels; 0: follows from the width and projection");
   options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
   options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
-  add_layout_option(options, wishes.layout, "how both eyes share the file");
+  add_layout_option(options, wishes.layout,
+                    "how both eyes share the file; by default the input's, side-by-side for --to vr180");
   options.flag("--sidecar", job.save.sidecar,
                "also write the camera to picture.camera.json, which --from of other commands reads");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
@@ -84,9 +86,9 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
 void add_camera(Options& options, CameraOptions& camera) {
   add_projection_options(options, camera.rig.projection, "--to");
   options.group("Turn");
-  options.number("--yaw", camera.yaw, -36000.0f, 36000.0f, "turn to the right, degrees");
-  options.number("--pitch", camera.pitch, -36000.0f, 36000.0f, "tilt up, degrees; mono pictures only");
-  options.number("--roll", camera.roll, -36000.0f, 36000.0f, "roll clockwise, degrees; mono pictures only");
+  add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw, "turn to the right, degrees");
+  add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; mono pictures only");
+  add_field_option(options, "--roll", camera.roll, CameraField::kRoll, "roll clockwise, degrees; mono pictures only");
   add_circle_options(options, camera);
 }
 
@@ -114,7 +116,7 @@ bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv)
 void turn(CameraRig& rig, const CameraOptions& by) {
   const float yaw = by.yaw.value_or(0.0f), pitch = by.pitch.value_or(0.0f), roll = by.roll.value_or(0.0f);
   if (rig.pitch == 0.0f && rig.roll == 0.0f) {
-    rig.yaw += yaw, rig.pitch = pitch, rig.roll = roll;
+    rig.yaw = ods::angle_in_range(double{rig.yaw} + double{yaw}), rig.pitch = pitch, rig.roll = roll;
     return;
   }
   const auto frame = [](float y, float p, float r) {
@@ -183,7 +185,7 @@ void open_convert_job(ConvertJob& job, int argc, char** argv) {
   job.target.eyes = wished_eyes(job, wishes, given.eyes);
   note_unmoved(job, rig);
   if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
-  save_as_it_was(job.picture, job.output, wishes.layout, given.tone, job.save);
+  save_as_it_was(job.picture, rig.projection, job.output, wishes.layout, given.tone, job.save);
   if (given.exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
 
   ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, rig.projection);

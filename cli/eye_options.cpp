@@ -10,11 +10,12 @@
 #include <stdexcept>
 
 #include "cli/console.h"
+#include "cli/field_option.h"
 #include "ods/base/suggest.h"
 #include "ods/image/dialect.h"
 #include "ods/image/image_file.h"
 
-using ods::CameraRig, ods::PoleMergeSetting, ods::vec3;
+using ods::CameraField, ods::CameraRig, ods::PoleMergeSetting, ods::vec3;
 
 namespace {
 
@@ -42,13 +43,15 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
   if (numbers.size() > 0) merge.start = numbers[0];
   if (numbers.size() > 1) merge.end = numbers[1];
   if (numbers.size() > 2) merge.exponent = numbers[2];
-  const bool legal = mode && parts.legal && numbers.size() <= 3 && merge.start >= 0.0f && merge.start < merge.end &&
-                     merge.end <= 90.0f && merge.exponent > 0.0f && merge.exponent <= 100.0f;
+  const bool legal = mode && parts.legal && numbers.size() <= 3 && merge.start < merge.end &&
+                     range_of(CameraField::kMergeStart).contains(merge.start) &&
+                     range_of(CameraField::kMergeEnd).contains(merge.end) &&
+                     range_of(CameraField::kMergeExponent).contains(merge.exponent);
   if (!legal) {
     std::vector<std::string_view> names;
     for (int each : ods::kMerges) names.push_back(ods::merge_name(each));
     throw UsageError(
-        fmt::format("{} is {}, then ,START,END in degrees (0 <= START < END <= 90) and ,EXP (above 0, at most 100), "
+        fmt::format("{} is {}, then ,START,END in degrees (0 <= START < END <= 90) and ,EXP (0.000001 to 100), "
                     "not '{}'",
                     name, fmt::join(names, ", "), text));
   }
@@ -61,7 +64,7 @@ void parse_convergence(const std::string& text, CameraRig& rig) {
   const WordAndNumbers parts = split(text);
   for (int convergence : ods::kConvergences) {
     if (parts.word != ods::convergence_name(convergence) || !parts.legal || parts.numbers.size() > 1) continue;
-    if (parts.numbers.size() == 1 && !(parts.numbers[0] >= 1e-3f && parts.numbers[0] <= 1e6f)) continue;
+    if (parts.numbers.size() == 1 && !range_of(CameraField::kConvergenceDistance).contains(parts.numbers[0])) continue;
     rig.convergence = convergence;
     if (parts.numbers.size() == 1) rig.convergence_distance = parts.numbers[0];
     return;
@@ -78,7 +81,7 @@ void parse_axis(const std::string& text, CameraRig& rig) {
   std::vector<float> numbers = text == "world" ? std::vector<float>{0.0f, 1.0f, 0.0f} : parse_numbers(text);
   const bool three = numbers.size() == 3;
   const float size = three ? std::hypot(numbers[0], numbers[1], numbers[2]) : 0.0f;
-  if (!(size > 1e-6f && size < 1e6f)) {
+  if (!(size > 1e-6f && size < range_of(CameraField::kAxis).most)) {
     throw UsageError(fmt::format("--axis is camera, world or a direction X,Y,Z, not '{}'", text));
   }
   rig.axis = vec3(numbers[0], numbers[1], numbers[2]) / size;
@@ -86,8 +89,8 @@ void parse_axis(const std::string& text, CameraRig& rig) {
 
 void parse_lens(const std::string& text, CameraRig& rig) {
   const std::vector<float> numbers = parse_numbers(text);
-  const bool legal =
-      numbers.size() == 2 && numbers[0] >= 0.0f && numbers[0] <= 10.0f && numbers[1] >= 1e-3f && numbers[1] <= 1e6f;
+  const bool legal = numbers.size() == 2 && range_of(CameraField::kLensRadius).contains(numbers[0]) &&
+                     range_of(CameraField::kFocusDistance).contains(numbers[1]);
   if (!legal) throw UsageError(fmt::format("--lens is RADIUS,FOCUS in metres, as 0.005,2, not '{}'", text));
   rig.lens_radius = numbers[0], rig.focus_distance = numbers[1];
 }
@@ -134,7 +137,8 @@ void add_dialect_option(Options& options, CameraOptions& camera) {
 void add_circle_options(Options& options, CameraOptions& camera) {
   CameraRig& rig = camera.rig;
   options.group("Eyes");
-  options.number("--ipd", rig.ipd, 0.0f, 1e4f, "distance between the eyes (interpupillary distance), metres");
+  add_field_option(options, "--ipd", rig.ipd, CameraField::kIpd,
+                   "distance between the eyes (interpupillary distance), metres");
   const auto set_both = [&](const std::string& text) { rig.top = rig.bottom = parse_merge("--merge", text); };
   const auto set_top = [&](const std::string& text) { rig.top = parse_merge("--merge-top", text); };
   const auto set_bottom = [&](const std::string& text) { rig.bottom = parse_merge("--merge-bottom", text); };
@@ -152,8 +156,8 @@ void add_circle_options(Options& options, CameraOptions& camera) {
       "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, rig); },
       "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
       "METRES coincide");
-  options.number("--neck", rig.neck, -10.0f, 10.0f,
-                 "distance of the eyes in front of the axis they turn about, metres");
+  add_field_option(options, "--neck", rig.neck, CameraField::kNeck,
+                   "distance of the eyes in front of the axis they turn about, metres");
 }
 
 void add_eye_options(Options& options, CameraOptions& camera) {

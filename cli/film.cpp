@@ -93,6 +93,7 @@ std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, FilmJ
   stitch.output = job.render.output;
   stitch.frames = job.render.time.frames;
   stitch.save = job.render.save;
+  stitch.layout = job.render.save.layout;
   stitch.skip_existing = true, stitch.claims = false, stitch.says_files = false;
   if (stitch.frames.empty()) throw UsageError("--rig: --frames says which folders of views there are");
   journal.plan(ods::parse_frames(stitch.frames));
@@ -104,6 +105,7 @@ void make_film(FilmJob job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
+  if (rig && !render.has_layout) job.render.save.layout = ods::default_layout(rig->camera.projection);
   const ods::FilmPlan expected =
       rig ? expect(render, rig->eyes, rig->eye, rig->camera.projection)
           : expect(render, ods::eye_list(render.render.eyes), {render.render.width, render.render.height},

@@ -55,9 +55,7 @@ void finish_form_options(const Options& options, const ods::ProjectionSetting& p
   const bool sized = options.given("--size");
   if (options.given("--width") && !options.given("--height")) picture.height = 0;
   if (!options.given("--width") && !sized) picture.width -= picture.width % ods::width_step(projection);
-  if (!options.given("--layout") && !sized) {
-    save.layout = ods::projection_name(projection) == "vr180" ? Layout::kSideBySide : Layout::kTopBottom;
-  }
+  if (!options.given("--layout") && !sized) save.layout = ods::default_layout(projection);
 }
 
 ods::FrameNames film_names(const std::string& output) {
@@ -65,11 +63,12 @@ ods::FrameNames film_names(const std::string& output) {
   throw UsageError("a film needs a place for the number of the frame in its files' names: -o shot.####.png");
 }
 
-void save_as_it_was(const ods::StoredPicture& picture, const std::string& output, std::optional<Layout> wished,
-                    bool has_tone, ods::SaveOptions& save) {
+void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
+                    const std::string& output, std::optional<Layout> wished, bool has_tone, ods::SaveOptions& save) {
   const Layout own = picture.layout;
   const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(output));
-  save.layout = wished.value_or(unfit ? Layout::kTopBottom : own);
+  save.layout = wished.value_or(unfit ? ods::default_layout(projection)
+                                      : ods::layout_of_converted(own, picture.rig.projection, projection));
   if (!has_tone && !picture.is_float) save.tone = ods::ToneCurve::kLinear;
 }
 

@@ -34,10 +34,11 @@ bool keeps_light(const std::string& path);
 // The names of a film's frames. Throws UsageError: the output has no place for their numbers.
 ods::FrameNames film_names(const std::string& output);
 
-// What nobody gave of how a picture is saved that is made of another: its layout, where a file of that name can have
-// it, and what a display shows as it is.
-void save_as_it_was(const ods::StoredPicture& picture, const std::string& output, std::optional<ods::Layout> wished,
-                    bool has_tone, ods::SaveOptions& save);
+// How to save a picture of this projection that is made of another picture, as far as no option says it: in the other's
+// layout (layout_of_converted()) where a file of that name can have it, and what a display shows as it is.
+void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
+                    const std::string& output, std::optional<ods::Layout> wished, bool has_tone,
+                    ods::SaveOptions& save);
 
 // Says what of a picture was guessed.
 void note_guesses(const std::string& path, const ods::StoredPicture& picture);

@@ -5,6 +5,7 @@
 #include "ods/image/lint.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -30,9 +31,8 @@ constexpr const char* kSummary =
     "two\n"
     "fixed cameras, a visible seam, no pole merge, a wrong shape, metadata that contradicts the pixels. Each finding "
     "has\n"
-    "a certainty (0 to 1), the evidence and a cure; docs/lint.md explains them. Exit code 1: a fault was found; "
-    "warnings\n"
-    "and information do not count.";
+    "a certainty (0 to 1), the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains\n"
+    "them. Exit code 1: a fault was found; warnings and information do not count.";
 
 struct LintJob {
   std::string path;
@@ -65,6 +65,12 @@ std::string layout_word(const LintReport& report) {
   return std::string(report.layout ? ods::layout_name(*report.layout) : report.eye_count > 1 ? "separate" : "one eye");
 }
 
+std::vector<std::string_view> names_of(const std::vector<ods::Check>& checks) {
+  std::vector<std::string_view> names;
+  for (const ods::Check check : checks) names.push_back(check_name(check));
+  return names;
+}
+
 bool is_told(const LintJob& job, const Finding& finding) {
   return finding.certainty >= static_cast<double>(job.min_certainty);
 }
@@ -80,8 +86,13 @@ void print_text(const LintJob& job, const LintReport& report) {
     fmt::print("{} {}: {}, certainty {:.2f}: {}. Cure: {}.\n", severity_name(severity), fault_name(finding.fault),
                fault_title(finding.fault), finding.certainty, finding.evidence, finding.cure);
   }
-  for (const std::string& text : report.not_judged) fmt::print("not judged: {}\n", text);
-  fmt::print("{}\n", faults == 0 ? "no fault found" : fmt::format("{} fault{} found", faults, faults == 1 ? "" : "s"));
+  for (const std::string& text : report.notes) fmt::print("note: {}\n", text);
+  fmt::print("judged: {}\n", fmt::join(names_of(report.judged), ", "));
+  for (const ods::NotJudged& each : report.not_judged) {
+    fmt::print("not judged: {} ({})\n", check_name(each.check), each.reason);
+  }
+  fmt::print("{} found in what was judged\n",
+             faults == 0 ? "no fault" : fmt::format("{} fault{}", faults, faults == 1 ? "" : "s"));
 }
 
 void print_json(const LintJob& job, const LintReport& report) {
@@ -93,7 +104,12 @@ void print_json(const LintJob& job, const LintReport& report) {
                {"because", report.because},
                {"projection", report.projection},
                {"findings", Json::array()},
-               {"not_judged", report.not_judged}};
+               {"judged", names_of(report.judged)},
+               {"not_judged", Json::array()},
+               {"notes", report.notes}};
+  for (const ods::NotJudged& each : report.not_judged) {
+    json["not_judged"].push_back({{"check", check_name(each.check)}, {"reason", each.reason}});
+  }
   for (const Finding& finding : report.findings) {
     if (!is_told(job, finding)) continue;
     json["findings"].push_back({{"fault", fault_name(finding.fault)},

@@ -25,7 +25,7 @@ namespace {
 void lay(const OverJob& job, const std::optional<StoredPicture>& front, const StoredPicture& back,
          const std::string& output, bool is_first) {
   ods::SaveOptions save = job.save;
-  save_as_it_was(back, output, job.layout, job.has_tone, save);
+  save_as_it_was(back, back.rig.projection, output, job.layout, job.has_tone, save);
   ods::Overlay overlay;
   if (front) {
     check_over(job, *front, back);

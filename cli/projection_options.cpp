@@ -9,6 +9,7 @@
 
 #include "cli/console.h"
 #include "ods/base/suggest.h"
+#include "ods/image/camera_fields.h"
 
 using ods::NamedProjection, ods::ProjectionSetting, ods::vec2;
 
@@ -47,8 +48,9 @@ void parse_range(const std::string& text, ProjectionSetting& projection) {
 void parse_look(const std::string& text, ProjectionSetting& projection) {
   expect_lens("--look", projection);
   const std::vector<float> numbers = parse_numbers(text);
-  const bool legal = numbers.size() == 2 && std::abs(numbers[0]) <= 36000.0f && std::abs(numbers[1]) <= 90.0f;
-  if (!legal) throw UsageError(fmt::format("--look is PAN,TILT in degrees, tilt within 90, not '{}'", text));
+  const bool legal = numbers.size() == 2 && range_of(ods::CameraField::kPan).contains(numbers[0]) &&
+                     range_of(ods::CameraField::kTilt).contains(numbers[1]);
+  if (!legal) throw UsageError(fmt::format("--look is PAN,TILT in degrees, not '{}'", text));
   projection.pan = numbers[0], projection.tilt = numbers[1];
 }
 

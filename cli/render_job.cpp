@@ -67,6 +67,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
   check_time_options(job.time);
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (!options.given("--samples")) job.render.samples = quality.samples;
+  job.has_layout = options.given("--layout") || options.given("--size");
   finish_form_options(options, job.camera.rig.projection, job.render, job.save);
   finish_camera_options(job.camera, job.render.width, job.render.height);
 }

@@ -19,6 +19,7 @@ struct RenderJob {
   TimeOptions time;
   ods::RenderOptions render;
   ods::SaveOptions save;
+  bool has_layout = false;  // said by an option
   std::string output;
   std::string rig;  // of slits: its views are rendered, in place of the camera's picture
   ProgressMode progress = ProgressMode::kAuto;

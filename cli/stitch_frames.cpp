@@ -84,6 +84,7 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   }
   if (!color_fault.empty()) warn("the views: " + color_fault);
   ods::SaveOptions save = job.save;
+  save.layout = job.layout.value_or(default_layout(rig.camera.projection));
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
   const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);
   if (stitched.unseen > 0) {

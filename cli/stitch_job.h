@@ -3,6 +3,7 @@
 //
 // What ods stitch is asked to do.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "cli/progress.h"
@@ -14,7 +15,8 @@ struct StitchJob {
   ods::ViewFiles views;
   std::string output;
   std::string report;
-  ods::SaveOptions save;
+  ods::SaveOptions save;              // but for its layout
+  std::optional<ods::Layout> layout;  // none: default_layout() of the rig's projection
   std::string frames;
   bool has_tone = false;
   bool partial = false;

@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kExamples =
     "  ods testcard -o card.png\n"
     "  ods testcard -o card_180.jpg --projection vr180 --width 2880\n"
-    "  ods testcard -o card.png --size quest-1-4096 --merge cosine,60,90\n"
+    "  ods testcard -o card.png --size deovr-4096 --merge cosine,60,90\n"
     "  ods testcard --film -o card_360_TB.mp4 --duration 60 --fps 60";
 
 constexpr const char* kSummary =

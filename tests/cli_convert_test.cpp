@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ods/image/camera_file.h"
 #include "ods/image/image_file.h"
 #include "ods/image/png_chunks.h"
 #include "ods/image/save.h"
@@ -56,6 +57,27 @@ TEST_F(CliConvert, WhatIsNotGivenStays) {
   EXPECT_EQ(made.rig.top.mode, ods::kMergeCosine);
   EXPECT_EQ(made.size.width, 6 * 20);
   EXPECT_NE(err.find("cube-6x1 120x20"), std::string::npos) << err;
+}
+
+TEST_F(CliConvert, Vr180LiesSideBySideUnlessTold) {
+  const std::string room = make("room.exr", "--layout bottom-top");
+  ASSERT_EQ(convert(room, "half.exr", "--to vr180"), 0) << err;
+  EXPECT_EQ(open("half.exr").layout, ods::Layout::kSideBySide);
+  ASSERT_EQ(convert(folder.path("half.exr"), "whole.exr", "--to lat-long --width 32"), 0) << err;
+  EXPECT_EQ(open("whole.exr").layout, ods::Layout::kTopBottom);
+  ASSERT_EQ(convert(room, "told.exr", "--to vr180 --layout bottom-top"), 0) << err;
+  EXPECT_EQ(open("told.exr").layout, ods::Layout::kBottomTop);
+  ASSERT_EQ(run("camera --projection vr180 --width 64"), 0) << err;
+  const std::string sidecar = folder.path("a.camera.json");
+  ASSERT_EQ(run("camera --for json --projection vr180 --width 64 -o " + sidecar), 0) << err;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kSideBySide);
+  ASSERT_EQ(run("camera --for json --from " + sidecar + " --yaw 20 -o " + sidecar), 0) << err;
+  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kSideBySide);
+  ASSERT_EQ(run("camera --for json --projection vr180 --layout top-bottom --width 64 -o " + sidecar), 0) << err;
+  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kTopBottom);
+  folder.write("a.camera.json", R"({"omnistereo_camera": 1, "projection": {"name": "vr180"}})");
+  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kSideBySide);
 }
 
 TEST_F(CliConvert, OptionsAreJudgedByThePicture) {

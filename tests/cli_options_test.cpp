@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the command answers to options that are wrong, and to those that every command has.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "ods/image/camera_fields.h"
+#include "ods/image/camera_file.h"
 #include "tests/cli_runner.h"
 
 namespace {
@@ -114,6 +117,54 @@ TEST_F(Cli, ANameThatMisleadsIsSaidOnce) {
     const size_t at = err.find("its name ends in _LR, but it is top-bottom: readers will go by the name");
     EXPECT_NE(at, std::string::npos) << err;
     EXPECT_EQ(err.find("readers will go by the name", at + 60), std::string::npos) << err;
+  }
+}
+
+// The command line takes every camera that files take, and says it into them as it was given.
+TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
+  const std::string sidecar = folder.path("a.camera.json");
+  for (const bool most : {false, true}) {
+    for (const std::string projection : {"lat-long", "fisheye", "perspective"}) {
+      ods::CameraRig rig;
+      rig.projection = ods::find_projection(projection)->setting;
+      rig.top.mode = rig.bottom.mode = ods::kMergeCosine, rig.convergence = ods::kToeIn;
+      std::string words;
+      for (const ods::CameraField field : ods::kCameraFields) {
+        const ods::FieldRange range = range_of(field);
+        const bool derived = field == ods::CameraField::kAspect || field == ods::CameraField::kLongitude ||
+                             field == ods::CameraField::kLatitude || field == ods::CameraField::kMergeStart ||
+                             field == ods::CameraField::kMergeEnd || field == ods::CameraField::kFov;
+        for (float* number : numbers_of(rig, field)) *number = derived ? *number : most ? range.most : range.least;
+      }
+      const bool lens = projection != "lat-long";
+      if (lens) rig.projection.fov = projection == "fisheye" ? (most ? 360.0f : 1.0f) : most ? 170.0f : 0.001f;
+      if (!lens) rig.projection.pan = rig.projection.tilt = 0.0f;
+      if (!lens) rig.projection.longitude = most ? ods::vec2(35640, 36000) : ods::vec2(-36000, -35999);
+      words = fmt::format("--position {0},{0},{0} --yaw {1} --pitch {1} --roll {1} --ipd {2} --neck {3}",
+                          rig.position.x, rig.yaw, rig.ipd, rig.neck);
+      words += fmt::format(" --merge cosine,60,90,{} --convergence toe-in,{} --lens {},{}", rig.top.exponent,
+                           rig.convergence_distance, rig.lens_radius, rig.focus_distance);
+      words += lens ? fmt::format(" --fov {} --look {},{}", rig.projection.fov, rig.projection.pan, rig.projection.tilt)
+                    : fmt::format(" --range {},{}", rig.projection.longitude.x, rig.projection.longitude.y);
+      ASSERT_EQ(run("camera --for json --width 64 --projection " + projection + " " + words + " -o " + sidecar), 0)
+          << words << "\n"
+          << err;
+      std::vector<std::string> warnings;
+      const ods::CameraFile back = ods::load_camera(sidecar, warnings);
+      rig.projection.aspect = back.rig.projection.aspect;
+      EXPECT_EQ(back.rig, rig) << words;
+      ASSERT_EQ(run("camera --for json --from " + sidecar + " -o " + sidecar), 0) << err;
+    }
+  }
+}
+
+TEST_F(Cli, CamerasBeyondTheirRangesAreUsageErrors) {
+  for (const char* words :
+       {"--yaw 36001", "--ipd 10001", "--neck 1001", "--merge cosine,60,90,1e-7", "--lens 10.1,1",
+        "--convergence toe-in,0.0009", "--range 36000,36010", "--projection perspective --fov 0.0009",
+        "--projection fisheye --look 0,36001", "--position 1000001,0,0", "--like arnold:eye_to_neck=1001"}) {
+    EXPECT_EQ(run(std::string("camera --width 64 ") + words), 2) << words;
+    expect_one_error();
   }
 }
 

@@ -43,6 +43,16 @@ TEST_F(CliStitch, ARigBecomesAPicture) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr.stitching")));
 }
 
+TEST_F(CliStitch, Vr180LiesSideBySide) {
+  ASSERT_EQ(plan("--slits 12 --width 64 --projection vr180"), 0) << err;
+  EXPECT_NE(folder.read("rig.json").find("\"side-by-side\""), std::string::npos);
+  ASSERT_EQ(render(), 0) << err;
+  ASSERT_EQ(stitch("picture.exr"), 0) << err;
+  EXPECT_EQ(ods::open_picture(folder.path("picture.exr")).layout, ods::Layout::kSideBySide);
+  ASSERT_EQ(stitch("told.exr", "--layout top-bottom"), 0) << err;
+  EXPECT_EQ(ods::open_picture(folder.path("told.exr")).layout, ods::Layout::kTopBottom);
+}
+
 TEST_F(CliStitch, ScriptsStandBesideTheRig) {
   ASSERT_EQ(plan("--slits 12 --width 64 --depth plane --for povray,csv"), 0) << err;
   const std::string base = folder.path("rig");

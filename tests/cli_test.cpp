@@ -123,7 +123,8 @@ TEST_F(Cli, ANamedSizeSetsWidthAndLayout) {
   EXPECT_EQ(run("render furnace -q --size tb-quick-test-512" + small + " -o " + folder.path("a.exr")), 0) << err;
   EXPECT_EQ(run("render furnace -q --width 512" + small + " -o " + folder.path("b.exr")), 0) << err;
   EXPECT_EQ(folder.read("a.exr"), folder.read("b.exr"));
-  EXPECT_EQ(run("render furnace -q --width 16 --size lr-low-7200 --samples 1 -o " + folder.path("c.exr")), 0) << err;
+  EXPECT_EQ(run("render furnace -q --width 16 --size lr-minimum-7200 --samples 1 -o " + folder.path("c.exr")), 0)
+      << err;
   EXPECT_EQ(run("compare " + folder.path("c.exr") + " " + folder.path("c.exr")), 0) << err;
   EXPECT_NE(out.find("side-by-side, the file says so"), std::string::npos) << out;
 }
@@ -433,7 +434,11 @@ TEST_F(Cli, LintTellsByItsExitCode) {
   const std::string picture = folder.path("axis.png");
   ASSERT_EQ(run("render axis --width 512 --samples 4 --filter box -o " + picture), 0) << err;
   EXPECT_EQ(run("lint " + picture), 0) << out << err;
-  EXPECT_TRUE(out.ends_with("no fault found\n")) << out;
+  EXPECT_TRUE(out.ends_with("no fault found in what was judged\n")) << out;
+  EXPECT_NE(out.find("\njudged: the layout of the eyes, "), std::string::npos) << out;
+  EXPECT_NE(out.find("\nnot judged: height, roll, colour and sharpness between the eyes ("), std::string::npos) << out;
+  EXPECT_EQ(run("lint --json " + picture), 0) << err;
+  EXPECT_NE(out.find(R"("check": "height, roll, colour and sharpness between the eyes")"), std::string::npos) << out;
   const std::string swapped = "lint --layout bottom-top " + picture;
   EXPECT_EQ(run(swapped), 1) << out;
   EXPECT_NE(out.find("fault eyes-swapped: "), std::string::npos) << out;

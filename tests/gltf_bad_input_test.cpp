@@ -96,6 +96,15 @@ TEST(GltfBadInput, NotGltf) {
   }
 }
 
+// Neither absent nor too large: the system says why.
+TEST(GltfBadInput, FilesThatCannotBeReached) {
+  GltfBuilder file = make_triangle();
+  file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", std::string(300, 'a')}}};
+  const std::string error = error_of_text(file.json.dump());
+  EXPECT_NE(error.find("File name too long"), std::string::npos) << error;
+  EXPECT_EQ(error.find("no such file"), std::string::npos) << error;
+}
+
 TEST(GltfBadInput, DeepJson) {
   EXPECT_NE(error_of_text(std::string(100000, '[')), "");
   EXPECT_NE(error_of_text(R"({"asset": {"version": "2.0"}, "extras": )" + std::string(100000, '[') +
@@ -146,9 +155,9 @@ INSTANTIATE_TEST_SUITE_P(
         Breakage{"/bufferViews/0/buffer", "7", "buffer 7 does not exist"},
         Breakage{"/buffers", R"([{"byteLength": 1000000000000000000}])", "buffer 0 has"},
         Breakage{"/buffers", R"([{"byteLength": -5}])", "negative value of byteLength"},
-        Breakage{"/buffers", R"([{"byteLength": 8, "uri": "nowhere.bin"}])", "nowhere.bin"},
+        Breakage{"/buffers", R"([{"byteLength": 8, "uri": "nowhere.bin"}])", "refers to nowhere.bin: no such file"},
         Breakage{"/buffers", R"([{"byteLength": 8, "uri": "https://example.org/a.bin"}])", "network"},
-        Breakage{"/buffers", R"([{"byteLength": 8, "uri": "."}])", "refers to ."},
+        Breakage{"/buffers", R"([{"byteLength": 8, "uri": "."}])", "refers to .: it is not a file"},
         Breakage{"/images/0", "{}", "buffer view -1 does not exist"},
         Breakage{"/images/0", R"({"uri": "data:image/png;base64,"})", "image 0 is empty"},
         Breakage{"/images/0/bufferView", "0", "image 0"},
@@ -285,7 +294,8 @@ TEST_F(GltfSparseFile, BuffersAreReadAsFarAsTheyAreUsed) {
   EXPECT_EQ(error_of_file("a.gltf"), "");
   file.json["buffers"][0]["byteLength"] = kHuge;
   folder.write("a.gltf", file.json.dump());
-  EXPECT_NE(error_of_file("a.gltf").find("a.bin"), std::string::npos) << error_of_file("a.gltf");
+  EXPECT_NE(error_of_file("a.gltf").find("refers to a.bin: 8796.1 GB of it are needed"), std::string::npos)
+      << error_of_file("a.gltf");
 }
 
 TEST_F(GltfSparseFile, Pictures) {

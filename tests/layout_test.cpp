@@ -7,10 +7,15 @@
 #include <set>
 
 #include "ods/image/anaglyph.h"
+#include "ods/image/projection.h"
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
 namespace {
+
+bool squeezed(Layout layout) {
+  return layout == Layout::kTopBottomHalf || layout == Layout::kSideBySideHalf;
+}
 
 TEST(Layout, EveryLayoutHasItsOwnName) {
   std::set<std::string_view> names;
@@ -143,6 +148,31 @@ TEST(Anaglyph, TheLeftEyeIsRed) {
   EXPECT_FLOAT_EQ(anaglyph_color(Layout::kAnaglyphHalf, vec3(0, 1, 0), black).x, 0.7152f);
   EXPECT_EQ(anaglyph_color(Layout::kAnaglyphDubois, vec3(0, 1, 0), black), vec3(0.449f, 0.0f, 0.0f));
   EXPECT_EQ(anaglyph_color(Layout::kAnaglyphDubois, black, vec3(0, 1, 0)), vec3(0.0f, 0.761f, 0.0f));
+}
+
+TEST(Layout, OfVr180IsSideBySideAndOfAllElseTopBottom) {
+  for (const NamedProjection& named : named_projections()) {
+    const Layout expected = named.name == "vr180" ? Layout::kSideBySide : Layout::kTopBottom;
+    EXPECT_EQ(default_layout(named.setting), expected) << named.name;
+  }
+  ProjectionSetting part;
+  part.longitude = {-90.0f, 90.0f};
+  EXPECT_EQ(default_layout(part), Layout::kSideBySide);  // by its numbers, whatever it was called
+  part.latitude.x = -89.0f;
+  EXPECT_EQ(default_layout(part), Layout::kTopBottom);
+}
+
+TEST(Layout, OfAConvertedPictureFollowsTheProjectionOnlyWhereTheDefaultDoes) {
+  const ProjectionSetting whole, half = find_projection("vr180")->setting, cube = find_projection("eac")->setting;
+  for (Layout layout : kLayouts) {
+    EXPECT_EQ(layout_of_converted(layout, whole, cube), layout);
+    EXPECT_EQ(layout_of_converted(layout, half, half), layout);
+    const Extent packed = packed_size(layout, {8, 8}, 2);
+    const bool stays =
+        (packed.width == 8 && packed.height == 8 && !squeezed(layout)) || layout == Layout::kRowInterleaved;
+    EXPECT_EQ(layout_of_converted(layout, whole, half), stays ? layout : Layout::kSideBySide) << layout_name(layout);
+    EXPECT_EQ(layout_of_converted(layout, half, whole), stays ? layout : Layout::kTopBottom) << layout_name(layout);
+  }
 }
 
 TEST(Layout, FileNamesOfEyes) {

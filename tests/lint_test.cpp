@@ -322,6 +322,48 @@ TEST(LintFaults, EveryFaultHasNames) {
   EXPECT_EQ(names.size(), std::size(kFaults));
 }
 
+// Every check is made, or the report says why it is not.
+void expect_every_check_once(const LintReport& report) {
+  std::multiset<Check> checks(report.judged.begin(), report.judged.end());
+  for (const NotJudged& each : report.not_judged) {
+    checks.insert(each.check);
+    EXPECT_FALSE(each.reason.empty()) << check_name(each.check);
+  }
+  for (const Check check : kChecks) EXPECT_EQ(checks.count(check), 1u) << check_name(check);
+}
+
+std::set<Check> judged(const LintReport& report) {
+  expect_every_check_once(report);
+  return {report.judged.begin(), report.judged.end()};
+}
+
+// Nobody measures what differs between the eyes but parallax: the report must not say that such a pair is fine.
+TEST_F(Lint, ListsWhatItJudgedAndWhatNot) {
+  std::set<std::string_view> names;
+  for (const Check check : kChecks) names.insert(check_name(check));
+  EXPECT_EQ(names.size(), std::size(kChecks));
+
+  // It is too small to say whether one eye was rendered twice, and its poles are smooth.
+  const std::set<Check> made{Check::kLayout, Check::kEyeOrder, Check::kCircle,    Check::kSeam,
+                             Check::kShape,  Check::kMetadata, Check::kFilmLevels};
+  Pair pair = plain_pair(Studio("room"));
+  EXPECT_EQ(judged(lint(save(pair, "good.png"))), made);
+  for (float& value : pair.right.pixels) value *= 0.5f;
+  std::rotate(pair.right.pixels.begin(), pair.right.pixels.begin() + 4 * 3 * pair.right.width, pair.right.pixels.end());
+  EXPECT_FALSE(judged(lint(save(pair, "dark_and_higher.png"))).contains(Check::kBetweenEyes));
+
+  const std::set<Check> words{Check::kShape, Check::kMetadata, Check::kFilmLevels};
+  EXPECT_EQ(judged(lint(save(Image(64, 32, 3), "small.png"), {Layout::kSeparate, {}})), words);
+  const LintReport mono = lint(save(pair.left, "mono.png"), {Layout::kSeparate, {}});
+  EXPECT_EQ(judged(mono),
+            (std::set<Check>{Check::kLayout, Check::kSeam, Check::kShape, Check::kMetadata, Check::kFilmLevels}));
+  EXPECT_EQ(mono.not_judged[0].reason, "there is only one eye");
+  Image grey(256, 128, 3);
+  std::fill(grey.pixels.begin(), grey.pixels.end(), 0.5f);
+  EXPECT_EQ(judged(lint(save(Pair{grey, grey}, "grey.png"))),
+            (std::set<Check>{Check::kSeam, Check::kShape, Check::kMetadata, Check::kFilmLevels}));
+}
+
 TEST_F(Lint, SaysThatThereIsNothingToSee) {
   Image grey(256, 128, 3);
   std::fill(grey.pixels.begin(), grey.pixels.end(), 0.5f);

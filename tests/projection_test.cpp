@@ -392,5 +392,26 @@ TEST(Cameras, MergeMapsScaleTheCircle) {
   }
 }
 
+// Every kind is one of these, and none is two: what is not known is not silently a cube.
+TEST(Projection, EveryKindIsOfOneFamily) {
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    EXPECT_EQ(int{has_range(kind)} + int{has_lens(kind)} + int{is_cube(kind)}, 1) << kind;
+    EXPECT_EQ(has_image_circle(kind), kind == kFisheye || kind == kFisheyeEquisolid) << kind;
+    EXPECT_EQ(std::count_if(named_projections().begin(), named_projections().end(),
+                            [&](const NamedProjection& named) { return named.setting.kind == kind; }) > 0,
+              true)
+        << kind;
+  }
+  for (const int unknown : {kProjectionCount, -1, 1000}) {
+    EXPECT_FALSE(has_range(unknown) || has_lens(unknown) || is_cube(unknown)) << unknown;
+    ProjectionSetting setting;
+    Projection projection = make_projection(setting);
+    projection.kind = setting.kind = unknown;
+    EXPECT_FALSE(look_of(projection, vec2(0.5f), vec2(0.5f)).seen);
+    EXPECT_FALSE(place_of(projection, vec3(0.0f, 0.0f, -1.0f)).seen);
+    EXPECT_EQ(width_step(setting), 1);
+  }
+}
+
 }  // namespace
 }  // namespace ods

@@ -31,7 +31,7 @@ TEST(Sizes, EveryRowHasItsOwnName) {
 }
 
 // "ODS TB High - 6480 x 6480" is tb-high-6480, in a file of that size.
-TEST(Sizes, TheQuickresTableIsThePages) {
+TEST(Sizes, QuickresRowsAreThePages) {
   int rows = 0;
   for (const NamedSize& size : named_sizes()) {
     if (!size.title.starts_with("ODS ")) continue;
@@ -45,7 +45,17 @@ TEST(Sizes, TheQuickresTableIsThePages) {
     EXPECT_EQ(size.layout, size.name.starts_with("tb-") ? Layout::kTopBottom : Layout::kSideBySide);
     EXPECT_EQ(size.antialias, size.name.find("test") == std::string::npos ? "on, threshold 0.3" : "off");
   }
-  EXPECT_EQ(rows, 19);
+  EXPECT_EQ(rows, 7);
+}
+
+// What people ask for today, and nothing larger than its codec: 8K is 7680x4320 pixels.
+TEST(Sizes, HeadsetsAndSitesOfToday) {
+  for (const char* name : {"quest-3", "quest-3-mono", "quest-3-vr180", "youtube-8k", "youtube-8k-mono"}) {
+    const Extent file = file_size(row(name));
+    EXPECT_LE(int64_t{file.width} * file.height, int64_t{7680} * 4320) << name;
+    EXPECT_NE(smallest_level(Codec::kHevc, file, 30), "") << name;
+  }
+  EXPECT_EQ(row("vision-pro-vr180").layout, Layout::kSideBySide);
 }
 
 TEST(VideoLevel, EveryCodecHasItsOwnName) {
@@ -97,10 +107,10 @@ TEST(VideoLevel, TheLimitIsWhereItsFactsPutIt) {
   EXPECT_EQ(smallest_level(Codec::kH264, {3073, 3072}, 1.0), "6");
 }
 
-TEST(VideoLevel, TheLimitRowHasALevelAndThePagesHeadsetsHaveNone) {
+TEST(VideoLevel, TheLimitRowHasALevelAndLargerOnesHaveNone) {
   for (Codec codec : kCodecs) {
     EXPECT_NE(smallest_level(codec, file_size(row("level-limit-5760")), 30), "");
-    EXPECT_EQ(smallest_level(codec, file_size(row("rift-cv1")), 90), "");
+    EXPECT_EQ(smallest_level(codec, file_size(row("tb-high-6480")), 30), "");
   }
 }
 

@@ -62,11 +62,10 @@ bool JsonReader::is_null(const std::string& key) {
 }
 
 float JsonReader::checked(const Json& json, const std::string& key, float low, float high) const {
-  const double value = json.is_number() ? json.get<double>() : NAN;
-  if (!(value >= static_cast<double>(low) && value <= static_cast<double>(high))) {
-    fail(key, fmt::format("is a number from {:g} to {:g}", low, high));
-  }
-  return static_cast<float>(value);
+  // As a float: 0.001 is less than the float that is nearest to it, which is the limit.
+  const float value = json.is_number() ? static_cast<float>(json.get<double>()) : NAN;
+  if (!(value >= low && value <= high)) fail(key, fmt::format("is a number from {:g} to {:g}", low, high));
+  return value;
 }
 
 void JsonReader::number(const std::string& key, float& value, float low, float high) {

@@ -22,7 +22,8 @@ Error cannot_read(const std::string& path, const std::string& why) {
 size_t file_size(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw cannot_read(path, "no such file");
+  if (status.type() == std::filesystem::file_type::not_found) throw cannot_read(path, "no such file");
+  if (error) throw cannot_read(path, error.message());
   // A folder opens as if it were endless, a pipe waits for ever.
   if (!std::filesystem::is_regular_file(status)) throw cannot_read(path, "it is not a file");
   const uintmax_t size = std::filesystem::file_size(path, error);

@@ -14,6 +14,7 @@
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
 #include "ods/base/read_file.h"
+#include "ods/image/camera_fields.h"
 
 namespace ods {
 namespace {
@@ -68,6 +69,15 @@ Json conventions() {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
+void read_number(JsonReader& in, const char* key, float& value, CameraField field) {
+  in.number(key, value, range_of(field).least, range_of(field).most);
+}
+
+template <class Vector>
+bool read_vector(JsonReader& in, const char* key, Vector& value, CameraField field) {
+  return in.vector(key, value, range_of(field).least, range_of(field).most);
+}
+
 void read_merge(JsonReader& in, PoleMergeSetting& merge) {
   const std::string mode = in.word("mode");
   if (!mode.empty()) {
@@ -75,9 +85,9 @@ void read_merge(JsonReader& in, PoleMergeSetting& merge) {
     if (!known) in.fail("mode", fmt::format("is no merge '{}'", mode));
     merge.mode = *known;
   }
-  in.number("start", merge.start, 0.0f, 90.0f);
-  in.number("end", merge.end, 0.0f, 90.0f);
-  in.number("exponent", merge.exponent, 1e-6f, 100.0f);
+  read_number(in, "start", merge.start, CameraField::kMergeStart);
+  read_number(in, "end", merge.end, CameraField::kMergeEnd);
+  read_number(in, "exponent", merge.exponent, CameraField::kMergeExponent);
   if (merge.start >= merge.end) in.fail("start", "is below its end");
 }
 
@@ -86,12 +96,12 @@ void read_projection(JsonReader& in, ProjectionSetting& setting) {
   const NamedProjection* named = find_projection(name.empty() ? "lat-long" : name);
   if (!named) in.fail("name", fmt::format("is no projection '{}'", name));
   setting = named->setting;
-  in.vector("longitude", setting.longitude, -36000.0f, 36000.0f);
-  in.vector("latitude", setting.latitude, -90.0f, 90.0f);
-  in.number("fov", setting.fov, 0.001f, 360.0f);
-  in.number("aspect", setting.aspect, 0.0f, 10000.0f);
-  in.number("pan", setting.pan, -36000.0f, 36000.0f);
-  in.number("tilt", setting.tilt, -90.0f, 90.0f);
+  read_vector(in, "longitude", setting.longitude, CameraField::kLongitude);
+  read_vector(in, "latitude", setting.latitude, CameraField::kLatitude);
+  read_number(in, "fov", setting.fov, CameraField::kFov);
+  read_number(in, "aspect", setting.aspect, CameraField::kAspect);
+  read_number(in, "pan", setting.pan, CameraField::kPan);
+  read_number(in, "tilt", setting.tilt, CameraField::kTilt);
   const std::string fault = projection_fault(setting);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);
 }
@@ -103,7 +113,7 @@ void read_convergence(JsonReader& in, CameraRig& rig) {
     if (mode == convergence_name(convergence)) rig.convergence = convergence, known = true;
   }
   if (!known) in.fail("mode", fmt::format("is no convergence '{}'", mode));
-  in.number("distance", rig.convergence_distance, 1e-3f, 1e6f);
+  read_number(in, "distance", rig.convergence_distance, CameraField::kConvergenceDistance);
 }
 
 void read_map(JsonReader& in, CameraRig& rig) {
@@ -142,23 +152,23 @@ void read_picture(JsonReader& in, CameraFile& file) {
 }
 
 void read_rig(JsonReader& in, CameraRig& rig) {
-  in.vector("position", rig.position, -1e6f, 1e6f);
-  in.number("yaw", rig.yaw, -36000.0f, 36000.0f);
-  in.number("pitch", rig.pitch, -36000.0f, 36000.0f);
-  in.number("roll", rig.roll, -36000.0f, 36000.0f);
-  in.number("ipd", rig.ipd, 0.0f, 1e4f);
-  in.number("neck", rig.neck, -10.0f, 10.0f);
+  read_vector(in, "position", rig.position, CameraField::kPosition);
+  read_number(in, "yaw", rig.yaw, CameraField::kYaw);
+  read_number(in, "pitch", rig.pitch, CameraField::kPitch);
+  read_number(in, "roll", rig.roll, CameraField::kRoll);
+  read_number(in, "ipd", rig.ipd, CameraField::kIpd);
+  read_number(in, "neck", rig.neck, CameraField::kNeck);
   in.flag("mirrored", rig.mirrored);
   vec3 axis(0.0f);
-  if (!in.is_null("axis") && in.vector("axis", axis, -1e6f, 1e6f)) {
+  if (!in.is_null("axis") && read_vector(in, "axis", axis, CameraField::kAxis)) {
     if (!(length(axis) > 1e-6f)) in.fail("axis", "is a direction");
     rig.axis = axis;
   }
 }
 
 void read_lens(JsonReader& in, CameraRig& rig) {
-  in.number("radius", rig.lens_radius, 0.0f, 10.0f);
-  in.number("focus_distance", rig.focus_distance, 1e-3f, 1e6f);
+  read_number(in, "radius", rig.lens_radius, CameraField::kLensRadius);
+  read_number(in, "focus_distance", rig.focus_distance, CameraField::kFocusDistance);
 }
 
 }  // namespace
@@ -202,8 +212,9 @@ CameraFile read_camera(std::string_view text, const std::string& name, std::vect
   CameraFile file;
   CameraRig& rig = file.rig;
   read_rig(in, rig);
-  in.part("picture", [&](JsonReader& reader) { read_picture(reader, file); });
   in.part("projection", [&](JsonReader& reader) { read_projection(reader, rig.projection); });
+  file.layout = default_layout(rig.projection);
+  in.part("picture", [&](JsonReader& reader) { read_picture(reader, file); });
   in.part("merge_top", [&](JsonReader& reader) { read_merge(reader, rig.top); });
   in.part("merge_bottom", [&](JsonReader& reader) { read_merge(reader, rig.bottom); });
   if (!in.is_null("merge_map")) in.part("merge_map", [&](JsonReader& reader) { read_map(reader, rig); });

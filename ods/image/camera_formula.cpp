@@ -150,13 +150,14 @@ class Writer {
 
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
+    static_assert(kProjectionCount == 9, "a new projection needs its formula here");
     const std::array<glm::dvec3, 3> columns = attitude(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
     if (setting_.kind == kPerspective) {
       const double half = std::tan(radians(setting_.fov) / 2.0);
       return combine(columns, {half * x, half / decimal(setting_.aspect) * y, -1.0});
     }
-    if (!is_fisheye(setting_.kind)) return cube_direction();
+    if (is_cube(setting_.kind)) return cube_direction();
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");

@@ -105,7 +105,7 @@ struct Mapping {
   vec2 home_of(int x, int y) const { return uv_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); }
   // The target has something there, if the source does: only a fisheye has corners.
   bool wants(int x, int y) const {
-    return !is_fisheye(camera.projection.kind) || look_of(camera.projection, home_of(x, y), home_of(x, y)).seen;
+    return !has_image_circle(camera.projection.kind) || look_of(camera.projection, home_of(x, y), home_of(x, y)).seen;
   }
 };
 
@@ -128,7 +128,7 @@ bool is_as_stored(const StoredPicture& picture, const ConvertTarget& target) {
   rig.position = picture.rig.position, rig.lens_radius = picture.rig.lens_radius;
   rig.focus_distance = picture.rig.focus_distance;
   const auto has_eye = [&](int eye) { return picture.eyes[static_cast<size_t>(eye_index(picture, eye))].eye == eye; };
-  return rig == picture.rig && !is_fisheye(rig.projection.kind) && target.eye.width == picture.size.width &&
+  return rig == picture.rig && !has_image_circle(rig.projection.kind) && target.eye.width == picture.size.width &&
          target.eye.height == picture.size.height && std::all_of(target.eyes.begin(), target.eyes.end(), has_eye);
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "ods/base/suggest.h"
+#include "ods/image/camera_fields.h"
 
 namespace ods {
 namespace {
@@ -37,6 +38,10 @@ class Values {
           fmt::format("{}: {} is a number from {:g} to {:g}, not '{}'", dialect_.name, name, low, high, value));
     }
     return number;
+  }
+
+  float number(std::string_view name, CameraField field) const {
+    return number(name, range_of(field).least, range_of(field).most);
   }
 
  private:
@@ -67,19 +72,18 @@ CameraRig plain(float ipd, const PoleMergeSetting& merge = {}) {
   return rig;
 }
 
-constexpr float kLongest = 1000.0f;  // metres
-
 constexpr DialectParameter kGoogle[] = {{"IPD", "0.064", "distance between the eyes"}};
 CameraRig like_google(const Values& values) {
-  return plain(values.number("IPD", 0.0f, kLongest));
+  return plain(values.number("IPD", CameraField::kIpd));
 }
 
 // Their cosine to a power falls from the horizon on. Handedness -1 is a left-handed world, which POV-Ray's is and ours
 // is not: there the same picture.
 CameraRig like_clodo(float ipd, float modulation, float handedness, float angle) {
   if (std::abs(handedness) != 1.0f) throw std::invalid_argument("povray: the handedness is -1 or 1");
-  CameraRig rig =
-      plain(ipd, modulation > 0.0f ? merge_from(kMergeCosine, 0.0f, 90.0f, modulation) : PoleMergeSetting());
+  CameraRig rig = plain(ipd, modulation >= range_of(CameraField::kMergeExponent).least
+                                 ? merge_from(kMergeCosine, 0.0f, 90.0f, modulation)
+                                 : PoleMergeSetting());
   rig.mirrored = handedness > 0.0f;
   rig.yaw = rig.mirrored ? -angle : angle;  // clockwise in the mirror
   return rig;
@@ -90,8 +94,8 @@ constexpr DialectParameter kPovray[] = {{"odsIPD", "0.065", "distance between th
                                         {"odsHandedness", "-1", "-1 as POV-Ray's world, 1 mirrored"},
                                         {"odsAngle", "0", "clockwise, degrees"}};
 CameraRig like_povray(const Values& values) {
-  return like_clodo(values.number("odsIPD", 0.0f, kLongest), values.number("odsVerticalModulation", 0.0f, 100.0f),
-                    values.number("odsHandedness", -1.0f, 1.0f), values.number("odsAngle", -36000.0f, 36000.0f));
+  return like_clodo(values.number("odsIPD", CameraField::kIpd), values.number("odsVerticalModulation", 0.0f, 100.0f),
+                    values.number("odsHandedness", -1.0f, 1.0f), values.number("odsAngle", CameraField::kYaw));
 }
 
 constexpr DialectParameter kPovrayFork[] = {{"ipd", "0.065", "distance between the eyes"},
@@ -99,8 +103,8 @@ constexpr DialectParameter kPovrayFork[] = {{"ipd", "0.065", "distance between t
                                             {"ods_handedness", "-1", "-1 as POV-Ray's world, 1 mirrored"},
                                             {"ods_angle", "0", "clockwise, degrees"}};
 CameraRig like_povray_fork(const Values& values) {
-  return like_clodo(values.number("ipd", 0.0f, kLongest), values.number("ods_modulation", 0.0f, 100.0f),
-                    values.number("ods_handedness", -1.0f, 1.0f), values.number("ods_angle", -36000.0f, 36000.0f));
+  return like_clodo(values.number("ipd", CameraField::kIpd), values.number("ods_modulation", 0.0f, 100.0f),
+                    values.number("ods_handedness", -1.0f, 1.0f), values.number("ods_angle", CameraField::kYaw));
 }
 
 // The angle is measured from the pole: 90 merges from the horizon on.
@@ -116,8 +120,8 @@ CameraRig like_arnold(const Values& values) {
     return values.word(mode, {"none", "cosine"}) == "none" ? PoleMergeSetting()
                                                            : merge_from(kMergeCosine, start, 90.0f);
   };
-  CameraRig rig = plain(values.number("eye_separation", 0.0f, kLongest));
-  rig.neck = values.number("eye_to_neck", -kLongest, kLongest);
+  CameraRig rig = plain(values.number("eye_separation", CameraField::kIpd));
+  rig.neck = values.number("eye_to_neck", CameraField::kNeck);
   rig.top = merge("top_merge_mode", "top_merge_angle");
   rig.bottom = merge("bottom_merge_mode", "bottom_merge_angle");
   return rig;
@@ -135,13 +139,13 @@ constexpr DialectParameter kArnoldProto[] = {{"eyeSeparation", "0.065", "distanc
 CameraRig like_arnold_proto(const Values& values) {
   const auto merge = [&](const std::string& pole, float angle) {
     const std::string mode = values.word(pole + "MergeMode", {"none", "linear", "cos"});
-    const float exponent = values.number(pole + "MergeExp", 0.001f, 100.0f);
+    const float exponent = values.number(pole + "MergeExp", CameraField::kMergeExponent);
     if (mode == "none") return PoleMergeSetting();
     return mode == "linear" ? merge_from(kMergeLinear, angle, 90.0f) : merge_from(kMergeCosine, angle, 90.0f, exponent);
   };
-  CameraRig rig = plain(values.number("eyeSeparation", 0.0f, kLongest));
-  rig.neck = values.number("eyeToNeckDistance", -kLongest, kLongest);
-  rig.top = merge("top", values.number("topMergeAngle", 0.0f, 90.0f));
+  CameraRig rig = plain(values.number("eyeSeparation", CameraField::kIpd));
+  rig.neck = values.number("eyeToNeckDistance", CameraField::kNeck);
+  rig.top = merge("top", values.number("topMergeAngle", CameraField::kMergeStart));
   rig.bottom = merge("bottom", -values.number("bottomMergeAngle", -90.0f, 0.0f));
   return rig;
 }
@@ -153,63 +157,63 @@ constexpr DialectParameter kCycles[] = {{"interocular_distance", "0.065", "dista
                                         {"pole_merge_angle_from", "60", "elevation, degrees"},
                                         {"pole_merge_angle_to", "75", "elevation, degrees"}};
 CameraRig like_cycles(const Values& values) {
-  CameraRig rig = plain(values.number("interocular_distance", 0.0f, kLongest));
+  CameraRig rig = plain(values.number("interocular_distance", CameraField::kIpd));
   const std::string mode = values.word("convergence_mode", {"PARALLEL", "OFFAXIS", "TOE"});
   rig.convergence = mode == "PARALLEL" ? kParallel : kToeIn;  // its two others are one and the same in a panorama
-  rig.convergence_distance = values.number("convergence_distance", 1e-3f, 1e6f);
-  const float from = values.number("pole_merge_angle_from", 0.0f, 90.0f);
-  const float to = values.number("pole_merge_angle_to", 0.0f, 90.0f);
+  rig.convergence_distance = values.number("convergence_distance", CameraField::kConvergenceDistance);
+  const float from = values.number("pole_merge_angle_from", CameraField::kMergeStart);
+  const float to = values.number("pole_merge_angle_to", CameraField::kMergeEnd);
   if (values.word("use_pole_merge", {"0", "1"}) == "1") rig.top = rig.bottom = merge_from(kMergeCosine, from, to);
   return rig;
 }
 
 constexpr DialectParameter kOspray[] = {{"interpupillaryDistance", "0.0635", "distance between the eyes"}};
 CameraRig like_ospray(const Values& values) {
-  return plain(values.number("interpupillaryDistance", 0.0f, kLongest), merge_from(kMergeCosine, 0.0f, 90.0f));
+  return plain(values.number("interpupillaryDistance", CameraField::kIpd), merge_from(kMergeCosine, 0.0f, 90.0f));
 }
 
 constexpr DialectParameter kDomemaster[] = {{"separation", "0.065", "distance between the eyes"},
                                             {"parallax_distance", "3.6", "where both eyes' rays meet, metres"}};
 CameraRig like_domemaster(const Values& values) {
-  CameraRig rig = plain(values.number("separation", 0.0f, kLongest));
+  CameraRig rig = plain(values.number("separation", CameraField::kIpd));
   rig.convergence = kToeIn;
-  rig.convergence_distance = values.number("parallax_distance", 1e-3f, 1e6f);
+  rig.convergence_distance = values.number("parallax_distance", CameraField::kConvergenceDistance);
   return rig;
 }
 
 constexpr DialectParameter kReplica[] = {{"radius", "0.032", "of the viewing circle"}};
 CameraRig like_replica(const Values& values) {
-  return plain(2.0f * values.number("radius", 0.0f, kLongest));
+  return plain(2.0f * values.number("radius", 0.0f, 0.5f * range_of(CameraField::kIpd).most));
 }
 
 constexpr DialectParameter kMandelbulber[] = {{"stereo_eye_distance", "0.1", "of each eye from the middle"}};
 CameraRig like_mandelbulber(const Values& values) {
-  return plain(2.0f * values.number("stereo_eye_distance", 0.0f, kLongest),
+  return plain(2.0f * values.number("stereo_eye_distance", 0.0f, 0.5f * range_of(CameraField::kIpd).most),
                merge_from(kMergePower, 0.0f, 90.0f, 10.0f));
 }
 
 constexpr DialectParameter kIpd[] = {{"ipd", "0.064", "distance between the eyes"}};
 CameraRig like_unmerged(const Values& values) {
-  return plain(values.number("ipd", 0.0f, kLongest));
+  return plain(values.number("ipd", CameraField::kIpd));
 }
 
 CameraRig like_evrydayvr(const Values& values) {
-  return plain(values.number("ipd", 0.0f, kLongest), merge_from(kMergeGaussian, 0.0f, 90.0f));
+  return plain(values.number("ipd", CameraField::kIpd), merge_from(kMergeGaussian, 0.0f, 90.0f));
 }
 
 CameraRig like_tmarrinan(const Values& values) {
-  return plain(values.number("ipd", 0.0f, kLongest), merge_from(kMergeLinear, 75.0f, 90.0f));
+  return plain(values.number("ipd", CameraField::kIpd), merge_from(kMergeLinear, 75.0f, 90.0f));
 }
 
 CameraRig like_open_brush(const Values& values) {
-  return plain(values.number("ipd", 0.0f, kLongest), merge_from(kMergeTiltBrush, 0.0f, 72.0f));
+  return plain(values.number("ipd", CameraField::kIpd), merge_from(kMergeTiltBrush, 0.0f, 72.0f));
 }
 
 constexpr DialectParameter kFading[] = {{"ipd", "0.065", "distance between the eyes"},
                                         {"merge_angle", "90", "from the pole, degrees"}};
 CameraRig like_houdini(const Values& values) {
   const float start = 90.0f - values.number("merge_angle", 0.0f, 90.0f);
-  return plain(values.number("ipd", 0.0f, kLongest), merge_from(kMergeSmoothstep, start, 90.0f));
+  return plain(values.number("ipd", CameraField::kIpd), merge_from(kMergeSmoothstep, start, 90.0f));
 }
 
 struct Entry {

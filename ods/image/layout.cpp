@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "ods/base/text.h"
+#include "ods/image/projection.h"
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -101,6 +102,16 @@ static Form form_of(Layout layout) {
       break;
   }
   return {Arrangement::kAlone};
+}
+
+Layout default_layout(const ProjectionSetting& projection) {
+  return is_vr180(projection) ? Layout::kSideBySide : Layout::kTopBottom;
+}
+
+Layout layout_of_converted(Layout own, const ProjectionSetting& from, const ProjectionSetting& to) {
+  const Arrangement arrangement = form_of(own).arrangement;
+  const bool packed = arrangement == Arrangement::kStacked || arrangement == Arrangement::kBeside;
+  return packed && default_layout(from) != default_layout(to) ? default_layout(to) : own;
 }
 
 bool is_anaglyph(Layout layout) {

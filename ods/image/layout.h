@@ -35,6 +35,16 @@ inline constexpr Layout kLayouts[] = {Layout::kTopBottom, Layout::kBottomTop,   
                                       Layout::kAnaglyph,  Layout::kAnaglyphHalf,  Layout::kAnaglyphDubois};
 std::string_view layout_name(Layout layout);
 
+struct ProjectionSetting;
+
+// How two eyes share a file where nobody says it, which is what players expect: vr180 side by side, all else
+// top-bottom.
+Layout default_layout(const ProjectionSetting& projection);
+
+// The layout of a picture that is made of another one, which has the layout `own`, where nobody says it: the same. But
+// where the new projection has another default than the old one, eyes that lie above or beside each other follow it.
+Layout layout_of_converted(Layout own, const ProjectionSetting& from, const ProjectionSetting& to);
+
 // What others call them, in small letters: over-under, tb, sbs, ...
 struct LayoutAlias {
   std::string_view word;

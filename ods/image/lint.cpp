@@ -81,6 +81,42 @@ std::string_view severity_name(Severity severity) {
   return "information";
 }
 
+std::string_view check_name(Check check) {
+  switch (check) {
+    case Check::kLayout:
+      return "the layout of the eyes";
+    case Check::kTwoEyes:
+      return "whether the eyes see from two places";
+    case Check::kEyeOrder:
+      return "which eye is which";
+    case Check::kCircle:
+      return "a circle of eyes or two cameras";
+    case Check::kTopPole:
+      return "stereo at the top pole";
+    case Check::kBottomPole:
+      return "stereo at the bottom pole";
+    case Check::kSeam:
+      return "the seam";
+    case Check::kShape:
+      return "the shape";
+    case Check::kMetadata:
+      return "metadata";
+    case Check::kFilmLevels:
+      return "film levels";
+    case Check::kBetweenEyes:
+      break;
+  }
+  return "height, roll, colour and sharpness between the eyes";
+}
+
+void judge(LintReport& report, Check check) {
+  report.judged.push_back(check);
+}
+
+void skip(LintReport& report, Check check, const std::string& reason) {
+  report.not_judged.push_back({check, reason});
+}
+
 bool has_finding(const LintReport& report, Severity severity, double certainty) {
   return std::any_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
     return severity_of(finding.fault) <= severity && finding.certainty >= certainty;
@@ -137,7 +173,8 @@ static void describe(const Subject& subject, LintReport& report) {
     not_finite +=
         std::count_if(each.pixels.begin(), each.pixels.end(), [](float value) { return !std::isfinite(value); });
   }
-  if (not_finite > 0) report.not_judged.push_back(fmt::format("{} values that are NaN or infinite", not_finite));
+  if (not_finite > 0) report.notes.push_back(fmt::format("{} values are NaN or infinite", not_finite));
+  if (!subject.info.color_fault.empty()) report.notes.push_back(subject.info.color_fault);
 }
 
 // --- the checks ----------------------------------------------------------------------------------------------------
@@ -152,6 +189,21 @@ static void check_pixels(const Subject& subject, LintReport& report) {
   check_poles(subject, report);
 }
 
+// Checks that were not come to.
+static void skip_the_rest(LintReport& report, const std::string& reason) {
+  const auto is_done = [&](Check check) {
+    return std::find(report.judged.begin(), report.judged.end(), check) != report.judged.end() ||
+           std::any_of(report.not_judged.begin(), report.not_judged.end(),
+                       [&](const NotJudged& each) { return each.check == check; });
+  };
+  for (const Check check : kChecks) {
+    if (!is_done(check)) skip(report, check, reason);
+  }
+  const auto order = [](const NotJudged& a, const NotJudged& b) { return a.check < b.check; };
+  std::sort(report.judged.begin(), report.judged.end());
+  std::stable_sort(report.not_judged.begin(), report.not_judged.end(), order);
+}
+
 LintReport lint(const std::string& path, const LintOptions& options) {
   Subject subject;
   LintReport report;
@@ -162,17 +214,17 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   describe(subject, report);
   const double around = 2.0 * std::numbers::pi * pixels_per_radian(subject.projection(), report.eye.width);
   const bool small = around < kLeastAround || report.eye.height < kLeastHeight;
-  if (small) {
-    report.not_judged.push_back(
-        fmt::format("its pixels: an eye of {}x{} is too small", report.eye.width, report.eye.height));
-  }
+  std::string reason = "there is only one eye";
+  if (report.eye_count > 1) skip(report, Check::kBetweenEyes, "ods lint does not measure them yet");
+  if (small) reason = fmt::format("an eye of {}x{} pixels is too small", report.eye.width, report.eye.height);
   if (small || check_layout(subject, report)) {
     check_metadata(subject, report);
     check_form(subject, report);
     if (!small) check_pixels(subject, report);
   } else {
-    report.not_judged.push_back("everything else: first the layout must be right");
+    reason = "the layout must be right first";
   }
+  skip_the_rest(report, reason);
   std::stable_sort(report.findings.begin(), report.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.certainty > b.certainty; });
   return report;

@@ -54,6 +54,31 @@ struct Finding {
   std::string cure;
 };
 
+// What is judged, or would have to be.
+enum class Check {
+  kLayout,       // how the eyes share the file, and whether they see one place
+  kTwoEyes,      // whether they see it from two places
+  kEyeOrder,     // which eye is which
+  kCircle,       // a circle of eyes, or two cameras, or a mirrored circle
+  kTopPole,      // stereo there
+  kBottomPole,   // likewise
+  kSeam,         // where the right edge meets the left one
+  kShape,        // width over height
+  kMetadata,     // what file, name and sidecar say
+  kFilmLevels,   // of codecs
+  kBetweenEyes,  // height, roll, colour and sharpness: nothing here measures them
+};
+
+inline constexpr Check kChecks[] = {Check::kLayout,   Check::kTwoEyes,    Check::kEyeOrder,   Check::kCircle,
+                                    Check::kTopPole,  Check::kBottomPole, Check::kSeam,       Check::kShape,
+                                    Check::kMetadata, Check::kFilmLevels, Check::kBetweenEyes};
+std::string_view check_name(Check check);  // in words: "which eye is which"
+
+struct NotJudged {
+  Check check = Check::kLayout;
+  std::string reason;  // "not enough detail"
+};
+
 struct LintOptions {
   std::optional<Layout> layout;                 // none: as guess_layout() has it
   std::optional<ProjectionSetting> projection;  // none: what the file, its sidecar or its name say, else lat-long
@@ -66,8 +91,10 @@ struct LintReport {
   std::optional<Layout> layout;  // as it was read; none: one eye
   std::string because;
   std::string projection;
-  std::vector<Finding> findings;        // the surest first; also what is next to certainly not so
-  std::vector<std::string> not_judged;  // what could not be checked, and why
+  std::vector<Finding> findings;  // the surest first; also what is next to certainly not so
+  std::vector<Check> judged;      // every check is here or among those that could not be made
+  std::vector<NotJudged> not_judged;
+  std::vector<std::string> notes;  // what of the file was left aside: NaN, a colour profile
 };
 
 // The findings at least as sure as this and as severe.

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "ods/image/camera_fields.h"
 #include "ods/image/xmp.h"
 
 namespace ods {
@@ -70,16 +71,21 @@ class AttributeReader {
  public:
   explicit AttributeReader(const FileInfo& info) : info_(info) {}
 
-  void numbers(const std::string& name, std::initializer_list<float*> values, float low, float high) {
+  struct Number {
+    float* value;
+    CameraField field;
+  };
+  void numbers(const std::string& name, std::initializer_list<Number> numbers) {
     const auto found = info_.numbers.find(name);
     if (found == info_.numbers.end()) return;
-    bool good = found->second.size() == values.size();
-    for (float value : found->second) good = good && value >= low && value <= high;
-    if (!good) return refuse(name);
-    size_t i = 0;
-    for (float* value : values) *value = found->second[i++];
+    if (found->second.size() != numbers.size()) return refuse(name);
+    const float* from = found->second.data();
+    for (const Number& number : numbers) {
+      if (!range_of(number.field).contains(*from)) return refuse(name);
+      *number.value = *from++;
+    }
   }
-  void number(const std::string& name, float& value, float low, float high) { numbers(name, {&value}, low, high); }
+  void number(const std::string& name, float& value, CameraField field) { numbers(name, {{&value, field}}); }
   bool has(const std::string& name) const { return info_.numbers.contains(name); }
 
   std::optional<std::string> word(const std::string& name) const {
@@ -99,17 +105,15 @@ class AttributeReader {
 
 }  // namespace
 
-constexpr float kTurns = 36000.0f;  // degrees, as in a sidecar
-
 static void read_merge(AttributeReader& in, const std::string& name, PoleMergeSetting& merge,
                        std::vector<std::string>& warnings) {
   const std::optional<std::string> word = in.word(name);
   if (!word) return;
   const std::optional<int> mode = merge_of(*word);
   if (!mode) return in.refuse(name);
-  in.number(name + "Start", merge.start, 0.0f, 90.0f);
-  in.number(name + "End", merge.end, 0.0f, 90.0f);
-  in.number(name + "Exponent", merge.exponent, 1e-6f, 100.0f);
+  in.number(name + "Start", merge.start, CameraField::kMergeStart);
+  in.number(name + "End", merge.end, CameraField::kMergeEnd);
+  in.number(name + "Exponent", merge.exponent, CameraField::kMergeExponent);
   if (merge.start >= merge.end) in.refuse(name + "Start");
   merge.mode = *mode;
   if (merge.mode != kMergeMap) return;
@@ -121,11 +125,13 @@ static void read_projection(AttributeReader& in, const std::string& name, Projec
   const NamedProjection* named = find_projection(name);
   if (!named) return in.refuse("ods:projection");
   setting = named->setting;
-  in.numbers("ods:longitude", {&setting.longitude.x, &setting.longitude.y}, -kTurns, kTurns);
-  in.numbers("ods:latitude", {&setting.latitude.x, &setting.latitude.y}, -90.0f, 90.0f);
-  in.number("ods:fov", setting.fov, 1.0f, 360.0f);
-  in.number("ods:aspect", setting.aspect, 0.0f, 100.0f);
-  in.numbers("ods:look", {&setting.pan, &setting.tilt}, -kTurns, kTurns);
+  in.numbers("ods:longitude",
+             {{&setting.longitude.x, CameraField::kLongitude}, {&setting.longitude.y, CameraField::kLongitude}});
+  in.numbers("ods:latitude",
+             {{&setting.latitude.x, CameraField::kLatitude}, {&setting.latitude.y, CameraField::kLatitude}});
+  in.number("ods:fov", setting.fov, CameraField::kFov);
+  in.number("ods:aspect", setting.aspect, CameraField::kAspect);
+  in.numbers("ods:look", {{&setting.pan, CameraField::kPan}, {&setting.tilt, CameraField::kTilt}});
   if (!projection_fault(setting).empty()) in.refuse("ods:projection");
 }
 
@@ -137,16 +143,17 @@ static void read_extras(AttributeReader& in, CameraRig& rig) {
     }
     if (!known) in.refuse("ods:convergence");
   }
-  in.number("ods:convergenceDistance", rig.convergence_distance, 1e-3f, 1e6f);
-  in.number("ods:neck", rig.neck, -10.0f, 10.0f);
+  in.number("ods:convergenceDistance", rig.convergence_distance, CameraField::kConvergenceDistance);
+  in.number("ods:neck", rig.neck, CameraField::kNeck);
   if (in.has("ods:axis")) {
     vec3 axis(0.0f);
-    in.numbers("ods:axis", {&axis.x, &axis.y, &axis.z}, -1e6f, 1e6f);
+    in.numbers("ods:axis",
+               {{&axis.x, CameraField::kAxis}, {&axis.y, CameraField::kAxis}, {&axis.z, CameraField::kAxis}});
     if (length(axis) > 1e-6f) rig.axis = axis;
     if (!rig.axis) in.refuse("ods:axis");
   }
-  in.numbers("ods:lens", {&rig.lens_radius, &rig.focus_distance}, 0.0f, 1e6f);
-  if (rig.lens_radius > 10.0f || rig.focus_distance < 1e-3f) in.refuse("ods:lens");
+  in.numbers("ods:lens",
+             {{&rig.lens_radius, CameraField::kLensRadius}, {&rig.focus_distance, CameraField::kFocusDistance}});
   rig.mirrored = in.has("ods:mirrored");
 }
 
@@ -156,11 +163,13 @@ std::optional<CameraRig> camera_of(const FileInfo& info, std::vector<std::string
   if (!projection) return std::nullopt;
   CameraRig rig;
   read_projection(in, *projection, rig.projection);
-  in.number("ods:ipd", rig.ipd, 0.0f, 1e4f);
-  in.numbers("ods:position", {&rig.position.x, &rig.position.y, &rig.position.z}, -1e6f, 1e6f);
-  in.number("ods:yaw", rig.yaw, -kTurns, kTurns);
-  in.number("ods:pitch", rig.pitch, -kTurns, kTurns);
-  in.number("ods:roll", rig.roll, -kTurns, kTurns);
+  in.number("ods:ipd", rig.ipd, CameraField::kIpd);
+  in.numbers("ods:position", {{&rig.position.x, CameraField::kPosition},
+                              {&rig.position.y, CameraField::kPosition},
+                              {&rig.position.z, CameraField::kPosition}});
+  in.number("ods:yaw", rig.yaw, CameraField::kYaw);
+  in.number("ods:pitch", rig.pitch, CameraField::kPitch);
+  in.number("ods:roll", rig.roll, CameraField::kRoll);
   read_merge(in, "ods:poleMergeTop", rig.top, warnings);
   read_merge(in, "ods:poleMergeBottom", rig.bottom, warnings);
   read_extras(in, rig);

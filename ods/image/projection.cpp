@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "ods/image/camera_fields.h"
+
 namespace ods {
 
 static ProjectionSetting of_kind(int kind) {
@@ -70,30 +72,54 @@ bool is_full_lat_long(const ProjectionSetting& setting) {
   return setting.kind == kLatLong && same_numbers(setting, of_kind(kLatLong));
 }
 
+bool is_vr180(const ProjectionSetting& setting) {
+  static const ProjectionSetting kVr180 = find_projection("vr180")->setting;
+  return setting.kind == kVr180.kind && same_numbers(setting, kVr180);
+}
+
 constexpr float kLeastRange = 0.01f;  // degrees
 
-std::string projection_fault(const ProjectionSetting& setting) {
-  if (has_range(setting.kind)) {
-    const float limit = setting.kind == kLatLong ? 90.0f : 89.0f;
-    const float turn = setting.longitude.y - setting.longitude.x;
-    if (!(turn > 0.0f && turn <= 360.0f)) return "longitudes run from left to right over at most 360 degrees";
-    if (!(setting.latitude.x >= -limit && setting.latitude.x < setting.latitude.y && setting.latitude.y <= limit)) {
-      return setting.kind == kLatLong ? "latitudes run from bottom to top within -90 and 90 degrees"
-                                      : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
-    }
-    if (turn < kLeastRange || setting.latitude.y - setting.latitude.x < kLeastRange) {
-      return "a part of the sphere is at least 0.01 degrees wide and high";
-    }
+static std::string range_fault(const ProjectionSetting& setting) {
+  const float limit = setting.kind == kLatLong ? range_of(CameraField::kLatitude).most : 89.0f;
+  const FieldRange angles = range_of(CameraField::kLongitude);
+  const float turn = setting.longitude.y - setting.longitude.x;
+  if (!angles.contains(setting.longitude.x) || !angles.contains(setting.longitude.y)) {
+    return "longitudes are within 36000 degrees";
   }
-  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= 360.0f))
-    return "a fisheye sees 1 to 360 degrees";
-  if (setting.kind == kPerspective) {
-    if (!(setting.fov >= 0.001f && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
-    if (!(setting.aspect > 0.0001f && setting.aspect < 10000.0f))
-      return "a window's sides differ by at most 10000 to 1";
+  if (!(turn > 0.0f && turn <= 360.0f)) return "longitudes run from left to right over at most 360 degrees";
+  if (!(setting.latitude.x >= -limit && setting.latitude.x < setting.latitude.y && setting.latitude.y <= limit)) {
+    return setting.kind == kLatLong ? "latitudes run from bottom to top within -90 and 90 degrees"
+                                    : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
+  }
+  if (turn < kLeastRange || setting.latitude.y - setting.latitude.x < kLeastRange) {
+    return "a part of the sphere is at least 0.01 degrees wide and high";
   }
   return {};
 }
+
+static std::string lens_fault(const ProjectionSetting& setting) {
+  const FieldRange fov = range_of(CameraField::kFov);
+  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
+    return "a fisheye sees 1 to 360 degrees";
+  }
+  if (setting.kind == kPerspective) {
+    if (!(setting.fov >= fov.least && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
+    if (!range_of(CameraField::kAspect).contains(setting.aspect)) {
+      return "a window's sides differ by at most 32768 to 1";
+    }
+  }
+  const bool points =
+      range_of(CameraField::kPan).contains(setting.pan) && range_of(CameraField::kTilt).contains(setting.tilt);
+  return points ? "" : "a lens points to within 36000 degrees";
+}
+
+std::string projection_fault(const ProjectionSetting& setting) {
+  if (has_range(setting.kind)) return range_fault(setting);
+  return has_lens(setting.kind) ? lens_fault(setting) : "";
+}
+
+// Kinds are numbers, which GLSL reads too: no compiler sees that a switch leaves one out.
+static_assert(kProjectionCount == 9, "a new projection needs its name, shape and sharpness in this file");
 
 static double tangent(float degrees) {
   return std::tan(glm::radians(static_cast<double>(degrees)));
@@ -122,7 +148,8 @@ int natural_height(const ProjectionSetting& setting, int width) {
     case kCube1x6:
       aspect = 1.0 / 6.0;
       break;
-    default:
+    case kFisheye:
+    case kFisheyeEquisolid:
       break;
   }
   return std::max(1, static_cast<int>(std::lround(width / aspect)));
@@ -142,13 +169,16 @@ double pixels_per_radian(const ProjectionSetting& setting, double width) {
       return width / (2.0 * std::tan(fov / 2.0));
     case kEac:
       return width / 3.0 * (2.0 / static_cast<double>(kPi));
-    default:
-      return width / cube_columns(setting.kind) / 2.0;
+    case kCube3x2:
+    case kCube6x1:
+    case kCube1x6:
+      break;
   }
+  return width / cube_columns(setting.kind) / 2.0;
 }
 
 int width_step(const ProjectionSetting& setting) {
-  return setting.kind >= kCube3x2 ? cube_columns(setting.kind) : 1;
+  return is_cube(setting.kind) ? cube_columns(setting.kind) : 1;
 }
 
 // Columns of Ry(-yaw) * Rx(pitch) * Rz(-roll).

@@ -15,6 +15,7 @@ namespace ods {
 // Degrees throughout. Longitudes grow to the right, latitudes upwards, 0 is ahead.
 struct ProjectionSetting {
   int kind = kLatLong;
+  // Ranges are in camera_fields.h.
   vec2 longitude{-180.0f, 180.0f};  // kLatLong, kCylinder: of the left and right edge, at most 360 apart
   vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; of a cylinder within +-89
   float fov = 180.0f;               // kFisheye...: from edge to edge, at most 360; kPerspective: horizontal, below 180
@@ -40,6 +41,9 @@ std::string_view projection_name(const ProjectionSetting& setting);
 
 // Whether a setting is the whole sphere in lat-long, which players know without being told more.
 bool is_full_lat_long(const ProjectionSetting& setting);
+
+// Whether a setting is vr180: the front half of the sphere in lat-long.
+bool is_vr180(const ProjectionSetting& setting);
 
 // What is wrong with a setting, in words for a message; empty: nothing.
 std::string projection_fault(const ProjectionSetting& setting);

@@ -66,7 +66,7 @@ static float nearness_of(const Reprojection& reprojection, const Place& place) {
   const vec2 from = place.at - 0.5f, base = floor(from), beyond = from - base;
   const int left = static_cast<int>(base.x), top = static_cast<int>(base.y);
   const bool inside = left >= cell.left && left + 1 < cell.right && top >= cell.top && top + 1 < cell.bottom &&
-                      !is_fisheye(source.camera.projection.kind);
+                      !has_image_circle(source.camera.projection.kind);
   float corners[4];
   for (int i = 0; i < 4; i++) {
     const Texel corner{place.eye, left + i % 2, top + i / 2};

@@ -246,7 +246,7 @@ static Reach reach_of(std::span<const TexelFilter> filters) {
 bool Resampler::has_all(std::span<const TexelFilter> filters, const Cell& cell) const {
   const Cell box = reach_of(filters).box;
   if (box.left < cell.left || box.right > cell.right || box.top < cell.top || box.bottom > cell.bottom) return false;
-  if (!is_fisheye(source_.camera.projection.kind)) return true;
+  if (!has_image_circle(source_.camera.projection.kind)) return true;
   return std::all_of(filters.begin(), filters.end(), [&](const TexelFilter& filter) {
     const int left = filter.across.first, right = left + filter.across.count - 1;
     const int top = filter.down.first, bottom = top + filter.down.count - 1;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sizes that people ask for by name: the whole quickres table of the page "Omnidirectional stereo (ODS) with POV-Ray",
-// and what is known of headsets, players and sites. A row says no more than its source does.
+// Sizes that people ask for by name: those of the page "Omnidirectional stereo (ODS) with POV-Ray" that are in use
+// today, and what headsets, players and sites take. A row says no more than its source does.
 #pragma once
 #include <optional>
 #include <span>

@@ -44,7 +44,7 @@ int eye_over_pole(const Source& source, int eye, bool above) {
 
 // A fisheye's edge runs through texels: those whose middle is inside are there to their corners.
 static bool is_seen(const Source& source, const ImagePlace& place) {
-  if (place.seen || !is_fisheye(source.camera.projection.kind) || !inside_picture(place.uv)) return place.seen;
+  if (place.seen || !has_image_circle(source.camera.projection.kind) || !inside_picture(place.uv)) return place.seen;
   const vec2 middle = (floor(place.uv * size_of(source)) + 0.5f) / size_of(source);
   return look_of(source.camera.projection, middle, middle).seen;
 }
@@ -60,7 +60,7 @@ static Cell cell_at(int kind, Extent size, int column, int row) {
 // The edge of a face lies beside that of another; the file may have a third one there.
 static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
   const int kind = source.camera.projection.kind;
-  if (kind < kCube3x2) return;
+  if (!is_cube(kind)) return;
   const int cell = cube_cell_toward(kind, direction), columns = cube_columns(kind);
   const Cell own = cell_at(kind, source.picture->size, cell % columns, cell / columns);
   const auto keep = [](float x, int low, int high) {
@@ -105,7 +105,7 @@ Place place_of_line(const Source& source, int eye, vec3 direction) {
 
 Cell cell_of(const Projection& projection, Extent size, vec2 at) {
   const int kind = projection.kind;
-  if (kind < kCube3x2) return {0, 0, size.width, size.height};
+  if (!is_cube(kind)) return {0, 0, size.width, size.height};
   const int columns = cube_columns(kind), rows = 6 / columns;
   int column = columns - 1, row = rows - 1;
   Cell cell = cell_at(kind, size, column, row);
@@ -120,13 +120,13 @@ static vec2 middle_of(const Source& source, int x, int y) {
 
 bool has_texel(const Source& source, const Cell& cell, int x, int y) {
   if (x < cell.left || x >= cell.right || y < cell.top || y >= cell.bottom) return false;
-  if (!is_fisheye(source.camera.projection.kind)) return true;
+  if (!has_image_circle(source.camera.projection.kind)) return true;
   const vec2 p = 2.0f * middle_of(source, x, y) - 1.0f;
   return dot(p, p) <= 1.0f;
 }
 
 static Texel nearest_of_edge(const Source& source, int eye, const Cell& cell, int x, int y) {
-  if (is_fisheye(source.camera.projection.kind)) {
+  if (has_image_circle(source.camera.projection.kind)) {
     // Inwards until a texel around it has its middle in the circle.
     const vec2 p = 2.0f * middle_of(source, x, y) - 1.0f;
     const float r = length(p), texel = 2.0f / std::min(size_of(source).x, size_of(source).y);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/image/camera_fields.h"
+
 namespace ods {
 
 using glm::dvec3;
@@ -71,7 +73,7 @@ CameraRig moved(const CameraRig& rig, const CameraMove& move, double time) {
   if (move.turns == 0.0) return result;
   const double turns = move.turns * share;
   const double degrees = 360.0 * (turns - std::floor(turns));
-  result.yaw = static_cast<float>(static_cast<double>(rig.yaw) + degrees);
+  result.yaw = angle_in_range(static_cast<double>(rig.yaw) + degrees);
   if (move.pivot) {
     const double a = glm::radians(degrees), c = std::cos(a), s = std::sin(a);
     const dvec3 pivot(*move.pivot), out = dvec3(result.position) - pivot;

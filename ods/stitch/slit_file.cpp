@@ -62,7 +62,7 @@ std::vector<float> view_matrix(const SlitRig& rig, size_t view) {
 
 std::string write_slit_rig(const SlitRig& rig) {
   const SlitOptions& options = rig.options;
-  const CameraFile camera{rig.camera, rig.eye, Layout::kTopBottom, rig.eyes};
+  const CameraFile camera{rig.camera, rig.eye, default_layout(rig.camera.projection), rig.eyes};
   Json json = {{"omnistereo_slits", kSlitFileVersion},
                {"made_by", "ods " ODS_VERSION},
                {"conventions", conventions()},

@@ -239,7 +239,9 @@ static std::string fault_of(const std::string& path, const CameraRig& pose, Exte
                             bool thorough) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
-  if (error || bytes == 0) return fmt::format("'{}' is {}", path, error ? "not there" : "empty");
+  if (error == std::errc::no_such_file_or_directory) return fmt::format("'{}' is not there", path);
+  if (error) return fmt::format("'{}' cannot be read: {}", path, error.message());
+  if (bytes == 0) return fmt::format("'{}' is empty", path);
   if (!thorough) return "";
   try {
     check_size(open_file(path, pose, mark).size, size, path);

@@ -146,7 +146,7 @@ Layout film_layout(const StoredPicture& picture) {
     case Layout::kCrossEyed:
       return Layout::kSideBySide;
     default:
-      return projection_name(picture.rig.projection) == "vr180" ? Layout::kSideBySide : Layout::kTopBottom;
+      return default_layout(picture.rig.projection);
   }
 }
 

@@ -68,7 +68,7 @@ CameraExport to_shader(const CameraFile& file, const FormulaView& view, const Sh
   text = comment_block("//", "The ray of a stereo 360 picture: " + camera_title(file) + ".", result.warnings);
   text += "// x, y: position in the whole picture, 0..1 from its left and top edge. Metres.\n";
   text += fmt::format("// {}\n", convention);
-  if (is_fisheye(file.rig.projection.kind)) text += "// Where the picture is empty the direction is 0.\n";
+  if (has_image_circle(file.rig.projection.kind)) text += "// Where the picture is empty the direction is 0.\n";
   text += eye_hint(file, formula, "//", "eye");
   text += fmt::format("{} pi = 3.141592653589793;\n", shader.number);
   for (const NamedFormula& parameter : formula.parameters) {
@@ -214,7 +214,7 @@ CameraExport to_povray(const CameraFile& file) {
       "// shall look the same. Lengths are metres.\n";
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Render with +W{} +H{}.\n", size.width, size.height);
-  if (is_fisheye(file.rig.projection.kind)) {
+  if (has_image_circle(file.rig.projection.kind)) {
     text += "// Where the picture is empty the direction is 0, which POV-Ray 3.8 paints black with alpha 0.\n";
   }
   text += eye_hint(file, formula, "//", "odsEye");
@@ -288,7 +288,7 @@ CameraExport to_osl(const CameraFile& file) {
   text += steps_text(formula, Language::kOsl, "float ", ";");
   text += fmt::format("  position = point({});\n", print_vector(formula.location, Language::kOsl));
   text += fmt::format("  direction = vector({});\n", print_vector(formula.direction, Language::kOsl));
-  if (is_fisheye(file.rig.projection.kind)) text += "  throughput = color(seen, seen, seen);\n";
+  if (has_image_circle(file.rig.projection.kind)) text += "  throughput = color(seen, seen, seen);\n";
   text += "}\n";
   return result;
 }

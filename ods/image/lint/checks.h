@@ -23,6 +23,10 @@ struct Subject {
   const ProjectionSetting& projection() const { return form.camera.projection; }
 };
 
+// Every check calls one of them, for each Check that is its business.
+void judge(LintReport& report, Check check);
+void skip(LintReport& report, Check check, const std::string& reason);
+
 // What a parallel pair would have to add to its difference of headings at this elevation; 0 where nobody says.
 double convergence_at(const Subject& subject, double phi);
 

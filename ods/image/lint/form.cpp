@@ -14,7 +14,8 @@ namespace ods {
 constexpr double kFilmRate = 30.0;  // pictures a second
 
 static void check_aspect(const Subject& subject, LintReport& report) {
-  if (subject.projection().kind == kPerspective) return;  // any shape is one
+  if (subject.projection().kind == kPerspective) return skip(report, Check::kShape, "a window may have any shape");
+  judge(report, Check::kShape);
   const Layout layout = subject.layout();
   const Extent squeeze = squeeze_of(layout, report.eye_count);
   const int width = report.eye.width * squeeze.width, height = report.eye.height * squeeze.height;
@@ -34,6 +35,7 @@ static void check_aspect(const Subject& subject, LintReport& report) {
 }
 
 static void check_film(LintReport& report) {
+  judge(report, Check::kFilmLevels);
   std::string none;
   for (Codec codec : kCodecs) {
     if (!smallest_level(codec, report.file, kFilmRate).empty()) continue;

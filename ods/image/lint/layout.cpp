@@ -93,6 +93,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
 }  // namespace
 
 static bool check_one_eye(const Subject& subject, LintReport& report) {
+  judge(report, Check::kLayout);
   for (const Cut& cut : other_cuts(subject)) {
     // Scenes that look alike on two sides match too, but parallax with one sign is no chance.
     const double certainty = cut.matches.share() * cut.lopsided * std::min(1.0, cut.matches.tiles / 20.0);
@@ -110,9 +111,10 @@ bool check_layout(const Subject& subject, LintReport& report) {
   const Layout layout = subject.layout();
   const Cut read = try_cut(subject, layout, subject.eyes);
   if (read.matches.tiles < kEnoughTiles) {
-    report.not_judged.push_back("whether these are two eyes of one place: not enough detail");
+    skip(report, Check::kLayout, "not enough detail");
     return true;
   }
+  judge(report, Check::kLayout);
   const double share = read.matches.share();
   const double enough = static_cast<double>(read.matches.tiles) / (read.matches.tiles + 5.0);
   const double alone = enough * std::max(0.0, 1.0 - share / 0.3);

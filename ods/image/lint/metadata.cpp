@@ -72,6 +72,7 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
 }
 
 void check_metadata(const Subject& subject, LintReport& report) {
+  judge(report, Check::kMetadata);
   check_gpano(subject, report);
   check_name(subject, report);
   check_sidecar(subject, report);

@@ -171,6 +171,7 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
   const char* cure = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
   const int detailed = scales.back().tiles;
   if (detailed > 0 && eyes[0].pixels == eyes[1].pixels) {
+    judge(report, Check::kTwoEyes);
     report.findings.push_back({Fault::kOneEyeTwice, 1.0, "every pixel is the same in both eyes", cure});
     return true;
   }
@@ -184,7 +185,15 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
   }
   // In small pictures things that are merely far stand still, too.
   const double width = kPi2 / static_cast<double>(scales.back().pixel);
-  least.certainty *= std::clamp((width - 256.0) / 768.0, 0.0, 1.0);
+  const double large = std::clamp((width - 256.0) / 768.0, 0.0, 1.0);
+  least.certainty *= large;
+  if (detailed == 0) {
+    skip(report, Check::kTwoEyes, "not enough detail");
+  } else if (large < 0.5) {
+    skip(report, Check::kTwoEyes, fmt::format("at {:.0f} pixels around, what is far stands still too", width));
+  } else {
+    judge(report, Check::kTwoEyes);
+  }
   if (least.certainty < 0.1) return false;
   report.findings.push_back(
       {Fault::kOneEyeTwice, least.certainty,
@@ -252,18 +261,23 @@ void check_parallax(const Subject& subject, LintReport& report) {
     around = seen_around(views[0]);
     if (views[0].width < width) break;
   }
-  if (check_twice(subject, scales, report)) return;
+  if (check_twice(subject, scales, report)) {
+    for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "both eyes see the same picture");
+    return;
+  }
   weigh(parallaxes);
   const double upright = explained(parallaxes, [](double) { return 1.0; });
   if (parallaxes.sectors < 1.5) {
-    report.not_judged.push_back("which eye is which: not enough detail with parallax");
+    for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "not enough detail with parallax");
     return;
   }
+  judge(report, Check::kEyeOrder);
   check_swap(subject, parallaxes, upright, report);
   if (around < 0.8) {
-    report.not_judged.push_back("two cameras or a circle: that shows only where the picture goes around");
+    skip(report, Check::kCircle, "the picture does not go all around");
     return;
   }
+  judge(report, Check::kCircle);
   check_waves(parallaxes, upright, report);
 }
 

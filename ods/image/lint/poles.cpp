@@ -56,13 +56,15 @@ void check_poles(const Subject& subject, LintReport& report) {
   }
   for (const bool top : {true, false}) {
     const char* name = top ? "top" : "bottom";
+    const Check check = top ? Check::kTopPole : Check::kBottomPole;
     const Matches& matches = regions[top ? 1 : 0];
     const Band off = measure(subject, matches, top, 60.0, 72.0);
     const Band near = measure(subject, matches, top, 77.0, 88.0);
     if (off.count < 3 || near.count < 3) {
-      report.not_judged.push_back(fmt::format("stereo at the {} pole: not enough detail", name));
+      skip(report, check, "not enough detail");
       continue;
     }
+    judge(report, check);
     const double kept = std::clamp((near.arc / std::max(off.arc, 0.05) - 0.5) / 0.4, 0.0, 1.0);
     const double matters = near.arc / (near.arc + 0.5 * kTolerable);
     const double certainty = kept * matters * near.count / (near.count + 2.0);

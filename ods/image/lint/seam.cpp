@@ -112,9 +112,10 @@ void check_seam(const Subject& subject, LintReport& report) {
   const bool closes = has_range(subject.projection().kind) &&
                       subject.projection().longitude.y - subject.projection().longitude.x > 359.9f;
   if (!closes) {
-    report.not_judged.push_back("the seam at 0/360 degrees: this projection has none");
+    skip(report, Check::kSeam, "this projection has none");
     return;
   }
+  judge(report, Check::kSeam);
   check_break(subject.eyes, report);
   check_doubled(subject.eyes, report);
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Projections: image position <-> direction, each with its exact inverse. To add one: a number, a function each way, a
-// name in ods/image/projection.cpp, and the tests that run every member.
+// name in ods/image/projection.cpp, and the tests that run every member. Where code asks for a kind and no compiler can
+// tell that the new one is missing, a static_assert of kProjectionCount says so.
 //
 // Image positions: u runs 0..1 from left to right, v 0..1 from top to bottom of one eye's picture. Directions are in
 // the camera's frame: x right, y up, z back; theta is the heading, 0 ahead and positive to the right, phi the
@@ -33,9 +34,19 @@ inline bool is_fisheye(int kind) {
   return kind == kFisheye || kind == kFisheyeEquisolid;
 }
 
+// The picture is a circle that touches the edges of its frame; its corners are empty.
+inline bool has_image_circle(int kind) {
+  return is_fisheye(kind);
+}
+
 // Can be pointed, and has an angle of view.
 inline bool has_lens(int kind) {
   return is_fisheye(kind) || kind == kPerspective;
+}
+
+// Six faces, each in a cell of its own.
+inline bool is_cube(int kind) {
+  return kind == kCube3x2 || kind == kCube6x1 || kind == kCube1x6 || kind == kEac;
 }
 
 struct Projection {
@@ -273,7 +284,10 @@ inline Look look_of(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kCylinder) return cylinder_look(projection, uv);
   if (projection.kind == kPerspective) return perspective_look(projection, uv);
   if (is_fisheye(projection.kind)) return fisheye_look(projection, home, uv);
-  return cube_look(projection.kind, home, uv);
+  if (is_cube(projection.kind)) return cube_look(projection.kind, home, uv);
+  Look nothing = lat_long_look(projection, uv);  // no projection
+  nothing.seen = false;
+  return nothing;
 }
 
 // Where a direction (any length but 0) lies in the picture.
@@ -282,10 +296,15 @@ inline ImagePlace place_of(Projection projection, vec3 direction) {
   if (projection.kind == kCylinder) return cylinder_place(projection, direction);
   if (projection.kind == kPerspective) return perspective_place(projection, direction);
   if (is_fisheye(projection.kind)) return fisheye_place(projection, direction);
-  return cube_place(projection.kind, direction);
+  if (is_cube(projection.kind)) return cube_place(projection.kind, direction);
+  ImagePlace nothing = lat_long_place(projection, direction);
+  nothing.seen = false;
+  return nothing;
 }
 
 #ifdef __cplusplus
 static_assert(sizeof(Projection) == 68);
+static_assert(kProjectionCount == 9,
+              "a new projection is named in is_cube() .. above, cube_cell(), look_of(), place_of()");
 }  // namespace ods
 #endif

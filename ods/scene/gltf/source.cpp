@@ -123,9 +123,16 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
     const ConfinedFile opened(path, file.confine);
     return share(read_start(opened.path(), most));
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-    fail(file, fmt::format("refers to {}, which is not there{} or cannot be read", printable(uri),
-                           file.confine.empty() ? "" : ", lies outside of the folder that scenes are confined to,"));
+    if (!file.confine.empty()) {  // says nothing of what is outside of the folder
+      if (error.kind() != ErrorKind::kInput) throw;
+      fail(file, fmt::format("refers to {}, which is not there, lies outside of the folder that scenes are confined "
+                             "to, or cannot be read",
+                             printable(uri)));
+    }
+    std::string_view why = error.what();
+    const std::string known = fmt::format("cannot read '{}': ", path);  // the URI says it in few words
+    if (why.starts_with(known)) why.remove_prefix(known.size());
+    throw Error(error.kind(), fmt::format("{}: refers to {}: {}", file.path, printable(uri), why));
   }
 }
 
