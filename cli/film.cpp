@@ -15,8 +15,6 @@
 #include "cli/render_frames.h"
 #include "cli/stitch_frames.h"
 
-using ods::Layout;
-
 namespace {
 
 constexpr const char* kExamples =
@@ -69,22 +67,6 @@ bool read_options(FilmJob& job, int argc, char** argv) {
   return true;
 }
 
-// What the frames will be like, of eyes of this size.
-ods::FilmPlan expect(const RenderJob& render, const std::vector<int>& eyes, ods::Extent size,
-                     const ods::ProjectionSetting& projection) {
-  const Layout layout = render.save.layout;
-  const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
-  const size_t count = eyes.size();
-  if (count == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
-    throw UsageError(
-        fmt::format("a film's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
-  }
-  const ods::Extent eye = ods::squeezed_eye(layout, size, static_cast<int>(count));
-  const ods::FilmPlan plan = ods::plan_eyes(eye, count, layout, projection);
-  for (const std::string& each : plan.notes) warn(each);
-  return plan;
-}
-
 // Frames of the views of a rig.
 std::vector<int> stitch_views(const FilmJob& job, const ods::SlitRig& rig, FilmJournal& journal,
                               const StepReport& report) {
@@ -107,9 +89,9 @@ void make_film(FilmJob job, ProgressLines& lines) {
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
   if (rig && !render.has_layout) job.render.save.layout = ods::default_layout(rig->camera.projection);
   const ods::FilmPlan expected =
-      rig ? expect(render, rig->eyes, rig->eye, rig->camera.projection)
-          : expect(render, ods::eye_list(render.render.eyes), {render.render.width, render.render.height},
-                   render.camera.rig.projection);
+      rig ? expect_film(render.save.layout, rig->eyes.size(), rig->eye, rig->camera.projection)
+          : expect_film(render.save.layout, ods::eye_list(render.render.eyes).size(),
+                        {render.render.width, render.render.height}, render.camera.rig.projection);
   const ods::EncodeOptions options = encode_options(job.film, expected.size, job.render.render.threads);
   ods::check_packing(expected, options.packing);
   say_what_players_need(job.film, expected, options);

@@ -17,7 +17,7 @@
 #include "ods/base/suggest.h"
 #include "ods/video/players.h"
 
-using ods::Chroma, ods::Container, ods::Extent, ods::FilmCodec;
+using ods::Chroma, ods::Container, ods::Extent, ods::FilmCodec, ods::Layout;
 
 namespace {
 
@@ -203,6 +203,18 @@ ods::EncodeOptions encode_options(const FilmWishes& wishes, Extent size, int thr
   ods::check_encoder(container, options);
   ods::check_writable(wishes.output);
   return options;
+}
+
+ods::FilmPlan expect_film(Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection) {
+  const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
+  if (eyes == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
+    throw UsageError(
+        fmt::format("a film's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
+  }
+  const ods::FilmPlan plan =
+      ods::plan_eyes(ods::squeezed_eye(layout, eye, static_cast<int>(eyes)), eyes, layout, projection);
+  for (const std::string& each : plan.notes) warn(each);
+  return plan;
 }
 
 void say_what_players_need(const FilmWishes& wishes, const ods::FilmPlan& plan, const ods::EncodeOptions& options) {

@@ -38,6 +38,10 @@ ods::Container container_for(const std::string& path);
 // machine cannot. Nothing is written, but that the file could be is found out.
 ods::EncodeOptions encode_options(const FilmWishes& wishes, ods::Extent size, int threads);
 
+// What a film of eyes of this size will be like; warns of what players do not expect. Throws UsageError for a layout
+// that films do not have.
+ods::FilmPlan expect_film(ods::Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection);
+
 // What people should know before a film is made: levels, names; then, of so many frames, its sound.
 void say_what_players_need(const FilmWishes& wishes, const ods::FilmPlan& plan, const ods::EncodeOptions& options);
 void say_length_of_sound(const ods::EncodeOptions& options, size_t frames);
