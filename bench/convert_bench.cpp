@@ -17,8 +17,8 @@
 
 #include "bench/measure.h"
 #include "ods/base/error.h"
-#include "ods/base/scratch.h"
-#include "ods/image/convert.h"
+#include "ods/convert/convert.h"
+#include "ods/files/scratch.h"
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include <sstream>
 
 #include "bench/measure.h"
-#include "ods/image/save.h"
-#include "ods/video/film_over.h"
+#include "ods/compose/film_over.h"
+#include "ods/picture/save.h"
 #include "ods/video/make_film.h"
 
 namespace {

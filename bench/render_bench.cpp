@@ -13,10 +13,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ods/cpu/embree_scene.h"
-#include "ods/cpu/render.h"
-#include "ods/scene/lights.h"
-#include "ods/scene/load.h"
+#include "ods/render/cpu/embree_scene.h"
+#include "ods/render/cpu/render.h"
+#include "ods/render/lights.h"
+#include "ods/scene/load/load.h"
 #include "ods/scene/shutter.h"
 
 namespace {

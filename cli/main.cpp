@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "cli/exit_code.h"
+#include "cli/console/exit_code.h"
 #include "ods/base/suggest.h"
 
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "ods/base/error.h"
-#include "ods/cpu/render.h"
-#include "ods/image/save.h"
-#include "ods/scene/load.h"
+#include "ods/picture/save.h"
+#include "ods/render/cpu/render.h"
+#include "ods/scene/load/load.h"
 
 int main(int argc, char** argv) try {
   ods::Scene scene = ods::load_scene("room");  // or a .glb file

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "ods/base/error.h"
-#include "ods/base/memory_file.h"
-#include "ods/video/matroska_film.h"
-#include "ods/video/mp4_film.h"
+#include "ods/files/memory_file.h"
+#include "ods/video/container/matroska_film.h"
+#include "ods/video/container/mp4_film.h"
 
 static void tag_and_read(const std::string& path, uint64_t track) {
   ods::FilmForm form;

@@ -10,8 +10,8 @@
 #include <cstdlib>
 
 #include "ods/base/error.h"
-#include "ods/base/memory_file.h"
-#include "ods/image/convert.h"
+#include "ods/convert/convert.h"
+#include "ods/files/memory_file.h"
 
 constexpr int kManyPixels = 1 << 16;  // converting more takes too long to try many
 

@@ -8,10 +8,10 @@
 #include <cstdlib>
 
 #include "ods/base/error.h"
-#include "ods/base/memory_file.h"
-#include "ods/image/cardboard.h"
-#include "ods/image/tag_picture.h"
-#include "ods/image/xmp_file.h"
+#include "ods/files/memory_file.h"
+#include "ods/image/format/xmp_file.h"
+#include "ods/picture/metadata/cardboard.h"
+#include "ods/picture/metadata/tag_picture.h"
 
 static void read_photo(const std::string& path) {
   try {

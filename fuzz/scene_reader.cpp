@@ -8,9 +8,9 @@
 #include <cstdlib>
 
 #include "ods/base/error.h"
-#include "ods/scene/gltf.h"
+#include "ods/scene/gltf/gltf.h"
 #include "ods/scene/motion.h"
-#include "tests/scene_check.h"
+#include "tests/support/scene_check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {

@@ -5,10 +5,10 @@
 // that move. The test builds this program with another compiler and compares.
 #include <cstdio>
 
-#include "ods/cpu/render.h"
-#include "ods/scene/load.h"
+#include "ods/render/cpu/render.h"
+#include "ods/scene/load/load.h"
 #include "ods/scene/shutter.h"
-#include "tests/pictures.h"
+#include "tests/support/pictures.h"
 
 int main() {
   ods::RenderOptions options = ods::small_render(64, 8);

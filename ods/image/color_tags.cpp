@@ -11,11 +11,11 @@
 
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
+#include "ods/image/format/jpeg_segments.h"
+#include "ods/image/format/png_chunks.h"
+#include "ods/image/format/tiff_directory.h"
 #include "ods/image/icc_profile.h"
 #include "ods/image/image_file.h"
-#include "ods/image/jpeg_segments.h"
-#include "ods/image/png_chunks.h"
-#include "ods/image/tiff_directory.h"
 #include "ods/image/tone.h"
 
 namespace ods {

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "ods/image/color_space.h"
-#include "ods/image/file_format.h"
+#include "ods/image/format/file_format.h"
 
 namespace ods {
 

@@ -15,14 +15,14 @@
 #include <optional>
 
 #include "ods/base/error.h"
-#include "ods/base/read_file.h"
 #include "ods/base/text.h"
+#include "ods/files/read_file.h"
 #include "ods/image/color_tags.h"
-#include "ods/image/exr_header.h"
 #include "ods/image/exr_rows.h"
-#include "ods/image/jpeg_segments.h"
+#include "ods/image/format/exr_header.h"
+#include "ods/image/format/jpeg_segments.h"
+#include "ods/image/format/png_chunks.h"
 #include "ods/image/openimageio.h"
-#include "ods/image/png_chunks.h"
 #include "ods/image/tone.h"
 
 namespace ods {

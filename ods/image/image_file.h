@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "ods/base/atomic_file.h"
-#include "ods/image/attribute.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/color_space.h"
-#include "ods/image/file_format.h"
-#include "ods/image/file_info.h"
+#include "ods/image/format/attribute.h"
+#include "ods/image/format/file_format.h"
+#include "ods/image/format/file_info.h"
+#include "ods/image/format/image_limits.h"
 #include "ods/image/image.h"
-#include "ods/image/image_limits.h"
 
 namespace ods {
 

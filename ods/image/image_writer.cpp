@@ -15,9 +15,9 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/image/format/png_chunks.h"
 #include "ods/image/image_file.h"
 #include "ods/image/openimageio.h"
-#include "ods/image/png_chunks.h"
 
 namespace ods {
 

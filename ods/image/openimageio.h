@@ -5,8 +5,8 @@
 #pragma once
 #include <string>
 
-#include "ods/image/file_format.h"
-#include "ods/image/sample.h"
+#include "ods/image/format/file_format.h"
+#include "ods/image/format/sample.h"
 
 namespace ods {
 

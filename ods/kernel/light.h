@@ -3,7 +3,7 @@
 //
 // Picking a light and a point on it, and the pdf (probability density) with which that would have found the light that
 // a given ray meets.
-// Lights are picked by power from Walker's alias table, which the host makes (ods/scene/lights.h).
+// Lights are picked by power from Walker's alias table, which the host makes (ods/render/lights.h).
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/bsdf.h"

@@ -9,7 +9,7 @@
 namespace ods {
 #endif
 
-// Tables that the host computes once (ods/scene/tables.h), all in one array of floats.
+// Tables that the host computes once (ods/render/tables.h), all in one array of floats.
 const int kSrgbTable = 0;  // 256 entries: an 8-bit sRGB value -> linear
 const int kSrgbSize = 256;
 const int kFilterTable = kSrgbTable + kSrgbSize;  // inverse distribution of the pixel filter, 0..1 -> pixels

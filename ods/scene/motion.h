@@ -20,9 +20,10 @@ struct SceneChange {
 
 // Writes what the playing clips of scene.animation move, as it is at a time; what they do not move, and with no clip
 // playing everything, is at rest. The
-// result depends on the time alone, not on what was set before. All that ods/scene/gltf.h promises of a scene holds at
-// every time, but for triangles of a mesh that is bent: those may have no area for a while, and no ray meets them.
-// Instances that are scaled to nothing, or would stand more than 1e9 m from the origin, are hidden (Scene::hidden).
+// result depends on the time alone, not on what was set before. All that ods/scene/gltf/gltf.h promises of a scene
+// holds at every time, but for triangles of a mesh that is bent: those may have no area for a while, and no ray meets
+// them. Instances that are scaled to nothing, or would stand more than 1e9 m from the origin, are hidden
+// (Scene::hidden).
 SceneChange set_time(Scene& scene, double seconds);
 
 }  // namespace ods

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "ods/image/camera_rig.h"
+#include "ods/camera/camera_rig.h"
 #include "ods/kernel/scene_data.h"
-#include "ods/scene/animation.h"
+#include "ods/scene/animation/animation.h"
 
 namespace ods {
 

@@ -12,8 +12,8 @@
 
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
-#include "ods/base/md5.h"
 #include "ods/base/text.h"
+#include "ods/files/md5.h"
 #include "ods/stitch/slit_file.h"
 
 namespace ods {

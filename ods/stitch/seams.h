@@ -3,8 +3,8 @@
 //
 // Whether the borders of slits show in a stitched picture.
 #pragma once
-#include "ods/image/picture.h"
-#include "ods/image/save.h"
+#include "ods/picture/picture.h"
+#include "ods/picture/save.h"
 #include "ods/stitch/slit_rig.h"
 
 namespace ods {

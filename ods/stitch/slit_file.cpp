@@ -9,13 +9,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "ods/base/atomic_file.h"
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
-#include "ods/base/read_file.h"
-#include "ods/image/camera_file.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
+#include "ods/picture/metadata/camera_file.h"
 
 namespace ods {
 

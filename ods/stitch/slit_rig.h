@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ods/image/camera_rig.h"
-#include "ods/image/layout.h"
+#include "ods/camera/camera_rig.h"
+#include "ods/camera/layout.h"
 
 namespace ods {
 

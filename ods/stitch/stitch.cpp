@@ -18,7 +18,7 @@
 
 #include "ods/base/checksum.h"
 #include "ods/base/error.h"
-#include "ods/base/scratch.h"
+#include "ods/files/scratch.h"
 #include "ods/stitch/view.h"
 
 namespace ods {

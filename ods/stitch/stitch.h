@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The views of a rig of slits become its picture. Every pixel looks along its own ray, into the views that stand
-// nearest to where that ray starts, and averages what it covers there (ods/image/resample.h). Where two slits or
+// nearest to where that ray starts, and averages what it covers there (ods/convert/resample.h). Where two slits or
 // pitches meet, one fades into the other, over a part of a slit that the rig states: their edges stand apart by
 // slit_error()'s step, no more.
 //
-// Views with depth are seen through as by ods/image/reproject.h: what the ray meets is looked for on the views'
+// Views with depth are seen through as by ods/convert/reproject.h: what the ray meets is looked for on the views'
 // surfaces, and so stands where it belongs, at any width of slits. Where one thing hides another for both views
 // that might show it, what is far behind stands in.
 //
@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "ods/image/save.h"
-#include "ods/image/stored_picture.h"
+#include "ods/picture/save.h"
+#include "ods/picture/stored_picture.h"
 #include "ods/stitch/slit_rig.h"
 
 namespace ods {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/image/convert.h"
+#include "ods/convert/convert.h"
 
 namespace ods {
 

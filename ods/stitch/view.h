@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "ods/image/reproject.h"
-#include "ods/image/resample.h"
-#include "ods/image/save.h"
+#include "ods/convert/reproject.h"
+#include "ods/convert/resample.h"
+#include "ods/picture/save.h"
 #include "ods/stitch/slit_rows.h"
 
 namespace ods {

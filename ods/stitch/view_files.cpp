@@ -14,13 +14,13 @@
 #include <optional>
 #include <set>
 
-#include "ods/base/atomic_file.h"
 #include "ods/base/error.h"
-#include "ods/base/frames.h"
-#include "ods/base/md5.h"
-#include "ods/base/read_file.h"
-#include "ods/base/scratch.h"
-#include "ods/image/reproject.h"
+#include "ods/convert/reproject.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/frames.h"
+#include "ods/files/md5.h"
+#include "ods/files/read_file.h"
+#include "ods/files/scratch.h"
 #include "ods/stitch/rig_mark.h"
 #include "ods/stitch/slit_file.h"
 

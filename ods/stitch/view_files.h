@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// Names with a place for the view's number (ods/base/frames.h), from 1, in the rig's order: views/####.exr. With %V,
+// Names with a place for the view's number (ods/files/frames.h), from 1, in the rig's order: views/####.exr. With %V,
 // for the eye's name, every eye's views count from 1: %V/####.exr.
 //
 // A sheet has views of one size beside and above each other, without gaps: contact sheets row by row, strips, of which

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include "ods/base/read_file.h"
+#include "ods/files/read_file.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>

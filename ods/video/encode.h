@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/base/atomic_file.h"
+#include "ods/files/atomic_file.h"
 #include "ods/video/film_codec.h"
 #include "ods/video/film_frame.h"
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ods/image/video_level.h"
-#include "ods/video/film.h"
+#include "ods/camera/video_level.h"
+#include "ods/video/container/film.h"
 #include "ods/video/ycbcr.h"
 
 namespace ods {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "ods/image/stored_picture.h"
 #include "ods/image/tone.h"
+#include "ods/picture/stored_picture.h"
 #include "ods/video/film_codec.h"
 
 namespace ods {

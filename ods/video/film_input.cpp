@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "ods/base/error.h"
-#include "ods/base/scratch.h"
-#include "ods/video/film_form.h"
+#include "ods/files/scratch.h"
+#include "ods/video/container/film_form.h"
 
 namespace ods {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "ods/image/stored_picture.h"
+#include "ods/picture/stored_picture.h"
+#include "ods/video/container/film.h"
 #include "ods/video/decode.h"
-#include "ods/video/film.h"
 
 namespace ods {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/base/frames.h"
+#include "ods/files/frames.h"
 #include "ods/video/film_input.h"
 
 namespace ods {

@@ -14,8 +14,8 @@
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/pipeline.h"
-#include "ods/base/read_file.h"
-#include "ods/video/film_form.h"
+#include "ods/files/read_file.h"
+#include "ods/video/container/film_form.h"
 
 namespace ods {
 

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "ods/base/frames.h"
 #include "ods/base/progress.h"
+#include "ods/files/frames.h"
 #include "ods/video/encode.h"
 
 namespace ods {
 
 // Frames of a film as files.
 struct FrameFiles {
-  std::string pattern;  // shot.####.exr (ods/base/frames.h); %V or %v in it: a file for each eye
+  std::string pattern;  // shot.####.exr (ods/files/frames.h); %V or %v in it: a file for each eye
   std::vector<int> frames;
   std::string path(size_t index) const;  // of a frame; with %V as the pattern has it
 };

@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-#include "ods/image/layout.h"
+#include "ods/camera/layout.h"
 
 namespace ods {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Projections: image position <-> direction, each with its exact inverse. To add one: a number, a function each way, a
-// name in ods/image/projection.cpp, and the tests that run every member. Where code asks for a kind and no compiler can
-// tell that the new one is missing, a static_assert of kProjectionCount says so.
+// name in ods/camera/projection.cpp, and the tests that run every member. Where code asks for a kind and no compiler
+// can tell that the new one is missing, a static_assert of kProjectionCount says so.
 //
 // Image positions: u runs 0..1 from left to right, v 0..1 from top to bottom of one eye's picture. Directions are in
 // the camera's frame: x right, y up, z back; theta is the heading, 0 ahead and positive to the right, phi the

@@ -3,8 +3,8 @@
 //
 // The scenes with answers in closed form.
 #include "ods/kernel/camera/camera.h"
-#include "ods/scene/builtin.h"
 #include "ods/scene/builtin/builder.h"
+#include "ods/scene/builtin/builtin.h"
 #include "ods/scene/builtin/makers.h"
 
 namespace ods {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the parts of the glTF reader share; only ods/scene/gltf.cpp and its folder include this.
+// What the parts of the glTF reader share; only ods/scene/gltf/gltf.cpp and its folder include this.
 //   json      the text -> JsonValues; values reads their members
 //   source    bytes of the file, its buffers and pictures -> GltfFile
 //   accessor  numbers out of buffers

@@ -10,10 +10,10 @@
 #include <set>
 
 #include "ods/base/base64.h"
-#include "ods/base/confined_file.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
-#include "ods/base/read_file.h"
+#include "ods/files/confined_file.h"
+#include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
 #include "ods/scene/gltf/parts.h"
 

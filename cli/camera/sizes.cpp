@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods sizes: the sizes that have names, for people or as JSON.
+#include "ods/camera/sizes.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/console/console.h"
+#include "cli/options/form_options.h"
+#include "ods/camera/video_level.h"
+
+using ods::NamedSize;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods sizes\n"
+    "  ods sizes tb-high-6480                     everything about one\n"
+    "  ods render room -o room.png --size tb-minimum-3600";
+
+constexpr int kStillFps = 30;  // what levels of sizes are told for whose sources name no rate
+
+std::string_view layout_word(const NamedSize& size) {
+  return size.layout ? ods::layout_name(*size.layout) : "one eye";
+}
+
+std::string pixels(ods::Extent extent) {
+  return fmt::format("{}x{}", extent.width, extent.height);
+}
+
+std::string level(const NamedSize& size, ods::Codec codec) {
+  const std::string_view name = ods::smallest_level(codec, ods::file_size(size), size.fps ? size.fps : kStillFps);
+  return std::string(name.empty() ? "none" : name);
+}
+
+// The host of an address.
+std::string_view short_source(const NamedSize& size) {
+  return size.source.substr(0, size.source.find_first_of("/ :"));
+}
+
+void print_table(std::span<const NamedSize> sizes) {
+  constexpr const char* kRow = "{:<19} {:<11} {:<12} {:<11} {:>3} {:>5} {:>4} {:>4} {:>4} {:<4} {}\n";
+  fmt::print(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source");
+  for (const NamedSize& size : sizes) {
+    const bool threshold = size.antialias.starts_with("on, threshold ");
+    fmt::print(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
+               size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
+               level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
+               threshold ? size.antialias.substr(14) : size.antialias, short_source(size));
+  }
+  fmt::print(
+      "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a film, at {} pictures a second where fps\n"
+      "is empty; with none, players may refuse it. AA: antialiasing the source asks for, off or POV-Ray's threshold.\n",
+      kStillFps);
+}
+
+void print_one(const NamedSize& size) {
+  auto row = [](std::string_view name, std::string_view value) { fmt::print("{:<14} {}\n", name, value); };
+  row("name", size.name);
+  row("called", size.title);
+  row("one eye", pixels(size.eye));
+  row("layout", layout_word(size));
+  row("file", pixels(file_size(size)));
+  if (size.fps) row("fps", fmt::format("{}", size.fps));
+  for (ods::Codec codec : ods::kCodecs) {
+    row(ods::codec_name(codec), fmt::format("level {} at {} fps", level(size, codec), size.fps ? size.fps : kStillFps));
+  }
+  if (!size.antialias.empty()) row("antialiasing", size.antialias);
+  row("source", size.source);
+}
+
+nlohmann::ordered_json to_json(const NamedSize& size) {
+  const ods::Extent file = file_size(size);
+  nlohmann::ordered_json json = {{"name", size.name},
+                                 {"title", size.title},
+                                 {"eye", {size.eye.width, size.eye.height}},
+                                 {"layout", layout_word(size)},
+                                 {"file", {file.width, file.height}},
+                                 {"fps", nullptr},
+                                 {"levels_at_fps", size.fps ? size.fps : kStillFps},
+                                 {"levels", nlohmann::ordered_json::object()},
+                                 {"antialias", nullptr},
+                                 {"source", size.source}};
+  if (size.fps) json["fps"] = size.fps;
+  if (!size.antialias.empty()) json["antialias"] = size.antialias;
+  for (ods::Codec codec : ods::kCodecs) json["levels"][std::string(ods::codec_name(codec))] = level(size, codec);
+  return json;
+}
+
+void print_json(std::span<const NamedSize> sizes) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const NamedSize& size : sizes) json.push_back(to_json(size));
+  std::puts(json.dump(2).c_str());
+}
+
+void sizes(int argc, char** argv) {
+  std::string name;
+  bool json = false;
+  Options options("sizes", "Lists the named sizes and the video levels that they fit in.", kExamples);
+  options.optional_argument("NAME", name, "show one size in detail");
+  options.group("Console");
+  options.flag("--json", json, "print JSON");
+  add_console_options(options);
+  if (!options.parse(argc, argv)) return;
+  const std::span<const NamedSize> chosen = name.empty() ? ods::named_sizes() : std::span(&size_by_name(name), 1);
+  if (json) return print_json(chosen);
+  name.empty() ? print_table(chosen) : print_one(chosen.front());
+}
+
+}  // namespace
+
+extern "C" int ods_sizes(int argc, char** argv) {
+  return run_command([=] { sizes(argc, argv); });
+}

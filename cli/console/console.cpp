@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/console/console.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <system_error>
+
+#include "cli/console/exit_code.h"
+#include "ods/base/error.h"
+#include "ods/base/text.h"
+#include "ods/files/atomic_file.h"
+
+Console console;
+
+bool stderr_is_terminal() {
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) && term && std::string_view(term) != "dumb";
+}
+
+namespace {
+
+void print_json(const nlohmann::ordered_json& line) {
+  // A file's name may be no UTF-8.
+  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+int fail(ExitCode code, const std::string& text) {
+  if (console.json) {
+    print_json({{"error", text}, {"exit_code", static_cast<int>(code)}});
+    return code;
+  }
+  const char* no_color = std::getenv("NO_COLOR");
+  bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
+  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", ods::one_line(text).c_str());
+  return code;
+}
+
+// Without allocating.
+int fail_without_memory() {
+  const std::string_view plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
+  const std::string_view json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\"}\n";
+  const std::string_view line = console.json ? json : plain;
+  const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
+  static_cast<void>(ignored);
+  return kExitFailure;
+}
+
+// Some functions of libraries promise not to throw and allocate all the same, destructors of theirs among them. When
+// memory runs out there, the process ends here.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    ods::remove_unfinished_files();
+    _exit(fail_without_memory());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ods: terminated: %s\n", error.what());
+  } catch (...) {
+  }
+  std::abort();
+}
+
+ExitCode exit_code(ods::ErrorKind kind) {
+  switch (kind) {
+    case ods::ErrorKind::kUsage:
+      return kExitUsage;
+    case ods::ErrorKind::kInput:
+      return kExitInput;
+    case ods::ErrorKind::kOutput:
+      return kExitOutput;
+    case ods::ErrorKind::kMemory:
+    case ods::ErrorKind::kCancelled:  // by nobody: interrupts end the process themselves
+      return kExitFailure;
+  }
+  return kExitFailure;
+}
+
+}  // namespace
+
+void note(const std::string& text) {
+  if (console.quiet) return;
+  if (console.json) return print_json({{"note", text}});
+  std::fprintf(stderr, "ods: %s\n", ods::one_line(text).c_str());
+}
+
+void warn(const std::string& text) {
+  if (console.quiet) return;
+  if (console.json) return print_json({{"warning", text}});
+  std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(text).c_str());
+}
+
+void announce_file(const std::string& file) {
+  if (console.quiet) return;
+  std::puts(file.c_str());
+  std::fflush(stdout);  // a program may wait for it
+}
+
+int run_command(const std::function<void()>& body) {
+  std::set_terminate(end_without_memory);
+  try {
+    body();
+    // A full disk behind stdout shows only now.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+      return fail(kExitOutput, "standard output could not be written");
+    return kExitOk;
+  } catch (const ods::Error& error) {
+    return fail(exit_code(error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail_without_memory();
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitFailure, error.what());
+    return fail(kExitFailure, "cannot start a thread: the memory or the number of processes allowed is used up");
+  } catch (const std::exception& error) {
+    return fail(kExitFailure, error.what());
+  }
+}

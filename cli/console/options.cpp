@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/console/options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "cli/console/console.h"
+#include "ods/base/suggest.h"
+
+namespace {
+
+// The whole word as a number.
+template <class T>
+std::optional<T> parse_number(std::string_view word) {
+  T value{};
+  auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return {};
+  return value;
+}
+
+template <class T>
+T number_between(const std::string& name, const std::string& word, T low, T high) {
+  std::optional<T> value = parse_number<T>(word);
+  if (!value || !(*value >= low && *value <= high)) {  // NaN too
+    throw UsageError(fmt::format("{} is a {}number from {} to {}, not '{}'", name,
+                                 std::is_integral_v<T> ? "whole " : "", low, high, word));
+  }
+  return *value;
+}
+
+}  // namespace
+
+std::vector<float> parse_numbers(const std::string& text) {
+  std::vector<float> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    size_t end = std::min(text.find(',', begin), text.size());
+    std::optional<float> number = parse_number<float>(std::string_view(text).substr(begin, end - begin));
+    if (!number) return {};
+    numbers.push_back(*number);
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+Options::Options(const std::string& command, const std::string& summary, const std::string& examples)
+    : app_(std::make_unique<CLI::App>("", "ods " + command)) {
+  usage_ = fmt::format("{}\n\nExamples:\n{}\n\nUsage: ods {}", summary, examples, command);
+  app_->set_help_flag("-h,--help");
+}
+
+Options::~Options() = default;
+
+// One row of help: the name, and beside it the text in lines that fit a terminal.
+void Options::explain(const std::string& name, const std::string& unit, const std::string& text) {
+  const size_t kTextColumn = 30, kLineWidth = 100;
+  std::string line = "  " + name + (unit.empty() ? "" : " " + unit);
+  if (line.size() + 2 > kTextColumn) {
+    help_ += line + "\n";
+    line.clear();
+  }
+  line.resize(kTextColumn, ' ');
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() + word.size() > kLineWidth) {
+      help_ += line + "\n";
+      line.assign(kTextColumn, ' ');
+    }
+    line += (line.back() == ' ' ? "" : " ") + word;
+  }
+  help_ += line + "\n";
+}
+
+void Options::custom(const std::string& name, const std::string& unit, const std::string& fallback,
+                     const std::function<void(const std::string&)>& set, const std::string& text) {
+  explain(name, unit, fallback.empty() ? text : text + " [" + fallback + "]");
+  // The last one wins, so that a script can append to a command line.
+  app_->add_option_function<std::string>(name, set)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+void Options::argument(const std::string& name, std::string& value, const std::string& text) {
+  app_->add_option(name, value)->required();
+  usage_ += " " + name;
+  explain(name, "", text);
+}
+
+void Options::optional_argument(const std::string& name, std::string& value, const std::string& text) {
+  app_->add_option(name, value);
+  usage_ += fmt::format(" [{}]", name);
+  explain(name, "", text);
+}
+
+void Options::arguments(const std::string& name, std::vector<std::string>& values, const std::string& text) {
+  app_->add_option("words", values);
+  usage_ += fmt::format(" [{}]", name);
+  explain(name, "", text);
+}
+
+void Options::flag(const std::string& name, bool& value, const std::string& text) {
+  app_->add_flag(name, value);
+  explain(name, "", text);
+}
+
+void Options::text(const std::string& name, const std::string& unit, std::string& value, const std::string& text) {
+  custom(
+      name, unit, value,
+      [=, &value](const std::string& word) {
+        if (word.empty()) throw UsageError(name + " is given nothing");
+        value = word;
+      },
+      text);
+}
+
+void Options::texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
+                    const std::string& text) {
+  explain(name, unit, text + "; may be given again");
+  app_->add_option(name, values)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
+}
+
+void Options::number(const std::string& name, int& value, int low, int high, const std::string& text) {
+  auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
+  custom(name, "N", fmt::format("{}", value), set, text);
+}
+
+void Options::number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text) {
+  auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
+  custom(name, "N", "", set, text);
+}
+
+void Options::number(const std::string& name, uint32_t& value, const std::string& text) {
+  auto set = [=, &value](const std::string& word) { value = number_between(name, word, 0u, UINT32_MAX); };
+  custom(name, "N", fmt::format("{}", value), set, text);
+}
+
+void Options::number(const std::string& name, float& value, float low, float high, const std::string& text) {
+  auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
+  custom(name, "X", fmt::format("{}", value), set, text);
+}
+
+void Options::number(const std::string& name, std::optional<float>& value, float low, float high,
+                     const std::string& text) {
+  auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
+  custom(name, "X", "", set, text);
+}
+
+void Options::choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
+                     const std::function<void(size_t)>& set, const std::string& text) {
+  auto pick = [=](const std::string& word) {
+    auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      throw UsageError(fmt::format("{} is one of {}, not '{}'", name, fmt::join(names, ", "), word));
+    }
+    set(static_cast<size_t>(found - names.begin()));
+  };
+  custom(name, fmt::format("{}", fmt::join(names, "|")), fallback, pick, text);
+}
+
+void add_console_options(Options& options) {
+  options.flag("-q,--quiet", console.quiet,
+               "print only errors, and text that is the result; no notes, warnings or names of written files");
+  options.flag("--no-color", console.no_color, "no colours, as with the environment variable NO_COLOR");
+}
+
+void Options::at_once(const std::string& name) {
+  app_->get_option(name)->trigger_on_parse();
+}
+
+bool Options::given(const std::string& name) const {
+  return app_->count(name) > 0;
+}
+
+std::string Options::describe_extras() const {
+  std::string first = app_->remaining().front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app_->get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  if (first.starts_with("-")) return fmt::format("there is no option '{}'{}", first, ods::did_you_mean(first, names));
+  return fmt::format("'{}' is one argument too many", first);
+}
+
+bool Options::parse(int argc, char** argv) {
+  try {
+    app_->parse(argc, argv);
+    return true;
+  } catch (const CLI::CallForHelp&) {
+    std::fputs((usage_ + " [OPTION...]\n" + help_).c_str(), stdout);
+    return false;
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(describe_extras());
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+}

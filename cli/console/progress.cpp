@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/console/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "ods/base/text.h"
+
+std::string_view progress_mode_name(ProgressMode mode) {
+  switch (mode) {
+    case ProgressMode::kAuto:
+      return "auto";
+    case ProgressMode::kBar:
+      return "bar";
+    case ProgressMode::kPlain:
+      return "plain";
+    case ProgressMode::kJson:
+      return "json";
+    case ProgressMode::kNone:
+      return "none";
+    case ProgressMode::kDeadline:
+      return "deadline";
+    case ProgressMode::kOpenJd:
+      return "openjd";
+    case ProgressMode::kTractor:
+      return "tractor";
+  }
+  return "";
+}
+
+bool progress_is_for_farm(ProgressMode mode) {
+  return mode == ProgressMode::kDeadline || mode == ProgressMode::kOpenJd || mode == ProgressMode::kTractor;
+}
+
+const char* interrupted_line(ProgressMode mode) {
+  if (mode == ProgressMode::kJson) return "{\"error\":\"interrupted\"}\n";
+  return mode == ProgressMode::kBar ? "\r\x1b[Kods: interrupted\n" : "ods: interrupted\n";
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+  long whole = static_cast<long>(std::min(seconds, 1e9) + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+ProgressStep film_step(std::string_view kind, double done, size_t frames, const std::string& file) {
+  const int count = static_cast<int>(frames);
+  return {kind, std::clamp(static_cast<int>(done * count) + 1, 1, std::max(count, 1)), count, file};
+}
+
+namespace {
+
+double seconds_left(double done, double seconds) {
+  return done > 0.0 ? seconds * (1.0 - done) / done : 0.0;
+}
+
+std::string time_left(double done, double seconds) {
+  return done > 0.0 && done < 1.0 ? ", " + duration_text(seconds_left(done, seconds)) + " left" : "";
+}
+
+std::string frame_text(const ProgressStep& step) {
+  return step.frames > 1 ? fmt::format(", frame {} of {}", step.frame, step.frames) : "";
+}
+
+// A long film is below one percent for a long time.
+std::string percent_text(double done) {
+  const double percent = std::floor(1000.0 * done + 1e-9) / 10.0;
+  return percent < 10.0 && percent > 0.0 ? fmt::format("{:.1f}", percent)
+                                         : fmt::format("{}", static_cast<int>(percent));
+}
+
+std::string json_line(double done, double seconds, const ProgressStep& step) {
+  std::string line = fmt::format("{{\"progress\":{:.4f},\"seconds\":{:.1f},\"seconds_left\":{:.1f}", done, seconds,
+                                 seconds_left(done, seconds));
+  if (!step.kind.empty()) line += fmt::format(",\"kind\":\"{}\"", step.kind);
+  if (step.frames > 0) line += fmt::format(",\"frame\":{},\"frames\":{}", step.frame, step.frames);
+  // A file's name may be no UTF-8.
+  const auto lenient = nlohmann::json::error_handler_t::replace;
+  if (!step.file.empty()) line += ",\"file\":" + nlohmann::json(step.file).dump(-1, ' ', false, lenient);
+  return line + "}\n";
+}
+
+}  // namespace
+
+void ProgressLines::draw_bar(double done, double seconds, const ProgressStep& step) {
+  const double kRedrawSeconds = 0.1;
+  if (drawn_ && seconds < last_drawn_ + kRedrawSeconds) return;
+  drawn_ = true;
+  last_drawn_ = seconds;
+  const size_t kWidth = 32;
+  size_t filled = static_cast<size_t>(done * static_cast<double>(kWidth));
+  out_ << fmt::format("\r[{}{}] {:>3} %{}{}\x1b[K", std::string(filled, '#'), std::string(kWidth - filled, '.'),
+                      percent_text(done), frame_text(step), time_left(done, seconds))
+       << std::flush;
+}
+
+// After 1, 10 and 30 seconds, and then every 30.
+bool ProgressLines::is_due(double seconds) {
+  if (seconds < due_) return false;
+  while (due_ <= seconds) due_ = due_ < 10.0 ? 10.0 : due_ < 30.0 ? 30.0 : due_ + 30.0;
+  return true;
+}
+
+void ProgressLines::report(double done, double seconds, const ProgressStep& step) {
+  done = std::clamp(done, 0.0, 1.0);
+  if (mode_ == ProgressMode::kBar) return draw_bar(done, seconds, step);
+  const int percent = static_cast<int>(100.0 * done + 1e-9);
+  const int part = mode_ == ProgressMode::kPlain ? percent / 10 : percent;
+  const bool is_due_now = !progress_is_for_farm(mode_) && is_due(seconds);
+  if (part == last_step_ && !is_due_now) return;
+  if (mode_ == ProgressMode::kPlain && !is_due_now && (part == 0 || seconds < last_drawn_ + 1.0)) return;  // no flood
+  last_step_ = part;
+  last_drawn_ = seconds;
+  switch (mode_) {
+    case ProgressMode::kAuto:
+    case ProgressMode::kBar:
+    case ProgressMode::kNone:
+      return;
+    case ProgressMode::kPlain:
+      out_ << fmt::format("ods: {} %{}{}\n", percent_text(done), frame_text(step), time_left(done, seconds));
+      break;
+    case ProgressMode::kJson:
+      out_ << json_line(done, seconds, step);
+      break;
+    case ProgressMode::kDeadline:
+      out_ << fmt::format("Progress: {}%\n", percent);
+      break;
+    case ProgressMode::kOpenJd:
+      out_ << fmt::format("openjd_progress: {}\n", percent);
+      break;
+    case ProgressMode::kTractor:
+      out_ << fmt::format("ALF_PROGRESS {}%\n", percent);
+      break;
+  }
+  out_ << std::flush;
+}
+
+void ProgressLines::fail(const std::string& why) {
+  clear();
+  if (mode_ == ProgressMode::kOpenJd) out_ << "openjd_fail: " << ods::one_line(why) << '\n' << std::flush;
+}
+
+void ProgressLines::clear() {
+  if (!drawn_) return;
+  out_ << "\r\x1b[K" << std::flush;
+  drawn_ = false;
+}

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frames/disk_room.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "ods/base/memory.h"
+#include "ods/image/format/file_format.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Of a pixel of one eye.
+double pixel_bytes(ods::FileFormat format, const ods::RenderOptions& options) {
+  const int channels = options.transparent ? 4 : 3;
+  switch (format) {
+    case ods::FileFormat::kPng:
+    case ods::FileFormat::kTiff:
+      return channels;
+    case ods::FileFormat::kJpeg:
+    case ods::FileFormat::kWebp:
+      return 1.0;
+    case ods::FileFormat::kHdr:
+      return 4.0;
+    case ods::FileFormat::kExr:
+      return 2.0 * channels + (options.layers ? 4.0 + 6.0 + 6.0 : 0.0);  // Z of 32 bits, normals, albedo
+  }
+  return 0.0;
+}
+
+// The nearest folder that exists.
+fs::path folder_of(const std::string& path) {
+  std::error_code ignored;
+  fs::path folder = fs::absolute(path, ignored).parent_path();
+  while (!fs::is_directory(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+}  // namespace
+
+double largest_frame(const std::string& path, const ods::RenderOptions& options, const ods::SaveOptions& save) {
+  const auto eyes = static_cast<int>(ods::eye_list(options.eyes).size());
+  const ods::Extent eye = ods::squeezed_eye(save.layout, {options.width, options.height}, eyes);
+  const int stored = ods::is_anaglyph(save.layout) ? 1 : eyes;
+  return 1.0 * eye.width * eye.height * stored * pixel_bytes(*ods::format_of_path(path), options);
+}
+
+void say_disk_room(const std::string& path, size_t frames, double bytes_of_frame) {
+  std::error_code error;
+  const fs::space_info space = fs::space(folder_of(path), error);
+  if (error || frames == 0) return;
+  const double needed = static_cast<double>(frames) * bytes_of_frame;
+  const bool fits = needed <= static_cast<double>(space.available);
+  if (fits && needed < 1e6) return;
+  const std::string shown = fs::path(path).parent_path().native();
+  const std::string text = fmt::format("the {} need up to {} in '{}'; {} are free", frames == 1 ? "frame" : "frames",
+                                       ods::bytes_text(static_cast<size_t>(needed)), shown.empty() ? "." : shown,
+                                       ods::bytes_text(static_cast<size_t>(space.available)));
+  fits ? note(text) : warn(text);
+}

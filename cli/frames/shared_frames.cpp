@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frames/shared_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <numeric>
+#include <thread>
+
+#include "cli/console/console.h"
+#include "ods/files/claim.h"
+#include "ods/files/frames.h"
+#include "ods/picture/save.h"
+
+static void say_who(const std::vector<SharedFrame>& frames, const std::vector<size_t>& others, const std::string& noun,
+                    const std::string& holder) {
+  std::vector<int> numbers;
+  for (const size_t i : others) numbers.push_back(frames[i].number);
+  const bool one = others.size() == 1;
+  note(fmt::format("waiting for {}{} {}, which {} made by {}{}", noun, one ? "" : "s", ods::frames_text(numbers),
+                   one ? "is being" : "are being", holder, one ? "" : " and others"));
+}
+
+void make_shared_frames(const std::vector<SharedFrame>& frames, const std::string& noun,
+                        const std::function<void(size_t index)>& make) {
+  std::vector<size_t> open(frames.size());
+  std::iota(open.begin(), open.end(), size_t{0});
+  size_t said = 0;  // how many were waited for when it was last said
+  while (!open.empty()) {
+    std::vector<size_t> others;
+    std::string holder, first;
+    for (const size_t i : open) {
+      if (ods::is_saved(frames[i].path)) {
+        remove_dead_claim(frames[i].path);
+        continue;
+      }
+      if (const std::unique_ptr<ods::Claim> own = ods::try_claim(frames[i].path, holder)) {
+        if (!ods::is_saved(frames[i].path)) make(i);  // whoever had it before may just have saved it
+        continue;
+      }
+      if (others.empty()) first = holder;
+      others.push_back(i);
+    }
+    const bool waits = others.size() == open.size();
+    open = std::move(others);
+    if (!waits) continue;
+    if (open.size() != said) say_who(frames, open, noun, first);
+    said = open.size();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+}
+
+void remove_dead_claim(const std::string& path) {
+  std::error_code ignored;
+  std::string holder;
+  if (std::filesystem::exists(ods::claim_path(path), ignored)) ods::try_claim(path, holder);
+}

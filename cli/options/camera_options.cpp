@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/camera_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/console/console.h"
+#include "cli/options/eye_options.h"
+#include "cli/options/field_option.h"
+#include "cli/options/projection_options.h"
+#include "ods/base/suggest.h"
+
+using ods::CameraField, ods::CameraRig, ods::Scene, ods::vec3, ods::ViewPoint;
+
+namespace {
+
+const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ViewPoint& view : scene.view_points) {
+    if (view.name == name) return view;
+    names.push_back(view.name);
+  }
+  if (names.empty()) throw UsageError("--camera: the scene has no camera; use --position X,Y,Z");
+  throw UsageError(fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name,
+                               ods::did_you_mean(name, names)));
+}
+
+}  // namespace
+
+vec3 parse_point(const std::string& name, const std::string& word) {
+  const std::vector<float> p = parse_numbers(word);
+  const bool legal = p.size() == 3 && std::all_of(p.begin(), p.end(),
+                                                  [](float x) { return range_of(CameraField::kPosition).contains(x); });
+  if (!legal) throw UsageError(fmt::format("{} is X,Y,Z in metres, each within 1e6, not '{}'", name, word));
+  return {p[0], p[1], p[2]};
+}
+
+static void add_position_option(Options& options, CameraOptions& camera) {
+  options.custom(
+      "--position", "X,Y,Z", "", [&](const std::string& word) { camera.position = parse_point("--position", word); },
+      "midpoint between the eyes, in metres; +Y is up");
+}
+
+static void add_attitude_options(Options& options, CameraOptions& camera) {
+  add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw,
+                   "turn to the right, degrees; at 0 the picture's centre looks along -Z");
+  add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; tilts the horizon too");
+  add_field_option(options, "--roll", camera.roll, CameraField::kRoll,
+                   "roll clockwise, degrees; tilts the horizon too");
+  add_dialect_option(options, camera);
+  add_eye_options(options, camera);
+  add_projection_options(options, camera.rig.projection);
+}
+
+void add_place_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  options.text("--camera", "NAME", camera.view_point,
+               "a camera in the file (ods info lists them); by default the first");
+  add_position_option(options, camera);
+}
+
+void add_camera_options(Options& options, CameraOptions& camera) {
+  add_place_options(options, camera);
+  add_attitude_options(options, camera);
+}
+
+void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  add_position_option(options, camera);
+  add_attitude_options(options, camera);
+}
+
+void finish_camera_options(CameraOptions& camera, int width, int& height) {
+  finish_eye_options(camera);
+  finish_projection(camera.rig.projection, width, height);
+}
+
+static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
+  return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
+}
+
+CameraRig place_camera_again(const CameraOptions& camera, const Scene& scene) {
+  const ViewPoint view = chosen_view(camera, scene);
+  CameraRig rig = camera.rig;
+  rig.position = camera.position.value_or(view.position);
+  rig.yaw = camera.yaw.value_or(view.yaw);
+  rig.pitch = camera.pitch.value_or(0.0f);
+  rig.roll = camera.roll.value_or(0.0f);
+  const std::string fault = camera_fault(rig);  // scenes may stand anywhere
+  if (!fault.empty()) throw UsageError("the camera's " + fault);
+  return rig;
+}
+
+CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
+  const ViewPoint view = chosen_view(camera, scene);
+  const CameraRig rig = place_camera_again(camera, scene);
+  std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
+  if (camera.position) from = "--position";
+  note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", rig.position.x, rig.position.y, rig.position.z,
+                   rig.yaw, from));
+  if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {
+    note(fmt::format("kept level; --pitch {:.4g} --roll {:.4g} tilts it as in the file", view.pitch, view.roll));
+  }
+  return rig;
+}
+
+ods::CameraRig place_camera(const CameraOptions& camera) {
+  ods::CameraRig rig = camera.rig;
+  rig.position = camera.position.value_or(vec3(0.0f));
+  rig.yaw = camera.yaw.value_or(0.0f);
+  rig.pitch = camera.pitch.value_or(0.0f);
+  rig.roll = camera.roll.value_or(0.0f);
+  return rig;
+}

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/camera_source.h"
+
+#include "cli/console/console.h"
+#include "cli/options/form_options.h"
+#include "cli/options/projection_options.h"
+
+using ods::CameraFile, ods::Eyes;
+
+namespace {
+
+void load(const std::string& path, CameraSource& source) {
+  std::vector<std::string> warnings;
+  source.file = ods::load_camera(path, warnings);
+  for (const std::string& warning : warnings) note(warning);
+  CameraOptions& camera = source.camera;
+  camera.rig = source.file.rig;
+  camera.position = camera.rig.position;
+  camera.yaw = camera.rig.yaw, camera.pitch = camera.rig.pitch, camera.roll = camera.rig.roll;
+  if (source.file.eye.width > 0) source.width = source.file.eye.width;
+  for (const Eyes eyes : ods::kAllEyes) {
+    if (ods::eye_list(eyes) == source.file.eyes) source.eyes = eyes;
+  }
+}
+
+}  // namespace
+
+void add_camera_source(Options& options, CameraSource& source) {
+  options.group("Picture");
+  options.custom(
+      "--from", "FILE", "", [&](const std::string& path) { load(path, source); },
+      "a .camera.json file (ods render --sidecar); the options below override it");
+  options.number("--width", source.width, 2, 32768, "width of one eye in pixels");
+  options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  add_layout_option(options, source.layout,
+                    "how both eyes share the file; by default top-bottom, side-by-side for vr180");
+  add_sceneless_camera_options(options, source.camera);
+}
+
+CameraFile read_camera_source(CameraSource& source) {
+  int height = source.width == source.file.eye.width ? source.file.eye.height : 0;  // its own stays with its width
+  finish_camera_options(source.camera, source.width, height);
+  CameraFile file = source.file;
+  file.rig = place_camera(source.camera);
+  const ods::Layout kept = layout_of_converted(file.layout, source.file.rig.projection, file.rig.projection);
+  file.layout = source.layout.value_or(kept);
+  file.eyes = ods::eye_list(source.eyes);
+  file.eye = {source.width, height};
+  return file;
+}

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of a camera without a scene: from a sidecar, or as ods render takes them.
+#pragma once
+#include <optional>
+
+#include "cli/options/camera_options.h"
+#include "ods/picture/metadata/camera_file.h"
+#include "ods/render/render_options.h"
+
+struct CameraSource {
+  CameraOptions camera;
+  ods::CameraFile file;
+  std::optional<ods::Layout> layout;  // as --layout has it
+  int width = 2048;                   // of one eye
+  ods::Eyes eyes = ods::Eyes::kBothEyes;
+};
+
+// --from goes first: the options after it change what it says.
+void add_camera_source(Options& options, CameraSource& source);
+
+// What was asked for, once the options are parsed. Throws UsageError and ods::Error.
+ods::CameraFile read_camera_source(CameraSource& source);

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/eye_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "cli/console/console.h"
+#include "cli/options/field_option.h"
+#include "ods/base/suggest.h"
+#include "ods/camera/dialect.h"
+#include "ods/image/image_file.h"
+
+using ods::CameraField, ods::CameraRig, ods::PoleMergeSetting, ods::vec3;
+
+namespace {
+
+// What stands before the first comma, and the numbers behind it.
+struct WordAndNumbers {
+  std::string word;
+  std::vector<float> numbers;
+  bool legal = true;
+};
+
+WordAndNumbers split(const std::string& text) {
+  const size_t comma = std::min(text.find(','), text.size());
+  WordAndNumbers parts{text.substr(0, comma), {}, true};
+  if (comma < text.size()) parts.numbers = parse_numbers(text.substr(comma + 1));
+  parts.legal = parts.numbers.empty() == (comma == text.size());
+  return parts;
+}
+
+// MODE[,START[,END[,EXPONENT]]]
+PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
+  const WordAndNumbers parts = split(text);
+  const std::vector<float>& numbers = parts.numbers;
+  const auto mode = ods::merge_of(parts.word);
+  PoleMergeSetting merge;
+  if (numbers.size() > 0) merge.start = numbers[0];
+  if (numbers.size() > 1) merge.end = numbers[1];
+  if (numbers.size() > 2) merge.exponent = numbers[2];
+  const bool legal = mode && parts.legal && numbers.size() <= 3 && merge.start < merge.end &&
+                     range_of(CameraField::kMergeStart).contains(merge.start) &&
+                     range_of(CameraField::kMergeEnd).contains(merge.end) &&
+                     range_of(CameraField::kMergeExponent).contains(merge.exponent);
+  if (!legal) {
+    std::vector<std::string_view> names;
+    for (int each : ods::kMerges) names.push_back(ods::merge_name(each));
+    throw UsageError(
+        fmt::format("{} is {}, then ,START,END in degrees (0 <= START < END <= 90) and ,EXP (0.000001 to 100), "
+                    "not '{}'",
+                    name, fmt::join(names, ", "), text));
+  }
+  merge.mode = *mode;
+  return merge;
+}
+
+// parallel, toe-in,METRES or shift,METRES
+void parse_convergence(const std::string& text, CameraRig& rig) {
+  const WordAndNumbers parts = split(text);
+  for (int convergence : ods::kConvergences) {
+    if (parts.word != ods::convergence_name(convergence) || !parts.legal || parts.numbers.size() > 1) continue;
+    if (parts.numbers.size() == 1 && !range_of(CameraField::kConvergenceDistance).contains(parts.numbers[0])) continue;
+    rig.convergence = convergence;
+    if (parts.numbers.size() == 1) rig.convergence_distance = parts.numbers[0];
+    return;
+  }
+  throw UsageError(
+      fmt::format("--convergence is parallel, toe-in,METRES or shift,METRES (0.001 to a million), not '{}'", text));
+}
+
+void parse_axis(const std::string& text, CameraRig& rig) {
+  if (text == "camera") {
+    rig.axis.reset();
+    return;
+  }
+  std::vector<float> numbers = text == "world" ? std::vector<float>{0.0f, 1.0f, 0.0f} : parse_numbers(text);
+  const bool three = numbers.size() == 3;
+  const float size = three ? std::hypot(numbers[0], numbers[1], numbers[2]) : 0.0f;
+  if (!(size > 1e-6f && size < range_of(CameraField::kAxis).most)) {
+    throw UsageError(fmt::format("--axis is camera, world or a direction X,Y,Z, not '{}'", text));
+  }
+  rig.axis = vec3(numbers[0], numbers[1], numbers[2]) / size;
+}
+
+void parse_lens(const std::string& text, CameraRig& rig) {
+  const std::vector<float> numbers = parse_numbers(text);
+  const bool legal = numbers.size() == 2 && range_of(CameraField::kLensRadius).contains(numbers[0]) &&
+                     range_of(CameraField::kFocusDistance).contains(numbers[1]);
+  if (!legal) throw UsageError(fmt::format("--lens is RADIUS,FOCUS in metres, as 0.005,2, not '{}'", text));
+  rig.lens_radius = numbers[0], rig.focus_distance = numbers[1];
+}
+
+// NAME[:PARAMETER=VALUE,...]
+void parse_dialect(const std::string& text, CameraOptions& camera) {
+  const size_t colon = std::min(text.find(':'), text.size());
+  const std::string name = text.substr(0, colon);
+  const ods::Dialect* dialect = ods::find_dialect(name);
+  if (!dialect) {
+    std::vector<std::string> names;
+    for (const ods::Dialect& each : ods::dialects()) names.emplace_back(each.name);
+    throw UsageError(fmt::format("--like knows no '{}'{}; it knows {}", name, ods::did_you_mean(name, names),
+                                 fmt::join(names, ", ")));
+  }
+  std::map<std::string, std::string> given;
+  for (size_t at = colon + 1; at < text.size();) {
+    const size_t end = std::min(text.find(',', at), text.size());
+    const std::string pair = text.substr(at, end - at);
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos)
+      throw UsageError(fmt::format("--like {}: '{}' is not PARAMETER=VALUE", name, pair));
+    given[pair.substr(0, equals)] = pair.substr(equals + 1);
+    at = end + 1;
+  }
+  try {
+    camera.rig = ods::rig_like(*dialect, given);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--like ") + error.what());
+  }
+  if (camera.rig.yaw != 0.0f && !camera.yaw) camera.yaw = camera.rig.yaw;
+  if (!dialect->exact) note(fmt::format("{} is only approximated: {}", dialect->system, dialect->note));
+}
+
+}  // namespace
+
+void add_dialect_option(Options& options, CameraOptions& camera) {
+  options.custom(
+      "--like", "SYSTEM[:PARAMETER=VALUE,..]", "", [&](const std::string& text) { parse_dialect(text, camera); },
+      "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
+      "the options below override it");
+}
+
+void add_circle_options(Options& options, CameraOptions& camera) {
+  CameraRig& rig = camera.rig;
+  options.group("Eyes");
+  add_field_option(options, "--ipd", rig.ipd, CameraField::kIpd,
+                   "distance between the eyes (interpupillary distance), metres");
+  const auto set_both = [&](const std::string& text) { rig.top = rig.bottom = parse_merge("--merge", text); };
+  const auto set_top = [&](const std::string& text) { rig.top = parse_merge("--merge-top", text); };
+  const auto set_bottom = [&](const std::string& text) { rig.bottom = parse_merge("--merge-bottom", text); };
+  const char* merge_unit = "MODE[,START[,END[,EXP]]]";
+  options.custom("--merge", merge_unit, "none,60,90,1", set_both,
+                 "reduce the eye distance to 0 towards the poles: none, linear, cosine, smoothstep, gaussian, power, "
+                 "tilt-brush or map; between the elevations START and END, degrees; EXP is the curve's exponent");
+  options.custom("--merge-top", merge_unit, "", set_top, "the same for the upper pole only");
+  options.custom("--merge-bottom", merge_unit, "", set_bottom, "the same for the lower pole only");
+  options.text("--merge-map", "FILE", camera.merge_map,
+               "lat-long picture for --merge map: white is full stereo, black is none");
+  options.flag("--merge-map-inverted", camera.merge_map_inverted,
+               "invert the map: black is full stereo, as in Arnold's manual");
+  options.custom(
+      "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, rig); },
+      "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
+      "METRES coincide");
+  add_field_option(options, "--neck", rig.neck, CameraField::kNeck,
+                   "distance of the eyes in front of the axis they turn about, metres");
+}
+
+void add_eye_options(Options& options, CameraOptions& camera) {
+  CameraRig& rig = camera.rig;
+  add_circle_options(options, camera);
+  options.custom(
+      "--axis", "AXIS", "camera", [&](const std::string& text) { parse_axis(text, rig); },
+      "normal of the viewing circle: the camera's up axis, the world's up axis, or X,Y,Z");
+  options.custom(
+      "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { parse_lens(text, rig); },
+      "depth of field: radius of the lens and focus distance, in metres");
+  options.flag("--mirrored", rig.mirrored, "swap front and back, to show a left-handed world as it is");
+}
+
+static void read_merge_map(CameraOptions& camera) {
+  std::string color_fault;
+  const ods::Image picture = ods::read_image(camera.merge_map, &color_fault);
+  if (!color_fault.empty()) warn(fmt::format("'{}': {}", camera.merge_map, color_fault));
+  auto map = std::make_shared<ods::Image>(picture.width, picture.height, 1);
+  for (int y = 0; y < picture.height; y++) {
+    for (int x = 0; x < picture.width; x++) {
+      const float white = picture.at(x, y)[0];
+      const float share = white > 0.0f ? std::min(white, 1.0f) : 0.0f;  // NaN: none
+      *map->at(x, y) = camera.merge_map_inverted ? 1.0f - share : share;
+    }
+  }
+  camera.rig.merge_map = map;
+}
+
+void finish_eye_options(CameraOptions& camera) {
+  CameraRig& rig = camera.rig;
+  const bool wanted = rig.top.mode == ods::kMergeMap || rig.bottom.mode == ods::kMergeMap;
+  if (camera.merge_map.empty() && wanted && !rig.merge_map)
+    throw UsageError("--merge map needs a picture: --merge-map FILE");
+  if (camera.merge_map.empty() && camera.merge_map_inverted)
+    throw UsageError("--merge-map-inverted needs a picture: --merge-map FILE");
+  if (!camera.merge_map.empty()) {
+    if (!wanted) rig.top.mode = rig.bottom.mode = ods::kMergeMap;
+    read_merge_map(camera);
+  }
+}

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/projection_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "cli/console/console.h"
+#include "ods/base/suggest.h"
+#include "ods/camera/camera_fields.h"
+
+using ods::NamedProjection, ods::ProjectionSetting, ods::vec2;
+
+namespace {
+
+struct Face {
+  std::string_view name;
+  float pan;
+  float tilt;
+};
+constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"back", 180.0f, 0.0f},
+                           {"left", -90.0f, 0.0f}, {"up", 0.0f, 90.0f},    {"down", 0.0f, -90.0f}};
+
+// An option that a projection has no use for would otherwise be lost without a word.
+void expect(bool useful, const char* option, const char* owners, const ProjectionSetting& projection) {
+  if (useful) return;
+  throw UsageError(
+      fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
+}
+
+void expect_lens(const char* option, const ProjectionSetting& projection) {
+  expect(ods::has_lens(projection.kind), option, "fisheye and perspective", projection);
+}
+
+// LON0,LON1[,LAT0,LAT1]
+void parse_range(const std::string& text, ProjectionSetting& projection) {
+  expect(ods::has_range(projection.kind), "--range", "lat-long and cylinder", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != 2 && numbers.size() != 4) {
+    throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));
+  }
+  projection.longitude = vec2(numbers[0], numbers[1]);
+  if (numbers.size() == 4) projection.latitude = vec2(numbers[2], numbers[3]);
+}
+
+void parse_look(const std::string& text, ProjectionSetting& projection) {
+  expect_lens("--look", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  const bool legal = numbers.size() == 2 && range_of(ods::CameraField::kPan).contains(numbers[0]) &&
+                     range_of(ods::CameraField::kTilt).contains(numbers[1]);
+  if (!legal) throw UsageError(fmt::format("--look is PAN,TILT in degrees, not '{}'", text));
+  projection.pan = numbers[0], projection.tilt = numbers[1];
+}
+
+void parse_fov(const std::string& text, ProjectionSetting& projection) {
+  expect_lens("--fov", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != 1) throw UsageError(fmt::format("--fov is an angle in degrees, not '{}'", text));
+  projection.fov = numbers[0];
+}
+
+void parse_face(const std::string& name, bool has_other, ProjectionSetting& projection) {
+  expect(!has_other || projection.kind == ods::kPerspective, "--face", "perspective, which it implies", projection);
+  for (const Face& face : kFaces) {
+    if (face.name != name) continue;
+    projection = ods::find_projection("perspective")->setting;
+    projection.pan = face.pan, projection.tilt = face.tilt;
+    return;
+  }
+  throw UsageError(fmt::format("--face is front, right, back, left, up or down, not '{}'", name));
+}
+
+}  // namespace
+
+ProjectionSetting projection_by_name(const std::string& option, const std::string& name) {
+  if (const NamedProjection* named = ods::find_projection(name)) return named->setting;
+  std::vector<std::string> names;
+  for (const NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
+  throw UsageError(
+      fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
+}
+
+void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& name) {
+  options.group("Projection");
+  std::string names;
+  for (const NamedProjection& each : ods::named_projections()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
+  }
+  const std::string option = name.empty() ? "--projection" : name;
+  const auto is_named = std::make_shared<bool>(false);
+  options.custom(
+      name.empty() ? option : fmt::format("{},--projection", name), "NAME", name.empty() ? "lat-long" : "",
+      [&projection, option, is_named](const std::string& text) {
+        projection = projection_by_name(option, text);
+        *is_named = true;
+      },
+      "projection of each eye's picture: " + names);
+  options.custom(
+      "--face", "NAME", "",
+      [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },
+      "a single cube face: front, right, back, left, up or down");
+  options.custom(
+      "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },
+      "the part of the sphere that a lat-long or cylinder shows, degrees");
+  options.custom(
+      "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
+      "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
+  options.custom(
+      "--look", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
+      "direction of a fisheye or perspective view, degrees right and up; the eyes stay level");
+}
+
+void finish_projection(ProjectionSetting& projection, int width, int& height) {
+  if (height > 0) projection.aspect = static_cast<float>(width) / static_cast<float>(height);
+  const std::string fault = ods::projection_fault(projection);
+  if (!fault.empty()) throw UsageError(fault);
+  if (ods::is_full_lat_long(projection) && height == 0 && width % 2 != 0) {
+    throw UsageError(fmt::format("--width is even, not {}: a lat-long picture is twice as wide as high", width));
+  }
+  const int step = ods::width_step(projection);
+  if (width % step != 0) {
+    throw UsageError(fmt::format("--width is a multiple of {} for {}, whose faces are {} abreast: {}, not {}", step,
+                                 ods::projection_name(projection), step, width - width % step + step, width));
+  }
+  if (height == 0) height = ods::natural_height(projection, width);
+}

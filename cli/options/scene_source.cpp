@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/scene_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "ods/base/error.h"
+#include "ods/base/suggest.h"
+#include "ods/files/confined_file.h"
+#include "ods/scene/catchers.h"
+#include "ods/scene/load/environment.h"
+#include "ods/scene/load/load.h"
+
+using ods::Scene, ods::vec3;
+
+static void add_confine_option(Options& options, SceneSource& source) {
+  options.text(
+      "--confine", "DIR", source.confine,
+      "read no file outside of this folder, wherever paths and links in the scene lead: for scenes of strangers");
+}
+
+void add_scene_argument(Options& options, SceneSource& source) {
+  options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
+  options.group("Scene");
+  options.number("--scene", source.scene, 0, 1000000,
+                 "number of the scene in the file, counted from 0; by default the file's default scene");
+  add_confine_option(options, source);
+}
+
+void add_scene_option(Options& options, SceneSource& source, const char* help) {
+  options.text("--scene", "SCENE", source.name, help);
+  add_confine_option(options, source);
+}
+
+void add_light_options(Options& options, SceneSource& source) {
+  options.text("--env", "FILE|R,G,B|X", source.environment,
+               "sky light: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; 0 switches the sky off. "
+               "Replaces the scene's own sky. A scene without lights gets 1");
+}
+
+// What may have been meant, or else what there is.
+static std::string suggestion(const Scene& scene, const std::string& name) {
+  const std::vector<std::string> names = ods::object_names(scene);
+  if (names.empty()) return "; it names no objects and materials";
+  const std::string near = ods::did_you_mean(name, names);
+  if (!near.empty()) return near;
+  const size_t kMost = 12;
+  const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMost));
+  return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
+}
+
+// The folder of --confine without links; empty where there is none.
+std::string confining_folder(const SceneSource& source) {
+  if (source.confine.empty()) return "";
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical(source.confine, error);
+  if (error || !std::filesystem::is_directory(folder, error)) {
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("--confine: there is no folder '{}'", source.confine));
+  }
+  return folder.native();
+}
+
+Scene open_scene(const SceneSource& source) {
+  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1), .confine = confining_folder(source)});
+  for (const std::string& warning : scene.warnings) warn(warning);
+  for (const std::string& name : source.catchers) {
+    if (make_catchers(scene, name)) continue;
+    throw UsageError(fmt::format("--catch: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
+  }
+  return scene;
+}
+
+static void add_environment(Scene& scene, const SceneSource& source) {
+  if (source.environment.empty()) {
+    if (ods::has_light(scene)) return;
+    note("the scene has no lamps; a white sky lights it (--env sets another, --env 0 none)");
+    scene.environment.radiance = vec3(1.0f);
+    return;
+  }
+  std::vector<float> numbers = parse_numbers(source.environment);
+  if (numbers.empty()) {
+    if (!std::filesystem::exists(source.environment)) {
+      throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
+                                                   "'; a colour is written R,G,B, as 0.5,0.6,0.8");
+    }
+    const ods::ConfinedFile checked(source.environment, confining_folder(source));
+    std::string color_fault;
+    scene.environment = ods::load_environment(source.environment, &color_fault);
+    if (!color_fault.empty()) warn(fmt::format("'{}': {}", source.environment, color_fault));
+    if (scene.environment.width != 2 * scene.environment.height) {
+      note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
+    }
+    return;
+  }
+  bool legal = numbers.size() == 1 || numbers.size() == 3;
+  for (float number : numbers) legal = legal && number >= 0.0f && number <= 1e6f;
+  if (!legal)
+    throw UsageError("--env is a file, R,G,B or one brightness, from 0 to 1e6, not '" + source.environment + "'");
+  scene.environment = {};
+  scene.environment.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+Scene open_lit_scene(const SceneSource& source) {
+  Scene scene = open_scene(source);
+  if (scene.instances.empty()) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has nothing to render: no triangles in the scene that is shown (ods info says "
+                                 "what there is)",
+                                 source.name));
+  }
+  add_environment(scene, source);
+  return scene;
+}

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/time_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cli/console/console.h"
+#include "cli/options/camera_options.h"
+#include "ods/base/suggest.h"
+#include "ods/files/frames.h"
+
+std::string_view film_noise_name(FilmNoise noise) {
+  switch (noise) {
+    case FilmNoise::kFixed:
+      return "fixed";
+    case FilmNoise::kChanging:
+      return "changing";
+  }
+  return "";
+}
+
+namespace {
+
+void read_turntable(const std::string& word, ods::CameraMove& move) {
+  const std::vector<float> numbers = parse_numbers(word);
+  bool legal = numbers.size() == 1 || numbers.size() == 4;
+  for (const float number : numbers) legal = legal && std::abs(number) <= 1e6f;
+  if (!legal) throw UsageError(fmt::format("--turntable is TURNS or TURNS,X,Y,Z, not '{}'", word));
+  move.turns = static_cast<double>(numbers[0]);
+  if (numbers.size() == 4) move.pivot = ods::vec3(numbers[1], numbers[2], numbers[3]);
+}
+
+void read_flight(const std::string& word, ods::CameraMove& move) {
+  move.fly_to.clear();
+  for (size_t start = 0; start <= word.size();) {
+    const size_t end = std::min(word.find(';', start), word.size());
+    move.fly_to.push_back(parse_point("--fly-to", word.substr(start, end - start)));
+    start = end + 1;
+  }
+}
+
+bool names_frames(const TimeOptions& time) {
+  return !time.frames.empty() && time.frames != "all";
+}
+
+}  // namespace
+
+void add_time_options(Options& options, TimeOptions& time) {
+  options.group("Time");
+  options.number("--time", time.time, -1e6f, 1e6f,
+                 "render the animation at this time, seconds; by default the scene is in its rest pose");
+  options.text("--animation", "NAME", time.animation,
+               "name of the animation (ods info lists them); by default all that do not move the same objects");
+  options.text("--frames", "LIST|all", time.frames,
+               "frames to render: 1-100, 1-100x2 (every other one), 1,5,10-20, or all. Frame N shows the scene at N / "
+               "fps seconds. "
+               "ods render writes a file per frame: -o shot.####.exr or shot.%04d.exr");
+  options.number("--fps", time.fps, 0.01f, 1000.0f, "frames per second");
+  options.number("--duration", time.duration, 0.01f, 1e6f,
+                 "length of the video and of camera moves, seconds; by default the animation's length, or 10");
+  options.custom(
+      "--turntable", "TURNS|TURNS,X,Y,Z", "", [&](const std::string& word) { read_turntable(word, time.move); },
+      "turn the camera to the right on the spot, this many turns in the whole duration; with X,Y,Z: orbit the vertical "
+      "axis through that point and keep facing it");
+  options.custom(
+      "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
+      "fly the camera from its position through these points, on a smooth curve, in the whole duration");
+  options.number("--shutter", time.shutter, 0.0f, 360.0f,
+                 "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
+                 "usual, 0 is none");
+  options.choice("--noise", time.noise, kFilmNoises, film_noise_name,
+                 "noise pattern: the same in every frame, or different in each");
+  options.flag("--skip-existing", time.skip_existing,
+               "do not render frames whose files exist; several processes with this option share the rest");
+}
+
+bool asks_for_film(const TimeOptions& time) {
+  return time.is_film || !time.frames.empty() || time.duration || ods::moves(time.move);
+}
+
+void check_time_options(const TimeOptions& time) {
+  if (time.time && asks_for_film(time)) throw UsageError("--time is for one picture, --frames for a film; give one");
+  if (names_frames(time)) ods::parse_frames(time.frames);
+}
+
+void start_clock(TimeOptions& time, ods::Scene& scene) {
+  ods::Animation& animation = scene.animation;
+  const bool timed = time.time || asks_for_film(time);
+  std::vector<std::string> names;
+  for (const ods::Clip& clip : animation.clips) names.push_back(clip.name);
+  if (!timed && time.animation.empty()) {
+    if (!names.empty()) note("the scene stands at rest; --time SECONDS or --frames LIST plays its animation");
+    return;
+  }
+  if (!time.animation.empty() && names.empty()) throw UsageError("--animation: the scene has none");
+  if (!ods::play(animation, time.animation)) {
+    throw UsageError(fmt::format("--animation: the scene has none called '{}'{} (ods info lists them)", time.animation,
+                                 ods::did_you_mean(time.animation, names)));
+  }
+  const double length = ods::length_of(animation);
+  time.move.seconds = time.duration ? static_cast<double>(*time.duration) : length > 0.0 ? length : 10.0;
+}
+
+std::vector<int> film_frames(const TimeOptions& time) {
+  if (names_frames(time)) return ods::parse_frames(time.frames);
+  const double count = std::round(time.move.seconds * static_cast<double>(time.fps));
+  if (count > 1e6) throw UsageError("the film would have more than a million frames; --frames says which to render");
+  std::vector<int> frames(static_cast<size_t>(std::max(count, 1.0)));
+  std::iota(frames.begin(), frames.end(), 0);
+  return frames;
+}

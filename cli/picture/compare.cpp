@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods compare: how far one picture is from another.
+#include "ods/image/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "cli/console/console.h"
+#include "cli/console/interrupt.h"
+#include "cli/options/form_options.h"
+#include "cli/picture/compare_report.h"
+#include "ods/base/error.h"
+#include "ods/kernel/camera/camera.h"
+#include "ods/picture/save.h"
+
+using ods::Image, ods::LoadedEyes;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods compare reference.exr picture.exr\n"
+    "  ods compare a_%V.png b_TB.png --diff difference.exr\n"
+    "  ods compare reference.png picture.jpg --min-psnr 40 || echo too far off";
+
+constexpr const char* kSummary =
+    "Measures the difference between pictures A and B: RMSE, PSNR, WS-PSNR (rows weighted by their area on the "
+    "sphere)\n"
+    "and the largest error and its place, per eye and overall. Two integer files are compared as code values from 0 "
+    "to\n"
+    "1, all others in linear light; the peak is 1. Exit code 1: a limit was exceeded.";
+
+struct CompareJob {
+  std::string a, b;
+  std::optional<ods::Layout> layout;
+  std::string difference;
+  bool json = false;
+  std::optional<float> max_rmse, min_psnr, max_error;
+};
+
+bool read_options(CompareJob& job, int argc, char** argv) {
+  Options options("compare", kSummary, kExamples);
+  options.argument("A", job.a, "a picture; %V in the name: one file per eye");
+  options.argument("B", job.b, "a picture of the same size; its layout may differ");
+  add_layout_option(
+      options, job.layout,
+      "layout of both files, if neither the files nor their names (_TB, _LR, ...) tell; separate: one eye");
+  options.text("--diff", "FILE", job.difference,
+               "write a picture of the difference, left eye on top: .exr holds B - A; other formats hold |B - A|, "
+               "scaled so that the largest value is white");
+  options.group("Limits, for scripts");
+  options.number("--max-rmse", job.max_rmse, 0.0f, 1e30f, "limit of the RMSE of all eyes");
+  options.number("--min-psnr", job.min_psnr, -1e4f, 1e4f, "limit of the PSNR of all eyes, dB");
+  options.number("--max-error", job.max_error, 0.0f, 1e30f, "limit of the largest error of any value");
+  options.group("Console");
+  options.flag("--json", job.json, "print JSON");
+  add_console_options(options);
+  return options.parse(argc, argv);
+}
+
+void encode(LoadedEyes& file) {
+  for (Image& eye : file.eyes) {
+    for (float& value : eye.pixels) value = ods::srgb_encode(value);
+  }
+}
+
+CompareReport compare(const CompareJob& job) {
+  CompareReport report;
+  report.paths = {job.a, job.b};
+  auto& [a, b] = report.files;
+  a = ods::load_eyes(job.a, job.layout);
+  b = ods::load_eyes(job.b, job.layout);
+  for (size_t i = 0; i < 2; i++) {
+    const std::string& fault = report.files[i].color_fault;
+    if (!fault.empty()) warn(fmt::format("'{}': {}", report.paths[i], fault));
+  }
+  if (a.projection != b.projection) {
+    note(fmt::format("'{}' is taken for {}, '{}' for {}: pixels are compared as they lie", job.a, a.projection, job.b,
+                     b.projection));
+  }
+  report.in_code_values = !a.is_float && !b.is_float;
+  if (a.is_float != b.is_float) {
+    note(
+        "one file holds light, the other what a display shows: a tone curve between them counts as a difference "
+        "(render with --tone linear to leave it out)");
+  }
+  if (report.in_code_values) {
+    encode(a);
+    encode(b);
+  }
+  report.comparison = ods::compare_eyes(a.eyes, b.eyes);
+  if (!a.variance.empty() && !b.variance.empty()) report.z = z_test(a.eyes, b.eyes, a.variance, b.variance);
+  return report;
+}
+
+void write_difference(const CompareReport& report, const std::string& path) {
+  const bool is_signed = ods::format_of_path(path) == ods::FileFormat::kExr;
+  const double largest = report.comparison.whole.largest.error;
+  const float scale = largest > 0.0 ? static_cast<float>(1.0 / largest) : 1.0f;
+  ods::Picture picture;
+  const size_t count = report.comparison.eyes.size();
+  for (size_t i = 0; i < count; i++) {
+    ods::EyeImage eye;
+    eye.eye = count == 1 ? ods::kMono : i == 0 ? ods::kLeft : ods::kRight;
+    eye.radiance = ods::difference(report.files[0].eyes[i], report.files[1].eyes[i]);
+    // Scaled in code values, which saving encodes again.
+    for (float& value : eye.radiance.pixels) value = is_signed ? value : ods::srgb_decode(scale * std::abs(value));
+    picture.eyes.push_back(std::move(eye));
+  }
+  ods::SaveOptions options;
+  options.tone = ods::ToneCurve::kLinear;
+  save_picture(picture, options, path);
+}
+
+// Becomes exit code 1. NaN, where nothing could be compared, is beyond every limit.
+void check_limits(const CompareJob& job, const ods::Errors& whole) {
+  auto fail = [](const std::string& text) { throw std::runtime_error(text); };
+  if (job.max_rmse && !(whole.rmse <= *job.max_rmse)) {
+    fail(fmt::format("RMSE {:.4g} is above --max-rmse {}", whole.rmse, *job.max_rmse));
+  }
+  if (job.min_psnr && !(whole.psnr >= *job.min_psnr)) {
+    fail(fmt::format("PSNR {:.2f} is below --min-psnr {}", whole.psnr, *job.min_psnr));
+  }
+  if (job.max_error && !(whole.largest.error <= *job.max_error)) {
+    fail(fmt::format("the largest error {:.4g} is above --max-error {}", whole.largest.error, *job.max_error));
+  }
+  const bool limited = job.max_rmse || job.min_psnr || job.max_error;
+  if (limited && whole.not_finite > 0) fail(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
+}
+
+void run(int argc, char** argv) {
+  CompareJob job;
+  if (!read_options(job, argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
+  const CompareReport report = compare(job);
+  job.json ? print_json(report) : print_text(report);
+  if (!job.difference.empty()) write_difference(report, job.difference);
+  check_limits(job, report.comparison.whole);
+}
+
+}  // namespace
+
+extern "C" int ods_compare(int argc, char** argv) {
+  return run_command([=] { run(argc, argv); });
+}

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture/compare_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const char* eye_word(const CompareReport& report, size_t eye) {
+  if (report.comparison.eyes.size() == 1) return "one";
+  return eye == 0 ? "left" : "right";
+}
+
+bool is_lat_long(const CompareReport& report) {
+  return report.files[0].projection == "lat-long" && report.files[1].projection == "lat-long";
+}
+
+std::string layout_word(const ods::LoadedEyes& file) {
+  return std::string(file.guess.layout ? ods::layout_name(*file.guess.layout) : "one eye");
+}
+
+// Degrees to the right of the middle, and up.
+struct Direction {
+  double azimuth;
+  double elevation;
+};
+Direction direction_of(const CompareReport& report, const ods::LargestError& largest) {
+  const ods::Image& eye = report.files[0].eyes[static_cast<size_t>(largest.eye)];
+  return {360.0 * ((largest.x + 0.5) / eye.width - 0.5), 180.0 * (0.5 - (largest.y + 0.5) / eye.height)};
+}
+
+void print_row(const CompareReport& report, const char* name, const ods::Errors& errors) {
+  const ods::LargestError& largest = errors.largest;
+  std::string where = "-", direction = "-";
+  if (largest.error > 0.0) {
+    where = fmt::format("{} {},{} {}", eye_word(report, static_cast<size_t>(largest.eye)), largest.x, largest.y,
+                        "RGB"[largest.channel]);
+    const Direction at = direction_of(report, largest);
+    direction = fmt::format("{:.1f},{:.1f}", at.azimuth, at.elevation);
+  }
+  fmt::print("{:<6} {:>10.4g} {:>7.2f} {:>7.2f} {:>10.4g}  {:<18} {:<13} {}\n", name, errors.rmse, errors.psnr,
+             is_lat_long(report) ? errors.ws_psnr : std::nan(""), largest.error, where,
+             is_lat_long(report) ? direction : "-", errors.not_finite);
+}
+
+// JSON has no infinity: equal pictures have null.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json to_json(const CompareReport& report, const char* name, const ods::Errors& errors) {
+  const ods::LargestError& largest = errors.largest;
+  Json json = {{"eye", name}, {"rmse", number(errors.rmse)}, {"psnr", number(errors.psnr)}};
+  if (is_lat_long(report)) json["ws_psnr"] = number(errors.ws_psnr);
+  json["largest"] = {{"error", largest.error}};
+  if (largest.error > 0.0) {
+    json["largest"].update({{"eye", eye_word(report, static_cast<size_t>(largest.eye))},
+                            {"x", largest.x},
+                            {"y", largest.y},
+                            {"channel", std::string(1, "RGB"[largest.channel])}});
+    const Direction at = direction_of(report, largest);
+    if (is_lat_long(report)) json["largest"].update({{"azimuth", at.azimuth}, {"elevation", at.elevation}});
+  }
+  json["not_finite"] = errors.not_finite;
+  return json;
+}
+
+}  // namespace
+
+void print_text(const CompareReport& report) {
+  for (size_t i = 0; i < 2; i++) {
+    fmt::print("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]),
+               report.files[i].guess.because);
+  }
+  fmt::print("in {}\n\n", report.in_code_values ? "code values 0..1, as a display gets them" : "linear light");
+  fmt::print("{:<6} {:>10} {:>7} {:>7} {:>10}  {:<18} {:<13} {}\n", "eye", "RMSE", "PSNR", "WS-PSNR", "largest",
+             "at x,y", "degrees", "not finite");
+  const std::vector<ods::Errors>& eyes = report.comparison.eyes;
+  for (size_t i = 0; i < eyes.size(); i++) print_row(report, eye_word(report, i), eyes[i]);
+  if (eyes.size() > 1) print_row(report, "both", report.comparison.whole);
+  if (!report.z) {
+    fmt::print("\nnoise: unknown, as not both files carry variance.R, G and B\n");
+    return;
+  }
+  fmt::print("\nnoise: z has mean {:.4f} (0 expected), rms {:.4f} (1), beyond 3 {:.3g} % (0.27), largest {:.3g}",
+             report.z->mean, report.z->rms, 100.0 * report.z->beyond_3, report.z->largest);
+  fmt::print("; {} values differ without any noise\n", report.z->sure_differences);
+}
+
+void print_json(const CompareReport& report) {
+  Json json = {{"in", report.in_code_values ? "code values" : "linear light"}};
+  for (size_t i = 0; i < 2; i++) {
+    json[i == 0 ? "a" : "b"] = {{"path", report.paths[i]},
+                                {"layout", layout_word(report.files[i])},
+                                {"because", report.files[i].guess.because}};
+  }
+  const std::vector<ods::Errors>& eyes = report.comparison.eyes;
+  for (size_t i = 0; i < eyes.size(); i++) json["eyes"].push_back(to_json(report, eye_word(report, i), eyes[i]));
+  json["whole"] = to_json(report, "all", report.comparison.whole);
+  json["z"] = nullptr;
+  if (report.z) {
+    json["z"] = {{"values", report.z->values},   {"mean", report.z->mean},
+                 {"rms", report.z->rms},         {"beyond_3", report.z->beyond_3},
+                 {"largest", report.z->largest}, {"sure_differences", report.z->sure_differences}};
+  }
+  // A file's name may be no UTF-8.
+  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods compare prints.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+
+#include "ods/image/compare.h"
+#include "ods/picture/load_eyes.h"
+
+struct CompareReport {
+  std::array<std::string, 2> paths;
+  std::array<ods::LoadedEyes, 2> files;
+  bool in_code_values = false;  // else in linear light
+  ods::Comparison comparison;
+  std::optional<ods::ZTest> z;  // where both files carry variance
+};
+
+void print_text(const CompareReport& report);
+void print_json(const CompareReport& report);

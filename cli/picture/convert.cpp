@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods convert: a picture becomes another.
+#include "ods/convert/convert.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/picture/convert_job.h"
+
+namespace {
+
+// Tells the lines how many rows are made.
+void count_rows(ods::PictureRows& rows, const std::string& output, ProgressLines& lines,
+                std::chrono::steady_clock::time_point start) {
+  const double all = static_cast<double>(rows.eyes.size()) * rows.eye.height;
+  const auto done = std::make_shared<std::atomic<int>>(0);
+  const auto speaks = std::make_shared<std::mutex>();
+  rows.fill = [=, &lines, fill = rows.fill](int index, int y, std::span<float> row) {
+    fill(index, y, row);
+    const int count = ++*done;
+    if (!speaks->try_lock()) return;
+    const std::lock_guard<std::mutex> lock(*speaks, std::adopt_lock);
+    lines.report(std::min(count / all, 1.0), seconds_since(start), {"convert", 0, 0, output});
+  };
+}
+
+void say_what_is_missing(const ods::Conversion& conversion) {
+  const ods::PictureRows& rows = conversion.rows;
+  const double all = 1.0 * rows.eye.width * rows.eye.height * static_cast<double>(rows.eyes.size());
+  const double share = static_cast<double>(*conversion.empty) / all;
+  if (share == 0.0) return;
+  note(fmt::format("{:.3g} % of the pixels are empty: {}", 100.0 * share,
+                   conversion.sees_around ? "what the eyes see there now was hidden, or outside the picture"
+                                          : "the picture does not reach there"));
+}
+
+void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
+  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.rig.projection);
+  const std::string fault = ods::conversion_fault(job.picture, job.target);
+  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
+  const auto start = std::chrono::steady_clock::now();
+  ods::Conversion conversion = ods::convert(job.picture, job.target);
+  if (conversion.no_depth > 0) {
+    note(fmt::format("{}: {} of its depths are no distances (NaN, 0 or less): taken for far away", job.input,
+                     conversion.no_depth));
+  }
+  count_rows(conversion.rows, job.output, lines, start);
+  const auto files = ods::save_picture(conversion.rows, &job.target.rig, job.save, job.output);
+  lines.report(1.0, seconds_since(start), {"convert", 0, 0, job.output});
+  lines.clear();
+  for (const std::string& file : files) announce_file(file);
+  say_what_is_missing(conversion);
+  const ods::Extent eye = job.target.eye;
+  note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.rig.projection), eye.width,
+                   eye.height, duration_text(seconds_since(start))));
+}
+
+void convert(int argc, char** argv) {
+  ConvertJob job;
+  if (!read_convert_job(job, argc, argv)) return;
+  run_long_job(job.progress, job.threads, [&](ProgressLines& lines) {
+    open_convert_job(job, argc, argv);
+    convert_to_file(job, lines);
+  });
+}
+
+}  // namespace
+
+extern "C" int ods_convert(int argc, char** argv) {
+  return run_command([=] { convert(argc, argv); });
+}

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture/convert_job.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/eye_options.h"
+#include "cli/options/field_option.h"
+#include "cli/options/form_options.h"
+#include "cli/options/projection_options.h"
+#include "ods/picture/metadata/camera_file.h"
+
+using ods::CameraField, ods::CameraRig, ods::Eyes, ods::Layout;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods convert picture.png -o cubes.png --to cube-3x2\n"
+    "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --width 4096\n"
+    "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
+    "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90";
+
+constexpr const char* kSummary =
+    "Converts a stereo 360 picture to another projection, layout, size or convergence, or extracts single eyes. "
+    "Pictures\n"
+    "with depth (.exr of ods render) can also get another eye distance or pole merge. Everything that is not given "
+    "stays\n"
+    "as it is.";
+
+// What the command line says, on top of the picture's own camera.
+struct Wishes {
+  ods::RenderOptions size;  // width, height and eyes of it
+  std::optional<Layout> layout;
+  CameraOptions camera;
+  bool mono = false;
+};
+
+struct Given {
+  bool size, eyes, tone, exposure;
+};
+
+void add_input_options(Options& options, ConvertJob& job) {
+  options.argument("IN", job.input,
+                   "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+  options.group("Input, if neither the file nor its name tells");
+  options.custom(
+      "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
+      "its projection");
+  add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
+  options.custom(
+      "--from-camera", "FILE", "",
+      [&](const std::string& path) {
+        std::vector<std::string> warnings;
+        const ods::CameraFile file = ods::load_camera(path, warnings);
+        job.known.camera = file.rig;
+        if (!job.known.layout) job.known.layout = file.eyes.size() == 2 ? file.layout : Layout::kSeparate;
+        for (const std::string& warning : warnings) note(warning);
+      },
+      "its camera: a .camera.json file (ods render --sidecar)");
+}
+
+void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
+  options.group("Output");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+  add_size_option(options, wishes.size, layout_of_size);
+  options.number("--width", wishes.size.width, 0, 32768, "width of one eye in pixels; 0: keeps the input's resolution");
+  options.number("--height", wishes.size.height, 0, 32768,
+                 "height of one eye in pixels; 0: follows from the width and projection");
+  options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
+  add_layout_option(options, wishes.layout,
+                    "how both eyes share the file; by default the input's, side-by-side for --to vr180");
+  options.flag("--sidecar", job.save.sidecar,
+               "also write the camera to picture.camera.json, which --from of other commands reads");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+                 "tone curve, when converting .hdr or .exr to another format");
+}
+
+void add_camera(Options& options, CameraOptions& camera) {
+  add_projection_options(options, camera.rig.projection, "--to");
+  options.group("Turn");
+  add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw, "turn to the right, degrees");
+  add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; mono pictures only");
+  add_field_option(options, "--roll", camera.roll, CameraField::kRoll, "roll clockwise, degrees; mono pictures only");
+  add_circle_options(options, camera);
+}
+
+// What is written into `wishes` stands on what is there.
+bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv) {
+  Options options("convert", kSummary, kExamples);
+  Layout layout_of_size = Layout::kTopBottom;
+  wishes.size.width = 0;
+  add_input_options(options, job);
+  add_output_options(options, job, wishes, layout_of_size);
+  add_camera(options, wishes.camera);
+  options.group("Console");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
+  add_progress_options(options, job.progress);
+  if (!options.parse(argc, argv)) return false;
+  given = {wishes.size.width > 0, options.given("--eyes") || options.given("--size"), options.given("--tone"),
+           options.given("--exposure")};
+  if (options.given("--width") && !options.given("--height")) wishes.size.height = 0;
+  if (options.given("--height") && !given.size) throw UsageError("--height goes with --width");
+  if (options.given("--size") && !wishes.layout) wishes.layout = layout_of_size;
+  return true;
+}
+
+// Turned from where the picture looks.
+void turn(CameraRig& rig, const CameraOptions& by) {
+  const float yaw = by.yaw.value_or(0.0f), pitch = by.pitch.value_or(0.0f), roll = by.roll.value_or(0.0f);
+  if (rig.pitch == 0.0f && rig.roll == 0.0f) {
+    rig.yaw = ods::angle_in_range(double{rig.yaw} + double{yaw}), rig.pitch = pitch, rig.roll = roll;
+    return;
+  }
+  const auto frame = [](float y, float p, float r) {
+    return ods::attitude(glm::radians(double{y}), glm::radians(double{p}), glm::radians(double{r}));
+  };
+  const auto [right, up, back] = frame(rig.yaw, rig.pitch, rig.roll);
+  const auto turned = frame(yaw, pitch, roll);
+  const auto placed = [&](glm::dvec3 v) { return v.x * right + v.y * up + v.z * back; };
+  const ods::ViewAngles angles = ods::view_angles(-placed(turned[2]), placed(turned[1]));
+  rig.yaw = angles.yaw, rig.pitch = angles.pitch, rig.roll = angles.roll;
+}
+
+// A mono picture is one of the eyes that there are, wherever eyes are wanted.
+void note_unmoved(const ConvertJob& job, const CameraRig& wished) {
+  const CameraRig& own = job.picture.rig;
+  const bool moves = wished.ipd != own.ipd || wished.neck != own.neck || !ods::same_merge(wished.top, own.top) ||
+                     !ods::same_merge(wished.bottom, own.bottom);
+  if (moves && job.target.eyes[0] == ods::kMono) note("--ipd, --merge and --neck change nothing of one eye");
+}
+
+std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
+  if (wishes.mono || wishes.size.eyes == Eyes::kMonoEye) return {ods::kMono};
+  if (given) return ods::eye_list(wishes.size.eyes);
+  return own_form(job.picture).eyes;
+}
+
+// Where the output will lie, or what there is of the way to it.
+std::string folder_of(const std::string& output) {
+  std::filesystem::path folder = std::filesystem::path(output).parent_path();
+  std::error_code ignored;
+  while (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) folder = folder.parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+}  // namespace
+
+bool read_convert_job(ConvertJob& job, int argc, char** argv) {
+  Given ignored{};
+  Wishes first;
+  try {
+    if (!parse(job, first, ignored, argc, argv)) return false;
+  } catch (const UsageError&) {
+    if (job.input.empty() || job.output.empty()) throw;  // else judged again, knowing what there is
+  }
+  if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
+  ods::check_output(job.output, {}, {ods::kLeft, ods::kRight},
+                    {2, 2});  // before the picture is opened, which takes time
+  refuse_overwriting(job.output, job.input);
+  return true;
+}
+
+void open_convert_job(ConvertJob& job, int argc, char** argv) {
+  ods::OpenOptions open;
+  open.form = job.known;
+  open.scratch_folder = folder_of(job.output);
+  job.picture = ods::open_picture(job.input, open);
+  note_guesses(job.input, job.picture);
+
+  Given given{};
+  Wishes wishes;
+  wishes.camera.rig = job.picture.rig;
+  parse(job, wishes, given, argc, argv);
+  finish_eye_options(wishes.camera);
+  CameraRig& rig = job.target.rig = wishes.camera.rig;
+  turn(rig, wishes.camera);
+  job.target.eyes = wished_eyes(job, wishes, given.eyes);
+  note_unmoved(job, rig);
+  if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
+  save_as_it_was(job.picture, rig.projection, job.output, wishes.layout, given.tone, job.save);
+  if (given.exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
+
+  ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, rig.projection);
+  if (given.size) eye = {wishes.size.width, wishes.size.height};
+  finish_projection(rig.projection, eye.width, eye.height);
+  note_misleading_name(job.output, job.save, job.target.eyes.size(), rig.projection);
+}

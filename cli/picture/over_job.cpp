@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture/over_job.h"
+
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/form_options.h"
+#include "cli/options/projection_options.h"
+#include "ods/files/frames.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods over title.exr footage_TB.png -o titled_TB.png\n"
+    "  ods over title.exr film_360_TB.mp4 -o titled_360_TB.mp4\n"
+    "  ods over robot.exr street.exr -o both.exr --by-depth\n"
+    "  ods over 'title.####.exr' 'footage_TB.####.jpg' -o 'titled_TB.####.jpg'";
+
+constexpr const char* kSummary =
+    "Composites a stereo 360 picture with alpha over another, in linear light: titles and computer graphics over\n"
+    "footage. The foreground is converted to the background's projection, layout and size. Both can be pictures, "
+    "frames\n"
+    "(#### in the name is the number) or videos, whose frames count from 0. Background frames without a foreground "
+    "frame\n"
+    "stay as they are. A video keeps its codec, frame rate, sound and metadata.";
+
+}  // namespace
+
+bool read_over_job(OverJob& job, int argc, char** argv) {
+  Options options("over", kSummary, kExamples);
+  options.argument("FOREGROUND", job.foreground,
+                   "a picture, frames or a video with alpha, such as those of ods title and ods render --transparent");
+  options.argument("BACKGROUND", job.background, "a picture, frames or a video; %V in the name: one file per eye");
+  options.group("Pictures");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .png .jpg .tif .webp .hdr .exr; over a video also .mp4 .mov .mkv .webm; %V in the name "
+               "writes one file per eye");
+  options.custom(
+      "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
+      "frames of the background: 1-100, 1-100x2, ...; by default all");
+  options.custom(
+      "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
+      "the background's projection, if neither the file nor its name tells");
+  add_layout_option(options, job.known.layout, "the background's layout, if neither the file nor its name tells",
+                    "--from-layout");
+  add_layout_option(options, job.layout, "layout of the output; by default the background's");
+  options.flag("--by-depth", job.over.by_depth,
+               "hide foreground that is farther away than the background; both need depth");
+  options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "opacity of the foreground");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+                 "tone curve, when converting .hdr or .exr to another format");
+  options.group("Video (by default encoded like the background)");
+  add_packing_options(options, job.film);
+  options.group("Console");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
+  add_progress_options(options, job.progress);
+  if (!options.parse(argc, argv)) return false;
+  job.has_tone = options.given("--tone"), job.has_exposure = options.given("--exposure");
+  job.has_target = options.given("--target");
+  if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
+  return true;
+}
+
+void check_over(const OverJob& job, const ods::StoredPicture& first, const ods::StoredPicture& background) {
+  const std::string fault = over_fault(first, background, job.over);
+  if (fault.empty()) return;
+  throw UsageError(fmt::format("'{}' over '{}': {}", job.foreground, job.background, fault));
+}

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture/testcard_film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "ods/testcard/testcard_film.h"
+
+using ods::Container, ods::Layout;
+
+void add_testcard_film_options(Options& options, TestcardFilmWishes& wishes) {
+  options.group("Video (-o card.mp4 .mov .mkv .webm)");
+  options.flag("--film", wishes.is_film,
+               "make a video: adds frame numbers for each eye, a cell per frame, a moving bar, and every second a "
+               "flash and a beep; implied by a video's file name");
+  options.number("--duration", wishes.duration, 0.1f, 36000.0f, "length, seconds");
+  options.custom(
+      "--fps", "X|N/M", "30", [&](const std::string& text) { wishes.film.rate = parse_rate(text); },
+      "frames per second");
+  add_packing_options(options, wishes.film);
+}
+
+// As it will lie in the film.
+static ods::FilmPlan plan_card(ods::Extent eye, size_t eyes, Layout layout, const ods::ProjectionSetting& projection,
+                               Container container) {
+  const Layout kFilms[] = {Layout::kTopBottom, Layout::kBottomTop,     Layout::kSideBySide,
+                           Layout::kCrossEyed, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
+  if (eyes == 2 && std::find(std::begin(kFilms), std::end(kFilms), layout) == std::end(kFilms)) {
+    throw UsageError(
+        fmt::format("a film's layout is top-bottom, bottom-top, side-by-side or cross-eyed, perhaps -half, "
+                    "not {}",
+                    layout_name(layout)));
+  }
+  const ods::FilmPlan plan =
+      ods::plan_eyes(ods::squeezed_eye(layout, eye, static_cast<int>(eyes)), eyes, layout, projection);
+  if (has_boxes(container) && !ods::fits_v2(plan.form)) {
+    throw UsageError(fmt::format("{} has no word for {}; .mkv has", container_name(container), form_text(plan.form)));
+  }
+  return plan;
+}
+
+void make_film_of_card(const ods::CameraRig& rig, ods::Extent eye, const std::vector<int>& eyes, Layout layout,
+                       const std::vector<std::string>& lines, const TestcardFilmWishes& wishes,
+                       ProgressLines& progress_lines) {
+  const auto start = std::chrono::steady_clock::now();
+  const ods::FilmPlan plan = plan_card(eye, eyes.size(), layout, rig.projection, container_for(wishes.film.output));
+  const ods::EncodeOptions options = encode_options(wishes.film, plan.size, wishes.threads);
+  ods::check_packing(plan, options.packing);
+  for (const std::string& each : plan.notes) note(each);
+  say_what_players_need(wishes.film, plan, options);
+  const double fps = options.rate.value();
+  const int frames = std::max(1, static_cast<int>(std::lround(static_cast<double>(wishes.duration) * fps)));
+  const ods::Testcard card = make_testcard(rig, plan.eye, lines);
+  const ods::TestcardFilm film = make_testcard_film(card, rig, eyes, plan, options.rate, options.packing);
+  ods::Progress progress;
+  progress.report = [&](double done) {
+    progress_lines.report(done, seconds_since(start),
+                          film_step("encode", done, static_cast<size_t>(frames), wishes.film.output));
+  };
+  write_testcard_film(film, plan, frames, options, wishes.film.output, progress);
+  progress_lines.clear();
+  announce_file(wishes.film.output);
+  note(fmt::format("{}: {}, in {}", wishes.film.output, film_text(plan, options, static_cast<size_t>(frames)),
+                   duration_text(seconds_since(start))));
+}

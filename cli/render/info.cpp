@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods info: what is in a scene, for people or as JSON.
+#include "ods/scene/info.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/console/console.h"
+#include "cli/options/camera_options.h"
+#include "cli/options/scene_source.h"
+
+using ods::SceneInfo, ods::vec3, ods::ViewPoint;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods info scene.glb\n"
+    "  ods info scene.glb --position 0,1.6,0      the nearest surface from there\n"
+    "  ods info scene.glb --json";
+
+std::string xyz(vec3 p) {
+  return fmt::format("{:.4g},{:.4g},{:.4g}", p.x, p.y, p.z);
+}
+
+void print_text(const SceneInfo& info, vec3 position) {
+  auto row = [](const char* name, const std::string& value) { std::printf("%-14s %s\n", name, value.c_str()); };
+  const vec3 size = info.bounds.high - info.bounds.low;
+  row("scene", info.name);
+  row("triangles", fmt::format("{} stored in {} meshes, {} in {} instances", info.triangles, info.meshes,
+                               info.instanced_triangles, info.instances));
+  row("materials", fmt::format("{}, {} textures ({:.1f} MB)", info.materials, info.textures,
+                               static_cast<double>(info.texel_bytes) * 1e-6));
+  row("lights",
+      fmt::format("{} glowing triangles, {} point, {} spot, {} directional, {} environment", info.emissive_triangles,
+                  info.point_lights, info.spot_lights, info.directional_lights, info.has_environment ? "an" : "no"));
+  row("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {} to {}", size.x, size.y, size.z, xyz(info.bounds.low),
+                          xyz(info.bounds.high)));
+  for (const ViewPoint& view : info.view_points) {
+    row("camera", fmt::format("'{}' at {}, yaw {:.4g} pitch {:.4g} roll {:.4g}", view.name, xyz(view.position),
+                              view.yaw, view.pitch, view.roll));
+  }
+  for (const auto& [name, seconds] : info.animations) row("animation", fmt::format("'{}', {:.4g} s", name, seconds));
+  if (info.nearest_surface >= 0.0f) {
+    row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
+  }
+  for (const std::string& warning : info.warnings) row("warning", warning);
+}
+
+nlohmann::ordered_json to_json(vec3 p) {
+  return {p.x, p.y, p.z};
+}
+
+void print_json(const SceneInfo& info, vec3 position) {
+  nlohmann::ordered_json json = {
+      {"name", info.name},
+      {"meshes", info.meshes},
+      {"instances", info.instances},
+      {"triangles", info.triangles},
+      {"instanced_triangles", info.instanced_triangles},
+      {"emissive_triangles", info.emissive_triangles},
+      {"materials", info.materials},
+      {"textures", info.textures},
+      {"texel_bytes", info.texel_bytes},
+      {"point_lights", info.point_lights},
+      {"spot_lights", info.spot_lights},
+      {"directional_lights", info.directional_lights},
+      {"has_environment", info.has_environment},
+      {"bounds", {{"low", to_json(info.bounds.low)}, {"high", to_json(info.bounds.high)}}},
+      {"position", to_json(position)},
+      {"nearest_surface", nullptr},
+      {"cameras", nlohmann::ordered_json::array()},
+      {"animations", nlohmann::ordered_json::array()},
+      {"warnings", info.warnings},
+  };
+  if (info.nearest_surface >= 0.0f) json["nearest_surface"] = info.nearest_surface;
+  for (const ViewPoint& view : info.view_points) {
+    json["cameras"].push_back({{"name", view.name},
+                               {"position", to_json(view.position)},
+                               {"yaw", view.yaw},
+                               {"pitch", view.pitch},
+                               {"roll", view.roll}});
+  }
+  for (const auto& [name, seconds] : info.animations) {
+    json["animations"].push_back({{"name", name}, {"seconds", seconds}});
+  }
+  // A file's names may be no UTF-8.
+  std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+void info(int argc, char** argv) {
+  SceneSource source;
+  CameraOptions camera;
+  bool json = false;
+  Options options("info", "Shows what is in a scene, and which parts of it are not rendered.", kExamples);
+  add_scene_argument(options, source);
+  add_place_options(options, camera);
+  options.group("Console");
+  options.flag("--json", json, "print JSON");
+  add_console_options(options);
+  if (!options.parse(argc, argv)) return;
+  console.quiet = true;  // what notes would say stands in the result
+  const ods::Scene scene = open_scene(source);
+  const vec3 position = place_camera(camera, scene).position;
+  const SceneInfo info = describe(scene, position);
+  json ? print_json(info, position) : print_text(info, position);
+}
+
+}  // namespace
+
+extern "C" int ods_info(int argc, char** argv) {
+  return run_command([=] { info(argc, argv); });
+}

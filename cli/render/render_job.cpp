@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/render_job.h"
+
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/form_options.h"
+
+namespace {
+
+constexpr Quality kQualities[] = {{"draft", 1024, 16}, {"preview", 2048, 64}, {"final", 4096, 512}};
+
+constexpr const char* kExamples =
+    "  ods render scene.glb -o picture.png\n"
+    "  ods render scene.glb -o picture.exr --width 4096 --samples 256 --env sky.hdr\n"
+    "  ods render scene.glb -o picture.jpg --position 0,1.6,0 --yaw 90 --quality draft\n"
+    "  ods render scene.glb -o eye_%V.png         eye_left.png and eye_right.png\n"
+    "  ods render scene.glb -o picture.png --merge cosine,60,90\n"
+    "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30\n"
+    "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
+
+void add_picture_options(Options& options, RenderJob& job) {
+  options.group("Picture");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+  add_form_options(options, job.render, job.save);
+  options.text("--rig", "FILE", job.rig, "render the views of this rig (made by ods rig), for ods stitch");
+  options.flag("--transparent", job.render.transparent,
+               "leave the background transparent, for ods over; the sky still lights the scene (.exr .png .tif .webp)");
+  options.texts(
+      "--catch", "NAME", job.scene.catchers,
+      "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+                 "tone curve; ignored as --exposure is");
+}
+
+// A rig has cameras and a size of its own.
+void check_rig(const Options& options, const RenderJob& job) {
+  if (job.rig.empty()) return;
+  for (const char* own : {"--width", "--height", "--size", "--eyes", "--layout", "--position", "--camera", "--yaw",
+                          "--pitch", "--roll", "--ipd", "--projection", "--frames", "--shutter"}) {
+    if (options.given(own)) throw UsageError(fmt::format("{} is not for --rig", own));
+  }
+}
+
+}  // namespace
+
+void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
+  quality = kQualities[1];
+  options.group("Quality");
+  std::string sizes;
+  for (const Quality& q : kQualities) sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
+  auto name_of = [](Quality each) { return each.name; };
+  options.choice("--quality", quality, kQualities, +name_of, "set width and samples together" + sizes);
+  options.number("--samples", job.render.samples, 1, 1 << 20, "samples per pixel");
+  options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
+  options.choice("--filter", job.render.filter, ods::kPixelFilters, ods::pixel_filter_name, "pixel filter");
+  options.number("--seed", job.render.seed, "random seed; the same seed gives the same picture");
+  options.number("--threads", job.render.threads, 0, 1024, "number of threads; 0: all processors");
+}
+
+void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
+  check_time_options(job.time);
+  if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
+  if (!options.given("--samples")) job.render.samples = quality.samples;
+  job.has_layout = options.given("--layout") || options.given("--size");
+  finish_form_options(options, job.camera.rig.projection, job.render, job.save);
+  finish_camera_options(job.camera, job.render.width, job.render.height);
+}
+
+bool read_render_job(RenderJob& job, int argc, char** argv) {
+  Quality quality;
+  Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
+  add_scene_argument(options, job.scene);
+  add_light_options(options, job.scene);
+  add_picture_options(options, job);
+  add_camera_options(options, job.camera);
+  add_time_options(options, job.time);
+  add_quality_options(options, job, quality);
+  options.group("Console");
+  add_progress_options(options, job.progress);
+  if (!options.parse(argc, argv)) return false;
+  if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
+  if (options.given("--exposure") && keeps_light(job.output))
+    note("--exposure leaves .exr and .hdr as the scene is lit");
+  if (job.render.transparent && !ods::has_alpha(job.output)) {
+    throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
+  }
+  if (!job.scene.catchers.empty() && !job.render.transparent) {
+    throw UsageError("--catch leaves shadows to lay over something: it needs --transparent");
+  }
+  job.render.layers = ods::keeps_layers(job.output);
+  check_rig(options, job);
+  finish_render_job(options, quality, job);
+  return true;
+}

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods rig: the perspective cameras that any renderer can take an ODS picture with, and how far it would be off.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/console/console.h"
+#include "cli/options/camera_source.h"
+#include "cli/options/scene_source.h"
+#include "cli/slits/rig_report.h"
+#include "cli/slits/rig_scripts.h"
+#include "ods/render/cpu/render.h"
+#include "ods/stitch/slit_error.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
+    "  ods rig --scene room --max-error 0.25 -o rig.json --for blender,povray   scripts for these, beside it\n"
+    "  ods rig --from picture.camera.json --slits 360      says how far that would be off";
+
+struct RigJob {
+  CameraSource source;
+  SceneSource scene;
+  ods::SlitOptions slits;
+  std::optional<int> count;
+  std::optional<float> nearest;
+  float max_error = 0.5f;
+  std::string output;
+  std::vector<ods::RigTarget> targets;
+};
+
+void add_slit_options(Options& options, RigJob& job) {
+  options.group("Slits");
+  options.number("--max-error", job.max_error, 0.001f, 1000.0f,
+                 "largest error of the nearest object, pixels; sets the number of slits");
+  options.number("--nearest", job.nearest, 0.01f, 1e6f,
+                 "distance to the nearest object, metres; by default 1, or measured in --scene");
+  add_scene_option(options, job.scene, "measure --nearest in this scene, from its camera");
+  options.number("--slits", job.count, 3, 32768, "number of slits per eye, instead of --max-error");
+  options.number("--pitches", job.slits.pitches, 1, 64, "number of views above each other per slit");
+  options.flag("--caps", job.slits.caps, "point the top view straight up and the bottom view straight down");
+  options.number("--blend", job.slits.blend, 0.0f, 1.0f, "share of a slit that blends into the next one");
+  options.number("--padding", job.slits.padding, 0, 4096, "extra pixels around each view, for effects such as bloom");
+  options.number("--scale", job.slits.scale, 0.01f, 16.0f, "resolution of the views relative to the picture");
+  options.choice("--depth", job.slits.depth, ods::kViewDepths, ods::view_depth_name,
+                 "depth that the views will have: along the ray, or of a depth buffer (plane); with depth, a tenth of "
+                 "the slits is enough");
+}
+
+bool read_options(RigJob& job, int argc, char** argv) {
+  Options options("rig", "Plans the perspective cameras that other renderers can make an ODS picture with.", kExamples);
+  options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; by default only prints the plan");
+  add_script_option(options, job.targets);
+  add_slit_options(options, job);
+  add_camera_source(options, job.source);
+  options.group("Console");
+  add_console_options(options);
+  if (!options.parse(argc, argv)) return false;
+  if (job.count && options.given("--max-error")) throw UsageError("--slits is instead of --max-error");
+  if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes beside the rig: where? -o rig.json");
+  if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest is instead of --scene");
+  return true;
+}
+
+// The depth of the nearest thing, as the eyes see it.
+float measure(const ods::Scene& scene, ods::CameraRig camera) {
+  ods::RenderOptions options;
+  options.width = 1024, options.height = 512, options.samples = 1, options.bounces = 0;
+  camera.projection = {};
+  float nearest = ods::kFarDepth;
+  for (const ods::EyeImage& eye : render_cpu(scene, camera, options).eyes) {
+    for (const float depth : eye.depth.pixels) nearest = std::min(nearest, depth > 0.0f ? depth : nearest);
+  }
+  if (nearest >= ods::kFarDepth) throw UsageError("--scene: the camera sees nothing there; say --nearest M");
+  return nearest;
+}
+
+// The camera and the nearest distance.
+std::pair<ods::CameraFile, float> survey(RigJob& job) {
+  ods::CameraFile file = read_camera_source(job.source);
+  if (job.scene.name.empty()) return {file, job.nearest.value_or(1.0f)};
+  ods::Scene scene = open_scene(job.scene);
+  file.rig = place_camera(job.source.camera, scene);
+  return {file, measure(scene, file.rig)};
+}
+
+void rig(int argc, char** argv) {
+  RigJob job;
+  if (!read_options(job, argc, argv)) return;
+  const auto [file, nearest] = survey(job);
+  if (!job.scene.name.empty()) note(fmt::format("the nearest thing is {:.3g} m away", nearest));
+  job.slits.slits = job.count ? *job.count : ods::slits_for(file.rig, file.eye, job.slits, nearest, job.max_error);
+  const std::string fault = slit_fault(file.rig, file.eye, job.slits);
+  if (!fault.empty()) throw UsageError(fault);
+  const ods::SlitRig made = make_slit_rig(file.rig, file.eye, file.eyes, job.slits);
+  if (job.output.empty() || !console.quiet) print_plan(made, nearest);
+  if (!job.output.empty()) write_rig(made, job.targets, job.output);
+}
+
+}  // namespace
+
+extern "C" int ods_rig(int argc, char** argv) {
+  return run_command([=] { rig(argc, argv); });
+}

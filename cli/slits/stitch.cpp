@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods stitch: the views of a rig become its picture, or those of every frame a film's.
+#include <chrono>
+#include <iostream>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/form_options.h"
+#include "cli/slits/stitch_frames.h"
+#include "ods/files/claim.h"
+
+namespace {
+
+void run(const StitchJob& job, ProgressLines& lines) {
+  const auto start = std::chrono::steady_clock::now();
+  const ods::SlitRig rig = open_rig(job.rig_file);
+  const std::string fault = names_fault(rig, job.views);
+  if (!fault.empty()) throw UsageError(fault);
+  if (job.list_missing) {
+    has_rig_marks(rig, job.views);
+    const std::vector<ods::ViewFault> faults = missing_views(rig, job.views, true);
+    tell_faults(faults, note);
+    if (!faults.empty()) std::cout << view_ranges(rig, job.views, faults) << std::endl;
+    return;
+  }
+  const bool is_film = !job.frames.empty();
+  ods::check_output(is_film ? film_names(job.output).path(0) : job.output, job.save, rig.eyes, rig.eye);
+  const auto report = [&](double part, const ProgressStep& step) { lines.report(part, seconds_since(start), step); };
+  if (is_film) {
+    stitch_frames(job, rig, report);
+  } else {
+    const std::unique_ptr<ods::Claim> own = ods::claim(job.output);
+    stitch_picture(job, rig, job.views, job.output, report);
+  }
+  report(1.0, {"stitch", 0, 0, job.output});
+  lines.clear();
+}
+
+void stitch(int argc, char** argv) {
+  StitchJob job;
+  if (!read_stitch_job(job, argc, argv)) return;
+  run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { run(job, lines); });
+}
+
+}  // namespace
+
+extern "C" int ods_stitch(int argc, char** argv) {
+  return run_command([=] { stitch(argc, argv); });
+}

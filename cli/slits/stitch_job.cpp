@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/slits/stitch_job.h"
+
+#include <cstdio>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/form_options.h"
+
+static constexpr const char* kExamples =
+    "  ods stitch rig.json 'views/####.exr' -o picture.exr\n"
+    "  ods stitch rig.json 'views/####.exr' --list-missing       what is to be rendered (again)\n"
+    "  ods stitch rig.json 'views/####.png' -o look.png --partial\n"
+    "  ods stitch rig.json 'views/####/####.exr' -o 'shot.####.exr' --frames 1-100   folders are frames";
+
+static void set_sheet(const std::string& word, ods::ViewFiles& views) {
+  char rest = 0;
+  const int found = std::sscanf(word.c_str(), "%6dx%6d%c", &views.columns, &views.rows, &rest);
+  const bool legal = found == 2 && views.columns > 0 && views.rows > 0;
+  if (!legal) throw UsageError("--sheet is COLUMNSxROWS, as 8x4, not '" + word + "'");
+}
+
+bool read_stitch_job(StitchJob& job, int argc, char** argv) {
+  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kExamples);
+  options.argument("RIG", job.rig_file, "the rig file that ods rig wrote");
+  options.argument("VIEWS", job.views.names, "the views' file names, with #### for the view's number; %V is the eye");
+  options.group("Picture");
+  options.text("-o,--output", "FILE", job.output,
+               "output file: .exr .png .jpg .tif .webp .hdr; .exr keeps layers and depth");
+  add_layout_option(options, job.layout, "how both eyes share the file; by default top-bottom, side-by-side for vr180");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, for scene-linear views");
+  options.flag("--sidecar", job.save.sidecar, "also write the camera to picture.camera.json");
+  options.group("Views");
+  options.text("--frames", "RANGE", job.frames,
+               "frames to stitch; the views' folder has the frame's number: 'views/####/####.exr'");
+  options.flag("--skip-existing", job.skip_existing,
+               "do not stitch frames whose files exist; several processes with this option share the rest");
+  options.custom(
+      "--sheet", "CxR", "", [&](const std::string& word) { set_sheet(word, job.views); },
+      "each file is a contact sheet with this many columns and rows of views, row by row");
+  options.flag("--by-columns", job.views.by_columns, "the sheet's views are ordered column by column");
+  options.flag("--own-normals", job.views.own_normals,
+               "the views' normals are in camera space; convert them to world space");
+  options.flag("--partial", job.partial, "stitch although views are missing; leave their parts black");
+  options.flag("--list-missing", job.list_missing, "only print which views to render again, as a frame range");
+  options.text("--report", "FILE", job.report,
+               "write a picture of the seams between slits, and print how visible they are");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
+  options.group("Console");
+  add_progress_options(options, job.progress);
+  if (!options.parse(argc, argv)) return false;
+  job.has_tone = options.given("--tone");
+  if (job.output.empty() && !job.list_missing) throw UsageError("no output file: add -o picture.exr");
+  if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing is for --frames");
+  return true;
+}

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/video/frame_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "ods/base/text.h"
+#include "ods/files/confined_file.h"
+#include "ods/files/md5.h"
+#include "ods/scene/builtin/builtin.h"
+#include "ods/scene/gltf/gltf.h"
+
+namespace {
+
+using Settings = std::vector<Setting>;
+
+void add(Settings& settings, const std::string& option, const std::string& value) {
+  settings.push_back({option, ods::one_line(value), ""});
+}
+
+void add_number(Settings& settings, const std::string& option, double value) {
+  settings.push_back({option, fmt::format("{}", value), ""});
+}
+
+void add_float(Settings& settings, const std::string& option, float value) {
+  settings.push_back({option, fmt::format("{}", value), ""});
+}
+
+void add_flag(Settings& settings, const std::string& option, bool value) {
+  settings.push_back({option, value ? "on" : "off", ""});
+}
+
+std::string text_of(const ods::vec3& point) {
+  return fmt::format("{},{},{}", point.x, point.y, point.z);
+}
+
+// Whoever reads a file that is not there says so.
+void add_file(Settings& settings, const std::string& option, const std::string& path, const std::string& confine = {}) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    settings.push_back({option, "missing", ods::one_line(path)});
+    return;
+  }
+  const ods::ConfinedFile file(path, confine);
+  settings.push_back({option, ods::md5_of_file(file.path()), ods::one_line(path)});
+}
+
+void add_scene(Settings& settings, const SceneSource& source) {
+  const auto& [name, scene, environment, catchers, confine] = source;
+  const std::string confined_to = confining_folder(source);
+  std::error_code error;
+  const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
+  if (is_file) {
+    add_file(settings, "SCENE", name, confined_to);
+    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    for (const std::string& file : ods::gltf_files(name, confined_to)) {
+      add_file(settings, fmt::format("SCENE's file {}", ods::one_line(file)), (folder / file).native(), confined_to);
+    }
+  } else {
+    add(settings, "SCENE", name);
+  }
+  add(settings, "--scene", scene ? fmt::format("{}", *scene) : "of the file");
+  if (std::filesystem::is_regular_file(environment, error)) {
+    add_file(settings, "--env", environment, confined_to);
+  } else {
+    add(settings, "--env", environment.empty() ? "of the scene" : environment);
+  }
+  add(settings, "--catch", fmt::format("{}", fmt::join(catchers, ", ")));
+}
+
+void add_projection(Settings& settings, const ods::ProjectionSetting& projection) {
+  const auto& [kind, longitude, latitude, fov, aspect, pan, tilt] = projection;
+  add(settings, "--projection", std::string(ods::projection_name(projection)));
+  add(settings, "--range", fmt::format("{},{},{},{}", longitude.x, longitude.y, latitude.x, latitude.y));
+  add_float(settings, "--fov", fov);
+  add_float(settings, "width over height", aspect);
+  add(settings, "--look", fmt::format("{},{}", pan, tilt));
+}
+
+std::string merge_text(const ods::PoleMergeSetting& merge) {
+  const auto& [mode, start, end, exponent] = merge;
+  if (mode == ods::kMergeNone) return "none";
+  return fmt::format("{},{},{},{}", ods::merge_name(mode), start, end, exponent);
+}
+
+void add_merge_map(Settings& settings, const std::shared_ptr<const ods::Image>& map, const std::string& path) {
+  if (!map) return;
+  const std::string_view bytes(reinterpret_cast<const char*>(map->pixels.data()), map->pixels.size() * sizeof(float));
+  settings.push_back({"--merge-map", ods::md5(fmt::format("{}x{}", map->width, map->height) + std::string(bytes)),
+                      ods::one_line(path)});
+}
+
+// The rig's own place and angles stand for those of every scene: place_camera() replaces them.
+void add_camera(Settings& settings, const CameraOptions& camera) {
+  const auto& [rig, merge_map, merge_map_inverted, view_point, position, yaw, pitch, roll] = camera;
+  const auto& [rig_position, rig_yaw, rig_pitch, rig_roll, ipd, top, bottom, map, projection, convergence,
+               convergence_distance, neck, axis, lens_radius, focus_distance, mirrored] = rig;
+  const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
+    return angle ? fmt::format("{}", *angle) : fallback;
+  };
+  add(settings, "--camera", view_point.empty() ? "the first" : view_point);
+  add(settings, "--position", position ? text_of(*position) : "of the scene");
+  add(settings, "--yaw", chosen(yaw, "of the scene"));
+  add(settings, "--pitch", chosen(pitch, "0"));
+  add(settings, "--roll", chosen(roll, "0"));
+  add_float(settings, "--ipd", ipd);
+  add(settings, "--merge-top", merge_text(top));
+  add(settings, "--merge-bottom", merge_text(bottom));
+  add_merge_map(settings, map, merge_map);
+  add_projection(settings, projection);
+  const bool parallel = convergence == ods::kParallel;
+  add(settings, "--convergence",
+      parallel ? "parallel" : fmt::format("{},{}", ods::convergence_name(convergence), convergence_distance));
+  add_float(settings, "--neck", neck);
+  add(settings, "--axis", axis ? text_of(*axis) : "camera");
+  add(settings, "--lens", lens_radius == 0.0f ? "none" : fmt::format("{},{}", lens_radius, focus_distance));
+  add_flag(settings, "--mirrored", mirrored);
+}
+
+void add_time(Settings& settings, const TimeOptions& options) {
+  const auto& [time, animation, frames, fps, duration, move, shutter, noise, skip_existing, is_film] = options;
+  const auto& [seconds, turns, pivot, fly_to] = move;
+  add(settings, "--animation", animation.empty() ? "all" : animation);
+  add_float(settings, "--fps", fps);
+  add_float(settings, "--shutter", shutter);
+  add(settings, "--noise", std::string(film_noise_name(noise)));
+  add(settings, "--turntable", fmt::format("{}{}", turns, pivot ? "," + text_of(*pivot) : ""));
+  std::vector<std::string> places;
+  for (const ods::vec3& place : fly_to) places.push_back(text_of(place));
+  add(settings, "--fly-to", places.empty() ? "nowhere" : fmt::format("{}", fmt::join(places, ";")));
+  const bool lasts = duration && ods::moves(move);  // else it only says how many frames there are
+  add(settings, "--duration", lasts ? fmt::format("{}", *duration) : "of the scene");
+}
+
+void add_render(Settings& settings, const ods::RenderOptions& options) {
+  const auto& [width, height, samples, bounces, eyes, filter, layers, transparent, seed, threads, light_sampling,
+               last_tile_first] = options;
+  add_number(settings, "--width", width);
+  add_number(settings, "--height", height);
+  add_number(settings, "--samples", samples);
+  add_number(settings, "--bounces", bounces);
+  add(settings, "--eyes", std::string(ods::eyes_name(eyes)));
+  add(settings, "--filter", std::string(ods::pixel_filter_name(filter)));
+  add_flag(settings, "layers", layers);
+  add_flag(settings, "--transparent", transparent);
+  add(settings, "--seed", fmt::format("{}", seed));
+}
+
+// A frame keeps the scene's light: exposure, tone and quality are the film's.
+void add_save(Settings& settings, const ods::SaveOptions& save) {
+  const auto& [layout, exposure, tone, jpeg_quality, attributes, sidecar] = save;
+  add(settings, "--layout", std::string(ods::layout_name(layout)));
+}
+
+std::string change(const std::string& option, const Setting* was, const Setting* is) {
+  if (!was) return fmt::format("{} is new", option);
+  if (!is) return fmt::format("{} is gone", option);
+  if (!was->path.empty() && was->path == is->path) {
+    return is->value == "missing" ? fmt::format("{} '{}' is missing", option, is->path)
+                                  : fmt::format("{} '{}' has changed", option, is->path);
+  }
+  const auto said = [](const Setting& setting) { return setting.path.empty() ? setting.value : setting.path; };
+  return fmt::format("{} was {}, now {}", option, said(*was), said(*is));
+}
+
+}  // namespace
+
+std::vector<Setting> frame_settings(const RenderJob& job) {
+  Settings settings;
+  add(settings, "version of ods", ODS_VERSION);
+  add_scene(settings, job.scene);
+  add_camera(settings, job.camera);
+  add_time(settings, job.time);
+  add_render(settings, job.render);
+  add_save(settings, job.save);
+  return settings;
+}
+
+std::vector<Setting> stitch_settings(const std::string& rig_file, const std::string& views,
+                                     const ods::SaveOptions& save) {
+  Settings settings;
+  add(settings, "version of ods", ODS_VERSION);
+  add_file(settings, "--rig", rig_file);
+  add(settings, "VIEWS", views);
+  add_save(settings, save);
+  return settings;
+}
+
+std::string settings_difference(const std::vector<Setting>& then, const std::vector<Setting>& now) {
+  const auto find = [](const Settings& settings, const std::string& option) -> const Setting* {
+    const auto same = [&](const Setting& each) { return each.option == option; };
+    const auto found = std::find_if(settings.begin(), settings.end(), same);
+    return found == settings.end() ? nullptr : &*found;
+  };
+  std::vector<std::string> changes;
+  for (const Setting& is : now) {
+    const Setting* was = find(then, is.option);
+    if (!was || was->value != is.value) changes.push_back(change(is.option, was, &is));
+  }
+  for (const Setting& was : then) {
+    if (!find(now, was.option)) changes.push_back(change(was.option, &was, nullptr));
+  }
+  const size_t kMost = 3;
+  const std::string more = changes.size() > kMost ? fmt::format("; and {} more", changes.size() - kMost) : "";
+  changes.resize(std::min(changes.size(), kMost));
+  return fmt::format("{}{}", fmt::join(changes, "; "), more);
+}

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods inject: makes a film or a picture say what it is, without encoding it again.
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/apple_option.h"
+#include "cli/options/layout_options.h"
+#include "cli/video/inject_job.h"
+#include "ods/video/container/film.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods inject film_360_TB.mp4                 as its name says\n"
+    "  ods inject film.mp4 -o tagged.mp4 --layout top-bottom --projection lat-long\n"
+    "  ods inject film.mov --projection vr180 --layout side-by-side\n"
+    "  ods inject film.mp4 --remove\n"
+    "  ods inject panorama_360.jpg --yaw 90       GPano, which viewers of pictures read";
+
+constexpr const char* kSummary =
+    "Writes into a video (mp4, mov, mkv, webm) how its eyes are laid out and which part of the sphere it shows:\n"
+    "Spherical Video V2, and V1 where possible. Writes GPano into a picture of one eye (jpg, png, tif), and the "
+    "camera\n"
+    "into an exr. Only what you ask for changes. What the file does not say comes from a sidecar, its name (_360_TB,\n"
+    "_180_LR, ...) or its shape. Nothing is encoded again; samples and pixels stay the same. The new file replaces "
+    "the\n"
+    "old one when it is complete.";
+
+bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
+  Options options("inject", kSummary, kExamples);
+  std::string layout;
+  options.argument("FILE", job.file, "the file: mp4, mov, mkv, webm; jpg, png, tif, exr");
+  options.text("-o,--output", "FILE", job.output, "write this file and leave FILE unchanged");
+  options.group("Metadata");
+  options.text("--layout", "LAYOUT", layout, "mono, top-bottom, side-by-side, ...: how both eyes share a frame");
+  options.text("--projection", "NAME", job.projection,
+               "lat-long, vr180 or flat; videos also cubemap (right, left, up over down, front, back); .exr also any "
+               "projection of ods convert");
+  options.number("--yaw", job.yaw, -180.0f, 180.0f,
+                 "video: turn the view to the left, degrees; picture: compass heading of its centre");
+  options.number("--pitch", job.pitch, -90.0f, 90.0f, "tilt up, degrees");
+  options.number("--roll", job.roll, -180.0f, 180.0f, "roll clockwise, degrees");
+  options.number("--track", job.track, 0, 2147483647,
+                 "number of the video track; by default the one with the largest picture");
+  options.flag("--ambisonics", job.ambisonics,
+               "mark four-channel sound as first-order ambisonics (AmbiX: W Y Z X, SN3D); mp4 and mov only");
+  add_apple_option(options, job.for_apple);
+  options.flag("--remove", job.remove, "remove all 360 and stereo metadata");
+  options.group("Console");
+  add_progress_options(options, mode);
+  if (!options.parse(argc, argv)) return false;
+  for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics", "--apple"}) {
+    if (job.remove && options.given(other)) throw UsageError(fmt::format("--remove leaves nothing for {}", other));
+  }
+  job.is_mono = layout == "mono";
+  if (!layout.empty() && !job.is_mono) job.layout = layout_by_name("--layout", layout);
+  if (job.output.empty()) job.output = job.file;
+  return true;
+}
+
+void inject(int argc, char** argv) {
+  InjectJob job;
+  ProgressMode mode = ProgressMode::kAuto;
+  if (!read_options(job, mode, argc, argv)) return;
+  const bool is_film = ods::is_film(job.file);
+  run_long_job(mode, 0, [&](ProgressLines& lines) { is_film ? inject_film(job, lines) : inject_picture(job); });
+  announce_file(job.output);
+}
+
+}  // namespace
+
+extern "C" int ods_inject(int argc, char** argv) {
+  return run_command([=] { inject(argc, argv); });
+}

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/video/inject_job.h"
+#include "ods/base/error.h"
+#include "ods/base/suggest.h"
+#include "ods/picture/metadata/tag_picture.h"
+
+namespace {
+
+ods::KnownForm known_form(const InjectJob& job) {
+  ods::KnownForm known;
+  known.one_eye = job.is_mono;
+  known.layout = job.layout;
+  if (job.projection.empty()) return known;
+  const ods::NamedProjection* named = ods::find_projection(job.projection == "flat" ? "perspective" : job.projection);
+  if (!named) {
+    std::vector<std::string> names;
+    for (const ods::NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
+    throw UsageError(fmt::format("--projection: pictures have no projection '{}'{}", job.projection,
+                                 ods::did_you_mean(job.projection, names)));
+  }
+  known.projection = named->setting;
+  return known;
+}
+
+// A picture whose name contradicts its own words is not tagged on the name's word, nor silently against it.
+void settle_name(const InjectJob& job, const ods::PictureTag& tag) {
+  const std::string fault = ods::name_fault(job.file, tag.layout, tag.rig.projection);
+  if (fault.empty()) return;
+  const bool asks = job.is_mono || job.layout || !job.projection.empty() || job.yaw || job.pitch || job.roll;
+  if (asks) return warn(fmt::format("'{}': {}", job.file, fault));
+  throw ods::Error(
+      ods::ErrorKind::kInput,
+      fmt::format("'{}' contradicts itself: {}. Say which is true with --layout or --projection", job.file, fault));
+}
+
+}  // namespace
+
+void inject_picture(const InjectJob& job) {
+  if (job.track || job.ambisonics || job.for_apple)
+    throw UsageError(fmt::format("--track, --ambisonics and --apple are of films, and '{}' is a picture", job.file));
+  if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
+  std::vector<std::string> guesses;
+  ods::PictureTag tag = ods::complete_tag(known_form(job), job.file, guesses);
+  settle_name(job, tag);
+  tag.rig.yaw = job.yaw.value_or(tag.rig.yaw);
+  tag.rig.pitch = job.pitch.value_or(tag.rig.pitch);
+  tag.rig.roll = job.roll.value_or(tag.rig.roll);
+  ods::tag_picture(job.file, job.output, tag);
+  for (const std::string& guess : guesses) note(guess);
+  note(fmt::format("{}, {}: written", tag.layout ? layout_name(*tag.layout) : ods::eye_name(tag.eye),
+                   projection_name(tag.rig.projection)));
+}

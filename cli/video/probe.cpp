@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods probe: what a film or a picture says of itself, and what players will take it for.
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/console/interrupt.h"
+#include "cli/console/options.h"
+#include "cli/video/probe_report.h"
+#include "ods/base/error.h"
+#include "ods/files/memory_file.h"
+#include "ods/image/format/xmp_file.h"
+#include "ods/picture/metadata/cardboard.h"
+#include "ods/picture/metadata/metadata.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods probe film_360_TB.mp4\n"
+    "  ods probe picture.jpg\n"
+    "  ods probe film.mkv --json";
+
+constexpr const char* kSummary =
+    "Shows the metadata of a video (mp4, mov, mkv, webm) or picture: tracks, Spherical Video V1 and V2, GPano, "
+    "camera;\n"
+    "how each kind of player will interpret it, and why; and what is wrong with it.";
+
+// A photo whose right eye is damaged is still a picture of the left one.
+void probe_right_eye(PictureReport& report, const std::string& path, std::vector<std::string>& warnings) {
+  try {
+    const ods::MemoryFile file(ods::read_right_eye(path));
+    const ods::FileInfo eye = ods::read_info(file.path());
+    report.right_eye = fmt::format("{}x{}", eye.width, eye.height);
+    if (eye.width == report.info.width && eye.height == report.info.height) return;
+    warnings.push_back(fmt::format("its right eye has {} pixels, the left one {}x{}", report.right_eye,
+                                   report.info.width, report.info.height));
+  } catch (const ods::Error& error) {
+    if (error.kind() != ods::ErrorKind::kInput) throw;
+    report.right_eye = "damaged";
+    warnings.push_back(error.what());
+  }
+}
+
+ProbeReport probe(const std::string& path) {
+  ProbeReport report;
+  report.path = path;
+  if (ods::is_film(path)) {
+    report.film = ods::read_film(path);
+    for (const ods::VideoTrack& track : report.film->video) {
+      report.views.push_back(film_views(*report.film, track, path));
+      report.warnings.push_back(film_warnings(*report.film, track, path));
+    }
+    return report;
+  }
+  const ods::FileInfo info = ods::read_info(path);
+  const ods::PictureForm form = find_form(info, path, {});
+  const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
+  report.picture = PictureReport{info, form, ods::gpano_camera(xmp), ""};
+  const bool has_gpano = report.picture->gpano.has_value();
+  report.views.push_back(picture_views(info, form, has_gpano, path));
+  report.warnings.push_back(picture_warnings(info, form, has_gpano, path));
+  if (!info.color_fault.empty()) report.warnings[0].push_back(info.color_fault);
+  if (form.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
+  return report;
+}
+
+void run(int argc, char** argv) {
+  std::string path;
+  bool json = false;
+  Options options("probe", kSummary, kExamples);
+  options.argument("FILE", path, "a video or a picture");
+  options.group("Console");
+  options.flag("--json", json, "print JSON");
+  add_console_options(options);
+  if (!options.parse(argc, argv)) return;
+  end_on_interrupts("ods: interrupted\n");
+  const ProbeReport report = probe(path);
+  json ? print_json(report) : print_text(report);
+}
+
+}  // namespace
+
+extern "C" int ods_probe(int argc, char** argv) {
+  return run_command([=] { run(argc, argv); });
+}

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods probe prints.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/lint/players.h"
+
+struct PictureReport {
+  ods::FileInfo info;
+  ods::PictureForm form;
+  std::optional<ods::CameraRig> gpano;
+  std::string right_eye;  // of a Cardboard photo: "64x32", or what is wrong with it
+};
+
+// Of a film or a picture.
+struct ProbeReport {
+  std::string path;
+  std::optional<ods::FilmInfo> film;
+  std::optional<PictureReport> picture;
+  std::vector<std::vector<ods::PlayerView>> views;  // of every video track, or of the picture
+  std::vector<std::vector<std::string>> warnings;   // likewise
+};
+
+void print_text(const ProbeReport& report);
+void print_json(const ProbeReport& report);

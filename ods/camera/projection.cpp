@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/camera/projection.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ods/camera/camera_fields.h"
+
+namespace ods {
+
+static ProjectionSetting of_kind(int kind) {
+  ProjectionSetting setting;
+  setting.kind = kind;
+  return setting;
+}
+
+static ProjectionSetting part(int kind, vec2 longitude, vec2 latitude) {
+  ProjectionSetting setting = of_kind(kind);
+  setting.longitude = longitude;
+  setting.latitude = latitude;
+  return setting;
+}
+
+static ProjectionSetting lens(int kind, float fov, float tilt) {
+  ProjectionSetting setting = of_kind(kind);
+  setting.fov = fov;
+  setting.tilt = tilt;
+  return setting;
+}
+
+std::span<const NamedProjection> named_projections() {
+  static const NamedProjection kAll[] = {
+      {"lat-long", "the whole sphere, or the part that --range gives", of_kind(kLatLong)},
+      {"vr180", "the front half of it", part(kLatLong, {-90.0f, 90.0f}, {-90.0f, 90.0f})},
+      {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
+      {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
+      {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
+      {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
+      {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
+      {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2)},
+      {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1)},
+      {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6)},
+      {"eac", "equi-angular cube, 3x2", of_kind(kEac)},
+  };
+  return kAll;
+}
+
+const NamedProjection* find_projection(std::string_view name) {
+  for (const NamedProjection& named : named_projections()) {
+    if (named.name == name) return &named;
+  }
+  return nullptr;
+}
+
+static bool same_numbers(const ProjectionSetting& a, const ProjectionSetting& b) {
+  return a.longitude == b.longitude && a.latitude == b.latitude && a.fov == b.fov && a.pan == b.pan && a.tilt == b.tilt;
+}
+
+std::string_view projection_name(const ProjectionSetting& setting) {
+  std::string_view first;
+  for (const NamedProjection& named : named_projections()) {
+    if (named.setting.kind != setting.kind) continue;
+    if (same_numbers(named.setting, setting)) return named.name;
+    if (first.empty()) first = named.name;
+  }
+  return first;
+}
+
+bool is_full_lat_long(const ProjectionSetting& setting) {
+  return setting.kind == kLatLong && same_numbers(setting, of_kind(kLatLong));
+}
+
+bool is_vr180(const ProjectionSetting& setting) {
+  static const ProjectionSetting kVr180 = find_projection("vr180")->setting;
+  return setting.kind == kVr180.kind && same_numbers(setting, kVr180);
+}
+
+constexpr float kLeastRange = 0.01f;  // degrees
+
+static std::string range_fault(const ProjectionSetting& setting) {
+  const float limit = setting.kind == kLatLong ? range_of(CameraField::kLatitude).most : 89.0f;
+  const FieldRange angles = range_of(CameraField::kLongitude);
+  const float turn = setting.longitude.y - setting.longitude.x;
+  if (!angles.contains(setting.longitude.x) || !angles.contains(setting.longitude.y)) {
+    return "longitudes are within 36000 degrees";
+  }
+  if (!(turn > 0.0f && turn <= 360.0f)) return "longitudes run from left to right over at most 360 degrees";
+  if (!(setting.latitude.x >= -limit && setting.latitude.x < setting.latitude.y && setting.latitude.y <= limit)) {
+    return setting.kind == kLatLong ? "latitudes run from bottom to top within -90 and 90 degrees"
+                                    : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
+  }
+  if (turn < kLeastRange || setting.latitude.y - setting.latitude.x < kLeastRange) {
+    return "a part of the sphere is at least 0.01 degrees wide and high";
+  }
+  return {};
+}
+
+static std::string lens_fault(const ProjectionSetting& setting) {
+  const FieldRange fov = range_of(CameraField::kFov);
+  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
+    return "a fisheye sees 1 to 360 degrees";
+  }
+  if (setting.kind == kPerspective) {
+    if (!(setting.fov >= fov.least && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
+    if (!range_of(CameraField::kAspect).contains(setting.aspect)) {
+      return "a window's sides differ by at most 32768 to 1";
+    }
+  }
+  const bool points =
+      range_of(CameraField::kPan).contains(setting.pan) && range_of(CameraField::kTilt).contains(setting.tilt);
+  return points ? "" : "a lens points to within 36000 degrees";
+}
+
+std::string projection_fault(const ProjectionSetting& setting) {
+  if (has_range(setting.kind)) return range_fault(setting);
+  return has_lens(setting.kind) ? lens_fault(setting) : "";
+}
+
+// Kinds are numbers, which GLSL reads too: no compiler sees that a switch leaves one out.
+static_assert(kProjectionCount == 9, "a new projection needs its name, shape and sharpness in this file");
+
+static double tangent(float degrees) {
+  return std::tan(glm::radians(static_cast<double>(degrees)));
+}
+
+int natural_height(const ProjectionSetting& setting, int width) {
+  const double turn = glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
+  double aspect = 1.0;
+  switch (setting.kind) {
+    case kLatLong:
+      aspect = turn / glm::radians(static_cast<double>(setting.latitude.y - setting.latitude.x));
+      break;
+    case kCylinder:
+      aspect = turn / (tangent(setting.latitude.y) - tangent(setting.latitude.x));
+      break;
+    case kPerspective:
+      aspect = static_cast<double>(setting.aspect);
+      break;
+    case kCube3x2:
+    case kEac:
+      aspect = 1.5;
+      break;
+    case kCube6x1:
+      aspect = 6.0;
+      break;
+    case kCube1x6:
+      aspect = 1.0 / 6.0;
+      break;
+    case kFisheye:
+    case kFisheyeEquisolid:
+      break;
+  }
+  return std::max(1, static_cast<int>(std::lround(width / aspect)));
+}
+
+double pixels_per_radian(const ProjectionSetting& setting, double width) {
+  const double fov = glm::radians(static_cast<double>(setting.fov));
+  switch (setting.kind) {
+    case kLatLong:
+    case kCylinder:
+      return width / glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
+    case kFisheye:
+      return width / fov;
+    case kFisheyeEquisolid:
+      return width / (4.0 * std::sin(fov / 4.0));
+    case kPerspective:
+      return width / (2.0 * std::tan(fov / 2.0));
+    case kEac:
+      return width / 3.0 * (2.0 / static_cast<double>(kPi));
+    case kCube3x2:
+    case kCube6x1:
+    case kCube1x6:
+      break;
+  }
+  return width / cube_columns(setting.kind) / 2.0;
+}
+
+int width_step(const ProjectionSetting& setting) {
+  return is_cube(setting.kind) ? cube_columns(setting.kind) : 1;
+}
+
+// Columns of Ry(-yaw) * Rx(pitch) * Rz(-roll).
+std::array<glm::dvec3, 3> attitude(double yaw, double pitch, double roll) {
+  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
+  const double cr = std::cos(roll), sr = std::sin(roll);
+  const glm::dvec3 level_right(cy, 0.0, sy);
+  const glm::dvec3 back(-sy * cp, -sp, cy * cp);
+  const glm::dvec3 level_up = glm::cross(back, level_right);
+  return {cr * level_right - sr * level_up, sr * level_right + cr * level_up, back};
+}
+
+Projection make_projection(const ProjectionSetting& setting) {
+  assert(projection_fault(setting).empty());
+  const auto radians = [](vec2 degrees) { return glm::dvec2(degrees) * (std::acos(-1.0) / 180.0); };
+  const glm::dvec2 longitude = radians(setting.longitude);
+  glm::dvec2 height = radians(setting.latitude);
+  if (setting.kind == kCylinder) height = glm::tan(height);
+  Projection projection;
+  projection.kind = setting.kind;
+  projection.center = vec2((longitude.x + longitude.y) / 2.0, (height.x + height.y) / 2.0);
+  projection.span = vec2(longitude.y - longitude.x, height.y - height.x);
+  projection.angle = glm::radians(setting.fov);
+  const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
+  projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
+  const auto [right, up, back] =
+      attitude(glm::radians(static_cast<double>(setting.pan)), glm::radians(static_cast<double>(setting.tilt)), 0.0);
+  projection.lens_right = vec3(right);
+  projection.lens_up = vec3(up);
+  projection.lens_back = vec3(back);
+  return projection;
+}
+
+}  // namespace ods

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/compose/over.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "ods/convert/reproject.h"
+
+namespace ods {
+
+// The foreground as if its eyes were the background's.
+static StoredPicture with_eyes_of(StoredPicture foreground, const CameraRig& rig) {
+  CameraRig& own = foreground.rig;
+  own.ipd = rig.ipd, own.neck = rig.neck, own.axis = rig.axis, own.mirrored = rig.mirrored;
+  own.top = rig.top, own.bottom = rig.bottom, own.merge_map = rig.merge_map;
+  return foreground;
+}
+
+static bool has_alpha(const StoredPicture& picture) {
+  return picture.eyes[0].layers[0].channels.back() == "A";
+}
+
+std::string over_fault(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
+  if (!has_alpha(foreground) && !options.by_depth) {
+    return "the foreground has no alpha: it would hide all that is behind it (--by-depth needs none)";
+  }
+  if (options.by_depth && (!depth_layer(foreground) || !depth_layer(background))) {
+    return "by depth, both need a depth layer: .exr of ods render and ods title have one";
+  }
+  if (foreground.eyes.size() != background.eyes.size()) {
+    return fmt::format("the foreground has {} and the background {}",
+                       foreground.eyes.size() == 2 ? "two eyes" : "one eye",
+                       background.eyes.size() == 2 ? "two" : "one");
+  }
+  return conversion_fault(with_eyes_of(foreground, background.rig), own_form(background));
+}
+
+// --- what is suspicious ----------------------------------------------------------------------------------------------
+
+static void compare_eyes_of(const CameraRig& front, const CameraRig& back, std::vector<std::string>& warnings) {
+  const float micrometre = 1e-6f;  // finer than films have it
+  if (std::abs(front.ipd - back.ipd) > micrometre) {
+    warnings.push_back(
+        fmt::format("the foreground was made for eyes {:g} mm apart, the background for {:g}: make it with "
+                    "--ipd {:g}, or it stands at other distances",
+                    1000.0f * front.ipd, 1000.0f * back.ipd, back.ipd));
+  }
+  if (!same_merge(front.top, back.top) || !same_merge(front.bottom, back.bottom) || front.merge_map != back.merge_map) {
+    warnings.push_back(
+        "the foreground's eyes are merged otherwise towards the poles: it floats off what it stands on there");
+  }
+  if (front.neck != back.neck) warnings.push_back("the foreground's eyes stand otherwise before the neck (--neck)");
+}
+
+std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
+  std::vector<std::string> warnings;
+  compare_eyes_of(foreground.rig, background.rig, warnings);
+  return warnings;
+}
+
+// --- laying over -----------------------------------------------------------------------------------------------------
+
+namespace {
+
+// A row of a picture as another's form has it: which channel is what.
+struct Rows {
+  PictureRows rows;
+  size_t channels = 0;
+  int alpha = -1;  // below 0: there is none
+  int depth = -1;
+
+  Rows(const StoredPicture& picture, const ConvertTarget& target) : rows(convert(picture, target).rows) {
+    for (const RowLayer& layer : rows.layers) {
+      if (&layer == &rows.layers[0] && layer.channels.back() == "A")
+        alpha = static_cast<int>(layer.channels.size()) - 1;
+      if (layer.channels == std::vector<std::string>{"Z"}) depth = static_cast<int>(channels);
+      channels += layer.channels.size();
+    }
+  }
+  std::vector<float> row(int index, int y) const {
+    std::vector<float> values(channels * static_cast<size_t>(rows.eye.width));
+    rows.fill(index, y, values);
+    return values;
+  }
+};
+
+// Of a row's pixels, as Overlay has them.
+struct Count {
+  int covered = 0, behind = 0;
+};
+
+}  // namespace
+
+static Count lay_row(const Rows& front, const Rows& back, const OverOptions& options, const std::vector<float>& before,
+                     std::span<float> row) {
+  Count count;
+  for (size_t x = 0; x < row.size() / back.channels; x++) {
+    const float* in = &before[x * front.channels];
+    float* out = &row[x * back.channels];
+    const float own = front.alpha < 0 ? 1.0f : in[front.alpha];
+    const bool covers = front.depth >= 0 && back.depth >= 0 && own > 0.5f && !options.by_depth;
+    count.covered += covers, count.behind += covers && in[front.depth] > out[back.depth];
+    const bool hidden = options.by_depth && !(in[front.depth] < out[back.depth]);
+    const float alpha = hidden ? 0.0f : own * options.opacity;
+    if (!(alpha > 0.0f)) continue;
+    for (int c = 0; c < 3; c++) out[c] = in[c] * options.opacity + out[c] * (1.0f - alpha);
+    if (back.alpha >= 0) out[back.alpha] = alpha + out[back.alpha] * (1.0f - alpha);
+    if (front.depth >= 0 && back.depth >= 0 && alpha > 0.5f) out[back.depth] = in[front.depth];
+  }
+  return count;
+}
+
+Overlay lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
+  assert(over_fault(foreground, background, options).empty());
+  const ConvertTarget target = own_form(background);
+  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.rig));
+  const auto front = std::make_shared<const Rows>(*moved, target);
+  const auto back = std::make_shared<const Rows>(background, target);
+  Overlay overlay;
+  overlay.rows = back->rows;
+  overlay.rows.fill = [moved, front, back, options, covered = overlay.covered, behind = overlay.behind](
+                          int index, int y, std::span<float> row) {
+    back->rows.fill(index, y, row);
+    const Count count = lay_row(*front, *back, options, front->row(index, y), row);
+    *covered += count.covered, *behind += count.behind;
+  };
+  return overlay;
+}
+
+PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPicture& background,
+                              const OverOptions& options) {
+  assert(over_fault(foreground, background, options).empty());
+  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.rig));
+  const auto front = std::make_shared<const Rows>(*moved, own_form(background));
+  PictureRows rows = front->rows;
+  rows.layers = {{{"R", "G", "B", "A"}}};
+  rows.fill = [moved, front, opacity = options.opacity](int index, int y, std::span<float> row) {
+    const std::vector<float> all = front->row(index, y);
+    for (size_t x = 0; x < row.size() / 4; x++) {
+      const float* in = &all[x * front->channels];
+      for (size_t c = 0; c < 3; c++) row[4 * x + c] = in[c] * opacity;
+      row[4 * x + 3] = (front->alpha < 0 ? 1.0f : in[front->alpha]) * opacity;
+    }
+  };
+  return rows;
+}
+
+std::string behind_warning(const Overlay& overlay) {
+  if (*overlay.behind == 0) return {};
+  return fmt::format("{:.3g} % of the foreground stands behind what it covers: bring it nearer, or --by-depth",
+                     100.0 * static_cast<double>(*overlay.behind) / static_cast<double>(*overlay.covered));
+}
+
+}  // namespace ods

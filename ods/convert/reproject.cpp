@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/convert/reproject.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "ods/base/parabola.h"
+#include "ods/kernel/camera/project.h"
+
+namespace ods {
+
+static float depth_at(const Reprojection& reprojection, const Texel& texel) {
+  const LayerPixels& layer =
+      reprojection.source->picture->eyes[static_cast<size_t>(texel.eye)].layers[reprojection.layer];
+  const std::byte* at = layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride;
+  if (layer.sample != Sample::kFloat) return sample_value(layer.sample, at);
+  float depth;
+  std::memcpy(&depth, at, sizeof depth);
+  return depth;
+}
+
+// Depths are compared as 1/metres: nearly even over a plane's picture, and 0 where nothing was met.
+static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
+  const float depth = depth_at(reprojection, texel);
+  return depth > 0.0f && depth < 0.1f * kFarDepth ? 1.0f / depth : 0.0f;
+}
+
+std::optional<size_t> depth_layer(const StoredPicture& picture) {
+  const std::vector<LayerPixels>& layers = picture.eyes[0].layers;
+  for (size_t i = 0; i < layers.size(); i++) {
+    const bool fits = layers[i].rule == LayerRule::kNearest && layers[i].channels == std::vector<std::string>{"Z"};
+    if (fits && (layers[i].sample == Sample::kFloat || layers[i].sample == Sample::kHalf)) return i;
+  }
+  return {};
+}
+
+Reprojection make_reprojection(const Source& source) {
+  assert(depth_layer(*source.picture));
+  Reprojection reprojection{&source, *depth_layer(*source.picture)};
+  const Extent size = source.picture->size;
+  float largest = 1e-6f;
+  for (int eye = 0; eye < static_cast<int>(source.picture->eyes.size()); eye++) {
+    for (int y = 0; y < size.height; y++) {
+      for (int x = 0; x < size.width; x++) {
+        largest = std::max(largest, nearness_at(reprojection, {eye, x, y}));
+        if (!(depth_at(reprojection, {eye, x, y}) > 0.0f)) reprojection.no_depth++;
+      }
+    }
+  }
+  reprojection.nearest = std::max(1.0f / largest, 0.01f);
+  return reprojection;
+}
+
+// Two neighbours of one surface, not a thing and what is behind it.
+static bool is_one_surface(float a, float b) {
+  return std::abs(a - b) <= 0.1f * std::max(a, b);
+}
+
+// Between texels where the surface goes on, else that of the nearest.
+static float nearness_of(const Reprojection& reprojection, const Place& place) {
+  const Source& source = *reprojection.source;
+  const Cell cell = cell_of(source.camera.projection, source.picture->size, place.at);
+  const vec2 from = place.at - 0.5f, base = floor(from), beyond = from - base;
+  const int left = static_cast<int>(base.x), top = static_cast<int>(base.y);
+  const bool inside = left >= cell.left && left + 1 < cell.right && top >= cell.top && top + 1 < cell.bottom &&
+                      !has_image_circle(source.camera.projection.kind);
+  float corners[4];
+  for (int i = 0; i < 4; i++) {
+    const Texel corner{place.eye, left + i % 2, top + i / 2};
+    corners[i] = nearness_at(reprojection, inside ? corner : texel_of(source, place.eye, cell, corner.x, corner.y));
+  }
+  const float own = corners[(beyond.x < 0.5f ? 0 : 1) + (beyond.y < 0.5f ? 0 : 2)];
+  for (const float corner : corners) {
+    if (!is_one_surface(corner, own)) return own;
+  }
+  return mix(mix(corners[0], corners[1], beyond.x), mix(corners[2], corners[3], beyond.x), beyond.y);
+}
+
+namespace {
+
+// Where a point of the ray lies in an eye's picture, by 1 / its distance along the ray.
+struct Shown {
+  Place place;
+  float nearness = 0.0f;  // of the point, for that eye
+};
+
+struct Curve {
+  const Source& source;
+  int eye;
+  const Ray& ray;
+  float most = 0.0f;         // 1 / distance of the nearest point
+  bool is_parabola = false;  // through three of its points
+  Shown at_far, at_middle, at_near;
+
+  Shown find(float nearness) const;
+  Shown at(float nearness) const;
+};
+
+const float kLeastNearness = 1e-6f;  // 1/metres: as far as numbers tell points apart
+
+Shown Curve::find(float nearness) const {
+  const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
+  const vec3 point = ray.origin + ray.direction * (1.0f / std::max(nearness, kLeastNearness));
+  const ImagePosition found = project_point(source.camera, which, point);
+  const Extent size = source.picture->size;
+  const vec2 at = found.uv * vec2(static_cast<float>(size.width), static_cast<float>(size.height));
+  return {{eye, at, found.seen}, found.seen ? 1.0f / found.depth : 0.0f};
+}
+
+Shown Curve::at(float nearness) const {
+  if (!is_parabola) return find(nearness);
+  const float t = 2.0f * nearness / most;
+  return {{eye, on_parabola(at_far.place.at, at_middle.place.at, at_near.place.at, t), true},
+          on_parabola(at_far.nearness, at_middle.nearness, at_near.nearness, t)};
+}
+
+Curve make_curve(const Source& source, int eye, const Ray& ray, float most) {
+  Curve curve{source, eye, ray, most, false, {}, {}, {}};
+  curve.at_far = curve.find(0.0f), curve.at_middle = curve.find(0.5f * most), curve.at_near = curve.find(most);
+  const vec2 a = curve.at_far.place.at, b = curve.at_middle.place.at, c = curve.at_near.place.at;
+  const auto cell = [&](vec2 at) { return cell_of(source.camera.projection, source.picture->size, at); };
+  const bool seen = curve.at_far.place.seen && curve.at_middle.place.seen && curve.at_near.place.seen;
+  const bool in_one = cell(a).left == cell(c).left && cell(a).top == cell(c).top && cell(b).left == cell(c).left &&
+                      cell(b).top == cell(c).top;
+  curve.is_parabola = seen && in_one && length(c - 2.0f * b + a) < 0.5f;
+  return curve;
+}
+
+// The first crossing from before the surface to behind it, from near to far, by steps of about a texel.
+std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const Curve& curve) {
+  const float length_of_curve = length(curve.at_near.place.at - curve.at_middle.place.at) +
+                                length(curve.at_middle.place.at - curve.at_far.place.at);
+  const int steps = curve.is_parabola ? 1 + static_cast<int>(std::min(length_of_curve, 4000.0f)) : 64;
+  bool before = false;
+  float last_nearness = 0.0f, last_surface = 0.0f, last_ahead = 0.0f;
+  for (int i = 0; i <= steps; i++) {
+    const float nearness = curve.most * static_cast<float>(steps - i) / static_cast<float>(steps);
+    const Shown shown = curve.at(nearness);
+    if (!shown.place.seen) {
+      before = false;
+      continue;
+    }
+    const float surface = nearness_of(reprojection, shown.place);
+    const float ahead = (i == steps ? 0.0f : shown.nearness) - surface;  // above 0: before the surface
+    if (ahead <= 0.0f && before && is_one_surface(surface, last_surface)) {
+      float low = nearness, high = last_nearness, below = ahead, above = last_ahead;
+      for (int round = 0; round < 4; round++) {
+        const float middle = low + (high - low) * (-below / std::max(above - below, 1e-20f));
+        const Shown there = curve.at(middle);
+        const float off = (middle > 0.0f ? there.nearness : 0.0f) - nearness_of(reprojection, there.place);
+        (off > 0.0f ? high : low) = middle;
+        (off > 0.0f ? above : below) = off;
+      }
+      const float met = low + (high - low) * (-below / std::max(above - below, 1e-20f));
+      return SurfaceHit{curve.at(met).place, met > kLeastNearness ? 1.0f / met : kFarDepth};
+    }
+    before = ahead > 0.0f;
+    last_nearness = nearness, last_surface = surface, last_ahead = ahead;
+  }
+  return {};
+}
+
+}  // namespace
+
+SurfaceHit meet_surface(const Reprojection& reprojection, int eye, const Ray& ray) {
+  const Source& source = *reprojection.source;
+  // The ray may start nearer to things than the picture's own.
+  const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));
+  const float most = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
+  const int count = static_cast<int>(source.picture->eyes.size());
+  for (int i = 0; i < count; i++) {
+    if (const auto met = first_meeting(reprojection, make_curve(source, (eye + i) % count, ray, most))) return *met;
+  }
+  return {};
+}
+
+}  // namespace ods

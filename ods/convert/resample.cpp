@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/convert/resample.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <climits>
+#include <cstdint>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+
+#include "ods/image/tone.h"
+
+namespace ods {
+
+// --- texels --------------------------------------------------------------------------------------------------------
+
+static std::vector<float> light_of_halves() {
+  std::vector<float> light;
+  for (int bits = 0; bits < 1 << 16; bits++) {
+    light.push_back(finite(glm::unpackHalf1x16(static_cast<uint16_t>(bits)), -65504.0f, 65504.0f));
+  }
+  return light;
+}
+
+constexpr float kMost = std::numeric_limits<float>::max();
+
+namespace {
+
+// Samples of a file to light and to numbers. Whoever reads many asks for the table once.
+template <class T>
+struct Codes {
+  using Type = T;
+  static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
+  static const float* table() {
+    static const std::vector<float> kTable = light_of_codes(std::numeric_limits<T>::max());
+    return kTable.data();
+  }
+  static float light(const float* table, T code) { return table[code]; }
+  static float number(T code) { return static_cast<float>(code) / std::numeric_limits<T>::max(); }
+};
+
+struct Halves {
+  using Type = uint16_t;
+  static constexpr bool kIsAssociated = true;
+  static const float* table() {
+    static const std::vector<float> kTable = light_of_halves();
+    return kTable.data();
+  }
+  static float light(const float* table, uint16_t bits) { return table[bits]; }
+  static float number(uint16_t bits) { return table()[bits]; }
+};
+
+struct Floats {
+  using Type = float;
+  static constexpr bool kIsAssociated = true;
+  static const float* table() { return nullptr; }
+  static float light(const float*, float value) { return finite(value, -kMost, kMost); }
+  static float number(float value) { return finite(value, -kMost, kMost); }
+};
+
+}  // namespace
+
+template <class Samples>
+static typename Samples::Type sample_at(const std::byte* texel, int channel) {
+  typename Samples::Type sample;
+  std::memcpy(&sample, texel + static_cast<size_t>(channel) * sizeof sample, sizeof sample);
+  return sample;
+}
+
+// A register of the processor, which compilers do not find by themselves here. Both g++ and clang know it so.
+using Four = float __attribute__((vector_size(16)));
+
+// The last of the channels is alpha where kAlpha says so.
+template <class Samples, int kCount, bool kAlpha>
+static Four read_light(const float* table, const std::byte* texel) {
+  const auto at = [&](int c) {
+    if (c >= kCount) return 0.0f;
+    const typename Samples::Type sample = sample_at<Samples>(texel, c < kCount ? c : 0);
+    return kAlpha && c == kCount - 1 ? Samples::number(sample) : Samples::light(table, sample);
+  };
+  const Four value{at(0), at(1), at(2), at(3)};
+  if (!kAlpha || Samples::kIsAssociated) return value;
+  const float alpha = value[kCount - 1];
+  Four share{alpha, alpha, alpha, alpha};
+  share[kCount - 1] = 1.0f;
+  return value * share;
+}
+
+namespace {
+
+// Texels as they lie in a picture.
+struct Block {
+  const std::byte* first;
+  ptrdiff_t pixel_stride;
+  ptrdiff_t row_stride;
+};
+
+}  // namespace
+
+template <class Samples, int kCount, bool kAlpha>
+static void read_lights(const Block& block, int width, int height, Four* out) {
+  const float* table = Samples::table();
+  const std::byte* start = block.first;
+  for (int y = 0; y < height; y++, start += block.row_stride) {
+    const std::byte* texel = start;
+    for (int x = 0; x < width; x++, texel += block.pixel_stride) {
+      *out++ = read_light<Samples, kCount, kAlpha>(table, texel);
+    }
+  }
+}
+
+// What is between texels is not beyond them: the cubic's overshoot is cut. kAcross: columns of the filter; 0: any.
+template <int kAcross>
+static Four mix_texels(const Four* texels, int width, const TexelFilter& filter) {
+  const int across = kAcross > 0 ? kAcross : filter.across.count;
+  Four low = *texels, high = low, sum{};
+  for (int y = 0; y < filter.down.count; y++, texels += width) {
+    Four row{};
+    for (int x = 0; x < across; x++) {
+      const Four value = texels[x];
+      row += value * filter.across.weights[x];
+      low = value < low ? value : low;
+      high = value > high ? value : high;
+    }
+    sum += row * filter.down.weights[y];
+  }
+  sum = sum > low ? sum : low;  // NaN too, of numbers near the largest
+  return sum < high ? sum : high;
+}
+
+template <class Samples>
+static void read_numbers(const std::byte* texel, int count, float* out) {
+  for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
+}
+
+using ReadLights = void (*)(const Block& block, int width, int height, Four* out);
+
+template <class Samples>
+static ReadLights light_reader(int count, bool alpha) {
+  if (alpha) return count == 4 ? read_lights<Samples, 4, true> : read_lights<Samples, 2, true>;
+  if (count == 1) return read_lights<Samples, 1, false>;
+  if (count == 2) return read_lights<Samples, 2, false>;
+  return count == 3 ? read_lights<Samples, 3, false> : read_lights<Samples, 4, false>;
+}
+
+static ReadLights light_reader_of(Sample sample, int count, bool alpha) {
+  switch (sample) {
+    case Sample::kUint8:
+      return light_reader<Codes<uint8_t>>(count, alpha);
+    case Sample::kUint16:
+      return light_reader<Codes<uint16_t>>(count, alpha);
+    case Sample::kHalf:
+      return light_reader<Halves>(count, alpha);
+    case Sample::kFloat:
+      break;
+  }
+  return light_reader<Floats>(count, alpha);
+}
+
+using ReadNumbers = void (*)(const std::byte* texel, int count, float* out);
+
+static ReadNumbers number_reader_of(Sample sample) {
+  switch (sample) {
+    case Sample::kUint8:
+      return read_numbers<Codes<uint8_t>>;
+    case Sample::kUint16:
+      return read_numbers<Codes<uint16_t>>;
+    case Sample::kHalf:
+      return read_numbers<Halves>;
+    case Sample::kFloat:
+      break;
+  }
+  return read_numbers<Floats>;
+}
+
+// --- layers --------------------------------------------------------------------------------------------------------
+
+struct Resampler::Group {
+  ReadLights read_lights;
+  ReadNumbers read_numbers;  // of layers that must not be averaged
+  size_t layer;
+  ptrdiff_t offset;  // bytes, in a texel
+  int first;         // channel of the whole
+  int count;
+  ptrdiff_t size;  // bytes
+
+  Block block(const Source& source, int eye, int x, int y) const {
+    const LayerPixels& from = source.picture->eyes[static_cast<size_t>(eye)].layers[layer];
+    return {from.first + y * from.row_stride + x * from.pixel_stride + offset, from.pixel_stride, from.row_stride};
+  }
+};
+
+Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
+  const std::vector<LayerPixels>& layers = source.picture->eyes[0].layers;
+  for (size_t i = 0; i < layers.size(); i++) {
+    const LayerPixels& layer = layers[i];
+    const int all = static_cast<int>(layer.channels.size());
+    // Alpha belongs to the colours before it.
+    const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
+    for (int first = 0; first < all; first += 4) {
+      const int count = std::min(all - first, 4);
+      const Group group{light_reader_of(layer.sample, count, alpha),
+                        number_reader_of(layer.sample),
+                        i,
+                        first * static_cast<ptrdiff_t>(bytes_of(layer.sample)),
+                        channels_ + first,
+                        count,
+                        count * static_cast<ptrdiff_t>(bytes_of(layer.sample))};
+      (layer.rule == LayerRule::kNearest ? nearest_ : mixed_).push_back(group);
+    }
+    channels_ += all;
+    if (i == 0 && adds_alpha) added_alpha_ = channels_++;
+  }
+  leaves_some_alone_ = !nearest_.empty() || added_alpha_ >= 0;
+}
+
+Resampler::~Resampler() = default;
+
+namespace {
+
+// The texels of filters as a cell has them, and how many they are if every filter reads its own.
+struct Reach {
+  Cell box;
+  int texels = 0;
+};
+
+}  // namespace
+
+static Reach reach_of(std::span<const TexelFilter> filters) {
+  Reach reach{{INT_MAX, INT_MAX, INT_MIN, INT_MIN}};
+  for (const TexelFilter& filter : filters) {
+    const TexelWeights &across = filter.across, &down = filter.down;
+    reach.box.left = std::min(reach.box.left, across.first);
+    reach.box.top = std::min(reach.box.top, down.first);
+    reach.box.right = std::max(reach.box.right, across.first + across.count);
+    reach.box.bottom = std::max(reach.box.bottom, down.first + down.count);
+    reach.texels += across.count * down.count;
+  }
+  return reach;
+}
+
+// A fisheye's circle has them if it has the corners of each.
+bool Resampler::has_all(std::span<const TexelFilter> filters, const Cell& cell) const {
+  const Cell box = reach_of(filters).box;
+  if (box.left < cell.left || box.right > cell.right || box.top < cell.top || box.bottom > cell.bottom) return false;
+  if (!has_image_circle(source_.camera.projection.kind)) return true;
+  return std::all_of(filters.begin(), filters.end(), [&](const TexelFilter& filter) {
+    const int left = filter.across.first, right = left + filter.across.count - 1;
+    const int top = filter.down.first, bottom = top + filter.down.count - 1;
+    return has_texel(source_, cell, left, top) && has_texel(source_, cell, right, top) &&
+           has_texel(source_, cell, left, bottom) && has_texel(source_, cell, right, bottom);
+  });
+}
+
+void Resampler::add(const Place& place, const Cell& cell, float weight, float* sums) const {
+  TexelFilter filter;
+  texel_filters({}, {&place.at, 1}, &filter);
+  const int left = filter.across.first, top = filter.down.first;
+  const bool inside = has_all({&filter, 1}, cell);
+  Texel around[16];
+  for (int i = 0; i < 16 && !inside; i++) {
+    around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
+  }
+  for (const Group& group : mixed_) {
+    Four texels[16];
+    std::byte gathered[16 * sizeof(Four)];
+    const ptrdiff_t size = group.size;
+    for (int i = 0; i < 16 && !inside; i++) {
+      const Texel& t = around[i];
+      std::memcpy(gathered + i * size, group.block(source_, t.eye, t.x, t.y).first, static_cast<size_t>(size));
+    }
+    const Block block = inside ? group.block(source_, place.eye, left, top) : Block{gathered, size, 4 * size};
+    group.read_lights(block, 4, 4, texels);
+    const Four value = mix_texels<4>(texels, 4, filter);
+    for (int c = 0; c < group.count; c++) sums[group.first + c] += weight * value[c];
+  }
+}
+
+// Neighbours share most of their texels, which are read once for all: of as many pixels as have them in a small box.
+void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) const {
+  const int kMostTexels = 1024;  // of one filter
+  const Reach reach = reach_of(filters);
+  const int left = reach.box.left, top = reach.box.top, width = reach.box.right - left, height = reach.box.bottom - top;
+  if (filters.size() > 1 && width * height > std::min(reach.texels, kMostTexels)) {
+    const size_t half = filters.size() / 2;
+    fill(eye, filters.first(half), out);
+    return fill(eye, filters.subspan(half), out + half * static_cast<size_t>(channels_));
+  }
+  Four texels[kMostTexels];
+  for (const Group& group : mixed_) {
+    group.read_lights(group.block(source_, eye, left, top), width, height, texels);
+    float* pixel = out + group.first;
+    for (const TexelFilter& filter : filters) {
+      const Four* first = texels + (filter.down.first - top) * width + (filter.across.first - left);
+      const Four value =
+          filter.across.count == 4 ? mix_texels<4>(first, width, filter) : mix_texels<0>(first, width, filter);
+      for (int c = 0; c < group.count; c++) pixel[c] = value[c];
+      pixel += channels_;
+    }
+  }
+}
+
+void Resampler::copy(int eye, int y, std::span<float> out) const {
+  constexpr int kAtOnce = 64;
+  const int width = source_.picture->size.width;
+  const size_t stride = static_cast<size_t>(channels_);
+  for (const Group& group : mixed_) {
+    Four texels[kAtOnce];
+    float* pixel = &out[static_cast<size_t>(group.first)];
+    for (int x = 0; x < width; x += kAtOnce) {
+      const int count = std::min(kAtOnce, width - x);
+      group.read_lights(group.block(source_, eye, x, y), count, 1, texels);
+      for (int i = 0; i < count; i++, pixel += stride) {
+        for (int c = 0; c < group.count; c++) pixel[c] = texels[i][c];
+      }
+    }
+  }
+  if (!leaves_some_alone_) return;
+  for (int x = 0; x < width; x++) {
+    const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    finish({eye, middle, true}, &out[static_cast<size_t>(x) * stride]);
+  }
+}
+
+bool PixelRun::add(const std::optional<TexelTents>& tents, std::span<const vec2> places, float* pixels) {
+  if (waiting_ + places.size() > std::size(filters_)) fill();
+  TexelFilter* filters = filters_ + waiting_;
+  if (tents) texel_filters(*tents, places, filters);
+  if (!tents || !resampler_.has_all({filters, places.size()}, cell_)) {
+    fill();
+    return false;
+  }
+  if (waiting_ == 0) first_ = pixels;
+  waiting_ += places.size();
+  return true;
+}
+
+void PixelRun::fill() {
+  if (waiting_ > 0) resampler_.fill(eye_, {filters_, waiting_}, first_);
+  waiting_ = 0;
+}
+
+void Resampler::set_rest(const Place& place, float* out) const {
+  if (added_alpha_ >= 0) out[added_alpha_] = 1.0f;
+  const Extent size = source_.picture->size;
+  const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
+  const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
+  for (const Group& group : nearest_) {
+    group.read_numbers(group.block(source_, place.eye, x, y).first, group.count, out + group.first);
+  }
+}
+
+}  // namespace ods

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/convert/texel_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace ods {
+
+// --- tents ----------------------------------------------------------------------------------------------------------
+
+// Below this the picture is only interpolated: half a texel's hundredth of blur would cost its sharpness for nothing.
+static const float kLeastRadius = 0.15f;
+static const int kMostPoints = 65;  // along one axis
+
+namespace {
+
+// Points an equal step apart. Their weights, 1 together, rise and fall by equal steps.
+struct Tent {
+  int count = 1;
+  float offset = 0.0f;  // of the first point
+  float step = 0.0f;
+  float first_weight = 1.0f;
+
+  float at(int i) const { return offset + step * static_cast<float>(i); }
+  float weight(int i) const { return first_weight * static_cast<float>(std::min(2 * i + 1, 2 * (count - i) - 1)); }
+};
+
+}  // namespace
+
+// Points whose variance is the tent's own, radius^2 / 6. Those of a tent of radius 1 have a somewhat larger one, by the
+// sums of 1, 3, 5, ... and their squares and cubes: a sixth of `variance`.
+static Tent make_tent(float variance_of_6) {
+  Tent tent;
+  if (variance_of_6 < kLeastRadius * kLeastRadius) return tent;
+  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * std::sqrt(variance_of_6))), kMostPoints);
+  const bool even = tent.count % 2 == 0;
+  const float n = static_cast<float>(tent.count), nn = n * n;
+  const float variance = even ? 1.0f + 2.0f / nn : (nn - 1.0f) * (nn + 3.0f) / (nn * (nn + 1.0f));
+  const float radius = std::sqrt(variance_of_6 / variance);
+  tent.first_weight = 2.0f / (even ? nn : nn + 1.0f);
+  tent.step = 2.0f * radius / n;
+  tent.offset = 0.5f * tent.step - radius;
+  return tent;
+}
+
+void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points) {
+  const vec2 dx = footprint.dx, dy = footprint.dy;
+  // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, and s^2 along them.
+  const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
+  if (xx + yy <= 1.0f) return;
+  const float middle = 0.5f * (xx + yy), half = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
+  const float large = middle + half, small = middle - half;
+  const Tent along = make_tent(large - 1.0f), across = make_tent(small - 1.0f);
+  if (along.count == 1 || !std::isfinite(large)) return;
+  vec2 axis = xx >= yy ? vec2(large - yy, xy) : vec2(xy, large - xx);
+  axis = length(axis) > 0.0f ? normalize(axis) : vec2(1.0f, 0.0f);
+  const vec2 other(-axis.y, axis.x);
+  const auto back = [&](vec2 v, float square) { return vec2(dot(dx, v), dot(dy, v)) / square; };
+  const vec2 pixels_along = back(axis, large), pixels_across = small > 0.5f ? back(other, small) : vec2(0.0f);
+  points.clear();
+  for (int j = 0; j < across.count; j++) {
+    for (int i = 0; i < along.count; i++) {
+      const float t = along.at(i), u = across.at(j);
+      points.push_back(
+          {axis * t + other * u, pixels_along * t + pixels_across * u, along.weight(i) * across.weight(j)});
+    }
+  }
+}
+
+// --- columns and rows -----------------------------------------------------------------------------------------------
+
+// A register of the processor, which compilers do not find by themselves here. Both g++ and clang know it so.
+using Four = float __attribute__((vector_size(16)));
+
+// Catmull-Rom, for the texels at -1, 0, 1 and 2.
+static Four cubic_weights(float t) {
+  const Four once{-0.5f, 0.0f, 0.5f, 0.0f}, squared{1.0f, -2.5f, 2.0f, -0.5f}, cubed{-0.5f, 1.5f, -1.5f, 0.5f};
+  const Four middle{0.0f, 1.0f, 0.0f, 0.0f};
+  return middle + t * (once + t * (squared + t * cubed));
+}
+
+namespace {
+
+struct Position {
+  int texel;
+  float beyond;  // its middle
+};
+
+}  // namespace
+
+static Position split_exactly(float at) {
+  const float from = at - 0.5f;
+  const int towards_0 = static_cast<int>(from), whole = towards_0 - (static_cast<float>(towards_0) > from ? 1 : 0);
+  return {whole, from - static_cast<float>(whole)};
+}
+
+// A place this near to the middle of a texel is meant to be there: angles and their way back leave that much.
+static Position split(float at) {
+  const float kTolerance = 1.0f / 256.0f;
+  const Position exact = split_exactly(at);
+  const bool is_next = exact.beyond > 1.0f - kTolerance;
+  return {exact.texel + (is_next ? 1 : 0), exact.beyond < kTolerance || is_next ? 0.0f : exact.beyond};
+}
+
+static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
+  Position position = split(at + tent.at(0));
+  to.first = position.texel - 1;
+  to.count = 0;
+  Four sums{};  // of the four weights from to.count on, to which points still add
+  for (int i = 0, texel = position.texel; i < tent.count; i++) {
+    position = split(at + tent.at(i));
+    for (; texel < position.texel; texel++) {
+      to.weights[to.count++] = sums[0];
+      sums = Four{sums[1], sums[2], sums[3], 0.0f};
+    }
+    sums += cubic_weights(position.beyond) * tent.weight(i);
+  }
+  std::memcpy(to.weights + to.count, &sums, sizeof sums);
+  to.count += 4;
+}
+
+namespace {
+
+// The weights of tents, which are slow to sum, for steps of their radius squared and of the place between two texels.
+struct TentTable {
+  static constexpr int kSteps = 48;  // of the square: of what the filter's variance grows by
+  static constexpr int kSquares = 9 * kSteps;
+  static constexpr int kPhases = 128;  // of a texel
+  static constexpr int kMost = 12;     // weights
+  struct Row {
+    int first = kMost;  // texel of the first weight, from that before the place
+    int count = 0;
+    std::array<std::array<float, kMost>, kPhases + 2> weights;  // the last twice: it has a next one, too
+  };
+  std::vector<Row> rows{kSquares};
+
+  TentTable();
+};
+
+}  // namespace
+
+TentTable::TentTable() {
+  for (size_t i = 0; i < rows.size(); i++) {
+    const Tent tent = make_tent(static_cast<float>(i) / kSteps);
+    std::array<TexelWeights, kPhases + 1> phases;
+    int end = -kMost;
+    for (size_t j = 0; j <= kPhases; j++) {
+      sum_weights(0.5f + static_cast<float>(j) / kPhases, tent, phases[j]);
+      rows[i].first = std::min(rows[i].first, phases[j].first);
+      end = std::max(end, phases[j].first + phases[j].count);
+    }
+    rows[i].count = end - rows[i].first;
+    for (size_t j = 0; j <= kPhases; j++) {
+      rows[i].weights[j].fill(0.0f);
+      std::copy_n(phases[j].weights, phases[j].count,
+                  &rows[i].weights[j][static_cast<size_t>(phases[j].first - rows[i].first)]);
+    }
+    rows[i].weights[kPhases + 1] = rows[i].weights[kPhases];
+  }
+}
+
+namespace {
+
+// Places along one axis, and which weights those of their filters are.
+struct Axis {
+  float places[kMostAlike];
+  std::span<TexelFilter> filters;
+  TexelWeights TexelFilter::*weights;
+};
+
+}  // namespace
+
+// Its loops, and those below, are over all places there is room for: compilers turn them into a few steps.
+static void interpolate(const Axis& axis) {
+  Position positions[kMostAlike];
+  for (size_t i = 0; i < kMostAlike; i++) positions[i] = split(axis.places[i]);
+  for (size_t i = 0; i < axis.filters.size(); i++) {
+    TexelWeights& to = axis.filters[i].*axis.weights;
+    to.first = positions[i].texel - 1;
+    to.count = 4;
+    const Four weights = cubic_weights(positions[i].beyond);
+    std::memcpy(to.weights, &weights, sizeof weights);
+  }
+}
+
+static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
+  Position positions[kMostAlike];
+  for (size_t i = 0; i < kMostAlike; i++) positions[i] = split_exactly(axis.places[i]);
+  for (size_t i = 0; i < axis.filters.size(); i++) {
+    const float place = positions[i].beyond * TentTable::kPhases;
+    const size_t phase = std::min<size_t>(static_cast<unsigned>(place), TentTable::kPhases);
+    const float beyond = place - static_cast<float>(phase);
+    const float *a = row.weights[phase].data(), *b = row.weights[phase + 1].data();
+    TexelWeights& to = axis.filters[i].*axis.weights;
+    to.first = positions[i].texel + row.first;
+    to.count = row.count;
+    for (int k = 0; k < row.count; k += 4) {
+      Four here, next;
+      std::memcpy(&here, a + k, sizeof here);
+      std::memcpy(&next, b + k, sizeof next);
+      here += (next - here) * beyond;
+      std::memcpy(to.weights + k, &here, sizeof here);
+    }
+  }
+}
+
+static void set_weights(float square, const Axis& axis) {
+  if (square < kLeastRadius * kLeastRadius) return interpolate(axis);
+  const float step = square * TentTable::kSteps + 0.5f;
+  if (step < TentTable::kSquares) {
+    static const TentTable kTable;  // a few milliseconds, for those who need it
+    return look_up_weights(kTable.rows[static_cast<size_t>(step)], axis);
+  }
+  const Tent tent = make_tent(square);
+  for (size_t i = 0; i < axis.filters.size(); i++) {
+    sum_weights(axis.places[i], tent, axis.filters[i].*axis.weights);
+  }
+}
+
+std::optional<TexelTents> texel_tents(const Footprint& footprint) {
+  // Beyond it the ellipse leans so far that columns and rows tell another one.
+  const float kMostLean = 0.1f;
+  // Nor does it matter how it leans if that moves the ends of its tent no further than this many texels aside.
+  const float kMostAside = 0.05f;
+  // A filter this wide has fewer texels than there is room for.
+  const float kMostRadius = 12.0f;
+  // An ellipse within this circle is only interpolated, however it leans.
+  const float kSharp = 1.0f + kLeastRadius * kLeastRadius;
+  const vec2 dx = footprint.dx, dy = footprint.dy;
+  const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+  if (xx < kSharp && yy < kSharp && xy * xy < (kSharp - xx) * (kSharp - yy)) return TexelTents{};
+  const bool straight = xy * xy <= kMostLean * kMostLean * xx * yy;
+  const bool upright = xy * xy * (std::max(xx, yy) - 1.0f) <= kMostAside * kMostAside * (xx - yy) * (xx - yy);
+  if (!(xx + yy < kMostRadius * kMostRadius && (straight || upright))) return std::nullopt;
+  return TexelTents{std::max(xx - 1.0f, 0.0f), std::max(yy - 1.0f, 0.0f)};
+}
+
+void texel_filters(const TexelTents& tents, std::span<const vec2> places, TexelFilter* filters) {
+  Axis across{{}, {filters, places.size()}, &TexelFilter::across};
+  Axis down{{}, {filters, places.size()}, &TexelFilter::down};
+  for (size_t i = 0; i < places.size(); i++) across.places[i] = places[i].x, down.places[i] = places[i].y;
+  set_weights(tents.across, across);
+  set_weights(tents.down, down);
+}
+
+}  // namespace ods

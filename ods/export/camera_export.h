@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One camera, any renderer: its description in the words of another system. What that system cannot do stands in the
+// text as a comment, and in `warnings`.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ods/picture/metadata/camera_file.h"
+
+namespace ods {
+
+enum class CameraTarget {
+  kPovray,      // POV-Ray 3.8: user_defined
+  kPovrayFork,  // Clodo76/povray: spherical with ods keywords
+  kBlender,     // Python for 3.4 to 5.x
+  kOsl,         // a camera shader for Cycles 5
+  kOspray,      // JSON with the parameters of OSPRay and ANARI
+  kArnold,      // an .ass node
+  kMtoa,        // setAttr lines for Maya
+  kUnity,       // C#
+  kUnreal,      // console variables
+  kGlsl,
+  kHlsl,
+  kPython,
+  kJson,     // the sidecar
+  kNumbers,  // for people and spreadsheets
+};
+
+inline constexpr CameraTarget kCameraTargets[] = {
+    CameraTarget::kPovray, CameraTarget::kPovrayFork, CameraTarget::kBlender, CameraTarget::kOsl,
+    CameraTarget::kOspray, CameraTarget::kArnold,     CameraTarget::kMtoa,    CameraTarget::kUnity,
+    CameraTarget::kUnreal, CameraTarget::kGlsl,       CameraTarget::kHlsl,    CameraTarget::kPython,
+    CameraTarget::kJson,   CameraTarget::kNumbers};
+
+// povray, povray-fork, blender, ...
+std::string_view camera_target_name(CameraTarget target);
+
+struct CameraExport {
+  std::string text;
+  std::vector<std::string> warnings;  // what the target lacks, a line each
+  std::string refusal;                // why there is no text, where there is none
+};
+
+CameraExport export_camera(const CameraFile& file, CameraTarget target);
+
+}  // namespace ods

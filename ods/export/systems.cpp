@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The targets that have a stereo 360 camera of their own, with parameters: the POV-Ray fork, OSPRay and ANARI, Arnold,
+// Unity, Unreal. docs/camera-export.md says where each name comes from.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "ods/export/writers.h"
+
+namespace ods {
+namespace {
+
+// What a layout and the eyes are called; empty: the system has none such.
+struct ModeNames {
+  std::string_view mono, left, right, side_by_side, top_bottom;
+};
+
+std::string_view mode_name(const CameraFile& file, const ModeNames& names) {
+  if (file.eyes.size() == 1) {
+    return file.eyes[0] == kMono ? names.mono : file.eyes[0] == kLeft ? names.left : names.right;
+  }
+  if (file.layout == Layout::kSideBySide) return names.side_by_side;
+  if (file.layout == Layout::kTopBottom) return names.top_bottom;
+  return "";
+}
+
+std::string no_layout(const CameraFile& file, std::string_view system) {
+  return fmt::format("{} has no layout {}", system, layout_name(file.layout));
+}
+
+std::string json_numbers(glm::dvec3 v) {
+  return fmt::format("[{:.8g}, {:.8g}, {:.8g}]", v.x, v.y, v.z);
+}
+
+// What stands in JSON, which has no comments.
+std::string json_strings(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
+  return fmt::format("[{}]", text);
+}
+
+void warn_of_projection(const CameraFile& file, std::string_view system, std::vector<std::string>& warnings) {
+  if (file.rig.projection.kind == kLatLong) return;
+  warnings.push_back(
+      fmt::format("{} has no projection {}; lat-long stands in", system, projection_name(file.rig.projection)));
+}
+
+}  // namespace
+
+CameraExport to_povray_fork(const CameraFile& file) {
+  const CameraRig& rig = file.rig;
+  std::vector<std::string> faults = lacking(file, {.system = "the fork"});
+  std::erase_if(faults, [](const std::string& fault) { return fault.ends_with("mirrored world"); });
+  std::string_view mode = mode_name(file, {"1", "1", "2", "3", "4"});
+  if (mode.empty()) faults.push_back(no_layout(file, "the fork"));
+  if (rig.projection.kind != kLatLong) {
+    faults.push_back(fmt::format("the fork has no projection {}", projection_name(rig.projection)));
+  }
+  const bool merged = rig.top.mode == kMergeCosine && rig.top.start == 0.0f && rig.top.end == 90.0f;
+  if (!same_merge(rig.top, rig.bottom) || (rig.top.mode != kMergeNone && !merged)) {
+    faults.push_back(fmt::format("its merge is a power of the cosine from 0 to 90 degrees, not {}", merge_text(rig)));
+  }
+  if (!faults.empty()) return {"", {}, fmt::format("{} (--for povray has it all)", fmt::join(faults, "; "))};
+  const bool mono = file.eyes.size() == 1 && file.eyes[0] == kMono;
+  CameraExport result;
+  result.text = comment_block("//", "The POV-Ray fork's camera: " + camera_title(file) + ".", {});
+  result.text += "// POV-Ray's world is left-handed: z is ours turned round. Lengths are metres.\n";
+  if (mono) result.text += "// An eye without a distance to the other is the middle.\n";
+  result.text += fmt::format(
+      "camera {{\n  spherical\n  ods {}\n  ipd {}\n  ods_angle {}\n  ods_modulation {}\n  ods_handedness {}\n"
+      "  location <{}, {}, {}>\n}}\n",
+      mode, mono ? 0.0f : rig.ipd, rig.mirrored ? -rig.yaw : rig.yaw, merged ? rig.top.exponent : 0.0f,
+      rig.mirrored ? 1 : -1, rig.position.x, rig.position.y, rig.position.z == 0.0f ? 0.0f : -rig.position.z);
+  return result;
+}
+
+CameraExport to_ospray(const CameraFile& file) {
+  const CameraRig& rig = file.rig;
+  CameraExport result;
+  std::vector<std::string>& warnings = result.warnings;
+  warnings = lacking(file, {.system = "OSPRay", .tilt = true, .partial = true});
+  std::string_view mode = mode_name(file, {"none", "left", "right", "sideBySide", "topBottom"});
+  if (mode.empty()) {
+    warnings.push_back(no_layout(file, "OSPRay") + "; topBottom stands in");
+    mode = "topBottom";
+  }
+  warn_of_projection(file, "OSPRay", warnings);
+  const bool cosine = is_plain_cosine(rig.top) && rig.top.start == 0.0f && same_merge(rig.top, rig.bottom);
+  if (mode != "none" && !cosine) {
+    warnings.push_back(fmt::format("its merge is always the cosine of the elevation, not {}", merge_text(rig)));
+  }
+  const std::array<glm::dvec3, 4> place = placement(rig);
+  const auto parameters = [&] {
+    std::string text = fmt::format(
+        "    \"position\": {},\n    \"direction\": {},\n    \"up\": {},\n    \"stereoMode\": \"{}\",\n"
+        "    \"interpupillaryDistance\": {}",
+        json_numbers(place[3]), json_numbers(-place[2] + 0.0), json_numbers(place[1]), mode, rig.ipd);
+    const vec2 lon = rig.projection.longitude, lat = rig.projection.latitude;
+    if (rig.projection.kind != kLatLong || is_full_lat_long(rig.projection)) return text;
+    return text + fmt::format(",\n    \"imageStart\": [{:.8g}, {:.8g}],\n    \"imageEnd\": [{:.8g}, {:.8g}]",
+                              lon.x / 360.0f + 0.5f, lat.x / 180.0f + 0.5f, lon.y / 360.0f + 0.5f,
+                              lat.y / 180.0f + 0.5f);
+  }();
+  std::vector<std::string> comments{"lengths are metres, +Y is up: " + camera_title(file)};
+  for (const std::string& warning : warnings) comments.push_back("not as asked: " + warning);
+  result.text = fmt::format(
+      "{{\n  \"comments\": {},\n  \"ospray\": {{\n    \"type\": \"panoramic\",\n{}\n  }},\n"
+      "  \"anari\": {{\n    \"type\": \"omnidirectional\",\n    \"extensions\": [\"KHR_CAMERA_OMNIDIRECTIONAL\", "
+      "\"KHR_CAMERA_STEREO\"],\n{}\n  }}\n}}\n",
+      json_strings(comments), parameters, parameters);
+  return result;
+}
+
+namespace {
+
+// Arnold's vr_camera in its own words; Maya's attributes are made of them.
+struct VrCamera {
+  std::string_view mode;
+  std::string_view projection;
+  std::string_view top_mode;
+  std::string_view bottom_mode;
+  float separation;
+  float top_angle;
+  float bottom_angle;
+};
+
+VrCamera vr_camera(const CameraFile& file, std::vector<std::string>& warnings) {
+  const CameraRig& rig = file.rig;
+  warnings = lacking(file, {.system = "Arnold", .tilt = true, .neck = true});
+  VrCamera camera{mode_name(file, {"left_eye", "left_eye", "right_eye", "side_by_side", "over_under"}),
+                  "latlong",
+                  "none",
+                  "none",
+                  file.eyes.size() == 1 && file.eyes[0] == kMono ? 0.0f : rig.ipd,
+                  90.0f,
+                  90.0f};
+  if (camera.mode.empty()) {
+    warnings.push_back(no_layout(file, "Arnold") + "; over_under stands in");
+    camera.mode = "over_under";
+  }
+  if (rig.projection.kind == kCube3x2) camera.projection = "cubemap_3x2";
+  if (rig.projection.kind == kCube6x1) camera.projection = "cubemap_6x1";
+  if (camera.projection == "latlong") warn_of_projection(file, "Arnold", warnings);
+  const auto merge = [&](const PoleMergeSetting& setting, std::string_view& mode, float& angle, const char* pole) {
+    if (setting.mode == kMergeNone) return;
+    mode = setting.mode == kMergeMap ? "shader" : "cosine";
+    angle = 90.0f - setting.start;
+    if (setting.mode == kMergeMap) {
+      warnings.push_back(fmt::format("the merge map at the {} is to be linked as merge_shader by hand", pole));
+    } else if (!is_plain_cosine(setting)) {
+      warnings.push_back(
+          fmt::format("its merge at the {} is a plain cosine up to the pole, not {}", pole, one_merge(setting)));
+    }
+  };
+  merge(rig.top, camera.top_mode, camera.top_angle, "top");
+  merge(rig.bottom, camera.bottom_mode, camera.bottom_angle, "bottom");
+  return camera;
+}
+
+constexpr const char* kArnoldNote =
+    "Untested: merge angles are measured from the pole, as Arnold's manual has it; never rendered with.\n";
+
+}  // namespace
+
+CameraExport to_arnold(const CameraFile& file) {
+  CameraExport result;
+  const VrCamera camera = vr_camera(file, result.warnings);
+  result.text = comment_block("#", "Arnold's vr_camera: " + camera_title(file) + ". Metres.", result.warnings);
+  result.text += std::string("# ") + kArnoldNote;
+  if (const Extent size = picture_size(file); size.width > 0) {
+    result.text += fmt::format("# Resolution {} x {}.\n", size.width, size.height);
+  }
+  std::string matrix;
+  const std::array<glm::dvec3, 4> place = placement(file.rig);
+  for (size_t i = 0; i < 4; i++) {
+    matrix += fmt::format(" {:.8g} {:.8g} {:.8g} {}\n", place[i].x, place[i].y, place[i].z, i == 3 ? 1 : 0);
+  }
+  result.text += fmt::format(
+      "vr_camera\n{{\n name ods\n matrix\n{} mode \"{}\"\n projection \"{}\"\n eye_separation {}\n eye_to_neck {}\n"
+      " top_merge_mode \"{}\"\n top_merge_angle {}\n bottom_merge_mode \"{}\"\n bottom_merge_angle {}\n}}\n",
+      matrix, camera.mode, camera.projection, camera.separation, file.rig.neck, camera.top_mode, camera.top_angle,
+      camera.bottom_mode, camera.bottom_angle);
+  return result;
+}
+
+CameraExport to_mtoa(const CameraFile& file) {
+  CameraExport result;
+  const VrCamera camera = vr_camera(file, result.warnings);
+  const CameraRig& rig = file.rig;
+  const auto place = [](std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) - words.begin();
+  };
+  std::string& text = result.text;
+  text = comment_block("//", "MtoA's vr_camera, in MEL: " + camera_title(file) + ". Centimetres.", result.warnings);
+  text += std::string("// ") + kArnoldNote;
+  text +=
+      "// Untested in Maya. Names and the order of menus are those of MtoA's camera attributes; look at the camera's "
+      "Arnold\n"
+      "// section after running this.\n"
+      "string $c[] = `camera -name \"ods\"`;\n";
+  text += fmt::format("setAttr ($c[0] + \".rotateOrder\") 2;  // zxy: roll, then pitch, then yaw\n");
+  text += fmt::format("setAttr ($c[0] + \".translate\") -type \"double3\" {} {} {};\n", 100.0f * rig.position.x,
+                      100.0f * rig.position.y, 100.0f * rig.position.z);
+  text += fmt::format("setAttr ($c[0] + \".rotate\") -type \"double3\" {} {} {};\n", rig.pitch, 0.0f - rig.yaw,
+                      0.0f - rig.roll);
+  text += "setAttr ($c[1] + \".aiTranslator\") -type \"string\" \"vr_camera\";\n";
+  const auto row = [&](const char* attribute, const auto& value, std::string_view word) {
+    text += fmt::format("setAttr ($c[1] + \".{}\") {};{}{}\n", attribute, value, word.empty() ? "" : "  // ", word);
+  };
+  row("aiMode", place(camera.mode, {"side_by_side", "over_under", "left_eye", "right_eye"}), camera.mode);
+  row("aiProjection", place(camera.projection, {"latlong", "cubemap_6x1", "cubemap_3x2"}), camera.projection);
+  row("aiEyeSeparation", 100.0f * camera.separation, "");
+  row("aiEyeToNeck", 100.0f * rig.neck, "");
+  row("aiTopMergeMode", place(camera.top_mode, {"none", "cosine", "shader"}), camera.top_mode);
+  row("aiTopMergeAngle", camera.top_angle, "");
+  row("aiBottomMergeMode", place(camera.bottom_mode, {"none", "cosine", "shader"}), camera.bottom_mode);
+  row("aiBottomMergeAngle", camera.bottom_angle, "");
+  return result;
+}
+
+CameraExport to_unity(const CameraFile& file) {
+  const CameraRig& rig = file.rig;
+  CameraExport result;
+  std::vector<std::string>& warnings = result.warnings;
+  warnings = lacking(file, {.system = "Unity"});
+  warn_of_projection(file, "Unity", warnings);
+  if (rig.top.mode != kMergeNone || rig.bottom.mode != kMergeNone) {
+    warnings.push_back(fmt::format("Unity has no merge ({})", merge_text(rig)));
+  }
+  if (file.eyes.size() == 2 && file.layout != Layout::kTopBottom) {
+    warnings.push_back(no_layout(file, "ConvertToEquirect") + "; the left eye is the top half");
+  }
+  const Extent size = file.eye.width > 0 ? file.eye : Extent{4096, 2048};
+  std::string& text = result.text;
+  text = comment_block("//", "Unity, built-in pipeline (not HDRP or URP): " + camera_title(file) + ".", warnings);
+  text +=
+      "// Its eyes stand on a circle that tilts with the elevation: close to the model, not equal. World up is fixed.\n"
+      "// Metres; Unity's z points ahead, ours is turned round.\n";
+  text += fmt::format(
+      "camera.transform.SetPositionAndRotation(new Vector3({}f, {}f, {}f), Quaternion.Euler(0f, {}f, 0f));\n"
+      "camera.stereoSeparation = {}f;\n",
+      rig.position.x, rig.position.y, 0.0f - rig.position.z, rig.yaw, rig.ipd);
+  const bool mono = file.eyes.size() == 1 && file.eyes[0] == kMono;
+  text += fmt::format("var picture = new RenderTexture({}, {}, 24);\n", size.width,
+                      size.height * static_cast<int>(file.eyes.size()));
+  for (const int eye : file.eyes) {
+    const std::string_view name = mono ? "Mono" : eye == kLeft ? "Left" : "Right";
+    text += fmt::format(
+        "camera.RenderToCubemap(cubemap, 63, Camera.MonoOrStereoscopicEye.{});\n"
+        "cubemap.ConvertToEquirect(picture, Camera.MonoOrStereoscopicEye.{});\n",
+        name, file.eyes.size() == 1 ? "Mono" : name);
+  }
+  return result;
+}
+
+CameraExport to_unreal(const CameraFile& file) {
+  const CameraRig& rig = file.rig;
+  CameraExport result;
+  std::vector<std::string>& warnings = result.warnings;
+  warnings = lacking(file, {.system = "Unreal", .tilt = true});
+  warn_of_projection(file, "Unreal", warnings);
+  if (rig.top.mode != kMergeNone || rig.bottom.mode != kMergeNone) {
+    warnings.push_back(fmt::format("Unreal has no merge towards the poles ({})", merge_text(rig)));
+  }
+  if (file.eyes.size() == 1 && file.eyes[0] != kMono) warnings.push_back("Unreal renders both eyes or mono");
+  if (file.eyes.size() == 2 && file.layout != Layout::kTopBottom) warnings.push_back(no_layout(file, "Unreal"));
+  std::string& text = result.text;
+  text = comment_block("//", "Unreal's panoramic capture, console: " + camera_title(file) + ". Centimetres.", warnings);
+  text +=
+      "// It captures slits of one eye point each: one degree of heading at a time by default.\n"
+      "// Untested in the editor: the names are those that the plug-in's source registers.\n";
+  text +=
+      fmt::format("// Camera: X={:.6g} Y={:.6g} Z={:.6g}, Pitch={} Yaw={} Roll={}\n", -100.0f * rig.position.z + 0.0f,
+                  100.0f * rig.position.x, 100.0f * rig.position.y, rig.pitch, rig.yaw, rig.roll);
+  text += fmt::format("SP.EyeSeparation {}\n", 100.0f * rig.ipd);
+  text += fmt::format("SP.StepCaptureWidth {}\n", file.eye.width > 0 ? file.eye.width : 4096);
+  text += "SP.HorizontalAngularIncrement 1\n";
+  text += fmt::format("SP.MonoscopicMode {}\n", file.eyes.size() == 1 && file.eyes[0] == kMono ? 1 : 0);
+  text += "SP.FadeStereoToZeroAtSides 0\n";
+  text += "SP.UseCameraRotation 7\n";
+  return result;
+}
+
+}  // namespace ods

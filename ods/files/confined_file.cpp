@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/files/confined_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "ods/files/read_file.h"
+
+namespace fs = std::filesystem;
+
+namespace ods {
+
+static bool lies_within(const fs::path& file, const std::string& folder) {
+  return file.native().starts_with(folder.ends_with('/') ? folder : folder + "/");
+}
+
+ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder) : path_(path) {
+  if (folder.empty()) return;
+  const Error outside = cannot_read(path, fmt::format("it lies outside of '{}'", folder));
+  std::error_code error;
+  if (!lies_within(fs::weakly_canonical(fs::absolute(path), error), folder)) throw outside;
+  file_size(path);  // says what is wrong with it by this name
+  descriptor_ = open(path.c_str(), O_PATH | O_CLOEXEC);
+  if (descriptor_ < 0) throw cannot_read(path, std::strerror(errno));
+  path_ = fmt::format("/proc/self/fd/{}", descriptor_);
+  if (lies_within(fs::read_symlink(path_, error), folder)) return;
+  close(descriptor_);
+  throw outside;
+}
+
+ConfinedFile::~ConfinedFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+}  // namespace ods

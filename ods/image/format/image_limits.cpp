@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/format/image_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ods {
+
+std::string image_size_fault(int width, int height, int longest, size_t file_size) {
+  if (width < 1 || height < 1) return "it has no pixels";
+  const int64_t pixels = int64_t{width} * height;
+  const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_size));
+  if (longest > kMaxSide || pixels > kMaxPixels) {
+    return fmt::format("{}x{} pixels are more than the limit of {} a side, {} in all", width, height, kMaxSide,
+                       kMaxPixels);
+  }
+  if (pixels > most) {
+    return fmt::format("{}x{} pixels in {} bytes: the file is broken or hostile", width, height, file_size);
+  }
+  return {};
+}
+
+}  // namespace ods

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checks of lint(), each in a file of its own. Each adds to the report what it finds, and what it could not judge.
+#pragma once
+#include "ods/image/image_file.h"
+#include "ods/lint/lint.h"
+#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/picture_form.h"
+
+namespace ods {
+
+struct Subject {
+  std::string path;
+  FileInfo info;  // of the left file of a pair
+  PictureForm form;
+  std::vector<Image> eyes;  // luminance of linear light, 1 channel, as stored
+  Image packed;             // the whole file, where it can be cut in other ways
+  std::optional<CameraFile> sidecar;
+  std::optional<Camera> camera;  // where something says how the eyes converge
+
+  Layout layout() const { return form.layout.layout.value_or(Layout::kSeparate); }
+  const ProjectionSetting& projection() const { return form.camera.projection; }
+};
+
+// Every check calls one of them, for each Check that is its business.
+void judge(LintReport& report, Check check);
+void skip(LintReport& report, Check check, const std::string& reason);
+
+// What a parallel pair would have to add to its difference of headings at this elevation; 0 where nobody says.
+double convergence_at(const Subject& subject, double phi);
+
+// False: these are no two eyes of one place, and no other check of stereo makes sense.
+bool check_layout(const Subject& subject, LintReport& report);
+void check_parallax(const Subject& subject, LintReport& report);
+void check_poles(const Subject& subject, LintReport& report);
+void check_seam(const Subject& subject, LintReport& report);
+void check_form(const Subject& subject, LintReport& report);      // aspect, film levels
+void check_metadata(const Subject& subject, LintReport& report);  // but for the layout, which check_layout() measures
+
+}  // namespace ods

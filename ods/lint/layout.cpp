@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two eyes of one place show nearly the same; two parts of one picture do not. So every way to cut a file is tried.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ods/lint/checks.h"
+#include "ods/lint/match.h"
+
+namespace ods {
+
+namespace {
+
+// A coarse look averages noise away, and cares less for parallax.
+constexpr int kCoarse = 192;
+constexpr int kEnoughTiles = 8;
+
+struct Cut {
+  Layout layout = Layout::kTopBottom;
+  Matches matches;
+  double lopsided = 0.0;  // how much parallax has one sign, 0..1
+};
+
+Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes) {
+  Cut cut;
+  cut.layout = layout;
+  const std::vector<View> views = make_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
+  Search search;
+  search.correlation = 0.7f;
+  search.down = 0.04f;
+  cut.matches = match_tiles(views[0], views[1], search);
+  for (const Match& match : cut.matches.found) {
+    cut.lopsided += std::tanh(4.0 * static_cast<double>(match.around / cut.matches.pixel)) /
+                    static_cast<double>(cut.matches.found.size());
+  }
+  cut.lopsided = std::abs(cut.lopsided);
+  return cut;
+}
+
+std::string matching(const Cut& cut) {
+  return fmt::format("{:.0f} % of {} places match", 100.0 * cut.matches.share(), cut.matches.tiles);
+}
+
+// What the layout of eyes of this shape is called: squeezed eyes are as their file, not as eyes are.
+std::string cut_name(const Subject& subject, Layout layout) {
+  const Extent eye = *unpacked_size(layout, {subject.packed.width, subject.packed.height});
+  const double aspect = static_cast<double>(eye.width) / eye.height;
+  const double natural = 1000.0 / natural_height(subject.projection(), 1000);
+  if (layout == Layout::kTopBottom && aspect > 1.5 * natural) return "top-bottom-half";
+  if (layout == Layout::kSideBySide && aspect < 0.75 * natural) return "side-by-side-half";
+  return std::string(layout_name(layout));
+}
+
+// The layouts that a file may have in truth, other than the one it was read in.
+std::vector<Cut> other_cuts(const Subject& subject) {
+  std::vector<Cut> cuts;
+  const std::optional<Layout> read = subject.form.layout.layout;
+  const Extent size{subject.packed.width, subject.packed.height};
+  for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
+    if (subject.packed.pixels.empty() || !unpacked_size(layout, size)) continue;
+    const bool stacked = layout == Layout::kTopBottom;
+    const bool same =
+        read &&
+        (stacked ? *read == Layout::kTopBottom || *read == Layout::kBottomTop || *read == Layout::kTopBottomHalf
+                 : *read == Layout::kSideBySide || *read == Layout::kCrossEyed || *read == Layout::kSideBySideHalf);
+    if (!same) cuts.push_back(try_cut(subject, layout, unpack(layout, subject.packed)));
+  }
+  return cuts;
+}
+
+// Who said so decides what is wrong, and what is to be changed.
+void add_misread(const Subject& subject, const Cut& cut, double certainty, const std::string& evidence,
+                 LintReport& report) {
+  const std::string truth = cut_name(subject, cut.layout);
+  const auto [fault, cure] = [&]() -> std::pair<Fault, std::string> {
+    switch (subject.form.layout.source) {
+      case LayoutSource::kName:
+        return {Fault::kMetadata, fmt::format("rename the file: it is {}", truth)};
+      case LayoutSource::kSidecar:
+        return {Fault::kMetadata, fmt::format("correct the sidecar: it is {}", truth)};
+      case LayoutSource::kFile:
+        return {Fault::kMetadata, fmt::format("correct what the file says: it is {}", truth)};
+      default:
+        return {Fault::kLayoutMisread, fmt::format("read it as {} (--layout {})", truth, truth)};
+    }
+  }();
+  report.findings.push_back({fault, certainty, evidence + ", " + subject.form.layout.because, cure});
+}
+
+}  // namespace
+
+static bool check_one_eye(const Subject& subject, LintReport& report) {
+  judge(report, Check::kLayout);
+  for (const Cut& cut : other_cuts(subject)) {
+    // Scenes that look alike on two sides match too, but parallax with one sign is no chance.
+    const double certainty = cut.matches.share() * cut.lopsided * std::min(1.0, cut.matches.tiles / 20.0);
+    if (certainty < 0.3) continue;
+    add_misread(subject, cut, certainty,
+                fmt::format("read as one eye, but cut as {} {}, with parallax", layout_name(cut.layout), matching(cut)),
+                report);
+    return certainty < 0.5;
+  }
+  return true;
+}
+
+bool check_layout(const Subject& subject, LintReport& report) {
+  if (subject.eyes.size() == 1) return check_one_eye(subject, report);
+  const Layout layout = subject.layout();
+  const Cut read = try_cut(subject, layout, subject.eyes);
+  if (read.matches.tiles < kEnoughTiles) {
+    skip(report, Check::kLayout, "not enough detail");
+    return true;
+  }
+  judge(report, Check::kLayout);
+  const double share = read.matches.share();
+  const double enough = static_cast<double>(read.matches.tiles) / (read.matches.tiles + 5.0);
+  const double alone = enough * std::max(0.0, 1.0 - share / 0.3);
+  double misread = 0.0;
+  for (const Cut& cut : other_cuts(subject)) {
+    // Two sides of a scene may be alike, but they have no parallax of one sign.
+    const double better = cut.matches.share() - share;
+    const double certainty =
+        enough * cut.matches.share() * std::min(1.0, better / 0.4) * std::min(1.0, 2.0 * cut.lopsided);
+    if (cut.matches.tiles < kEnoughTiles || certainty < 0.1) continue;
+    misread = certainty;
+    add_misread(subject, cut, certainty,
+                fmt::format("read as {}, {}; cut as {}, {}", layout_name(layout), matching(read),
+                            layout_name(cut.layout), matching(cut)),
+                report);
+  }
+  if (misread < 0.5 && alone >= 0.1) {
+    report.findings.push_back({Fault::kMonoAsStereo, alone,
+                               fmt::format("what is said to be two eyes ({}) shows two places: {}",
+                                           subject.form.layout.because, matching(read)),
+                               "it is one picture: give it the shape of one eye (lat-long: twice as wide as high) and "
+                               "show it as mono"});
+  }
+  return std::max(misread, alone) < 0.5;
+}
+
+}  // namespace ods

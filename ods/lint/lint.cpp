@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/lint/lint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "ods/base/error.h"
+#include "ods/lint/checks.h"
+#include "ods/picture/load_eyes.h"
+
+namespace ods {
+
+// --- names ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct FaultNames {
+  std::string_view name;
+  std::string_view title;
+  Severity severity;
+};
+
+}  // namespace
+
+static FaultNames names_of(Fault fault) {
+  switch (fault) {
+    case Fault::kEyesSwapped:
+      return {"eyes-swapped", "the eyes are swapped", Severity::kFault};
+    case Fault::kRightOnTop:
+      return {"right-on-top", "the right eye is on top", Severity::kFault};
+    case Fault::kOneEyeTwice:
+      return {"one-eye-twice", "both eyes see the same picture", Severity::kFault};
+    case Fault::kMonoAsStereo:
+      return {"mono-as-stereo", "one picture is taken for two eyes", Severity::kFault};
+    case Fault::kLayoutMisread:
+      return {"layout-misread", "the eyes lie otherwise in the file", Severity::kFault};
+    case Fault::kMirroredCircle:
+      return {"mirrored-circle", "the eyes' circle is mirrored", Severity::kFault};
+    case Fault::kTwoCameras:
+      return {"two-cameras", "two fixed cameras in place of a circle", Severity::kFault};
+    case Fault::kNoPoleMerge:
+      return {"no-pole-merge", "full stereo at a pole", Severity::kWarning};
+    case Fault::kRaggedSeam:
+      return {"ragged-seam", "the seam shows", Severity::kFault};
+    case Fault::kWrongAspect:
+      return {"wrong-aspect", "the shape does not fit", Severity::kFault};
+    case Fault::kMetadata:
+      return {"metadata", "its words do not fit its pixels", Severity::kFault};
+    case Fault::kFilmLevels:
+      break;
+  }
+  return {"film-levels", "too large for films", Severity::kInformation};
+}
+
+std::string_view fault_name(Fault fault) {
+  return names_of(fault).name;
+}
+
+std::string_view fault_title(Fault fault) {
+  return names_of(fault).title;
+}
+
+Severity severity_of(Fault fault) {
+  return names_of(fault).severity;
+}
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::kFault:
+      return "fault";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kInformation:
+      break;
+  }
+  return "information";
+}
+
+std::string_view check_name(Check check) {
+  switch (check) {
+    case Check::kLayout:
+      return "the layout of the eyes";
+    case Check::kTwoEyes:
+      return "whether the eyes see from two places";
+    case Check::kEyeOrder:
+      return "which eye is which";
+    case Check::kCircle:
+      return "a circle of eyes or two cameras";
+    case Check::kTopPole:
+      return "stereo at the top pole";
+    case Check::kBottomPole:
+      return "stereo at the bottom pole";
+    case Check::kSeam:
+      return "the seam";
+    case Check::kShape:
+      return "the shape";
+    case Check::kMetadata:
+      return "metadata";
+    case Check::kFilmLevels:
+      return "film levels";
+    case Check::kBetweenEyes:
+      break;
+  }
+  return "height, roll, colour and sharpness between the eyes";
+}
+
+void judge(LintReport& report, Check check) {
+  report.judged.push_back(check);
+}
+
+void skip(LintReport& report, Check check, const std::string& reason) {
+  report.not_judged.push_back({check, reason});
+}
+
+bool has_finding(const LintReport& report, Severity severity, double certainty) {
+  return std::any_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
+    return severity_of(finding.fault) <= severity && finding.certainty >= certainty;
+  });
+}
+
+// --- what is looked at ---------------------------------------------------------------------------------------------
+
+// Packed eyes are taken apart here, so that the file can be cut in other ways too.
+static void load(Subject& subject, const LintOptions& options) {
+  const std::string& path = subject.path;
+  subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
+  OpenOptions open;
+  open.form.layout = options.layout;
+  open.form.projection = options.projection;
+  open.only_light = true;
+  subject.form = find_form(subject.info, path, open.form);
+  if (names_eye(path) || subject.form.is_photo || subject.layout() == Layout::kMultiview) {
+    subject.eyes = grey_eyes(open_picture(path, open));
+    return;
+  }
+  const Extent size{subject.info.width, subject.info.height};
+  if (!unpacked_size(subject.layout(), size)) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
+                                               path, size.width, size.height, layout_name(subject.layout())));
+  }
+  open.form.layout = Layout::kSeparate;
+  open.form.projection = ProjectionSetting();  // any: its pixels are taken as they lie
+  subject.packed = grey_eyes(open_picture(path, open))[0];
+  subject.eyes = unpack(subject.layout(), subject.packed);
+}
+
+static void load_sidecar(Subject& subject) {
+  const std::string path = sidecar_path(subject.path);
+  std::vector<std::string> warnings;
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) subject.sidecar = load_camera(path, warnings);
+}
+
+static void find_camera(Subject& subject) {
+  if (subject.form.camera_is_said) subject.camera = make_camera(subject.form.camera);
+}
+
+static void describe(const Subject& subject, LintReport& report) {
+  const Image& eye = subject.eyes[0];
+  report.file = {subject.info.width, subject.info.height};
+  report.eye = {eye.width, eye.height};
+  report.eye_count = static_cast<int>(subject.eyes.size());
+  if (report.eye_count > 1) report.layout = subject.form.layout.layout;
+  report.because = subject.form.layout.because;
+  report.projection = projection_name(subject.projection());
+  int64_t not_finite = 0;
+  for (const Image& each : subject.eyes) {
+    not_finite +=
+        std::count_if(each.pixels.begin(), each.pixels.end(), [](float value) { return !std::isfinite(value); });
+  }
+  if (not_finite > 0) report.notes.push_back(fmt::format("{} values are NaN or infinite", not_finite));
+  if (!subject.info.color_fault.empty()) report.notes.push_back(subject.info.color_fault);
+}
+
+// --- the checks ----------------------------------------------------------------------------------------------------
+
+constexpr double kLeastAround = 256.0;  // pixels of an eye for 360 degrees
+constexpr int kLeastHeight = 32;
+
+static void check_pixels(const Subject& subject, LintReport& report) {
+  check_seam(subject, report);
+  if (report.eye_count < 2) return;
+  check_parallax(subject, report);
+  check_poles(subject, report);
+}
+
+// Checks that were not come to.
+static void skip_the_rest(LintReport& report, const std::string& reason) {
+  const auto is_done = [&](Check check) {
+    return std::find(report.judged.begin(), report.judged.end(), check) != report.judged.end() ||
+           std::any_of(report.not_judged.begin(), report.not_judged.end(),
+                       [&](const NotJudged& each) { return each.check == check; });
+  };
+  for (const Check check : kChecks) {
+    if (!is_done(check)) skip(report, check, reason);
+  }
+  const auto order = [](const NotJudged& a, const NotJudged& b) { return a.check < b.check; };
+  std::sort(report.judged.begin(), report.judged.end());
+  std::stable_sort(report.not_judged.begin(), report.not_judged.end(), order);
+}
+
+LintReport lint(const std::string& path, const LintOptions& options) {
+  Subject subject;
+  LintReport report;
+  subject.path = path;
+  load(subject, options);
+  load_sidecar(subject);
+  find_camera(subject);
+  describe(subject, report);
+  const double around = 2.0 * std::numbers::pi * pixels_per_radian(subject.projection(), report.eye.width);
+  const bool small = around < kLeastAround || report.eye.height < kLeastHeight;
+  std::string reason = "there is only one eye";
+  if (report.eye_count > 1) skip(report, Check::kBetweenEyes, "ods lint does not measure them yet");
+  if (small) reason = fmt::format("an eye of {}x{} pixels is too small", report.eye.width, report.eye.height);
+  if (small || check_layout(subject, report)) {
+    check_metadata(subject, report);
+    check_form(subject, report);
+    if (!small) check_pixels(subject, report);
+  } else {
+    reason = "the layout must be right first";
+  }
+  skip_the_rest(report, reason);
+  std::stable_sort(report.findings.begin(), report.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.certainty > b.certainty; });
+  return report;
+}
+
+}  // namespace ods

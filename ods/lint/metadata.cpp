@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Words against words and numbers: what the file, its name and its sidecar say of a picture whose layout is known.
+#include "ods/picture/metadata/metadata.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ods/image/format/xmp_file.h"
+#include "ods/lint/checks.h"
+
+namespace ods {
+
+static void add(LintReport& report, double certainty, std::string evidence, std::string cure) {
+  report.findings.push_back({Fault::kMetadata, certainty, std::move(evidence), std::move(cure)});
+}
+
+static std::string_view read_as(const LintReport& report) {
+  return report.layout ? layout_name(*report.layout) : "one eye";
+}
+
+// GPano describes one sphere, and viewers would wrap the whole file around it.
+static void check_gpano(const Subject& subject, LintReport& report) {
+  if (report.eye_count < 2 || names_eye(subject.path) || subject.form.is_photo) return;
+  if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
+  add(report, 1.0, "a stereo file carries GPano, which knows no stereo: viewers wrap both eyes around one sphere",
+      "remove GPano from it (ods inject --remove FILE)");
+}
+
+static void check_name(const Subject& subject, LintReport& report) {
+  FileInfo no_words = subject.info;
+  no_words.text.clear(), no_words.channels.clear();
+  const LayoutGuess named = guess_layout(no_words, subject.path);
+  if (named.source != LayoutSource::kName || names_eye(subject.path) || named.layout == report.layout) return;
+  const Extent size = report.file;
+  if (named.layout) {
+    const std::optional<Extent> other = unpacked_size(*named.layout, size);
+    if (other && report.layout && other->width == report.eye.width && other->height == report.eye.height &&
+        *named.layout != Layout::kBottomTop && *named.layout != Layout::kCrossEyed) {
+      return;  // the same halves by a looser word
+    }
+  }
+  add(report, 0.9, fmt::format("{}, but it is {} as {}", named.because, read_as(report), subject.form.layout.because),
+      "rename it: players go by the name");
+}
+
+static void check_sidecar(const Subject& subject, LintReport& report) {
+  if (!subject.sidecar) return;
+  const CameraFile& said = *subject.sidecar;
+  const std::string name = sidecar_path(subject.path);
+  const char* cure = "write the sidecar again, or remove it";
+  const int count = static_cast<int>(said.eyes.size());
+  if (count != report.eye_count) {
+    return add(report, 0.9, fmt::format("'{}' says {} eyes, and the file has {}", name, count, report.eye_count), cure);
+  }
+  if (report.layout && said.layout != *report.layout) {
+    add(report, 0.9, fmt::format("'{}' says {}, and it is {}", name, layout_name(said.layout), read_as(report)), cure);
+  }
+  const Extent stored = squeezed_eye(said.layout, said.eye, count);
+  // A copy of another size is no contradiction, another shape is.
+  const double off = std::abs(static_cast<double>(stored.width) * report.eye.height /
+                                  (static_cast<double>(stored.height) * report.eye.width) -
+                              1.0);
+  if (said.eye.width > 0 && said.eye.height > 0 && off > 0.02) {
+    add(report, off / (off + 0.02),
+        fmt::format("'{}' says eyes of {}x{}, and they have {}x{}", name, stored.width, stored.height, report.eye.width,
+                    report.eye.height),
+        cure);
+  }
+}
+
+void check_metadata(const Subject& subject, LintReport& report) {
+  judge(report, Check::kMetadata);
+  check_gpano(subject, report);
+  check_name(subject, report);
+  check_sidecar(subject, report);
+}
+
+}  // namespace ods

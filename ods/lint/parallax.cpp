@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The sign of parallax around the horizon: + everywhere is right, - everywhere has the eyes swapped, cos(theta) are two
+// fixed cameras, cos(2 theta) a viewing circle that was mirrored without its rays. How large it is depends on the scene
+// and tells nothing, except that a picture without any is one eye twice.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "ods/lint/checks.h"
+#include "ods/lint/match.h"
+
+namespace ods {
+
+namespace {
+
+constexpr int kSectors = 16;
+constexpr double kPrecision = 0.25;  // of a match, pixels of its view
+constexpr double kGrounded = 0.2;    // growth_downwards() that no chance makes
+constexpr double kPi2 = 2.0 * std::numbers::pi;
+
+struct Parallax {
+  double theta = 0.0;
+  double phi = 0.0;
+  double angle = 0.0;  // radians, of a parallel pair
+  double sign = 0.0;   // -1..1: near 0 where the angle is less than the precision
+  double weight = 0.0;
+  int sector = 0;
+};
+
+struct Parallaxes {
+  std::vector<Parallax> all;
+  double sectors = 0.0;  // with something in them, 0..kSectors
+};
+
+// How well a pattern of signs explains what is there, -1..1.
+template <class Pattern>
+double explained(const Parallaxes& parallaxes, Pattern pattern) {
+  double sum = 0.0, most = 0.0;
+  for (const Parallax& each : parallaxes.all) {
+    const double expected = std::clamp(2.0 * pattern(each.theta), -1.0, 1.0);
+    sum += each.weight * each.sign * expected;
+    most += each.weight * std::abs(each.sign * expected);
+  }
+  return most > 0.0 ? sum / most : 0.0;
+}
+
+// cos(waves (theta - turn)) for the turn that explains most.
+struct Wave {
+  double share = 0.0;
+  double turn = 0.0;
+};
+Wave best_wave(const Parallaxes& parallaxes, int waves) {
+  Wave best;
+  for (int i = 0; i < 24; i++) {
+    const double turn = kPi2 * i / (24.0 * waves);
+    const double share = explained(parallaxes, [&](double theta) { return std::cos(waves * (theta - turn)); });
+    if (share > best.share) best = {share, std::remainder(turn, kPi2) * 360.0 / kPi2};
+  }
+  return best;
+}
+
+void add_matches(Parallaxes& parallaxes, const Matches& matches, const Subject& subject) {
+  for (const Match& match : matches.found) {
+    Parallax each;
+    each.theta = static_cast<double>(match.theta);
+    each.phi = static_cast<double>(match.phi);
+    each.angle = static_cast<double>(match.around) + convergence_at(subject, each.phi);
+    const double in_precisions = each.angle / (kPrecision * static_cast<double>(matches.pixel));
+    each.sign = std::copysign(std::tanh(in_precisions * in_precisions), in_precisions);
+    each.sector = std::clamp(static_cast<int>((each.theta / kPi2 + 0.5) * kSectors), 0, kSectors - 1);
+    parallaxes.all.push_back(each);
+  }
+}
+
+// A sector full of detail counts little more than one with some.
+void weigh(Parallaxes& parallaxes) {
+  std::array<double, kSectors> count{};
+  for (const Parallax& each : parallaxes.all) count[static_cast<size_t>(each.sector)] += std::abs(each.sign);
+  for (Parallax& each : parallaxes.all) each.weight = 1.0 / (count[static_cast<size_t>(each.sector)] + 1.0);
+  for (double each : count) parallaxes.sectors += each / (each + 1.0);
+}
+
+// Whether parallax, as large as the eye sees it, grows downwards below the horizon, -1..1, each heading by itself: as
+// the ground comes nearer it does, wherever the eyes converge, and falls when they are swapped.
+double growth_downwards(const Parallaxes& parallaxes) {
+  struct Sums {
+    double weight = 0.0, depth = 0.0, angle = 0.0;
+  };
+  std::array<Sums, kSectors> sums;
+  const auto arc_of = [](const Parallax& each) { return each.angle * std::cos(each.phi); };
+  const auto counts = [](const Parallax& each) { return each.phi < 0.0; };
+  for (const Parallax& each : parallaxes.all) {
+    if (!counts(each)) continue;
+    Sums& sector = sums[static_cast<size_t>(each.sector)];
+    sector.weight += 1.0, sector.depth -= each.phi, sector.angle += arc_of(each);
+  }
+  double both = 0.0, depths = 0.0, angles = 0.0;
+  for (const Parallax& each : parallaxes.all) {
+    const Sums& sector = sums[static_cast<size_t>(each.sector)];
+    if (!counts(each) || sector.weight < 3.0) continue;
+    const double depth = -each.phi - sector.depth / sector.weight, angle = arc_of(each) - sector.angle / sector.weight;
+    both += depth * angle, depths += depth * depth, angles += angle * angle;
+  }
+  return depths > 0.0 && angles > 0.0 ? both / std::sqrt(depths * angles) : 0.0;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+// Rays that are toed in meet on a sphere: towards the poles they turn about ever smaller circles.
+double convergence_at(const Subject& subject, double phi) {
+  if (!subject.camera || subject.camera->convergence == kParallel) return 0.0;
+  const Camera& camera = *subject.camera;
+  if (camera.convergence == kShift) return 2.0 * static_cast<double>(shift_angle(camera, kRight));
+  const float left = merge_factor(phi < 0.0 ? camera.bottom : camera.top, static_cast<float>(std::abs(phi)));
+  return 2.0 * std::atan(static_cast<double>(0.5f * camera.ipd * left / camera.convergence_distance) / std::cos(phi));
+}
+
+// --- one eye twice -------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct Stillness {
+  double certainty = 0.0;
+  double middle = 0.0;  // of the parallax, pixels of the view
+  double spread = 0.0;
+  size_t count = 0;
+};
+
+// Parallax of things far away is small too, but it is no noise: it is never less than 0.
+Stillness stillness_of(const Matches& matches) {
+  Stillness still;
+  still.count = matches.found.size();
+  if (still.count < 10) return still;
+  std::vector<double> angles, deviations;
+  for (const Match& match : matches.found) angles.push_back(static_cast<double>(match.around / matches.pixel));
+  still.middle = median(angles);
+  for (double angle : angles) deviations.push_back(std::abs(angle - still.middle));
+  still.spread = median(deviations);
+  const double count = static_cast<double>(still.count);
+  double balance = 0.0;
+  for (double angle : angles) balance += std::tanh(angle / (still.spread + 1e-3)) / count;
+  // A few things that do move, as on a test card, are enough, if they move in one sense as no mismatches do.
+  double moving = 0.0, sense = 0.0;
+  for (double angle : angles) {
+    if (std::abs(angle - still.middle) < std::max(0.5, 6.0 * still.spread)) continue;
+    moving += 1.0;
+    sense += angle > still.middle ? 1.0 : -1.0;
+  }
+  const double alive = std::clamp(0.5 * (std::abs(sense) / std::sqrt(moving + 1.0) - 1.0), 0.0, 1.0);
+  still.certainty = count / (count + 10.0) * std::max(0.0, 1.0 - still.spread / 0.4) *
+                    std::max(0.0, 1.0 - 2.0 * std::abs(balance)) * (1.0 - alive);
+  return still;
+}
+
+}  // namespace
+
+// At all scales: noise that is the same in both eyes stands still too, but only where it is not averaged away.
+static bool check_twice(const Subject& subject, const std::vector<Matches>& scales, LintReport& report) {
+  const std::vector<Image>& eyes = subject.eyes;
+  const char* cure = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
+  const int detailed = scales.back().tiles;
+  if (detailed > 0 && eyes[0].pixels == eyes[1].pixels) {
+    judge(report, Check::kTwoEyes);
+    report.findings.push_back({Fault::kOneEyeTwice, 1.0, "every pixel is the same in both eyes", cure});
+    return true;
+  }
+  Stillness least{2.0, 0.0, 0.0, 0};
+  double degrees = 0.0;
+  for (const Matches& matches : scales) {
+    const Stillness still = stillness_of(matches);
+    if (still.certainty >= least.certainty) continue;
+    least = still;
+    degrees = static_cast<double>(matches.pixel) * 360.0 / kPi2;
+  }
+  // In small pictures things that are merely far stand still, too.
+  const double width = kPi2 / static_cast<double>(scales.back().pixel);
+  const double large = std::clamp((width - 256.0) / 768.0, 0.0, 1.0);
+  least.certainty *= large;
+  if (detailed == 0) {
+    skip(report, Check::kTwoEyes, "not enough detail");
+  } else if (large < 0.5) {
+    skip(report, Check::kTwoEyes, fmt::format("at {:.0f} pixels around, what is far stands still too", width));
+  } else {
+    judge(report, Check::kTwoEyes);
+  }
+  if (least.certainty < 0.1) return false;
+  report.findings.push_back(
+      {Fault::kOneEyeTwice, least.certainty,
+       fmt::format("{} places are at the same spot in both eyes: {:.3f} degrees apart, give or take {:.3f}",
+                   least.count, least.middle * degrees, least.spread * degrees),
+       cure});
+  return least.certainty > 0.5;
+}
+
+// --- the signs -----------------------------------------------------------------------------------------------------
+
+static void check_swap(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
+  if (upright > -0.1) return;
+  const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
+  double certainty = -upright * enough;
+  std::string evidence = fmt::format("the left eye sees {:.0f} % of {} places farther left than the right eye does",
+                                     50.0 - 50.0 * upright, parallaxes.all.size());
+  if (!subject.camera) {
+    const double growth = growth_downwards(parallaxes);
+    // Eyes that converge mid-way have parallax of both signs; close by, only the ground tells.
+    certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
+    evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
+  }
+  const Layout layout = subject.layout();
+  const bool stacked = layout == Layout::kTopBottom || layout == Layout::kTopBottomHalf;
+  const char* cure = layout == Layout::kTopBottom
+                         ? "the right eye is on top: exchange the halves, or tell the player bottom-top"
+                     : stacked ? "the right eye is on top: exchange the halves"
+                               : "exchange the eyes, or tell the player the other order";
+  report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, cure});
+}
+
+static void check_waves(const Parallaxes& parallaxes, double upright, LintReport& report) {
+  const Wave one = best_wave(parallaxes, 1), two = best_wave(parallaxes, 2);
+  const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
+  const auto add = [&](Fault fault, const Wave& wave, double other, const char* shape, const char* cure) {
+    const double certainty = enough * (wave.share - std::max(std::abs(upright), other));
+    if (certainty < 0.1) return;
+    report.findings.push_back({fault, certainty,
+                               fmt::format("parallax changes its sign with the heading as cos({}) does, about {:.0f} "
+                                           "degrees: that explains {:.0f} % of it, one sign {:.0f} %",
+                                           shape, wave.turn, 50.0 + 50.0 * wave.share, 50.0 + 50.0 * std::abs(upright)),
+                               cure});
+  };
+  add(Fault::kTwoCameras, one, two.share, "theta",
+      "render again with a viewing circle (omni-directional stereo); what two fixed cameras saw cannot be mended");
+  add(Fault::kMirroredCircle, two, one.share, "2 theta",
+      "the renderer turns its eyes against its rays: negate one coordinate of the eye's place there, and render again");
+}
+
+// Share of the horizon.
+static double seen_around(const View& view) {
+  const float* row = view.at(0, view.height / 2);
+  return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;
+}
+
+void check_parallax(const Subject& subject, LintReport& report) {
+  Parallaxes parallaxes;
+  std::vector<Matches> scales;
+  double around = 0.0;
+  for (int width : {256, 512, 1024}) {
+    const std::vector<View> views = make_views(subject.eyes, subject.projection(), subject.info.is_float, width);
+    scales.push_back(match_tiles(views[0], views[1], {}));
+    add_matches(parallaxes, scales.back(), subject);
+    around = seen_around(views[0]);
+    if (views[0].width < width) break;
+  }
+  if (check_twice(subject, scales, report)) {
+    for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "both eyes see the same picture");
+    return;
+  }
+  weigh(parallaxes);
+  const double upright = explained(parallaxes, [](double) { return 1.0; });
+  if (parallaxes.sectors < 1.5) {
+    for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "not enough detail with parallax");
+    return;
+  }
+  judge(report, Check::kEyeOrder);
+  check_swap(subject, parallaxes, upright, report);
+  if (around < 0.8) {
+    skip(report, Check::kCircle, "the picture does not go all around");
+    return;
+  }
+  judge(report, Check::kCircle);
+  check_waves(parallaxes, upright, report);
+}
+
+}  // namespace ods

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/lint/players.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ods/base/error.h"
+#include "ods/camera/video_level.h"
+#include "ods/video/container/film_form.h"
+
+namespace ods {
+
+constexpr double kUsualFps = 30.0;  // of a film that does not say
+
+static bool is_matroska(const FilmInfo& film) {
+  return film.container == Container::kMatroska || film.container == Container::kWebm;
+}
+
+// What a player makes of it: no word on stereo is mono, no word on a projection is a flat film.
+static std::string shown_as(FilmForm form) {
+  form.stereo = form.stereo.value_or(FilmStereo::kOneView);
+  form.projection = form.projection.value_or(FilmProjection::kFlat);
+  return form_text(form);
+}
+
+static PlayerView v2_view(const FilmInfo& film, const VideoTrack& track) {
+  const char* place = is_matroska(film) ? "StereoMode and Projection say so" : "st3d and sv3d say so";
+  if (track.v2) return {"reads V2", shown_as(*track.v2), place};
+  if (track.v1) return {"reads V2", shown_as(*track.v1), "there is no V2, and V1 says so"};
+  return {"reads V2", shown_as({}), "it says nothing"};
+}
+
+static PlayerView v1_view(const VideoTrack& track) {
+  if (track.v1) return {"reads only V1", shown_as(*track.v1), "V1 says so"};
+  return {"reads only V1", shown_as({}), "it has no V1"};
+}
+
+static PlayerView apple_view(const VideoTrack& track) {
+  if (track.vexu) return {"is Apple's", shown_as(*track.vexu), "vexu says so"};
+  return {"is Apple's", shown_as({}), "it has no vexu"};
+}
+
+static PlayerView name_view(const std::string& path) {
+  const NameWords words = read_name(path);
+  if (words.layout_word.empty() && words.projection == nullptr) {
+    return {"goes by the name", "mono, flat", "its name ends in no word for it"};
+  }
+  std::string text(words.layout ? layout_name(*words.layout) : "mono");
+  text += fmt::format(", {}", words.projection != nullptr ? words.projection->name : "lat-long or flat");
+  return {"goes by the name", text, fmt::format("its name ends in {}{}", words.projection_word, words.layout_word)};
+}
+
+static PlayerView shape_view(Extent size) {
+  if (size.width == size.height) return {"goes by the shape", "top-bottom, lat-long", "it is square"};
+  if (size.width == 2 * size.height) return {"goes by the shape", "mono, lat-long", "it is twice as wide as high"};
+  return {"goes by the shape", "mono, flat", "it has the shape of neither one nor two spheres"};
+}
+
+std::vector<PlayerView> film_views(const FilmInfo& film, const VideoTrack& track, const std::string& path) {
+  std::vector<PlayerView> views{v2_view(film, track)};
+  if (!is_matroska(film) || track.v1) views.push_back(v1_view(track));
+  if (!is_matroska(film)) views.push_back(apple_view(track));
+  views.push_back(name_view(path));
+  views.push_back(shape_view(track.size));
+  return views;
+}
+
+// --- what is wrong ---------------------------------------------------------------------------------------------------
+
+static std::optional<Codec> codec_of(const std::string& name) {
+  for (const char* word : {"avc1", "avc3", "V_MPEG4/ISO/AVC"}) {
+    if (name == word) return Codec::kH264;
+  }
+  for (const char* word : {"hvc1", "hev1", "V_MPEGH/ISO/HEVC"}) {
+    if (name == word) return Codec::kHevc;
+  }
+  for (const char* word : {"av01", "V_AV1"}) {
+    if (name == word) return Codec::kAv1;
+  }
+  for (const char* word : {"vp09", "V_VP9"}) {
+    if (name == word) return Codec::kVp9;
+  }
+  return std::nullopt;
+}
+
+static void warn_of_size(const VideoTrack& track, std::vector<std::string>& warnings) {
+  const std::optional<Codec> codec = codec_of(track.codec);
+  const double fps = track.fps > 0.0 ? track.fps : kUsualFps;
+  if (!codec || track.size.width == 0 || track.size.height == 0) return;
+  if (!smallest_level(*codec, track.size, fps).empty()) return;
+  warnings.push_back(fmt::format("no level of {} holds {}x{} at {:.4g} pictures a second: many players will refuse it",
+                                 codec_name(*codec), track.size.width, track.size.height, fps));
+}
+
+static std::string same_words(std::string text) {
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"lat-long 180x180", "vr180"},
+                                 {"side-by-side-half", "side-by-side"},
+                                 {"top-bottom-half", "top-bottom"}}) {
+    if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+// Whether two kinds of players show the same; a name without a projection agrees with both that it leaves open.
+static bool agree(const std::string& a, const std::string& b) {
+  const std::string one = same_words(a), other = same_words(b);
+  const size_t open = other.find("lat-long or flat");
+  if (open == std::string::npos) return one == other;
+  return one == other.substr(0, open) + "lat-long" || one == other.substr(0, open) + "flat";
+}
+
+// That ods inject helps, if it does, and what it has to be told: " (ods inject --track 2 adds it)".
+static std::string advice(const FilmInfo& film, const VideoTrack& track, const std::string& path,
+                          std::string_view what) {
+  std::vector<std::string> guesses;
+  try {
+    if (!can_say(film.container, track, complete_form({}, track, path, guesses))) return "";
+  } catch (const Error&) {
+    return "";
+  }
+  const std::string which = film.video.size() > 1 ? fmt::format(" --track {}", track.id) : "";
+  std::string options;
+  for (const FormConflict& conflict : find_conflicts({}, track, path)) {
+    options += fmt::format("{}{}", options.empty() ? ", told which is true: " : ", and ", conflict.options);
+  }
+  return fmt::format(" (ods inject{} {}{})", which, what, options);
+}
+
+std::vector<std::string> film_warnings(const FilmInfo& film, const VideoTrack& track, const std::string& path) {
+  std::vector<std::string> warnings;
+  const PlayerView v2 = v2_view(film, track), name = name_view(path);
+  const std::string make_one = advice(film, track, path, "makes them one");
+  if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {
+    warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ{}", form_text(*track.v1),
+                                   form_text(*track.v2), make_one));
+  }
+  if (track.v2 && !track.v1 && !is_matroska(film) && fits_v1(*track.v2)) {
+    warnings.push_back("it has no V1: older players show it flat" + advice(film, track, path, "adds it"));
+  }
+  if (track.v1 && !track.v2) warnings.push_back("it has no V2" + advice(film, track, path, "adds it"));
+  if (track.v2 && track.vexu && !agree(shown_as(*track.vexu), v2.takes_it_for)) {
+    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ{}", form_text(*track.vexu),
+                                   form_text(*track.v2), make_one));
+  }
+  const NameWords words = read_name(path);
+  const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
+  if (is_named && !agree(v2.takes_it_for, name.takes_it_for)) {
+    warnings.push_back(
+        fmt::format("its name says {}, the file {}: players differ", name.takes_it_for,
+                    track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(film, track, path, "tags it")));
+  }
+  const std::optional<FilmForm> said = said_form(track);
+  const std::string fault = said ? shape_fault(*said, track.size) : "";
+  if (!fault.empty()) warnings.push_back(fault);
+  warn_of_size(track, warnings);
+  return warnings;
+}
+
+// --- pictures --------------------------------------------------------------------------------------------------------
+
+static std::string picture_text(const PictureForm& form) {
+  if (form.is_photo) return fmt::format("both eyes, {}", projection_name(form.camera.projection));
+  return fmt::format("{}, {}", form.layout.layout ? layout_name(*form.layout.layout) : "mono",
+                     projection_name(form.camera.projection));
+}
+
+std::vector<PlayerView> picture_views(const FileInfo& info, const PictureForm& form, bool has_gpano,
+                                      const std::string& path) {
+  PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
+  if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.because = "GPano says so, which knows no stereo";
+  std::vector<PlayerView> views{{"ods", picture_text(form), form.layout.because}, gpano};
+  if (form.is_photo) views.push_back({"reads VR photos", picture_text(form), "GImage has the right eye"});
+  views.push_back(name_view(path));
+  views.push_back(shape_view({info.width, info.height}));
+  return views;
+}
+
+std::vector<std::string> picture_warnings(const FileInfo& info, const PictureForm& form, bool has_gpano,
+                                          const std::string& path) {
+  std::vector<std::string> warnings;
+  const std::string is = picture_text(form);
+  if (form.is_photo) return warnings;
+  if (has_gpano && form.layout.layout) {
+    warnings.push_back("it has GPano and holds two eyes: many viewers show both as one sphere, stretched");
+  }
+  const PlayerView name = name_view(path), shape = shape_view({info.width, info.height});
+  const NameWords words = read_name(path);
+  const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
+  if (is_named && !agree(is, name.takes_it_for)) {
+    warnings.push_back(fmt::format("its name says {}, the file {}: players differ", name.takes_it_for, is));
+  }
+  if (!is_named && form.layout.layout && !agree(is, shape.takes_it_for)) {
+    warnings.push_back(
+        fmt::format("players that go by its name or shape do not see that it is {} (a name that ends in "
+                    "_360_TB, _180_LR ... tells most)",
+                    is));
+  }
+  return warnings;
+}
+
+}  // namespace ods

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/lint/view.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "ods/image/tone.h"
+
+namespace ods {
+
+// Pixels that the eye has for the 360 degrees around the horizon, or would have if it reached so far.
+static double pixels_around(const ProjectionSetting& setting, int width) {
+  return 2.0 * std::numbers::pi * pixels_per_radian(setting, width);
+}
+
+// Light has no largest value: it is scaled so that its geometric mean becomes a middle grey.
+static float exposure_of(const std::vector<Image>& eyes) {
+  double sum = 0.0;
+  int64_t count = 0;
+  for (const Image& eye : eyes) {
+    for (size_t i = 0; i < eye.pixels.size(); i += 61) {
+      const float light = eye.pixels[i];
+      if (!(light > 0.0f && light < 1e30f)) continue;
+      sum += std::log(static_cast<double>(light));
+      count++;
+    }
+  }
+  return count > 0 ? static_cast<float>(0.25 / std::exp(sum / static_cast<double>(count))) : 1.0f;
+}
+
+namespace {
+
+// Which pixels of an eye a pixel of the view covers, n x n times.
+class Sampler {
+ public:
+  Sampler(const ProjectionSetting& setting, const Image& eye, int width)
+      : projection_(make_projection(setting)),
+        eye_(eye),
+        width_(width),
+        n_(std::clamp(static_cast<int>(std::ceil(pixels_around(setting, eye.width) / width)), 2, 8)) {}
+
+  // Their indices in reading order; none when one lies outside the picture.
+  const std::vector<size_t>& at(int x, int y) {
+    found_.clear();
+    for (int i = 0; i < n_ * n_; i++) {
+      const float theta = turn((x + (i % n_ + 0.5) / n_) / width_ - 0.5);
+      const float phi = turn(0.25 - 0.5 * (y + (i / n_ + 0.5) / n_) / (width_ / 2));
+      const ImagePlace place = place_of(projection_, look_at_angles(theta, phi).direction);
+      if (!place.seen) return none_;
+      const int column = std::clamp(static_cast<int>(place.uv.x * static_cast<float>(eye_.width)), 0, eye_.width - 1);
+      const int row = std::clamp(static_cast<int>(place.uv.y * static_cast<float>(eye_.height)), 0, eye_.height - 1);
+      found_.push_back(static_cast<size_t>(row) * static_cast<size_t>(eye_.width) + static_cast<size_t>(column));
+    }
+    return found_;
+  }
+
+ private:
+  static float turn(double turns) { return static_cast<float>(2.0 * std::numbers::pi * turns); }
+
+  Projection projection_;
+  const Image& eye_;
+  int width_;
+  int n_;
+  std::vector<size_t> found_, none_;
+};
+
+}  // namespace
+
+static float mean_grey(const Image& eye, const std::vector<size_t>& places, float exposure) {
+  float sum = 0.0f;
+  for (size_t place : places) {
+    const float light = eye.pixels[place] * exposure;
+    sum += std::isinf(light) ? std::numeric_limits<float>::quiet_NaN() : std::min(light, 1.0f);
+  }
+  return srgb_encode(sum / static_cast<float>(places.size()));  // of no place: NaN
+}
+
+std::vector<View> make_views(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
+                             int max_width) {
+  assert(!eyes.empty() && eyes[0].channels == 1);
+  const int detail = static_cast<int>(pixels_around(projection, eyes[0].width));
+  const int width = std::clamp(detail / 4 * 4, 4, max_width);
+  Sampler sampler(projection, eyes[0], width);
+  const float exposure = is_float ? exposure_of(eyes) : 1.0f;
+  std::vector<View> views(eyes.size(), View(width, width / 2, 1));
+  for (int y = 0; y < width / 2; y++) {
+    for (int x = 0; x < width; x++) {
+      const std::vector<size_t>& places = sampler.at(x, y);
+      for (size_t i = 0; i < eyes.size(); i++) *views[i].at(x, y) = mean_grey(eyes[i], places, exposure);
+    }
+  }
+  return views;
+}
+
+}  // namespace ods

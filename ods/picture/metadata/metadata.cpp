@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/metadata/metadata.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "ods/camera/camera_fields.h"
+#include "ods/image/format/xmp.h"
+
+namespace ods {
+
+// --- our own attributes ----------------------------------------------------------------------------------------------
+
+static void add_merge(std::vector<Attribute>& attributes, const std::string& name, const PoleMergeSetting& merge) {
+  attributes.push_back({name, std::string(merge_name(merge.mode))});
+  if (merge.mode == kMergeNone) return;
+  attributes.push_back({name + "Start", merge.start});
+  attributes.push_back({name + "End", merge.end});
+  attributes.push_back({name + "Exponent", merge.exponent});
+}
+
+static void add_projection(std::vector<Attribute>& attributes, const ProjectionSetting& projection) {
+  const auto pair = [&](const char* name, float a, float b) { attributes.push_back({name, std::vector<float>{a, b}}); };
+  attributes.push_back({"ods:projection", std::string(projection_name(projection))});
+  if (has_range(projection.kind) && !is_full_lat_long(projection)) {
+    pair("ods:longitude", projection.longitude.x, projection.longitude.y);
+    pair("ods:latitude", projection.latitude.x, projection.latitude.y);
+  }
+  if (has_lens(projection.kind)) {
+    attributes.push_back({"ods:fov", projection.fov});
+    pair("ods:look", projection.pan, projection.tilt);
+  }
+  if (projection.kind == kPerspective) attributes.push_back({"ods:aspect", projection.aspect});
+}
+
+// What few cameras have is named only where it is.
+static void add_extras(std::vector<Attribute>& attributes, const CameraRig& rig) {
+  if (rig.convergence != kParallel) {
+    attributes.push_back({"ods:convergence", std::string(convergence_name(rig.convergence))});
+    attributes.push_back({"ods:convergenceDistance", rig.convergence_distance});
+  }
+  if (rig.neck != 0.0f) attributes.push_back({"ods:neck", rig.neck});
+  if (rig.axis) attributes.push_back({"ods:axis", std::vector<float>{rig.axis->x, rig.axis->y, rig.axis->z}});
+  if (rig.lens_radius > 0.0f) {
+    attributes.push_back({"ods:lens", std::vector<float>{rig.lens_radius, rig.focus_distance}});
+  }
+  if (rig.mirrored) attributes.push_back({"ods:mirrored", 1});
+}
+
+void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig) {
+  add_projection(attributes, rig.projection);
+  attributes.push_back({"ods:depthType", std::string("ray")});
+  attributes.push_back({"ods:ipd", rig.ipd});
+  attributes.push_back({"ods:position", std::vector<float>{rig.position.x, rig.position.y, rig.position.z}});
+  attributes.push_back({"ods:yaw", rig.yaw});
+  attributes.push_back({"ods:pitch", rig.pitch});
+  attributes.push_back({"ods:roll", rig.roll});
+  add_merge(attributes, "ods:poleMergeTop", rig.top);
+  add_merge(attributes, "ods:poleMergeBottom", rig.bottom);
+  add_extras(attributes, rig);
+}
+
+namespace {
+
+// Takes the attributes of a file one by one, and remembers the first that makes no sense.
+class AttributeReader {
+ public:
+  explicit AttributeReader(const FileInfo& info) : info_(info) {}
+
+  struct Number {
+    float* value;
+    CameraField field;
+  };
+  void numbers(const std::string& name, std::initializer_list<Number> numbers) {
+    const auto found = info_.numbers.find(name);
+    if (found == info_.numbers.end()) return;
+    if (found->second.size() != numbers.size()) return refuse(name);
+    const float* from = found->second.data();
+    for (const Number& number : numbers) {
+      if (!range_of(number.field).contains(*from)) return refuse(name);
+      *number.value = *from++;
+    }
+  }
+  void number(const std::string& name, float& value, CameraField field) { numbers(name, {{&value, field}}); }
+  bool has(const std::string& name) const { return info_.numbers.contains(name); }
+
+  std::optional<std::string> word(const std::string& name) const {
+    const auto found = info_.text.find(name);
+    return found == info_.text.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  void refuse(const std::string& name) {
+    if (bad_.empty()) bad_ = name;
+  }
+  const std::string& bad() const { return bad_; }
+
+ private:
+  const FileInfo& info_;
+  std::string bad_;
+};
+
+}  // namespace
+
+static void read_merge(AttributeReader& in, const std::string& name, PoleMergeSetting& merge,
+                       std::vector<std::string>& warnings) {
+  const std::optional<std::string> word = in.word(name);
+  if (!word) return;
+  const std::optional<int> mode = merge_of(*word);
+  if (!mode) return in.refuse(name);
+  in.number(name + "Start", merge.start, CameraField::kMergeStart);
+  in.number(name + "End", merge.end, CameraField::kMergeEnd);
+  in.number(name + "Exponent", merge.exponent, CameraField::kMergeExponent);
+  if (merge.start >= merge.end) in.refuse(name + "Start");
+  merge.mode = *mode;
+  if (merge.mode != kMergeMap) return;
+  merge.mode = kMergeNone;
+  warnings.push_back("its merge map is only in its sidecar, which is not there: taken as without a pole merge");
+}
+
+static void read_projection(AttributeReader& in, const std::string& name, ProjectionSetting& setting) {
+  const NamedProjection* named = find_projection(name);
+  if (!named) return in.refuse("ods:projection");
+  setting = named->setting;
+  in.numbers("ods:longitude",
+             {{&setting.longitude.x, CameraField::kLongitude}, {&setting.longitude.y, CameraField::kLongitude}});
+  in.numbers("ods:latitude",
+             {{&setting.latitude.x, CameraField::kLatitude}, {&setting.latitude.y, CameraField::kLatitude}});
+  in.number("ods:fov", setting.fov, CameraField::kFov);
+  in.number("ods:aspect", setting.aspect, CameraField::kAspect);
+  in.numbers("ods:look", {{&setting.pan, CameraField::kPan}, {&setting.tilt, CameraField::kTilt}});
+  if (!projection_fault(setting).empty()) in.refuse("ods:projection");
+}
+
+static void read_extras(AttributeReader& in, CameraRig& rig) {
+  if (const auto word = in.word("ods:convergence")) {
+    bool known = false;
+    for (int convergence : kConvergences) {
+      if (*word == convergence_name(convergence)) rig.convergence = convergence, known = true;
+    }
+    if (!known) in.refuse("ods:convergence");
+  }
+  in.number("ods:convergenceDistance", rig.convergence_distance, CameraField::kConvergenceDistance);
+  in.number("ods:neck", rig.neck, CameraField::kNeck);
+  if (in.has("ods:axis")) {
+    vec3 axis(0.0f);
+    in.numbers("ods:axis",
+               {{&axis.x, CameraField::kAxis}, {&axis.y, CameraField::kAxis}, {&axis.z, CameraField::kAxis}});
+    if (length(axis) > 1e-6f) rig.axis = axis;
+    if (!rig.axis) in.refuse("ods:axis");
+  }
+  in.numbers("ods:lens",
+             {{&rig.lens_radius, CameraField::kLensRadius}, {&rig.focus_distance, CameraField::kFocusDistance}});
+  rig.mirrored = in.has("ods:mirrored");
+}
+
+std::optional<CameraRig> camera_of(const FileInfo& info, std::vector<std::string>& warnings) {
+  AttributeReader in(info);
+  const std::optional<std::string> projection = in.word("ods:projection");
+  if (!projection) return std::nullopt;
+  CameraRig rig;
+  read_projection(in, *projection, rig.projection);
+  in.number("ods:ipd", rig.ipd, CameraField::kIpd);
+  in.numbers("ods:position", {{&rig.position.x, CameraField::kPosition},
+                              {&rig.position.y, CameraField::kPosition},
+                              {&rig.position.z, CameraField::kPosition}});
+  in.number("ods:yaw", rig.yaw, CameraField::kYaw);
+  in.number("ods:pitch", rig.pitch, CameraField::kPitch);
+  in.number("ods:roll", rig.roll, CameraField::kRoll);
+  read_merge(in, "ods:poleMergeTop", rig.top, warnings);
+  read_merge(in, "ods:poleMergeBottom", rig.bottom, warnings);
+  read_extras(in, rig);
+  if (in.bad().empty()) return rig;
+  warnings.push_back(fmt::format("its {} makes no sense: all that it says of its camera is left aside", in.bad()));
+  return std::nullopt;
+}
+
+// --- GPano -----------------------------------------------------------------------------------------------------------
+
+// Heading 0..360, pitch -90..90, roll -180..180; our -Z is its north.
+void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent size) {
+  float yaw = rig.yaw, pitch = std::remainder(rig.pitch, 360.0f), roll = rig.roll;
+  if (std::abs(pitch) > 90.0f) {  // looking over the pole: the same pose from the other side
+    pitch = std::copysign(180.0f, pitch) - pitch;
+    yaw += 180.0f;
+    roll += 180.0f;
+  }
+  const float heading = std::remainder(yaw, 360.0f);
+  attributes.push_back({"GPano:ProjectionType", std::string("equirectangular")});
+  attributes.push_back({"GPano:UsePanoramaViewer", std::string("True")});
+  const vec2 longitude = rig.projection.longitude, latitude = rig.projection.latitude;
+  const float per_degree_x = static_cast<float>(size.width) / (longitude.y - longitude.x);
+  const float per_degree_y = static_cast<float>(size.height) / (latitude.y - latitude.x);
+  const auto pixels = [](float count) { return static_cast<int>(std::lround(count)); };
+  attributes.push_back({"GPano:CroppedAreaImageWidthPixels", size.width});
+  attributes.push_back({"GPano:CroppedAreaImageHeightPixels", size.height});
+  attributes.push_back({"GPano:FullPanoWidthPixels", pixels(360.0f * per_degree_x)});
+  attributes.push_back({"GPano:FullPanoHeightPixels", pixels(180.0f * per_degree_y)});
+  attributes.push_back({"GPano:CroppedAreaLeftPixels", pixels((longitude.x + 180.0f) * per_degree_x)});
+  attributes.push_back({"GPano:CroppedAreaTopPixels", pixels((90.0f - latitude.y) * per_degree_y)});
+  attributes.push_back({"GPano:PoseHeadingDegrees", heading < 0.0f ? heading + 360.0f : heading});
+  attributes.push_back({"GPano:PosePitchDegrees", pitch});
+  attributes.push_back({"GPano:PoseRollDegrees", std::remainder(roll, 360.0f)});
+  attributes.push_back({"GPano:StitchingSoftware", std::string("Omnistereo " ODS_VERSION)});
+}
+
+bool fits_gpano(const ProjectionSetting& projection) {
+  return projection.kind == kLatLong && projection.longitude.x >= -180.0f && projection.longitude.y <= 180.0f;
+}
+
+static std::string gpano_property(const std::string& xmp, const std::string& name) {
+  return std::string(xmp_property(xmp, "GPano:" + name));
+}
+
+static std::optional<double> gpano_number(const std::string& xmp, const std::string& name) {
+  const std::string text = gpano_property(xmp, name);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && std::abs(value) <= 1e6 ? std::optional(value) : std::nullopt;
+}
+
+std::optional<CameraRig> gpano_camera(const std::string& xmp) {
+  if (gpano_property(xmp, "ProjectionType") != "equirectangular") return std::nullopt;
+  CameraRig rig;
+  const auto number = [&](const char* name) { return gpano_number(xmp, name); };
+  // Where a part of the sphere begins and ends, in pixels of the whole; all of it where nothing is said.
+  const auto width = number("FullPanoWidthPixels"), height = number("FullPanoHeightPixels");
+  const auto left = number("CroppedAreaLeftPixels"), across = number("CroppedAreaImageWidthPixels");
+  const auto top = number("CroppedAreaTopPixels"), down = number("CroppedAreaImageHeightPixels");
+  if (width && left && across && *width > 0.0) {
+    rig.projection.longitude = glm::dvec2(*left, *left + *across) * 360.0 / *width - 180.0;
+  }
+  if (height && top && down && *height > 0.0) {
+    rig.projection.latitude = 90.0 - glm::dvec2(*top + *down, *top) * 180.0 / *height;
+  }
+  if (!projection_fault(rig.projection).empty()) return std::nullopt;
+  const auto angle = [&](const char* name) { return static_cast<float>(number(name).value_or(0.0)); };
+  rig.yaw = angle("PoseHeadingDegrees");
+  rig.pitch = angle("PosePitchDegrees");
+  rig.roll = angle("PoseRollDegrees");
+  return rig;
+}
+
+}  // namespace ods

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/metadata/tag_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ods/base/error.h"
+#include "ods/image/format/exr_attributes.h"
+#include "ods/image/format/jpeg_segments.h"
+#include "ods/image/format/png_chunks.h"
+#include "ods/image/format/tiff_directory.h"
+#include "ods/image/format/xmp_file.h"
+#include "ods/picture/metadata/metadata.h"
+
+namespace ods {
+
+static Error unusable(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot tag '{}': {}", path, why));
+}
+
+// Of the four that can be tagged.
+static FileFormat format_of(const FileInput& file) {
+  const std::optional<FileFormat> format = format_of_file(file);
+  if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
+    throw unusable(file.path(),
+                   "it is neither a film (mp4, mov, mkv, webm) nor a picture that can say what it is "
+                   "(jpg, png, tif, exr)");
+  }
+  return *format;
+}
+
+// --- what is there ---------------------------------------------------------------------------------------------------
+
+static Extent size_of(const FileInput& file, FileFormat format) {
+  if (format == FileFormat::kJpeg) return jpeg_size(read_jpeg_headers(file)).value_or(Extent());
+  if (format == FileFormat::kPng) return png_size(file);
+  const TiffDirectory directory = read_tiff_directory(file);
+  const auto side = [&](uint16_t tag) {
+    return static_cast<int>(std::min<uint64_t>(tiff_number(file, directory, tag).value_or(0), 1u << 30u));
+  };
+  return {side(kTiffWidth), side(kTiffHeight)};
+}
+
+FileInfo read_picture_header(const std::string& path) {
+  const FileInput file(path);
+  const FileFormat format = format_of(file);
+  FileInfo info;
+  if (format == FileFormat::kExr) {
+    info = exr_info(read_exr_header(file));
+  } else {
+    const Extent size = size_of(file, format);
+    info.width = size.width;
+    info.height = size.height;
+    info.channels = {"R", "G", "B"};
+  }
+  if (info.width < 1 || info.height < 1) throw unusable(path, "it has no pixels");
+  return info;
+}
+
+PictureTag complete_tag(const KnownForm& known, const std::string& path, std::vector<std::string>& guesses) {
+  const FileInfo info = read_picture_header(path);
+  const PictureForm form = find_form(info, path, known);
+  PictureTag tag{form.camera, form.layout.layout, form.eye, form.ipd_is_said};
+  if (const auto own = known.camera || info.is_float ? std::nullopt : gpano_camera(read_xmp(path))) {
+    if (!known.projection) tag.rig.projection = own->projection;  // which a sidecar may know otherwise
+    tag.rig.yaw = own->yaw, tag.rig.pitch = own->pitch, tag.rig.roll = own->roll;
+  }
+  if (!known.projection && !form.camera_is_said && read_name(path).projection == nullptr) {
+    const Layout layout = tag.layout.value_or(Layout::kSeparate);
+    const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});
+    const Extent squeeze = squeeze_of(layout, 2);
+    if (natural_height(form.camera.projection, eye.width * squeeze.width) != eye.height * squeeze.height) {
+      throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
+                                       "shows: say it with --layout and --projection",
+                                       info.width, info.height));
+    }
+  }
+  guesses = form.guesses;
+  return tag;
+}
+
+// --- GPano -----------------------------------------------------------------------------------------------------------
+
+static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format, const PictureTag& tag) {
+  if (tag.layout && *tag.layout != Layout::kSeparate) {
+    throw unusable(file.path(), fmt::format("GPano knows no stereo, and viewers would wrap both eyes ({}) around one "
+                                            "sphere. Its name tells players (_360_TB, _180_LR ...); ods convert makes "
+                                            "a photo of both eyes of it: -o NAME.vr.jpg",
+                                            layout_name(*tag.layout)));
+  }
+  if (!fits_gpano(tag.rig.projection)) {
+    throw unusable(file.path(), fmt::format("GPano knows lat-long and parts of it that do not cross the seam, and has "
+                                            "no word for {}",
+                                            projection_name(tag.rig.projection)));
+  }
+  std::vector<Attribute> properties;
+  add_gpano(properties, tag.rig, size_of(file, format));
+  return properties;
+}
+
+// A packet that says it already stays; else only what differs from its own GPano changes, and what that says besides,
+// as the initial view, stays.
+static std::optional<std::string> tagged_packet(const FileInput& file, FileFormat format, const PictureTag& tag,
+                                                const std::string& old) {
+  std::vector<Attribute> wanted = gpano_of(file, format, tag);
+  if (old.empty()) return make_xmp(wanted);
+  const std::optional<CameraRig> rig = gpano_camera(old);
+  if (!rig) return replace_gpano(old, wanted);
+  std::vector<Attribute> before, kept = gpano_properties(old);
+  add_gpano(before, *rig, size_of(file, format));
+  const auto named = [](std::vector<Attribute>& list, const std::string& name) {
+    return std::find_if(list.begin(), list.end(), [&](const Attribute& each) { return each.name == name; });
+  };
+  bool has_changed = false;
+  for (const Attribute& each : wanted) {
+    const auto was = named(before, each.name), there = named(kept, each.name);
+    if (was != before.end() && was->value == each.value) continue;
+    has_changed = true;
+    if (there == kept.end()) {
+      kept.push_back(each);
+    } else {
+      there->value = each.value;
+    }
+  }
+  return has_changed ? replace_gpano(old, kept) : old;
+}
+
+static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, const std::optional<PictureTag>& tag) {
+  const std::string old = read_xmp(file);
+  if (!tag && old.empty()) return file.copy(0, file.size(), to);
+  const std::optional<std::string> packet = tag ? tagged_packet(file, format, *tag, old) : replace_gpano(old, {});
+  if (!packet) throw unusable(file.path(), "its XMP cannot be understood; remove it first with another program");
+  write_xmp(file, to, says_something(*packet) ? *packet : "");
+}
+
+// --- EXR -------------------------------------------------------------------------------------------------------------
+
+// Other programs' pictures are not said to have a distance of eyes or a depth that nobody knows of.
+static bool needs_said_camera(const std::string& name) {
+  return name == "ods:depthType" || name == "ods:ipd" || name == "ods:position" || name.starts_with("ods:poleMerge");
+}
+
+static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
+  std::vector<Attribute> words{{"ods:version", std::string(ODS_VERSION)},
+                               {"ods:layout", std::string(tag.layout ? layout_name(*tag.layout) : eye_name(tag.eye))}};
+  add_camera(words, tag.rig);
+  if (tag.layout == Layout::kMultiview) words.push_back({"multiView", std::vector<std::string>{"left", "right"}});
+  if (!tag.layout && tag.eye != kMono) words.push_back({"view", std::string(eye_name(tag.eye))});
+  std::vector<ExrAttribute> attributes;
+  for (const Attribute& word : words) {
+    if (tag.camera_is_said || !needs_said_camera(word.name)) attributes.push_back(exr_attribute(word));
+  }
+  // 0: lat-long. It is of one eye: two in one picture are none that a renderer could look up.
+  if (!tag.layout && is_full_lat_long(tag.rig.projection)) {
+    attributes.push_back({"envmap", "envmap", std::string(1, '\0')});
+  }
+  return attributes;
+}
+
+// What a tag says nothing of, and stays: which view has the bare names, who wrote the file, a merge map, which only a
+// sidecar holds, and of a camera that nobody knows all but its projection and attitude.
+static bool stays(const ExrAttribute& there, const PictureTag& tag) {
+  if (there.name == "multiView" || there.name == "ods:version") return true;
+  if (there.name.starts_with("ods:poleMerge") && there.value == "map") return true;
+  return !tag.camera_is_said && needs_said_camera(there.name);
+}
+
+// What a tag puts into the header or leaves out; without one, all that we ever put there.
+static bool is_ours(const std::string& name, bool has_tag) {
+  constexpr std::string_view kOptional[] = {"longitude", "latitude",  "fov",  "look", "aspect",  "convergence",
+                                            "neck",      "poleMerge", "axis", "lens", "mirrored"};
+  if (name == "envmap" || name == "view") return true;
+  if (!name.starts_with("ods:")) return false;
+  const std::string_view word = std::string_view(name).substr(4);
+  return !has_tag || std::any_of(std::begin(kOptional), std::end(kOptional),
+                                 [&](std::string_view each) { return word.starts_with(each); });
+}
+
+static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<PictureTag>& tag) {
+  ExrHeader header = read_exr_header(file);
+  std::vector<ExrAttribute> words = tag ? exr_words(*tag) : std::vector<ExrAttribute>();
+  const auto word_of = [&](const std::string& name) {
+    return std::find_if(words.begin(), words.end(), [&](const ExrAttribute& word) { return word.name == name; });
+  };
+  const bool is_envmap = word_of("envmap") != words.end();
+  std::vector<ExrAttribute> attributes;
+  for (const ExrAttribute& there : header.attributes) {
+    const auto word = word_of(there.name);
+    const bool is_old_envmap = there.name == "textureformat" && !is_envmap;  // as OpenImageIO calls it
+    if (tag && stays(there, *tag)) {
+      attributes.push_back(there);
+    } else if (word != words.end()) {
+      attributes.push_back(*word);
+    } else if (!is_old_envmap && !is_ours(there.name, tag.has_value())) {
+      attributes.push_back(there);
+    }
+    if (word != words.end()) words.erase(word);
+  }
+  header.attributes = std::move(attributes);
+  header.attributes.insert(header.attributes.end(), words.begin(), words.end());
+  write_exr_header(file, to, header);
+}
+
+void tag_picture(const std::string& path, const std::string& to, const std::optional<PictureTag>& tag) {
+  const FileInput file(path);
+  const FileFormat format = format_of(file);
+  AtomicFile output(to);
+  if (format == FileFormat::kExr) {
+    tag_exr(file, output, tag);
+  } else {
+    tag_xmp(file, output, format, tag);
+  }
+  file.give_mode(output);
+  output.commit();
+}
+
+}  // namespace ods

@@ -1,0 +1,462 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/save.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
+#include "ods/image/image_file.h"
+#include "ods/picture/anaglyph.h"
+#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/cardboard.h"
+#include "ods/picture/metadata/metadata.h"
+
+namespace ods {
+
+// --- what will be written ------------------------------------------------------------------------------------------
+
+static bool is_photo_of(const std::string& path, size_t eye_count) {
+  return eye_count == 2 && names_photo(path) && !names_eye(path);
+}
+
+static Layout layout_for(const std::string& path, const SaveOptions& options, size_t eye_count) {
+  return names_eye(path) || is_photo_of(path, eye_count) ? Layout::kSeparate : options.layout;
+}
+
+static Error unfit(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kUsage, fmt::format("cannot write '{}': {}", path, why));
+}
+
+static void check_layout(const std::string& path, FileFormat format, const SaveOptions& options,
+                         const std::vector<int>& eyes, Extent eye) {
+  const Layout layout = layout_for(path, options, eyes.size());
+  const bool stereo = eyes.size() == 2;
+  if (layout == Layout::kMultiview && format != FileFormat::kExr) throw unfit(path, "only .exr holds multi-view");
+  if (layout == Layout::kMultiview && !stereo) throw unfit(path, "multi-view needs both eyes");
+  if (is_anaglyph(layout) && !stereo) throw unfit(path, "an anaglyph needs both eyes");
+  if (is_anaglyph(layout) && is_scene_referred(format)) {
+    throw unfit(path, "an anaglyph is what a display shows, and this format holds the scene's light; use .png");
+  }
+  if (layout == Layout::kSeparate && stereo && !names_eye(path) && !names_photo(path)) {
+    throw unfit(path, "separate eyes need %V (left, right) or %v (l, r) in the file name");
+  }
+  if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v name an eye, and a mono picture has none");
+
+  const int count = static_cast<int>(eyes.size());
+  const Extent squeeze = squeeze_of(layout, count);
+  if (eye.width % squeeze.width != 0 || eye.height % squeeze.height != 0) {
+    throw unfit(path, fmt::format("eyes of {}x{} pixels cannot be halved for {}; make their sides even", eye.width,
+                                  eye.height, layout_name(layout)));
+  }
+  const Extent size = packed_size(layout, squeezed_eye(layout, eye, count), count);
+  if (std::max(size.width, size.height) > longest_side(format)) {
+    throw unfit(path, fmt::format("{}x{} pixels are too many for this format; use .exr, .tif or .png", size.width,
+                                  size.height));
+  }
+}
+
+static FileFormat format_for(const std::string& path) {
+  const std::optional<FileFormat> format = format_of_path(path);
+  if (!format) throw unfit(path, fmt::format("unknown extension; known are {}", known_extensions()));
+  return *format;
+}
+
+bool keeps_layers(const std::string& path) {
+  return format_of_path(path) == FileFormat::kExr;
+}
+
+static void check_photo(const std::string& path, const ProjectionSetting& projection) {
+  if (fits_gpano(projection)) return;
+  throw unfit(path,
+              fmt::format("a .vr.jpg holds lat-long or a part of it, and this is {}", projection_name(projection)));
+}
+
+void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
+                  const ProjectionSetting* projection) {
+  assert(eyes.size() == 1 || eyes.size() == 2);
+  check_layout(path, format_for(path), options, eyes, eye);
+  if (is_photo_of(path, eyes.size()) && projection != nullptr) check_photo(path, *projection);
+  for (int each : eyes) check_writable(names_eye(path) ? path_for_eye(path, each) : path);
+}
+
+// --- what stands in the header -------------------------------------------------------------------------------------
+
+static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, Layout layout,
+                    const std::vector<int>& eyes) {
+  const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
+  text("compression", "zip");
+  // Rec. 709 primaries and D65: red, green, blue, white.
+  attributes.push_back({"chromaticities", std::vector<float>{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f}});
+  text("colorInteropID", "lin_rec709_scene");
+  if (layout == Layout::kMultiview) {
+    attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
+  }
+  if (eyes.size() == 1 && rig != nullptr && is_full_lat_long(rig->projection)) {
+    // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
+    text("textureformat", "LatLong Environment");
+    attributes.push_back({"openexr:levelmode", 0});
+  }
+  if (eyes.size() == 1 && eyes[0] != kMono) text("view", eye_name(eyes[0]));
+  text("ods:version", ODS_VERSION);
+  text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]));
+  if (rig != nullptr) add_camera(attributes, *rig);
+}
+
+static bool carries_gpano(FileFormat format) {
+  return format == FileFormat::kPng || format == FileFormat::kJpeg || format == FileFormat::kTiff;
+}
+
+// The view stands before the last word, unless it is the default one and the word stands alone.
+static std::string channel_name(const std::string& channel, std::string_view view, bool is_default) {
+  const size_t point = channel.rfind('.');
+  const size_t last = point == std::string::npos ? 0 : point + 1;
+  if (view.empty() || (is_default && last == 0)) return channel;
+  return fmt::format("{}{}.{}", channel.substr(0, last), view, channel.substr(last));
+}
+
+static void add_exr_channels(std::vector<Channel>& channels, const std::vector<RowLayer>& layers, std::string_view view,
+                             bool is_default) {
+  for (const RowLayer& layer : layers) {
+    for (const std::string& channel : layer.channels) {
+      channels.push_back({channel_name(channel, view, is_default), layer.sample});
+    }
+  }
+}
+
+static bool has_alpha(const PictureRows& picture) {
+  return picture.layers[0].channels.size() == 4;
+}
+
+static bool keeps_alpha(FileFormat format) {
+  return format != FileFormat::kJpeg && format != FileFormat::kHdr;
+}
+
+static bool keeps_alpha(FileFormat format, Layout layout) {
+  return keeps_alpha(format) && !is_anaglyph(layout);
+}
+
+bool is_saved(const std::string& path) {
+  std::error_code error;
+  for (const int eye : {kLeft, kRight}) {
+    const auto size = std::filesystem::file_size(path_for_eye(path, eye), error);
+    if (error || size == 0) return false;
+  }
+  return true;
+}
+
+bool has_alpha(const std::string& path) {
+  return keeps_alpha(format_for(path));
+}
+
+// --- the pixels ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+// One file of some eyes of a picture.
+struct File {
+  const PictureRows& picture;
+  std::vector<int> indices;  // of its eyes
+  FileFormat format;
+  Layout layout;
+  const SaveOptions& options;
+  size_t channels;  // of all layers
+  Extent squeeze;   // so many pixels of the eye become one
+
+  std::vector<int> eyes() const {
+    std::vector<int> which;
+    for (int index : indices) which.push_back(picture.eyes[static_cast<size_t>(index)]);
+    return which;
+  }
+};
+
+}  // namespace
+
+size_t count_channels(const std::vector<RowLayer>& layers) {
+  size_t count = 0;
+  for (const RowLayer& layer : layers) count += layer.channels.size();
+  return count;
+}
+
+// `pixels` are those that become one, a row of the eye apart, `first` the layer's first channel.
+static void squeeze_layer(const RowLayer& layer, const std::vector<const float*>& pixels, size_t first, float* out) {
+  const size_t count = layer.channels.size();
+  if (layer.rule == LayerRule::kNearest) {
+    const float* nearest = pixels[0] + first;
+    for (const float* pixel : pixels) {
+      if (pixel[first] < *nearest) nearest = pixel + first;
+    }
+    std::copy(nearest, nearest + count, out);
+    return;
+  }
+  const float share = 1.0f / static_cast<float>(pixels.size());
+  for (size_t c = 0; c < count; c++) {
+    float sum = 0.0f;
+    for (const float* pixel : pixels) sum += pixel[first + c] * share;
+    out[c] = sum;
+  }
+}
+
+// Row y of an eye as the file has it: squeezed.
+static std::vector<float> read_row(const File& file, int index, int y) {
+  const Extent eye = file.picture.eye, squeeze = file.squeeze;
+  const size_t length = static_cast<size_t>(eye.width) * file.channels;
+  std::vector<float> rows(length * static_cast<size_t>(squeeze.height));
+  for (int i = 0; i < squeeze.height; i++) {
+    file.picture.fill(index, y * squeeze.height + i, {&rows[static_cast<size_t>(i) * length], length});
+  }
+  if (squeeze.width * squeeze.height == 1) return rows;
+  std::vector<float> squeezed(length / static_cast<size_t>(squeeze.width));
+  std::vector<const float*> pixels(static_cast<size_t>(squeeze.width * squeeze.height));
+  for (size_t x = 0; x < squeezed.size() / file.channels; x++) {
+    for (size_t i = 0; i < pixels.size(); i++) {
+      const size_t column = x * static_cast<size_t>(squeeze.width) + i % static_cast<size_t>(squeeze.width);
+      pixels[i] = &rows[i / static_cast<size_t>(squeeze.width) * length + column * file.channels];
+    }
+    size_t first = x * file.channels, channel = 0;
+    for (const RowLayer& layer : file.picture.layers) {
+      squeeze_layer(layer, pixels, channel, &squeezed[first + channel]);
+      channel += layer.channels.size();
+    }
+  }
+  return squeezed;
+}
+
+// All layers; `stride` floats from pixel to pixel. Halves have a limit of their own, where they are made.
+static void put_exr_row(const File& file, const std::vector<float>& row, float* out, size_t stride) {
+  const float kLimit = std::numeric_limits<float>::max();
+  for (size_t at = 0; at < row.size(); at += file.channels, out += stride) {
+    for (size_t c = 0; c < file.channels; c++) out[c] = finite(row[at + c], -kLimit, kLimit);
+  }
+}
+
+static void put_hdr_row(const File& file, const std::vector<float>& row, float* out) {
+  const float kLimit = 1e38f;  // the shared exponent of RGBE ends before that of a float
+  for (size_t at = 0; at < row.size(); at += file.channels) {
+    for (size_t c = 0; c < 3; c++) *out++ = finite(row[at + c], 0.0f, kLimit);
+  }
+}
+
+static vec3 shown(const File& file, const float* light, float alpha) {
+  return tone_map(vec3(light[0], light[1], light[2]) / alpha, file.options.exposure, file.options.tone);
+}
+
+static float* put_encoded(vec3 color, float* out) {
+  for (int c = 0; c < 3; c++) *out++ = srgb_encode(color[c]);
+  return out;
+}
+
+static void put_display_row(const File& file, const std::vector<float>& row, float* out) {
+  const bool keeps = has_alpha(file.picture) && keeps_alpha(file.format, file.layout);
+  for (size_t at = 0; at < row.size(); at += file.channels) {
+    const float alpha = keeps ? finite(row[at + 3], 0.0f, 1.0f) : 1.0f;
+    out = put_encoded(shown(file, &row[at], alpha > 0.0f ? alpha : 1.0f), out);
+    if (keeps) *out++ = alpha;
+  }
+}
+
+static void put_anaglyph_row(const File& file, int y, float* out) {
+  const std::vector<float> left = read_row(file, file.indices[0], y), right = read_row(file, file.indices[1], y);
+  for (size_t at = 0; at < left.size(); at += file.channels) {
+    const vec3 color = anaglyph_color(file.layout, shown(file, &left[at], 1.0f), shown(file, &right[at], 1.0f));
+    out = put_encoded(color, out);
+  }
+}
+
+// --- one file ------------------------------------------------------------------------------------------------------
+
+static Extent stored_eye(const File& file) {
+  return squeezed_eye(file.layout, file.picture.eye, static_cast<int>(file.indices.size()));
+}
+
+static FileHeader make_header(const File& file, const CameraRig* rig) {
+  const FileFormat format = file.format;
+  const std::vector<int> eyes = file.eyes();
+  const int count = static_cast<int>(eyes.size());
+  const Extent size = packed_size(file.layout, stored_eye(file), count);
+  FileHeader header;
+  header.format = format;
+  header.width = size.width;
+  header.height = size.height;
+  // Or OpenImageIO would write the time of day, and the same picture would not be the same bytes.
+  if (format == FileFormat::kTiff || format == FileFormat::kExr)
+    header.attributes.push_back({"DateTime", std::string()});
+  header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
+  header.attributes.push_back({"oiio:ColorSpace", std::string(is_scene_referred(format) ? "Linear" : "sRGB")});
+  if (carries_gpano(format) && count == 1 && rig != nullptr && fits_gpano(rig->projection)) {
+    add_gpano(header.attributes, *rig, size);
+  }
+
+  if (format == FileFormat::kExr || format == FileFormat::kPng) {
+    header.attributes.insert(header.attributes.end(), file.options.attributes.begin(), file.options.attributes.end());
+  }
+  Sample sample = Sample::kUint8;
+  switch (format) {
+    case FileFormat::kExr:
+      add_exr(header.attributes, rig, file.layout, eyes);
+      if (file.layout != Layout::kMultiview) add_exr_channels(header.channels, file.picture.layers, "", true);
+      if (file.layout == Layout::kMultiview) {
+        for (int eye : eyes) add_exr_channels(header.channels, file.picture.layers, eye_name(eye), eye == eyes[0]);
+      }
+      return header;
+    case FileFormat::kHdr:
+      sample = Sample::kFloat;
+      break;
+    case FileFormat::kJpeg:
+      header.attributes.push_back({"jpeg:subsampling", std::string("4:4:4")});
+      [[fallthrough]];
+    case FileFormat::kWebp:
+      header.attributes.push_back({"CompressionQuality", file.options.jpeg_quality});
+      break;
+    case FileFormat::kTiff:
+      header.attributes.push_back({"compression", std::string("zip")});
+      break;
+    case FileFormat::kPng:
+      break;
+  }
+  header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
+  if (!has_alpha(file.picture) || !keeps_alpha(format, file.layout)) return header;
+  header.channels.push_back({"A", sample});
+  header.attributes.push_back({"oiio:UnassociatedAlpha", 1});
+  return header;
+}
+
+static void write_picture(AtomicFile& out, const File& file, const CameraRig* rig) {
+  const FileHeader header = make_header(file, rig);
+  const int count = static_cast<int>(file.indices.size());
+  const Extent eye = stored_eye(file);
+  const size_t stride = header.channels.size();
+  const size_t step = file.layout == Layout::kMultiview ? file.channels : static_cast<size_t>(eye.width) * stride;
+  const auto fill = [&](int y, std::span<float> row) {
+    if (is_anaglyph(file.layout)) return put_anaglyph_row(file, y, row.data());
+    float* to = row.data();
+    for (const EyeRow& part : packed_row(file.layout, eye, count, y)) {
+      const std::vector<float> made = read_row(file, file.indices[static_cast<size_t>(part.index)], part.y);
+      if (file.format == FileFormat::kExr) {
+        put_exr_row(file, made, to, stride);
+      } else if (file.format == FileFormat::kHdr) {
+        put_hdr_row(file, made, to);
+      } else {
+        put_display_row(file, made, to);
+      }
+      to += step;
+    }
+  };
+  write_image(out, header, fill, file.picture.band_done);
+}
+
+// Both eyes as JPEGs of their own, which are not kept.
+static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const CameraRig* rig,
+                            const SaveOptions& options) {
+  if (rig == nullptr) throw unfit(out.path(), "a .vr.jpg says how it was taken, and of this nobody knows");
+  check_photo(out.path(), rig->projection);
+  std::list<AtomicFile> eyes;
+  for (const int index : {0, 1}) {
+    const File file{picture, {index}, FileFormat::kJpeg, Layout::kSeparate, options, count_channels(picture.layers),
+                    {1, 1}};
+    write_picture(eyes.emplace_back(out.path()), file, nullptr);
+    eyes.back().finish();
+  }
+  const FileInput left(eyes.front().temporary()), right(eyes.back().temporary());
+  write_photo(left, right.read(0, right.size()), *rig, picture.eye, out);
+}
+
+std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
+                                      const std::string& path) {
+  assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
+  const FileFormat format = format_for(path);
+  check_layout(path, format, options, picture.eyes, picture.eye);
+  const Layout layout = layout_for(path, options, picture.eyes.size());
+  std::list<AtomicFile> files;
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const std::vector<int>& indices) {
+    const Extent squeeze = squeeze_of(layout, static_cast<int>(indices.size()));
+    const File file{picture, indices, format, layout, options, count_channels(picture.layers), squeeze};
+    write_picture(files.emplace_back(name), file, rig);
+    names.push_back(name);
+  };
+  std::vector<int> all;
+  for (int i = 0; i < static_cast<int>(picture.eyes.size()); i++) all.push_back(i);
+  if (names_eye(path)) {
+    for (int i : all) write(path_for_eye(path, picture.eyes[static_cast<size_t>(i)]), {i});
+  } else if (is_photo_of(path, picture.eyes.size())) {
+    write_both_eyes(files.emplace_back(path), picture, rig, options);
+    names.push_back(path);
+  } else {
+    write(path, all);
+  }
+  // One that is there already would from now on tell of a picture that is gone.
+  std::error_code ignored;
+  if (rig && (options.sidecar || std::filesystem::exists(sidecar_path(path), ignored))) {
+    names.push_back(sidecar_path(path));
+    const std::string text = write_camera({*rig, picture.eye, layout, picture.eyes});
+    std::fwrite(text.data(), 1, text.size(), files.emplace_back(names.back()).stream());
+  }
+  commit_all(files);
+  return names;
+}
+
+// --- a picture in memory -------------------------------------------------------------------------------------------
+
+namespace {
+
+struct ImageLayer {
+  const Image EyeImage::*image;
+  RowLayer layer;
+};
+
+}  // namespace
+
+static const std::vector<ImageLayer>& image_layers() {
+  static const std::vector<ImageLayer> layers = {
+      {&EyeImage::radiance, {{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}},
+      {&EyeImage::depth, {{"Z"}, LayerRule::kNearest, Sample::kFloat}},
+      {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, Sample::kHalf}},
+      {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, Sample::kHalf}},
+  };
+  return layers;
+}
+
+static PictureRows rows_of(const Picture& picture, bool all_layers) {
+  PictureRows rows;
+  rows.eye = {picture.eyes[0].radiance.width, picture.eyes[0].radiance.height};
+  std::vector<const Image EyeImage::*> images;
+  for (const ImageLayer& each : image_layers()) {
+    if ((picture.eyes[0].*each.image).pixels.empty() || !(all_layers || images.empty())) continue;
+    images.push_back(each.image);
+    rows.layers.push_back(each.layer);
+    if (images.size() > 1 || picture.eyes[0].alpha.pixels.empty()) continue;
+    images.push_back(&EyeImage::alpha);  // behind the colour, whose fourth channel it is
+    rows.layers[0].channels.push_back("A");
+  }
+  for (const EyeImage& eye : picture.eyes) rows.eyes.push_back(eye.eye);
+  rows.fill = [&picture, images, stride = count_channels(rows.layers)](int index, int y, std::span<float> row) {
+    float* out = row.data();
+    for (const Image EyeImage::*image : images) {
+      const Image& from = picture.eyes[static_cast<size_t>(index)].*image;
+      const float* in = from.at(0, y);
+      for (int x = 0; x < from.width; x++, in += from.channels) {
+        std::copy(in, in + from.channels, out + static_cast<size_t>(x) * stride);
+      }
+      out += from.channels;
+    }
+  };
+  return rows;
+}
+
+std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
+                                      const std::string& path) {
+  return save_picture(rows_of(picture, keeps_layers(path)), &rig, options, path);
+}
+
+std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path) {
+  return save_picture(rows_of(picture, keeps_layers(path)), nullptr, options, path);
+}
+
+}  // namespace ods

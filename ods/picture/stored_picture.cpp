@@ -1,0 +1,496 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/stored_picture.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <numeric>
+
+#include "ods/base/error.h"
+#include "ods/base/text.h"
+#include "ods/files/memory_file.h"
+#include "ods/files/scratch.h"
+#include "ods/picture/metadata/cardboard.h"
+
+namespace ods {
+
+static Error unreadable(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
+}
+
+// --- which channels are what -----------------------------------------------------------------------------------------
+
+namespace {
+
+// A layer of one view of a file, and where it comes to lie.
+struct Plane {
+  std::string name;                   // N, albedo; of the colour and single channels empty
+  std::vector<std::string> channels;  // without the view
+  std::vector<size_t> from;           // their numbers in the file
+  LayerRule rule = LayerRule::kMean;
+  Sample sample = Sample::kUint8;
+  std::byte* to = nullptr;
+  size_t pixel_size() const { return channels.size() * bytes_of(sample); }
+};
+
+}  // namespace
+
+// `ViewLayer.Depth.Z` is Z of ViewLayer.Depth.
+static std::pair<std::string, std::string> split_name(const std::string& channel) {
+  const size_t point = channel.rfind('.');
+  if (point == std::string::npos) return {"", channel};
+  return {channel.substr(0, point), channel.substr(point + 1)};
+}
+
+static LayerRule rule_of(const std::string& layer, const std::string& channel, bool is_whole_number) {
+  static const char* const kWords[] = {"z", "zback", "depth", "id", "ids", "index", "object", "material", "variance"};
+  const std::string group = small_letters(layer), last = split_name(group).second;
+  const bool packed = last.size() > 2 && last.find_first_not_of("0123456789", last.size() - 2) == std::string::npos;
+  bool nearest = is_whole_number || packed || group.find("crypto") != std::string::npos || last.starts_with("index");
+  for (const std::string& name : {last, small_letters(channel), group.substr(0, group.find('.'))}) {
+    nearest = nearest || std::find(std::begin(kWords), std::end(kWords), name) != std::end(kWords);
+  }
+  // Normals and positions have a Z, too.
+  if (small_letters(channel) == "z" && !layer.empty() && last != "depth" && last != "z") nearest = packed;
+  return nearest ? LayerRule::kNearest : LayerRule::kMean;
+}
+
+// Channels of one view: name without it, number in the file.
+using View = std::map<std::string, size_t>;
+
+// `right.R`, `N.right.X`; bare names are those of the view that has no others. Of a file of one view: all.
+static View channels_of_view(const FileInfo& info, const std::string& view, bool is_default) {
+  View channels;
+  for (size_t c = 0; c < info.channels.size(); c++) {
+    const auto [layer, last] = split_name(info.channels[c]);
+    const auto [outer, inner] = split_name(layer);
+    if (view.empty() || (is_default && layer.empty())) {
+      channels.emplace(info.channels[c], c);
+    } else if (inner == view) {
+      channels.emplace(outer.empty() ? last : outer + "." + last, c);
+    }
+  }
+  return channels;
+}
+
+// R, G, B, perhaps A, of some layer; of grey files Y and A. Taken out of `channels`.
+static std::optional<Plane> take_light(View& channels, const std::string& layer) {
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  Plane light;
+  light.name = layer;
+  light.rule = LayerRule::kLight;
+  const auto take = [&](std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+      if (!channels.contains(prefix + name)) return false;
+    }
+    for (const char* name : names) light.from.push_back(channels.at(prefix + name));
+    for (const char* name : names) channels.erase(prefix + name);
+    return true;
+  };
+  if (!take({"R", "G", "B"})) {
+    if (!take({"Y"})) return std::nullopt;
+    light.from = {light.from[0], light.from[0], light.from[0]};
+  }
+  take({"A"});
+  light.channels = {"R", "G", "B", "A"};
+  light.channels.resize(light.from.size());
+  return light;
+}
+
+static std::optional<Plane> find_light(View& channels) {
+  if (std::optional<Plane> light = take_light(channels, "")) return light;
+  for (const auto& [name, number] : channels) {
+    const std::string layer = split_name(name).first;
+    if (split_name(layer).second == "Combined") return take_light(channels, layer);
+  }
+  return std::nullopt;
+}
+
+// Channels in the order of the file, layers in that of their names: it is the same for both views.
+static std::vector<Plane> other_planes(const View& channels, const RowReader& reader) {
+  const FileInfo& info = reader.info();
+  std::map<size_t, std::string> ordered;
+  for (const auto& [name, number] : channels) ordered[number] = name;
+  std::vector<Plane> planes;
+  for (const auto& [number, name] : ordered) {
+    const auto [layer, last] = split_name(name);
+    const LayerRule rule = rule_of(layer, last, reader.is_whole_number(number));
+    const bool joins = !planes.empty() && !layer.empty() && planes.back().name == layer && planes.back().rule == rule &&
+                       planes.back().sample == info.samples[number];
+    if (!joins) planes.push_back({layer, {}, {}, rule, info.samples[number]});
+    planes.back().channels.push_back(name);
+    planes.back().from.push_back(number);
+  }
+  std::stable_sort(planes.begin(), planes.end(),
+                   [](const Plane& a, const Plane& b) { return a.channels[0] < b.channels[0]; });
+  return planes;
+}
+
+// --- the files -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// One view of one file.
+struct FileShare {
+  RowReader* reader = nullptr;
+  std::vector<Plane> planes;  // the first is the colour
+};
+
+}  // namespace
+
+static FileShare make_share(RowReader& reader, const std::string& path, View channels, bool only_light) {
+  const FileInfo& info = reader.info();
+  FileShare share{&reader, {}};
+  std::optional<Plane> light = find_light(channels);
+  // Files of a display have their colour first, whatever they call it.
+  if (!light && !info.is_float && info.channels.size() >= 3) {
+    light = Plane{"", {"R", "G", "B"}, {0, 1, 2}, LayerRule::kLight};
+  }
+  if (!light) throw unreadable(path, "it has no colour: no channels R, G and B");
+  light->sample = info.samples[light->from[0]];
+  for (size_t c : light->from) {
+    if (info.samples[c] != light->sample) throw unreadable(path, "its colours are not of one kind of number");
+  }
+  share.planes.push_back(*light);
+  if (only_light || !info.is_float) return share;
+  for (Plane& plane : other_planes(channels, reader)) share.planes.push_back(std::move(plane));
+  return share;
+}
+
+static bool same_layer(const Plane& a, const Plane& b) {
+  return a.channels == b.channels && a.sample == b.sample && a.rule == b.rule;
+}
+
+// Both eyes have the same layers.
+static void keep_common(std::vector<FileShare>& shares, const std::string& path, std::vector<std::string>& guesses) {
+  if (shares.size() < 2) return;
+  if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
+    for (FileShare& share : shares) {
+      share.planes[0].channels.resize(3);
+      share.planes[0].from.resize(3);
+    }
+    if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
+      throw unreadable(path, "its eyes are not of one kind of number; convert one of them first");
+    }
+  }
+  std::string lost;
+  for (int i : {0, 1}) {
+    std::vector<Plane>& planes = shares[static_cast<size_t>(i)].planes;
+    const std::vector<Plane>& others = shares[static_cast<size_t>(1 - i)].planes;
+    const auto alone = [&](const Plane& plane) {
+      const bool found =
+          std::any_of(others.begin(), others.end(), [&](const Plane& other) { return same_layer(plane, other); });
+      if (!found) lost += " " + plane.channels[0];
+      return !found;
+    };
+    planes.erase(std::remove_if(planes.begin() + 1, planes.end(), alone), planes.end());
+  }
+  if (!lost.empty()) guesses.push_back("only one eye has" + lost + ": left out");
+}
+
+static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const std::string& path, Layout layout,
+                                        bool only_light) {
+  std::vector<FileShare> shares;
+  if (layout != Layout::kMultiview) {
+    for (RowReader& reader : readers) {
+      shares.push_back(make_share(reader, path, channels_of_view(reader.info(), "", true), only_light));
+    }
+    return shares;
+  }
+  const FileInfo& info = readers[0].info();
+  const View left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
+  const View bare = channels_of_view(info, "left", true);
+  if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
+  if (left.contains("R") || right.contains("R")) {
+    shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), only_light));
+    shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), only_light));
+    return shares;
+  }
+  throw unreadable(path, "it does not hold two views");
+}
+
+static size_t plane_size(const Plane& plane, const FileInfo& info) {
+  const size_t size = plane.pixel_size() * static_cast<size_t>(info.width) * static_cast<size_t>(info.height);
+  return (size + 63) / 64 * 64;
+}
+
+// --- the pixels ------------------------------------------------------------------------------------------------------
+
+template <typename T>
+static void gather(const std::byte* in, size_t stride, const std::vector<size_t>& offsets, std::byte* out, int width) {
+  for (int x = 0; x < width; x++, in += stride) {
+    for (size_t offset : offsets) {
+      std::memcpy(out, in + offset, sizeof(T));
+      out += sizeof(T);
+    }
+  }
+}
+
+namespace {
+
+// The channels of a file that are read at all, as they lie behind each other.
+struct Packing {
+  size_t count = 0;
+  std::vector<size_t> offsets;
+  size_t stride = 0;
+};
+
+}  // namespace
+
+static Packing packing_of(const FileInfo& info, const std::vector<FileShare>& shares, const RowReader* reader) {
+  Packing packing;
+  for (const FileShare& share : shares) {
+    if (share.reader != reader) continue;
+    for (const Plane& plane : share.planes) {
+      packing.count = std::max(packing.count, 1 + *std::max_element(plane.from.begin(), plane.from.end()));
+    }
+  }
+  for (size_t c = 0; c < packing.count; c++) {
+    packing.offsets.push_back(packing.stride);
+    packing.stride += bytes_of(info.samples[c]);
+  }
+  return packing;
+}
+
+static void put_rows(const Plane& plane, const Packing& packing, const std::byte* band, int begin, int end, int width) {
+  std::vector<size_t> offsets;
+  for (size_t c : plane.from) offsets.push_back(packing.offsets[c]);
+  const size_t columns = static_cast<size_t>(width);
+  tbb::parallel_for(begin, end, [&](int y) {
+    const std::byte* in = band + static_cast<size_t>(y - begin) * columns * packing.stride;
+    std::byte* out = plane.to + static_cast<size_t>(y) * columns * plane.pixel_size();
+    const size_t size = bytes_of(plane.sample);
+    const auto copy = size == 1 ? gather<uint8_t> : size == 2 ? gather<uint16_t> : gather<uint32_t>;
+    copy(in, packing.stride, offsets, out, width);
+  });
+}
+
+// R, G and B first, or of one layer: albedo.R, ...
+static bool is_color(const Plane& plane) {
+  if (plane.rule == LayerRule::kNearest || plane.channels.size() < 3 || bytes_of(plane.sample) == 1) return false;
+  constexpr const char* kNames[] = {"R", "G", "B"};
+  for (size_t c = 0; c < 3; c++) {
+    if (split_name(plane.channels[c]).second != kNames[c]) return false;
+  }
+  return true;
+}
+
+// Light of the file's primaries becomes that of Rec. 709, in place.
+static void convert_rows(const Plane& plane, const ColorSpace& color, int begin, int end, int width) {
+  const size_t pixel = plane.pixel_size(), size = bytes_of(plane.sample), columns = static_cast<size_t>(width);
+  tbb::parallel_for(begin, end, [&](int y) {
+    std::byte* const row = plane.to + static_cast<size_t>(y) * columns * pixel;
+    std::vector<float> light(3 * columns);
+    for (size_t x = 0; x < columns; x++) {
+      vec3 rgb;
+      for (size_t c = 0; c < 3; c++) rgb[static_cast<int>(c)] = sample_value(plane.sample, row + x * pixel + c * size);
+      rgb = light_of_floats(color, rgb);
+      std::copy_n(&rgb.x, 3, &light[3 * x]);
+    }
+    std::vector<std::byte> packed(light.size() * size);
+    const Sample samples[] = {plane.sample, plane.sample, plane.sample};
+    pack_floats(samples, light, packed.data());
+    for (size_t x = 0; x < columns; x++) std::memcpy(row + x * pixel, &packed[3 * x * size], 3 * size);
+  });
+}
+
+// Straight to its place where a file is nothing but one layer; by way of a band where it has to be taken apart.
+static void read_file(RowReader& reader, const std::vector<FileShare>& shares, const Scratch& memory) {
+  const size_t kOften = size_t{64} << 20;  // bytes between two releases
+  const FileInfo& info = reader.info();
+  const Packing packing = packing_of(info, shares, &reader);
+  std::vector<const Plane*> planes;
+  for (const FileShare& share : shares) {
+    if (share.reader != &reader) continue;
+    for (const Plane& plane : share.planes) planes.push_back(&plane);
+  }
+  std::vector<size_t> all(packing.count);
+  std::iota(all.begin(), all.end(), size_t{0});
+  const bool straight = planes.size() == 1 && planes[0]->from == all;
+  const size_t row = static_cast<size_t>(info.width) * packing.stride;
+  std::vector<std::byte> band(straight ? 0 : row * static_cast<size_t>(std::min(reader.band_rows(), info.height)));
+  size_t held = 0;
+  for (int begin = 0; begin < info.height; begin += reader.band_rows()) {
+    const int end = std::min(begin + reader.band_rows(), info.height);
+    reader.read(begin, end, packing.count, straight ? planes[0]->to + static_cast<size_t>(begin) * row : band.data());
+    for (const Plane* plane : planes) {
+      if (!straight) put_rows(*plane, packing, band.data(), begin, end, info.width);
+      const bool foreign = info.is_float && !reader.color_space().has_our_primaries;
+      if (foreign && is_color(*plane)) convert_rows(*plane, reader.color_space(), begin, end, info.width);
+    }
+    held += row * static_cast<size_t>(end - begin);
+    if (held > kOften) memory.release(), held = 0;
+  }
+}
+
+// --- the eyes --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// Row `y` and the first column of every eye in a packed image.
+struct EyeView {
+  int x = 0;
+  int y = 0;
+  int row_step = 1;
+};
+
+}  // namespace
+
+static std::vector<EyeView> views_of(Layout layout, Extent eye) {
+  std::vector<EyeView> views(2);
+  const Extent file = packed_size(layout, eye, 2);
+  for (int y = 0; y < file.height; y++) {
+    int x = 0;
+    for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
+      const size_t i = static_cast<size_t>(part.index);
+      if (part.y == 0) views[i].x = x, views[i].y = y;
+      if (part.y == 1) views[i].row_step = y - views[i].y;
+      x += eye.width;
+    }
+  }
+  return views;
+}
+
+static StoredEye make_eye(int which, const FileShare& share, const EyeView& view) {
+  StoredEye eye;
+  eye.eye = which;
+  const ptrdiff_t width = share.reader->info().width;
+  for (const Plane& plane : share.planes) {
+    const ptrdiff_t pixel = static_cast<ptrdiff_t>(plane.pixel_size()), row = width * pixel;
+    eye.layers.push_back({plane.channels, plane.rule, plane.sample, plane.to + view.y * row + view.x * pixel, pixel,
+                          view.row_step * row});
+  }
+  return eye;
+}
+
+static void check_pair(std::vector<RowReader>& readers, const std::string& path) {
+  const FileInfo &one = readers[0].info(), &other = readers[1].info();
+  if (one.width != other.width || one.height != other.height) {
+    throw unreadable(
+        path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
+  }
+  if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
+  const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
+  if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // both become 16 bits if one has been converted to them
+    for (RowReader& reader : readers) reader.widen();
+  }
+}
+
+static std::vector<RowReader> open_files(const std::string& path) {
+  std::vector<RowReader> readers;
+  if (!names_eye(path)) {
+    readers.emplace_back(path);
+    return readers;
+  }
+  for (int eye : {kLeft, kRight}) readers.emplace_back(path_for_eye(path, eye));
+  check_pair(readers, path);
+  return readers;
+}
+
+static void open_right_eye(std::vector<RowReader>& readers, const MemoryFile& file, const std::string& path) {
+  try {
+    readers.emplace_back(file.path());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    throw unreadable(path, "the JPEG of its right eye is damaged");
+  }
+  check_pair(readers, path);
+}
+
+static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const std::string& path) {
+  const std::optional<Extent> size = unpacked_size(picture.layout, {info.width, info.height});
+  if (!size) {
+    throw unreadable(
+        path, fmt::format("{}x{} pixels are not two eyes, {}", info.width, info.height, layout_name(picture.layout)));
+  }
+  const int columns = width_step(picture.rig.projection);
+  if (size->width * squeeze_of(picture.layout, 2).width % columns != 0) {
+    throw unreadable(path, fmt::format("{} has {} faces in a row, and {} pixels do not divide by that",
+                                       projection_name(picture.rig.projection), columns, size->width));
+  }
+  return *size;
+}
+
+static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const FileInfo& info,
+                                          const OpenOptions& options) {
+  std::vector<Plane*> planes;
+  std::vector<size_t> starts{0};
+  for (FileShare& share : shares) {
+    for (Plane& plane : share.planes) {
+      planes.push_back(&plane);
+      starts.push_back(starts.back() + plane_size(plane, info));
+    }
+  }
+  auto memory = std::make_shared<Scratch>(starts.back(), options.scratch_folder, options.most_in_memory);
+  for (size_t i = 0; i < planes.size(); i++) planes[i]->to = memory->data() + starts[i];
+  return memory;
+}
+
+static std::vector<StoredEye> make_eyes(const std::vector<FileShare>& shares, Layout layout, Extent size, int eye) {
+  if (shares.size() == 2) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[1], {})};
+  const Extent file = packed_size(layout, size, 2);
+  if (file.width == size.width && file.height == size.height) return {make_eye(eye, shares[0], {})};
+  const std::vector<EyeView> views = views_of(layout, size);
+  return {make_eye(kLeft, shares[0], views[0]), make_eye(kRight, shares[0], views[1])};
+}
+
+static void leave_out_unreadable(std::vector<FileShare>& shares, const std::string& path,
+                                 std::vector<std::string>& guesses) {
+  std::vector<std::vector<std::string>> lost;
+  for (const FileShare& share : shares) {
+    for (const auto& [channel, number] : share.reader->beyond_floats()) {
+      for (const Plane& plane : share.planes) {
+        if (std::find(plane.from.begin(), plane.from.end(), channel) == plane.from.end()) continue;
+        if (std::find(lost.begin(), lost.end(), plane.channels) != lost.end()) continue;
+        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are whole numbers that no float can hold");
+        lost.push_back(plane.channels);
+        guesses.push_back(fmt::format("its channel {} has the number {}, which no float can hold: left out",
+                                      share.reader->info().channels[channel], number));
+      }
+    }
+  }
+  for (FileShare& share : shares) {
+    std::erase_if(share.planes, [&](const Plane& plane) {
+      return std::find(lost.begin(), lost.end(), plane.channels) != lost.end();
+    });
+  }
+}
+
+StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
+  std::vector<RowReader> readers = open_files(path);
+  PictureForm form = find_form(readers[0].info(), path, options.form);
+  const MemoryFile right(form.is_photo ? read_right_eye(path) : "");
+  if (form.is_photo) open_right_eye(readers, right, path);
+  const FileInfo& info = readers[0].info();
+  StoredPicture picture;
+  picture.is_float = info.is_float;
+  picture.layout = form.layout.layout.value_or(Layout::kSeparate);
+  picture.layout_because = form.layout.because;
+  picture.rig = form.camera;
+  picture.ipd_is_said = form.ipd_is_said;
+  picture.guesses = std::move(form.guesses);
+  if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
+  for (const RowReader& reader : readers) {
+    if (picture.color_fault.empty()) picture.color_fault = reader.info().color_fault;
+  }
+  if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
+  const auto parts = info.numbers.find("oiio:subimages");
+  if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
+    picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
+  }
+  picture.size = eye_size(picture, info, path);
+  std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.only_light);
+  keep_common(shares, path, picture.guesses);
+  picture.memory = make_room(shares, info, options);
+  for (RowReader& reader : readers) read_file(reader, shares, *picture.memory);
+  leave_out_unreadable(shares, path, picture.guesses);
+  picture.memory->release();
+  picture.eyes = make_eyes(shares, picture.layout, picture.size, form.eye);
+  return picture;
+}
+
+}  // namespace ods

@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/cpu/embree_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <vector>
+
+#include "ods/scene/placement.h"
+
+// All that differs between Embree 3 and 4.
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+
+static void init_context(EmbreeContext& context) {
+  rtcInitRayQueryContext(&context);
+}
+
+static void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
+
+static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+using EmbreeContext = RTCIntersectContext;
+
+static void init_context(EmbreeContext& context) {
+  rtcInitIntersectContext(&context);
+}
+
+static void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
+  rtcIntersect1(scene, &context, &ray);
+}
+
+static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  rtcOccluded1(scene, &context, &ray);
+}
+#endif
+
+namespace ods {
+
+namespace {
+
+struct RayContext {
+  EmbreeContext embree;
+  PathTracer* tracer;
+  int ray;
+  uint still;
+};
+
+}  // namespace
+
+// A geometry's number in its scene is the number of our instance. Where something moves, all that does not is one
+// instance more in the top scene.
+struct EmbreeScene::Handles {
+  const Scene* scene = nullptr;
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
+  RTCScene still = nullptr;      // null where nothing moves
+  uint still_id = 0;             // in the top scene
+  std::vector<RTCScene> shared;  // by mesh, null where the mesh is copied
+  std::vector<char> moves;       // by instance
+
+  Handles() = default;
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
+  ~Handles() {
+    if (top) rtcReleaseScene(top);
+    if (still) rtcReleaseScene(still);
+    for (RTCScene mesh : shared) {
+      if (mesh) rtcReleaseScene(mesh);
+    }
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+static int instance_of(uint geometry, uint instance, uint still) {
+  return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
+}
+
+// Embree asks this for each candidate hit on a surface with alpha.
+static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
+  if (arguments->valid[0] != -1) return;
+  auto* context = reinterpret_cast<RayContext*>(arguments->context);
+  const uint geometry = RTCHitN_geomID(arguments->hit, 1, 0);
+  const uint instance = RTCHitN_instID(arguments->hit, 1, 0, 0);
+  Hit hit;
+  hit.t = 0.0f;
+  hit.u = RTCHitN_u(arguments->hit, 1, 0);
+  hit.v = RTCHitN_v(arguments->hit, 1, 0);
+  hit.instance = instance_of(geometry, instance, context->still);
+  hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, 1, 0));
+  if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) arguments->valid[0] = 0;
+}
+
+static uint key_count(const Scene& scene, int motion) {
+  return motion < 0 ? 1u : static_cast<uint>(scene.motion_keys);
+}
+
+// A mesh's vertices at a key of the shutter; placed: moved by the instance's matrix.
+static void write_positions(const Scene& scene, const Mesh& mesh, uint key, const Instance* placed, float* positions) {
+  const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
+  const MotionVertex* bent = nullptr;
+  if (mesh.motion >= 0) bent = scene.motion_vertices.data() + mesh.motion + size_t(key) * mesh.vertex_count;
+  for (uint i = 0; i < mesh.vertex_count; i++) {
+    vec3 p = bent ? bent[i].position : vertices[i].position;
+    if (placed) p = to_world(*placed, p);
+    positions[3 * i] = p.x, positions[3 * i + 1] = p.y, positions[3 * i + 2] = p.z;
+  }
+}
+
+// A mesh's triangles as Embree geometry; placed: with the instance's matrix applied to copies of the vertices.
+static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const uint keys = key_count(scene, mesh.motion);
+  rtcSetGeometryTimeStepCount(geometry, keys);
+  for (uint key = 0; key < keys; key++) {
+    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, key, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertex_count));
+    if (!positions) throw std::bad_alloc();
+    write_positions(scene, mesh, key, placed, positions);
+  }
+  auto* corners = static_cast<uint*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                             3 * sizeof(uint), mesh.triangle_count));
+  if (!corners) throw std::bad_alloc();
+  const uvec3* triangles = scene.triangles.data() + mesh.first_triangle;
+  for (uint i = 0; i < mesh.triangle_count; i++) {
+    corners[3 * i] = triangles[i].x, corners[3 * i + 1] = triangles[i].y, corners[3 * i + 2] = triangles[i].z;
+  }
+  if (scene.materials[static_cast<size_t>(mesh.material)].alpha_mode != kAlphaOpaque) {
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
+  }
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+static RTCScene new_scene(RTCDevice device) {
+  RTCScene scene = rtcNewScene(device);
+  // Without the robust flag a few rays in a million slip between triangles that touch.
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
+static void set_transform(RTCGeometry geometry, const Scene& scene, const Instance& instance) {
+  const uint keys = key_count(scene, instance.motion);
+  rtcSetGeometryTimeStepCount(geometry, keys);
+  for (uint key = 0; key < keys; key++) {
+    MotionPose pose{instance.row0, instance.row1, instance.row2};
+    if (instance.motion >= 0) pose = scene.motion_poses[static_cast<size_t>(instance.motion) + key];
+    const vec4 rows[3] = {pose.row0, pose.row1, pose.row2};
+    float matrix[12];
+    for (int row = 0; row < 3; row++) {
+      for (int column = 0; column < 4; column++) matrix[row * 4 + column] = rows[row][column];
+    }
+    rtcSetGeometryTransform(geometry, key, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, matrix);
+  }
+}
+
+static RTCGeometry make_instance(RTCDevice device, RTCScene mesh, const Scene& scene, const Instance& instance) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, mesh);
+  set_transform(geometry, scene, instance);
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+static void attach(RTCScene scene, RTCGeometry geometry, size_t id) {
+  rtcAttachGeometryByID(scene, geometry, static_cast<uint>(id));
+  rtcReleaseGeometry(geometry);
+}
+
+static std::vector<char> moving_instances(const Scene& scene) {
+  std::vector<char> moves(scene.instances.size());
+  if (scene.animation.playing.empty()) return moves;
+  for (const MovingInstance& moving : scene.animation.instances) moves[static_cast<size_t>(moving.instance)] = 1;
+  return moves;
+}
+
+// Which meshes are instanced: those that move, and those of which there would be too many copies.
+static std::vector<bool> choose_shared(const Scene& scene, const std::vector<char>& moves,
+                                       size_t max_copied_triangles) {
+  std::vector<size_t> uses(scene.meshes.size());
+  for (const Instance& instance : scene.instances) uses[static_cast<size_t>(instance.mesh)]++;
+  size_t copies = 0;
+  for (size_t i = 0; i < uses.size(); i++) copies += uses[i] * scene.meshes[i].triangle_count;
+  std::vector<bool> shared(scene.meshes.size());
+  for (size_t i = 0; i < uses.size(); i++) shared[i] = uses[i] > 1 && copies > max_copied_triangles;
+  for (size_t i = 0; i < moves.size(); i++) {
+    if (moves[i]) shared[static_cast<size_t>(scene.instances[i].mesh)] = true;
+  }
+  return shared;
+}
+
+EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : handles_(std::make_unique<Handles>()) {
+  handles_->scene = &scene;
+  handles_->device = rtcNewDevice(nullptr);
+  if (!handles_->device) throw std::bad_alloc();
+  RTCDevice device = handles_->device;
+  handles_->top = new_scene(device);
+  handles_->shared.resize(scene.meshes.size());
+  handles_->moves = moving_instances(scene);
+  handles_->still_id = static_cast<uint>(scene.instances.size());
+  const bool split = std::count(handles_->moves.begin(), handles_->moves.end(), 1) > 0;
+  if (split) handles_->still = new_scene(device);
+  const std::vector<bool> shared = choose_shared(scene, handles_->moves, max_copied_triangles);
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    const Instance& instance = scene.instances[i];
+    const size_t mesh = static_cast<size_t>(instance.mesh);
+    const bool hidden = is_hidden(scene, i);
+    if (hidden && !handles_->moves[i]) continue;
+    if (!shared[mesh]) {
+      attach(split ? handles_->still : handles_->top, make_geometry(device, scene, scene.meshes[mesh], &instance), i);
+      continue;
+    }
+    if (!handles_->shared[mesh]) {
+      handles_->shared[mesh] = new_scene(device);
+      attach(handles_->shared[mesh], make_geometry(device, scene, scene.meshes[mesh], nullptr), 0);
+      rtcCommitScene(handles_->shared[mesh]);
+    }
+    RTCGeometry geometry = make_instance(device, handles_->shared[mesh], scene, instance);
+    if (hidden) rtcDisableGeometry(geometry);
+    attach(handles_->top, geometry, i);
+  }
+  if (split) {
+    rtcCommitScene(handles_->still);
+    Instance here{};
+    here.motion = -1;
+    set_matrix(here, glm::dmat4(1.0));
+    attach(handles_->top, make_instance(device, handles_->still, scene, here), handles_->still_id);
+  }
+  rtcCommitScene(handles_->top);
+  if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+void EmbreeScene::update(const SceneChange& change) {
+  const Scene& scene = *handles_->scene;
+  if (change.instances.empty() && change.meshes.empty()) return;
+  for (const int mesh : change.meshes) {
+    RTCScene tree = handles_->shared[static_cast<size_t>(mesh)];
+    if (!tree) continue;  // no instance wears it
+    RTCGeometry triangles = rtcGetGeometry(tree, 0);
+    const Mesh& record = scene.meshes[static_cast<size_t>(mesh)];
+    for (uint key = 0; key < key_count(scene, record.motion); key++) {
+      auto* positions = static_cast<float*>(rtcGetGeometryBufferData(triangles, RTC_BUFFER_TYPE_VERTEX, key));
+      write_positions(scene, record, key, nullptr, positions);
+      rtcUpdateGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, key);
+    }
+    rtcCommitGeometry(triangles);
+    rtcCommitScene(tree);
+  }
+  for (size_t i = 0; i < handles_->moves.size(); i++) {
+    if (!handles_->moves[i]) continue;
+    RTCGeometry geometry = rtcGetGeometry(handles_->top, static_cast<uint>(i));
+    set_transform(geometry, scene, scene.instances[i]);
+    is_hidden(scene, i) ? rtcDisableGeometry(geometry) : rtcEnableGeometry(geometry);
+    rtcCommitGeometry(geometry);
+  }
+  rtcCommitScene(handles_->top);
+  if (rtcGetDeviceError(handles_->device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+}
+
+static void set_ray(RTCRay& out, const Ray& ray, float length, float time) {
+  out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
+  out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
+  out.tnear = 0.0f, out.tfar = length;
+  out.time = time, out.mask = ~0u, out.id = 0, out.flags = 0;
+}
+
+static RayContext make_context(PathTracer& tracer, int ray, uint still) {
+  RayContext context;
+  init_context(context.embree);
+  context.tracer = &tracer;
+  context.ray = ray;
+  context.still = still;
+  return context;
+}
+
+Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const {
+  RTCRayHit found;
+  set_ray(found.ray, ray, std::numeric_limits<float>::infinity(), tracer.ray_time);
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RayContext context = make_context(tracer, kind, handles_->still_id);
+  intersect(handles_->top, context.embree, found);
+  Hit hit;
+  const bool missed = found.hit.geomID == RTC_INVALID_GEOMETRY_ID;
+  hit.t = missed ? -1.0f : found.ray.tfar;
+  hit.u = missed ? 0.0f : found.hit.u;
+  hit.v = missed ? 0.0f : found.hit.v;
+  hit.instance = missed ? -1 : instance_of(found.hit.geomID, found.hit.instID[0], handles_->still_id);
+  hit.triangle = missed ? -1 : static_cast<int>(found.hit.primID);
+  return hit;
+}
+
+bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length) const {
+  RTCRay shadow;
+  set_ray(shadow, ray, length, tracer.ray_time);
+  RayContext context = make_context(tracer, kShadowRay, handles_->still_id);
+  occlude(handles_->top, context.embree, shadow);
+  return shadow.tfar < 0.0f;
+}
+
+}  // namespace ods

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/lights.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "ods/kernel/light.h"
+#include "ods/render/tables.h"
+
+namespace ods {
+
+// Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", 1991.
+std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights) {
+  const size_t n = weights.size();
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<AliasEntry> table(n);
+  std::vector<double> share(n);
+  std::vector<size_t> poor, rich;
+  for (size_t i = 0; i < n; i++) {
+    const double probability = total > 0.0 ? weights[i] / total : 1.0 / static_cast<double>(n);
+    table[i] = {static_cast<float>(probability), 1.0f, static_cast<int>(i)};
+    share[i] = probability * static_cast<double>(n);
+    (share[i] < 1.0 ? poor : rich).push_back(i);
+  }
+  while (!poor.empty() && !rich.empty()) {
+    const size_t low = poor.back(), high = rich.back();
+    poor.pop_back();
+    table[low].threshold = static_cast<float>(share[low]);
+    table[low].alias = static_cast<int>(high);
+    share[high] -= 1.0 - share[low];
+    if (share[high] < 1.0) {
+      rich.pop_back();
+      poor.push_back(high);
+    }
+  }
+  return table;
+}
+
+// Brightness of each texel times its solid angle. A texel's neighbours count, because interpolation spreads them.
+static std::vector<double> environment_weights(const Environment& environment) {
+  const int w = environment.width, h = environment.height;
+  const double pi = std::acos(-1.0);
+  std::vector<double> weights(environment.texels.size());
+  for (int y = 0; y < h; y++) {
+    const double angle = 2.0 * pi / w * (std::cos(pi * y / h) - std::cos(pi * (y + 1) / h));
+    for (int x = 0; x < w; x++) {
+      double sum = 0.0;
+      for (int dy = -1; dy <= 1; dy++) {
+        for (int dx = -1; dx <= 1; dx++) {
+          const int column = (x + dx + w) % w, row = std::clamp(y + dy, 0, h - 1);
+          const double share = (dx == 0 ? 0.75 : 0.125) * (dy == 0 ? 0.75 : 0.125);
+          const vec3 texel =
+              environment.texels[static_cast<size_t>(row) * static_cast<size_t>(w) + static_cast<size_t>(column)];
+          sum += share * luminance(texel * environment.radiance);
+        }
+      }
+      weights[static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x)] = sum * angle;
+    }
+  }
+  return weights;
+}
+
+static Light blank_light(int kind) {
+  Light light{};
+  light.kind = kind;
+  light.instance = -1;
+  light.triangle = -1;
+  light.direction = vec3(0.0f, 0.0f, -1.0f);
+  return light;
+}
+
+static Light make_punctual(const PunctualLight& source) {
+  Light light = blank_light(source.kind);
+  light.position = source.position;
+  light.direction = source.direction;
+  light.intensity = source.intensity;
+  light.range = source.range;
+  // KHR_lights_punctual's reference fall-off between the cones.
+  const float inner = std::cos(source.inner_cone), outer = std::cos(source.outer_cone);
+  light.cone_scale = 1.0f / std::max(0.001f, inner - outer);
+  light.cone_offset = -outer * light.cone_scale;
+  return light;
+}
+
+static double punctual_power(const PunctualLight& source, double scene_radius) {
+  const double pi = std::acos(-1.0);
+  const double strength = luminance(source.intensity);
+  if (source.kind == kLightDirectional) return strength * pi * scene_radius * scene_radius;
+  if (source.kind == kLightSpot) return strength * 2.0 * pi * (1.0 - std::cos(source.outer_cone));
+  return strength * 4.0 * pi;
+}
+
+static double triangle_power(LightSampler& reader, const Scene& scene, int instance_index, int triangle) {
+  Hit hit{0.0f, 0.0f, 0.0f, instance_index, triangle};
+  const Instance& instance = scene.instances[static_cast<size_t>(instance_index)];
+  const Material& material =
+      scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
+  const auto place = reader.triangle_of(instance, reader.corners_of(hit));
+  const vec3 area = 0.5f * cross(place.ab, place.ac);
+  const float size = length(area);
+  if (!(size > 0.0f) || !std::isfinite(size)) return 0.0;
+  double brightness = 0.0;
+  for (int i = 0; i < 16; i++) {
+    const float root = std::sqrt((static_cast<float>(i / 4) + 0.5f) / 4.0f);
+    const float across = (static_cast<float>(i % 4) + 0.5f) / 4.0f;
+    hit.u = root * (1.0f - across);
+    hit.v = root * across;
+    brightness += luminance(reader.emission_at(material, reader.corners_of(hit), true)) / 16.0;
+  }
+  return brightness * static_cast<double>(size) * std::acos(-1.0) * (material.double_sided == 1 ? 2.0 : 1.0);
+}
+
+static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<double>& powers) {
+  // Textures are read through the kernel, so that they mean the same here and there.
+  LightSampler reader;
+  set_scene(reader, scene, table);
+  reader.ray_time = 0.5f;
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+    const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+    if (!glows(material) || is_hidden(scene, i)) continue;
+    table.instances[i].first_light = static_cast<int>(table.lights.size());
+    for (uint t = 0; t < mesh.triangle_count; t++) {
+      Light light = blank_light(kLightTriangle);
+      light.instance = static_cast<int>(i);
+      light.triangle = static_cast<int>(t);
+      table.lights.push_back(light);
+      powers.push_back(triangle_power(reader, scene, static_cast<int>(i), static_cast<int>(t)));
+    }
+  }
+}
+
+static void read_environment(const Scene& scene, LightTable& table) {
+  const Environment& source = scene.environment;
+  assert(source.width == 0 ||
+         source.texels.size() == static_cast<size_t>(source.width) * static_cast<size_t>(source.height));
+  table.environment.uniform_radiance = source.radiance;
+  table.environment.width = source.width;
+  table.environment.height = source.height;
+  table.environment.light = -1;
+  if (source.width == 0) return;
+  const std::vector<double> weights = environment_weights(source);
+  std::vector<double> row_weights;
+  for (auto row = weights.begin(); row != weights.end(); row += source.width) {
+    row_weights.push_back(std::accumulate(row, row + source.width, 0.0));
+    for (const AliasEntry& entry : make_alias_table({row, row + source.width})) {
+      table.environment_texels.push_back({source.texels[table.environment_texels.size()] * source.radiance, entry});
+    }
+  }
+  table.environment_rows = make_alias_table(row_weights);
+  table.environment_power = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
+}
+
+static void add_environment_light(double scene_radius, LightTable& table, std::vector<double>& powers) {
+  table.environment.light = -1;
+  // The weights are radiance times solid angle; the scene offers its cross-section to all of it.
+  double power = table.environment_power * std::acos(-1.0) * scene_radius * scene_radius;
+  if (!(power > 0.0)) return;
+  const double others = std::accumulate(powers.begin(), powers.end(), 0.0);
+  if (others > 0.0) power = std::min(power, others);
+  table.environment.light = static_cast<int>(table.lights.size());
+  table.lights.push_back(blank_light(kLightEnvironment));
+  powers.push_back(power);
+}
+
+void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
+  view.vertices = scene.vertices.data();
+  view.triangles = scene.triangles.data();
+  view.meshes = scene.meshes.data();
+  view.instances = lights.instances.data();
+  view.motion_poses = scene.motion_poses.data();
+  view.motion_vertices = scene.motion_vertices.data();
+  view.motion_keys = scene.motion_keys;
+  view.materials = scene.materials.data();
+  view.textures = scene.textures.data();
+  view.texels = scene.texels.data();
+  const bool reduced = !scene.reduced_textures.empty();
+  view.reduced_textures = reduced ? scene.reduced_textures.data() : view.textures;
+  view.reduced_texels = reduced ? scene.reduced_texels.data() : view.texels;
+  view.lights = lights.lights.data();
+  view.light_picks = lights.picks.data();
+  view.light_pick_count = static_cast<int>(lights.picks.size());
+  view.environment = lights.environment;
+  view.environment_texels = lights.environment_texels.data();
+  view.environment_rows = lights.environment_rows.data();
+  const auto refracts = [](const Material& m) { return m.transmission > 0.0f && m.thickness > 0.0f; };
+  const bool glass = std::any_of(scene.materials.begin(), scene.materials.end(), refracts);
+  view.tables = kernel_tables(glass).data();
+}
+
+// Most triangles of a gadget with little lamps are dark: left out, the table stays small enough to be at hand.
+static void fill_picks(const std::vector<double>& powers, LightTable& table) {
+  std::vector<int> shining;
+  std::vector<double> weights;
+  for (size_t i = 0; i < powers.size(); i++) {
+    if (!(powers[i] > 0.0)) continue;
+    shining.push_back(static_cast<int>(i));
+    weights.push_back(powers[i]);
+  }
+  const std::vector<AliasEntry> entries = make_alias_table(weights);
+  for (size_t i = 0; i < entries.size(); i++) {
+    table.lights[static_cast<size_t>(shining[i])].probability = entries[i].probability;
+    table.picks.push_back({shining[i], entries[i].threshold, shining[static_cast<size_t>(entries[i].alias)]});
+  }
+}
+
+void update_lights(const Scene& scene, LightTable& table) {
+  table.instances = scene.instances;
+  table.lights.clear();
+  table.picks.clear();
+  std::vector<double> powers;
+  const Bounds bounds = scene_bounds(scene);
+  const double radius = std::max(0.5 * static_cast<double>(length(bounds.high - bounds.low)), 1e-3);
+  add_triangle_lights(scene, table, powers);
+  for (const PunctualLight& source : scene.lights) {
+    const double power = punctual_power(source, radius);
+    if (!(power > 0.0)) continue;
+    table.lights.push_back(make_punctual(source));
+    powers.push_back(power);
+  }
+  add_environment_light(radius, table, powers);
+  fill_picks(powers, table);
+}
+
+LightTable make_lights(const Scene& scene) {
+  LightTable table;
+  read_environment(scene, table);
+  update_lights(scene, table);
+  return table;
+}
+
+}  // namespace ods

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/load/load.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/base/suggest.h"
+#include "ods/scene/builtin/builtin.h"
+#include "ods/scene/reduced_textures.h"
+
+namespace ods {
+
+Scene load_scene(const std::string& name, const SceneOptions& options) {
+  if (const BuiltinScene* builtin = find_builtin(name)) {
+    if (options.scene > 0) {
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("--scene: '{}' has no scene {}: a built-in scene is only one", name, options.scene));
+    }
+    Scene scene = builtin->make();
+    scene.name = name;
+    reduce_textures(scene);
+    return scene;
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(name, error)) {
+    std::vector<std::string> names;
+    for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+    throw Error(ErrorKind::kInput,
+                fmt::format("{}: no such file, and no built-in scene{}", name, did_you_mean(name, names)));
+  }
+  Scene scene = load_gltf(name, options);
+  reduce_textures(scene);
+  return scene;
+}
+
+}  // namespace ods

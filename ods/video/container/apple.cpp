@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/container/apple.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace ods {
+
+constexpr uint32_t kQuarter = 0x40000000;  // of 2^32
+constexpr std::array<uint32_t, 4> kFrontHalf = {0, 0, kQuarter, kQuarter};
+
+namespace {
+
+enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
+
+}  // namespace
+
+static bool is_stacked(FilmStereo stereo) {
+  return stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kBottomTop;
+}
+
+static bool is_beside(FilmStereo stereo) {
+  return stereo == FilmStereo::kSideBySide || stereo == FilmStereo::kRightLeft;
+}
+
+static bool has_right_first(FilmStereo stereo) {
+  return stereo == FilmStereo::kBottomTop || stereo == FilmStereo::kRightLeft;
+}
+
+static FilmStereo stereo_of(const FilmForm& form) {
+  return form.stereo.value_or(FilmStereo::kOneView);
+}
+
+bool fits_vexu(const FilmForm& form) {
+  const FilmStereo stereo = stereo_of(form);
+  const bool is_known = stereo == FilmStereo::kOneView || is_stacked(stereo) || is_beside(stereo);
+  return is_known && form.projection == FilmProjection::kEquirect && (!form.is_partial() || form.bounds == kFrontHalf);
+}
+
+// --- written ---------------------------------------------------------------------------------------------------------
+
+static Box parent(BoxType type, std::vector<Box> children) {
+  Box box;
+  box.type = type;
+  box.children = std::move(children);
+  return box;
+}
+
+// Version and flags, then a number.
+static Box leaf(BoxType type, uint64_t value, size_t bytes) {
+  Box box;
+  box.type = type;
+  append_number(box.body, 0, 4);
+  append_number(box.body, value, bytes);
+  return box;
+}
+
+Box vexu_box(const FilmForm& form) {
+  assert(fits_vexu(form));
+  const FilmStereo stereo = stereo_of(form);
+  Box vexu = parent(box_type("vexu"), {});
+  if (stereo != FilmStereo::kOneView) {
+    uint64_t flags = kHasLeft | kHasRight;
+    if (has_right_first(stereo)) flags |= kRightFirst;
+    Box eyes = parent(box_type("eyes"), {leaf(box_type("stri"), flags, 1), leaf(box_type("hero"), 1, 1)});
+    const auto micrometres = static_cast<uint64_t>(std::llround(form.ipd * 1e6));
+    if (micrometres > 0 && micrometres <= 0xffffffff) {
+      eyes.children.push_back(parent(box_type("cams"), {leaf(box_type("blin"), micrometres, 4)}));
+    }
+    vexu.children.push_back(std::move(eyes));
+  }
+  const BoxType kind = form.is_partial() ? box_type("hequ") : box_type("equi");
+  vexu.children.push_back(parent(box_type("proj"), {leaf(box_type("prji"), kind, 4)}));
+  if (stereo != FilmStereo::kOneView) {
+    const BoxType packing = is_stacked(stereo) ? box_type("over") : box_type("side");
+    vexu.children.push_back(parent(box_type("pack"), {leaf(box_type("pkin"), packing, 4)}));
+  }
+  return vexu;
+}
+
+Box hfov_box(const FilmForm& form) {
+  assert(fits_vexu(form));
+  Box box;
+  box.type = box_type("hfov");
+  append_number(box.body, form.is_partial() ? 180000 : 360000, 4);
+  return box;
+}
+
+// Hangs what `old` has and `box` has not under it, which is already opened.
+static void take_over(Box& box, const Box& old, std::initializer_list<BoxType> but) {
+  for (const Box& child : old.children) {
+    const bool is_ours = std::find(but.begin(), but.end(), child.type) != but.end();
+    if (is_ours) continue;
+    if (Box* there = find_child(box, child.type)) {
+      *there = child;
+    } else {
+      box.children.push_back(child);
+    }
+  }
+}
+
+Box updated_vexu(Box old, const FilmForm& form) {
+  Box vexu = vexu_box(form);
+  open_box(old, 0);
+  take_over(vexu, old, {box_type("eyes"), box_type("proj"), box_type("pack")});
+  Box *eyes = find_child(vexu, box_type("eyes")), *old_eyes = find_child(old, box_type("eyes"));
+  if (eyes == nullptr || old_eyes == nullptr) return vexu;
+  open_box(*old_eyes, 0);
+  take_over(*eyes, *old_eyes, {box_type("stri"), box_type("cams")});
+  return vexu;
+}
+
+// --- read ------------------------------------------------------------------------------------------------------------
+
+// The number in a box of a box; nothing where there is none.
+static std::optional<uint64_t> find_number(Box& vexu, BoxType outer, BoxType inner, size_t bytes) {
+  Box* holder = find_child(vexu, outer);
+  if (holder == nullptr) return std::nullopt;
+  open_box(*holder, 0);
+  const Box* box = find_child(*holder, inner);
+  return box == nullptr ? std::nullopt : std::optional(get_number(box->body, 4, bytes));
+}
+
+static double find_ipd(Box& vexu) {
+  Box* eyes = find_child(vexu, box_type("eyes"));
+  if (eyes == nullptr) return 0.0;
+  open_box(*eyes, 0);
+  return static_cast<double>(find_number(*eyes, box_type("cams"), box_type("blin"), 4).value_or(0)) / 1e6;
+}
+
+static FilmStereo packed(bool is_over, bool right_first) {
+  if (is_over) return right_first ? FilmStereo::kBottomTop : FilmStereo::kTopBottom;
+  return right_first ? FilmStereo::kRightLeft : FilmStereo::kSideBySide;
+}
+
+std::optional<FilmForm> parse_vexu(const Box& sample_entry) {
+  const Box* found = find_child(sample_entry, box_type("vexu"));
+  if (found == nullptr) return std::nullopt;
+  Box vexu = *found;
+  open_box(vexu, 0);
+  const std::optional<uint64_t> flags = find_number(vexu, box_type("eyes"), box_type("stri"), 1);
+  const std::optional<uint64_t> packing = find_number(vexu, box_type("pack"), box_type("pkin"), 4);
+  const std::optional<uint64_t> kind = find_number(vexu, box_type("proj"), box_type("prji"), 4);
+  FilmForm form;
+  if (flags && (*flags & kHasLeft) != 0 && (*flags & kHasRight) != 0) {
+    if (!packing) return std::nullopt;
+    const bool is_known = *packing == box_type("over") || *packing == box_type("side");
+    form.stereo = is_known ? packed(*packing == box_type("over"), (*flags & kRightFirst) != 0) : FilmStereo::kOther;
+    form.ipd = find_ipd(vexu);
+  } else {
+    form.stereo = FilmStereo::kOneView;
+  }
+  form.projection = !kind || *kind == box_type("rect") ? FilmProjection::kFlat : FilmProjection::kOther;
+  if (kind == box_type("equi") || kind == box_type("hequ")) form.projection = FilmProjection::kEquirect;
+  if (kind == box_type("hequ")) form.bounds = kFrontHalf;
+  return form;
+}
+
+}  // namespace ods

@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/container/spherical.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+
+#include "ods/image/format/xmp.h"
+
+namespace ods {
+
+std::string_view stereo_name(FilmStereo stereo) {
+  switch (stereo) {
+    case FilmStereo::kOneView:
+      return "mono";
+    case FilmStereo::kTopBottom:
+      return "top-bottom";
+    case FilmStereo::kSideBySide:
+      return "side-by-side";
+    case FilmStereo::kCustom:
+      return "stereo of a mesh";
+    case FilmStereo::kRightLeft:
+      return "cross-eyed";
+    case FilmStereo::kBottomTop:
+      return "bottom-top";
+    case FilmStereo::kOther:
+      break;
+  }
+  return "stereo of a rare kind";
+}
+
+std::string_view projection_name(FilmProjection projection) {
+  switch (projection) {
+    case FilmProjection::kFlat:
+      return "flat";
+    case FilmProjection::kEquirect:
+      return "lat-long";
+    case FilmProjection::kCubemap:
+      return "cubemap";
+    case FilmProjection::kMesh:
+      return "mesh";
+    case FilmProjection::kOther:
+      break;
+  }
+  return "unknown projection";
+}
+
+constexpr double kWhole = 4294967296.0;  // 2^32
+
+std::string form_text(const FilmForm& form) {
+  std::string text(form.stereo ? stereo_name(*form.stereo) : "");
+  if (form.projection) text += fmt::format("{}{}", text.empty() ? "" : ", ", projection_name(*form.projection));
+  if (form.is_partial()) {
+    const auto& [top, bottom, left, right] = form.bounds;
+    text += fmt::format(" {:.4g}x{:.4g}", 360.0 * (1.0 - (left + 1.0 * right) / kWhole),
+                        180.0 * (1.0 - (top + 1.0 * bottom) / kWhole));
+  }
+  if (form.yaw != 0.0 || form.pitch != 0.0 || form.roll != 0.0) {
+    text += fmt::format(", turned by {:.6g},{:.6g},{:.6g}", form.yaw, form.pitch, form.roll);
+  }
+  return text;
+}
+
+static FilmStereo stereo_of(const FilmForm& form) {
+  return form.stereo.value_or(FilmStereo::kOneView);
+}
+
+bool same_stereo(const FilmForm& a, const FilmForm& b) {
+  return stereo_of(a) == stereo_of(b);
+}
+
+bool same_sphere(const FilmForm& a, const FilmForm& b) {
+  const FilmProjection projection = a.projection.value_or(FilmProjection::kFlat);
+  if (projection != b.projection.value_or(FilmProjection::kFlat)) return false;
+  if (projection != FilmProjection::kEquirect) return true;
+  const auto near = [](uint32_t one, uint32_t other) { return std::abs(1.0 * one - 1.0 * other) < kWhole / 1000.0; };
+  return std::equal(a.bounds.begin(), a.bounds.end(), b.bounds.begin(), near);
+}
+
+// --- V1 --------------------------------------------------------------------------------------------------------------
+
+static bool has_v1_stereo(const FilmForm& form) {
+  const FilmStereo stereo = stereo_of(form);
+  return stereo == FilmStereo::kOneView || stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kSideBySide;
+}
+
+bool fits_v1(const FilmForm& form) {
+  return form.projection == FilmProjection::kEquirect && !form.is_partial() && has_v1_stereo(form);
+}
+
+static const char* v1_stereo(FilmStereo stereo) {
+  if (stereo == FilmStereo::kOneView) return "mono";
+  return stereo == FilmStereo::kTopBottom ? "top-bottom" : "left-right";
+}
+
+namespace {
+
+struct V1Angle {
+  const char* name;
+  double FilmForm::*value;
+};
+
+}  // namespace
+
+constexpr V1Angle kV1Angles[] = {{"InitialViewHeadingDegrees", &FilmForm::yaw},
+                                 {"InitialViewPitchDegrees", &FilmForm::pitch},
+                                 {"InitialViewRollDegrees", &FilmForm::roll}};
+
+// No spaces between the elements: some players look for `<GSpherical:Spherical>true<` as it stands.
+std::string v1_xml(const FilmForm& form) {
+  assert(fits_v1(form));
+  std::string xml =
+      "<?xml version=\"1.0\"?><rdf:SphericalVideo xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\" "
+      "xmlns:GSpherical=\"http://ns.google.com/videos/1.0/spherical/\">";
+  const auto element = [&](const char* name, const auto& value) {
+    xml += fmt::format("<GSpherical:{0}>{1}</GSpherical:{0}>", name, value);
+  };
+  element("Spherical", "true");
+  element("Stitched", "true");
+  element("StitchingSoftware", xml_escaped(form.source));
+  element("ProjectionType", "equirectangular");
+  element("StereoMode", v1_stereo(stereo_of(form)));
+  for (const V1Angle& angle : kV1Angles) {
+    const long degrees = std::lround(form.*angle.value);
+    if (degrees != 0) element(angle.name, degrees);
+  }
+  return xml + "</rdf:SphericalVideo>";
+}
+
+static std::string v1_word(const std::string& xml, const std::string& name) {
+  const std::string text(xmp_property(xml, "GSpherical:" + name));
+  const size_t from = text.find_first_not_of(" \t\r\n");
+  return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(" \t\r\n") - from + 1);
+}
+
+static std::optional<double> v1_number(const std::string& xml, const std::string& name) {
+  const std::string text = v1_word(xml, name);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && std::abs(value) <= 1e6 ? std::optional(value) : std::nullopt;
+}
+
+static bool is_true(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(), [](char c) { return static_cast<char>(c | 0x20); });
+  return word == "true";
+}
+
+static std::array<uint32_t, 4> v1_bounds(const std::string& xml) {
+  std::array<uint32_t, 4> bounds{};
+  const auto side = [&](const char* full, const char* part, const char* from, uint32_t& low, uint32_t& high) {
+    const auto all = v1_number(xml, full), size = v1_number(xml, part), start = v1_number(xml, from);
+    if (!all || !size || !start || *start < 0.0 || *size <= 0.0 || *start + *size > *all) return;
+    low = static_cast<uint32_t>(*start / *all * kWhole);
+    high = static_cast<uint32_t>((*all - *start - *size) / *all * kWhole);
+  };
+  side("FullPanoHeightPixels", "CroppedAreaImageHeightPixels", "CroppedAreaTopPixels", bounds[0], bounds[1]);
+  side("FullPanoWidthPixels", "CroppedAreaImageWidthPixels", "CroppedAreaLeftPixels", bounds[2], bounds[3]);
+  return bounds;
+}
+
+std::optional<FilmForm> parse_v1(const std::string& xml) {
+  if (xml.find("GSpherical:") == std::string::npos) return std::nullopt;
+  FilmForm form;
+  const bool is_sphere = is_true(v1_word(xml, "Spherical")) && is_true(v1_word(xml, "Stitched")) &&
+                         v1_word(xml, "ProjectionType") == "equirectangular";
+  form.projection = is_sphere ? FilmProjection::kEquirect : FilmProjection::kOther;
+  const std::string stereo = v1_word(xml, "StereoMode");
+  if (stereo == "mono") form.stereo = FilmStereo::kOneView;
+  if (stereo == "top-bottom") form.stereo = FilmStereo::kTopBottom;
+  if (stereo == "left-right") form.stereo = FilmStereo::kSideBySide;
+  form.bounds = v1_bounds(xml);
+  for (const V1Angle& angle : kV1Angles) form.*angle.value = v1_number(xml, angle.name).value_or(0.0);
+  form.source = xml_unescaped(v1_word(xml, "StitchingSoftware"));
+  return form;
+}
+
+bool can_update_v1(const FilmForm& v1, const FilmForm& form) {
+  return v1.projection == FilmProjection::kEquirect && same_sphere(v1, form) && has_v1_stereo(form);
+}
+
+// Sets an element, which is added where there is none. False where the XML is not understood.
+static bool set_v1_word(std::string& xml, const std::string& name, const std::string& value) {
+  const std::string open = "<GSpherical:" + name + ">", close = "</GSpherical:" + name + ">";
+  if (const size_t from = xml.find(open); from != std::string::npos) {
+    const size_t begin = from + open.size(), end = xml.find(close, begin);
+    if (end == std::string::npos) return false;
+    xml.replace(begin, end - begin, value);
+    return true;
+  }
+  const size_t end = xml.rfind("</");
+  if (end == std::string::npos || xml.find("GSpherical:" + name) != std::string::npos) return false;
+  xml.insert(end, open + value + close);
+  return true;
+}
+
+std::optional<std::string> updated_v1(const std::string& xml, const FilmForm& form, bool has_new_source) {
+  const std::optional<FilmForm> old = parse_v1(xml);
+  if (!old || !can_update_v1(*old, form)) return std::nullopt;
+  std::string updated = xml;
+  bool is_understood = true;
+  const auto set = [&](const char* name, const std::string& value) {
+    is_understood = is_understood && set_v1_word(updated, name, value);
+  };
+  if (!same_stereo(*old, form)) set("StereoMode", v1_stereo(stereo_of(form)));
+  for (const V1Angle& angle : kV1Angles) {
+    const double value = form.*angle.value;
+    if (std::abs(std::remainder(value - (*old).*angle.value, 360.0)) >= 1.0)
+      set(angle.name, std::to_string(std::lround(value)));
+  }
+  if (has_new_source && old->source != form.source) set("StitchingSoftware", xml_escaped(form.source));
+  return is_understood ? std::optional(updated) : std::nullopt;
+}
+
+// --- V2 --------------------------------------------------------------------------------------------------------------
+
+constexpr FilmStereo kV2Stereo[] = {FilmStereo::kOneView, FilmStereo::kTopBottom, FilmStereo::kSideBySide,
+                                    FilmStereo::kCustom, FilmStereo::kRightLeft};
+
+static bool has_v2_stereo(const FilmForm& form) {
+  return std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(form)) != std::end(kV2Stereo);
+}
+
+static bool has_v2_projection(const FilmForm& form) {
+  return form.projection != FilmProjection::kMesh && form.projection != FilmProjection::kOther;
+}
+
+bool fits_v2(const FilmForm& form) {
+  return has_v2_stereo(form) && has_v2_projection(form);
+}
+
+static Box full_box(BoxType type) {
+  Box box;
+  box.type = type;
+  append_number(box.body, 0, 4);  // version and flags
+  return box;
+}
+
+Box st3d_box(const FilmForm& form) {
+  assert(has_v2_stereo(form));
+  Box box = full_box(box_type("st3d"));
+  const auto found = std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(form));
+  append_number(box.body, static_cast<uint64_t>(found - std::begin(kV2Stereo)), 1);
+  return box;
+}
+
+static uint64_t fixed_point(double degrees) {
+  return static_cast<uint32_t>(static_cast<int32_t>(std::lround(degrees * 65536.0)));
+}
+
+static Box header_box(const FilmForm& form) {
+  Box header = full_box(box_type("svhd"));
+  header.body += form.source + '\0';
+  return header;
+}
+
+static Box pose_box(const FilmForm& form) {
+  Box pose = full_box(box_type("prhd"));
+  for (double angle : {form.yaw, form.pitch, form.roll}) append_number(pose.body, fixed_point(angle), 4);
+  return pose;
+}
+
+std::string projection_body(const FilmForm& form) {
+  std::string body(4, '\0');                                                            // version and flags
+  if (form.projection == FilmProjection::kCubemap) return body + std::string(8, '\0');  // the layout, no padding
+  for (uint32_t bound : form.bounds) append_number(body, bound, 4);
+  return body;
+}
+
+Box sv3d_box(const FilmForm& form) {
+  assert(has_v2_projection(form) && form.projection && form.projection != FilmProjection::kFlat);
+  const Box header = header_box(form), pose = pose_box(form);
+  Box data;
+  data.type = form.projection == FilmProjection::kCubemap ? box_type("cbmp") : box_type("equi");
+  data.body = projection_body(form);
+  Box projection;
+  projection.type = box_type("proj");
+  projection.children = {pose, data};
+  Box sphere;
+  sphere.type = box_type("sv3d");
+  sphere.children = {header, projection};
+  return sphere;
+}
+
+void parse_projection_body(const std::string& body, FilmForm& form) {
+  if (form.projection == FilmProjection::kEquirect && body.size() >= 20) {
+    for (size_t i = 0; i < 4; i++) form.bounds[i] = static_cast<uint32_t>(get_number(body, 4 + 4 * i, 4));
+  }
+  if (form.projection == FilmProjection::kCubemap && get_number(body, 4, 4) != 0) {
+    form.projection = FilmProjection::kOther;  // faces that nobody has described yet
+  }
+}
+
+static void parse_sphere(Box sphere, FilmForm& form) {
+  open_box(sphere, 0);
+  if (const Box* header = find_child(sphere, box_type("svhd")); header != nullptr && header->body.size() > 4) {
+    form.source = header->body.substr(4, header->body.find('\0', 4) - 4);
+  }
+  Box& projection = open_child(sphere, box_type("proj"));
+  if (const Box* pose = find_child(projection, box_type("prhd"))) {
+    const auto angle = [&](size_t at) {
+      return static_cast<int32_t>(static_cast<uint32_t>(get_number(pose->body, at, 4))) / 65536.0;
+    };
+    form.yaw = angle(4), form.pitch = angle(8), form.roll = angle(12);
+  }
+  form.projection = FilmProjection::kOther;
+  for (const Box& data : projection.children) {
+    if (data.type == box_type("equi")) form.projection = FilmProjection::kEquirect;
+    if (data.type == box_type("cbmp")) form.projection = FilmProjection::kCubemap;
+    if (data.type == box_type("mshp")) form.projection = FilmProjection::kMesh;
+    if (data.type != box_type("prhd")) parse_projection_body(data.body, form);
+  }
+}
+
+void update_sv3d(Box& sphere, const FilmForm& form) {
+  FilmForm old;
+  parse_sphere(sphere, old);
+  open_box(sphere, 0);
+  const auto put = [](Box& holder, const Box& box) {
+    if (Box* there = find_child(holder, box.type)) {
+      *there = box;
+    } else {
+      holder.children.insert(holder.children.begin(), box);
+    }
+  };
+  if (old.source != form.source) put(sphere, header_box(form));
+  const auto is_same = [](double a, double b) { return fixed_point(a) == fixed_point(b); };
+  if (is_same(old.yaw, form.yaw) && is_same(old.pitch, form.pitch) && is_same(old.roll, form.roll)) return;
+  put(open_child(sphere, box_type("proj")), pose_box(form));
+}
+
+std::optional<FilmForm> parse_v2(const Box& sample_entry) {
+  const Box* stereo = find_child(sample_entry, box_type("st3d"));
+  const Box* sphere = find_child(sample_entry, box_type("sv3d"));
+  if (stereo == nullptr && sphere == nullptr) return std::nullopt;
+  FilmForm form;
+  if (stereo != nullptr) {
+    const uint64_t mode = get_number(stereo->body, 4, 1);
+    form.stereo = mode < std::size(kV2Stereo) ? kV2Stereo[mode] : FilmStereo::kOther;
+  }
+  if (sphere != nullptr) parse_sphere(*sphere, form);
+  return form;
+}
+
+// --- sound -----------------------------------------------------------------------------------------------------------
+
+std::optional<Ambisonics> parse_sa3d(const std::string& body) {
+  if (body.size() < 12 || body[0] != 0) return std::nullopt;
+  Ambisonics sound;
+  sound.has_head_locked = (body[1] & 0x80) != 0;
+  sound.order = static_cast<uint32_t>(get_number(body, 2, 4));
+  sound.channels = static_cast<uint32_t>(get_number(body, 8, 4));
+  return sound;
+}
+
+Box sa3d_box(const Ambisonics& sound) {
+  Box box;
+  box.type = box_type("SA3D");
+  append_number(box.body, 0, 1);                                 // version
+  append_number(box.body, sound.has_head_locked ? 0x80 : 0, 1);  // and that it is periphonic
+  append_number(box.body, sound.order, 4);
+  append_number(box.body, 0, 2);  // ACN, SN3D
+  append_number(box.body, sound.channels, 4);
+  for (uint32_t channel = 0; channel < sound.channels; channel++) append_number(box.body, channel, 4);
+  return box;
+}
+
+}  // namespace ods

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a film says of itself: how its eyes share a frame and what of the sphere a frame shows, and the bytes that say
+// so. Sources: google/spatial-media, "Spherical Video RFC" (V1) and "Spherical Video V2 RFC"; "Spatial Audio RFC".
+// Degrees; angles as V2 has them: yaw turns the picture to the left, pitch up, roll clockwise.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ods/video/container/boxes.h"
+
+namespace ods {
+
+enum class FilmStereo {
+  kOneView,
+  kTopBottom,   // the left eye on top
+  kSideBySide,  // the left eye on the left
+  kCustom,      // as its mesh has it
+  kRightLeft,   // the right eye on the left
+  kBottomTop,   // the right eye on top: only Matroska can say so
+  kOther,       // what Matroska can say besides: interleaved, anaglyph
+};
+inline constexpr FilmStereo kFilmStereos[] = {FilmStereo::kOneView, FilmStereo::kTopBottom, FilmStereo::kSideBySide,
+                                              FilmStereo::kCustom,  FilmStereo::kRightLeft, FilmStereo::kBottomTop,
+                                              FilmStereo::kOther};
+std::string_view stereo_name(FilmStereo stereo);  // by the names of layout.h: a kRightLeft is cross-eyed
+
+enum class FilmProjection {
+  kFlat,
+  kEquirect,
+  kCubemap,  // right, left, up over down, front, back; up has front at its top, down has back
+  kMesh,     // as its own triangles have it
+  kOther,
+};
+inline constexpr FilmProjection kFilmProjections[] = {FilmProjection::kFlat, FilmProjection::kEquirect,
+                                                      FilmProjection::kCubemap, FilmProjection::kMesh,
+                                                      FilmProjection::kOther};
+std::string_view projection_name(FilmProjection projection);
+
+struct FilmForm {
+  std::optional<FilmStereo> stereo;          // none: it does not say
+  std::optional<FilmProjection> projection;  // likewise
+  // kEquirect: what is left out of the sphere at the top, bottom, left and right, in parts of 2^32 of the whole.
+  std::array<uint32_t, 4> bounds{};
+  double yaw = 0.0, pitch = 0.0, roll = 0.0;
+  double ipd = 0.0;        // metres between the eyes; 0: it does not say. Only vexu has a place for it.
+  bool for_apple = false;  // vexu is written, too: apple.h has what that costs
+  std::string source;      // the program that says so
+
+  bool is_partial() const { return bounds != std::array<uint32_t, 4>{}; }
+  bool operator==(const FilmForm&) const = default;
+};
+
+// "top-bottom, lat-long", "side-by-side, lat-long 180x180", "mono, flat".
+std::string form_text(const FilmForm& form);
+
+// Whether both show the same part of the sphere, and lay out their eyes likewise. To players no word on the projection
+// is flat, and no word on the eyes is mono. Bounds that differ by less than a thousandth of the sphere are the same:
+// V1 has them in pixels.
+bool same_sphere(const FilmForm& a, const FilmForm& b);
+bool same_stereo(const FilmForm& a, const FilmForm& b);
+
+// The id of V1's `uuid` box in moov/trak, in front of its XML.
+inline constexpr std::string_view kV1Id = "\xff\xcc\x82\x63\xf8\x55\x4a\x93\x88\x14\x58\x7a\x02\x52\x1f\xdd";
+
+// V1 is written of the whole sphere in lat-long, in mono, top-bottom or side-by-side. It has the angles as whole
+// degrees of the initial view, as FFmpeg reads them.
+bool fits_v1(const FilmForm& form);
+std::string v1_xml(const FilmForm& form);
+// Nothing where the XML is about something else.
+std::optional<FilmForm> parse_v1(const std::string& xml);
+
+// Whether a V1 that says `v1` can be changed to say `form`: both show the same part of the sphere, which may be a part
+// that fits_v1() knows nothing of, and V1 has a word for the eyes.
+bool can_update_v1(const FilmForm& v1, const FilmForm& form);
+// The XML with only those elements changed that say otherwise than `form`: StereoMode, angles that differ by a degree,
+// and the software where `has_new_source`. Nothing where can_update_v1() is false or the XML is not understood.
+std::optional<std::string> updated_v1(const std::string& xml, const FilmForm& form, bool has_new_source);
+
+// V2 knows no kBottomTop and no kOther; kMesh is not written.
+bool fits_v2(const FilmForm& form);
+// Preconditions: `form` has such eyes; it has such a projection, which is not flat.
+Box st3d_box(const FilmForm& form);
+Box sv3d_box(const FilmForm& form);
+// Changes the angles and the source of an sv3d box; all else in it stays byte for byte. Throws Broken.
+void update_sv3d(Box& sphere, const FilmForm& form);
+// From the boxes of a sample entry; nothing where it has neither. Throws Broken.
+std::optional<FilmForm> parse_v2(const Box& sample_entry);
+
+// The body of an equi or cbmp box, version and flags included, which Matroska has as ProjectionPrivate.
+std::string projection_body(const FilmForm& form);
+// The way back, for the projection that `form` has already.
+void parse_projection_body(const std::string& body, FilmForm& form);
+
+// An SA3D box: ambisonic sound.
+struct Ambisonics {
+  uint32_t order = 1;
+  uint32_t channels = 4;
+  bool has_head_locked = false;  // stereo that does not turn with the head
+};
+std::optional<Ambisonics> parse_sa3d(const std::string& body);
+// Channels in the order of ambisonics (ACN), normalised as SN3D has it.
+Box sa3d_box(const Ambisonics& sound);
+
+}  // namespace ods

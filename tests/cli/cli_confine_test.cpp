@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes that name files where they have no business, and scenes with nothing to render.
+#include <fmt/format.h>
+
+#include "tests/support/cli_runner.h"
+#include "tests/support/gltf_builder.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSecret = "root:x:0:0:secret";
+
+class Confine : public Cli {
+ protected:
+  Confine() {
+    const ods::Binary bytes = ods::make_triangle().binary;
+    for (const char* name : {"in", "out", "in/textures"}) fs::create_directory(folder.path(name));
+    for (const char* name : {"in/a b.bin", "in/textures/a.bin", "out/a.bin"})
+      folder.write(name, {bytes.begin(), bytes.end()});
+    folder.write("out/secret", kSecret);
+  }
+
+  // A triangle whose buffer is there; returns the scene's path.
+  std::string scene(const std::string& uri, const std::string& name = "in/scene.gltf") {
+    ods::GltfBuilder file = ods::make_triangle();
+    file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", uri}}};
+    folder.write(name, file.json.dump());
+    return folder.path(name);
+  }
+
+  int info(const std::string& path, bool confined) {
+    return run("info " + path + (confined ? " --confine " + folder.path("in") : ""));
+  }
+
+  void expect_refused(const std::string& words) {
+    EXPECT_EQ(out, "");
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find(words), std::string::npos) << err;
+    EXPECT_EQ(err.find("secret:"), std::string::npos) << err;
+  }
+};
+
+TEST_F(Confine, RelativePathsAreRead) {
+  for (const char* uri : {"a%20b.bin", "a b.bin", "./textures/../a b.bin", "textures/a.bin", "../in/a%20b.bin"}) {
+    EXPECT_EQ(info(scene(uri), false), 0) << uri << ": " << err;
+    EXPECT_EQ(info(scene(uri), true), 0) << uri << ": " << err;
+  }
+  EXPECT_EQ(info(scene("../out/a.bin"), false), 0) << err;
+}
+
+TEST_F(Confine, AbsolutePathsAndUrlsAreRefused) {
+  const std::string there = folder.path("out/a.bin");
+  std::string escaped = there;
+  escaped.replace(0, 1, "%2F");
+  for (const std::string& uri : {there, escaped, "/" + there, "file://" + there, "FILE:" + there,
+                                 std::string("https://example.org/a.bin"), std::string("ftp:a.bin")}) {
+    for (const bool confined : {false, true}) {
+      EXPECT_EQ(info(scene(uri), confined), 3) << uri;
+      expect_refused("relative to the scene");
+    }
+  }
+}
+
+TEST_F(Confine, NothingOutsideOfTheFolderIsRead) {
+  fs::create_symlink(folder.path("out/a.bin"), folder.path("in/link.bin"));
+  fs::create_directory_symlink(folder.path("out"), folder.path("in/away"));
+  fs::create_symlink(folder.path("in/a b.bin"), folder.path("in/inside.bin"));
+  for (const char* uri : {"../out/a.bin", "..%2Fout%2Fa.bin", "%2e%2e/out/a.bin", "link.bin", "away/a.bin",
+                          "textures/../../out/a.bin", "../out/absent.bin", "away/absent.bin"}) {
+    EXPECT_EQ(info(scene(uri), true), 3) << uri;
+    expect_refused("lies outside");
+  }
+  EXPECT_EQ(info(scene("inside.bin"), true), 0) << err;
+}
+
+TEST_F(Confine, TheSceneItselfAndTheSkyLieInsideToo) {
+  const std::string outside = scene("a.bin", "out/scene.gltf"), inside = scene("a b.bin");
+  fs::create_symlink(outside, folder.path("in/linked.gltf"));
+  for (const std::string& path : {outside, folder.path("in/linked.gltf"), folder.path("in/../out/scene.gltf")}) {
+    EXPECT_EQ(info(path, true), 3) << path;
+    expect_refused("lies outside");
+  }
+  const std::string confine = " --confine " + folder.path("in") + " ";
+  const std::string render = "render -q --width 16 --samples 1 -o " + folder.path("p.png") + confine;
+  EXPECT_EQ(run(render + inside), 0) << err;
+  EXPECT_EQ(run("render -q --width 16 --samples 1 furnace -o " + folder.path("out/sky.hdr")), 0) << err;
+  EXPECT_EQ(run(render + inside + " --env " + folder.path("out/sky.hdr")), 3);
+  expect_refused("lies outside");
+  fs::copy(folder.path("out/sky.hdr"), folder.path("in/sky.hdr"));
+  EXPECT_EQ(run(render + inside + " --env " + folder.path("in/sky.hdr")), 0) << err;
+  EXPECT_EQ(run("rig --scene " + outside + confine), 3);
+  expect_refused("lies outside");
+  EXPECT_EQ(run("film -q --width 16 --samples 1 " + outside + confine + " --duration 1 -o " + folder.path("f.mp4")), 3);
+  expect_refused("lies outside");
+}
+
+TEST_F(Confine, TheFolderMustBeThere) {
+  EXPECT_EQ(run("info " + scene("a b.bin") + " --confine " + folder.path("absent")), 3);
+  expect_refused("--confine: there is no folder");
+}
+
+// What a stranger reads in a message must not be what is in a file.
+TEST_F(Confine, MessagesQuoteNoOtherFile) {
+  ods::GltfBuilder file = ods::make_triangle();
+  file.json["images"] = {{{"uri", "../out/secret"}}};
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+  file.primitive()["material"] = 0;
+  const ods::Binary glb = file.glb();
+  folder.write("in/scene.glb", {glb.begin(), glb.end()});
+  EXPECT_EQ(info(folder.path("in/scene.glb"), false), 3);
+  expect_refused("");
+  EXPECT_EQ(err.find("root"), std::string::npos) << err;
+  EXPECT_EQ(info(scene("../out/secret"), false), 3);
+  expect_refused("");
+  EXPECT_EQ(err.find("root"), std::string::npos) << err;
+  fs::copy(folder.path("out/secret"), folder.path("in/secret.gltf"));
+  EXPECT_EQ(info(folder.path("in/secret.gltf"), false), 3);
+  EXPECT_EQ(err.find("root"), std::string::npos) << err;
+}
+
+class Empty : public Confine {
+ protected:
+  void expect_nothing_to_render(const ods::GltfBuilder& file) {
+    const ods::Binary glb = file.glb();
+    folder.write("in/scene.glb", {glb.begin(), glb.end()});
+    const std::string path = folder.path("in/scene.glb");
+    EXPECT_EQ(run("info " + path), 0) << err;
+    EXPECT_EQ(run("render --width 16 --samples 1 " + path + " -o " + folder.path("p.png")), 3);
+    EXPECT_NE(err.find("nothing to render"), std::string::npos) << err;
+    EXPECT_NE(err.find("scene.glb"), std::string::npos) << err;
+    EXPECT_FALSE(fs::exists(folder.path("p.png")));
+    EXPECT_EQ(run("film --width 16 --samples 1 --duration 1 " + path + " -o " + folder.path("f.mp4")), 3);
+    EXPECT_NE(err.find("nothing to render"), std::string::npos) << err;
+    EXPECT_FALSE(fs::exists(folder.path("f.mp4")));
+  }
+};
+
+TEST_F(Empty, NoNodes) {
+  ods::GltfBuilder file;
+  file.json = ods::Json::parse(R"({"asset": {"version": "2.0"}})");
+  expect_nothing_to_render(file);
+}
+
+TEST_F(Empty, ASceneWithoutNodes) {
+  ods::GltfBuilder file = ods::make_triangle();
+  file.json["scenes"] = ods::Json::parse(R"([{"nodes": []}])");
+  expect_nothing_to_render(file);
+}
+
+TEST_F(Empty, OnlyLines) {
+  ods::GltfBuilder file = ods::make_triangle();
+  file.primitive()["mode"] = 1;
+  expect_nothing_to_render(file);
+}
+
+TEST_F(Empty, EverythingIsScaledToNothing) {
+  ods::GltfBuilder file = ods::make_triangle();
+  file.node(0)["scale"] = {0, 0, 0};
+  expect_nothing_to_render(file);
+}
+
+}  // namespace

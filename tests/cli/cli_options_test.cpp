@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command answers to options that are wrong, and to those that every command has.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "ods/camera/camera_fields.h"
+#include "ods/picture/metadata/camera_file.h"
+#include "tests/support/cli_runner.h"
+
+namespace {
+
+TEST_F(Cli, BadOptionsAreUsageErrors) {
+  for (const char* words :
+       {"--width 0",     "--width 17",    "--width -2",        "--width 1e9",    "--width 99999999999999999999",
+        "--width x",     "--width 8.5",   "--samples 0",       "--samples -5",   "--bounces -1",
+        "--seed -1",     "--threads -1",  "--env nan",         "--env 1,2",      "--env -1",
+        "--env 1,1,1,1", "--eyes three",  "--layout diagonal", "--layout mono",  "--size huge",
+        "--tone loud",   "--filter tent", "--quality best",    "--exposure inf", "--progress loudly",
+        "--env=",        "--scene -1",    "--scene 0.5",       "--unknown",      "surplus",
+        "--width"}) {
+    EXPECT_EQ(run(render(words)), 2) << words;
+    expect_one_error();
+  }
+  EXPECT_EQ(run("render"), 2);
+  EXPECT_EQ(run("render furnace"), 2);
+  expect_one_error();
+}
+
+struct Quiet {
+  std::string words;
+  bool has_result = false;  // text, which is what the command is for
+};
+
+// Every command takes -q: it writes nothing to stderr, and nothing to stdout but a result that is text.
+TEST_F(Cli, QuietIsQuietInEveryCommand) {
+  const auto at = [&](const std::string& name) { return folder.path(name); };
+  const std::string tiny = " --width 32 --samples 1 ", png = at("p_TB.png"), film = at("f_360_TB.mp4");
+  const std::vector<Quiet> commands = {
+      {"render furnace" + tiny + "-o " + png},
+      {"render furnace --sidecar" + tiny + "-o " + at("eye_%V.png")},
+      {"render furnace" + tiny + "--frames 0-1 -o " + at("f.####.png")},
+      {"render furnace" + tiny + "--transparent --eyes mono -o " + at("front.exr")},
+      {"render furnace" + tiny + "--eyes mono -o " + at("back.exr")},
+      {"render axis --width 512 --samples 1 --filter box -o " + at("axis_TB.png")},
+      {"convert " + png + " -o " + at("c.png")},
+      {"encode " + at("f.####.png") + " -o " + film},
+      {"film furnace --duration 0.1" + tiny + "-o " + at("film.mp4")},
+      {"title X --width 64 --height 3 -o " + at("title.exr")},
+      {"over " + at("front.exr") + " " + at("back.exr") + " -o " + at("over.png")},
+      {"rig --nearest 1 --width 64 -o " + at("rig.json") + " --for blender"},
+      {"rig --nearest 1 --width 64", true},
+      {"render furnace --samples 1 --rig " + at("rig.json") + " -o " + at("v.####.exr")},
+      {"stitch " + at("rig.json") + " " + at("v.####.exr") + " -o " + at("s.png")},
+      {"stitch " + at("rig.json") + " " + at("w.####.exr") + " --list-missing", true},
+      {"inject " + film},
+      {"inject " + at("back.exr")},
+      {"testcard --width 64 -o " + at("card.png")},
+      {"testcard --width 64 --duration 0.1 -o " + at("card.mp4")},
+      {"camera --for unity --neck 0.1 -o " + at("camera.txt")},
+      {"camera --for unity --neck 0.1", true},
+      {"project 0,0,-1", true},
+      {"compare " + png + " " + at("c.png"), true},
+      {"lint " + at("axis_TB.png"), true},
+      {"probe " + film, true},
+      {"info furnace", true},
+      {"scenes", true},
+      {"sizes", true},
+  };
+  for (const Quiet& command : commands) {
+    EXPECT_EQ(run(command.words + " -q"), 0) << command.words << "\n" << err;
+    EXPECT_EQ(err, "") << command.words;
+    EXPECT_EQ(!out.empty(), command.has_result) << command.words << "\n" << out;
+  }
+}
+
+TEST_F(Cli, BadCamerasAreUsageErrors) {
+  for (const char* words : {"--ipd nan",
+                            "--ipd -0.1",
+                            "--ipd inf",
+                            "--position 1,2",
+                            "--position a,b,c",
+                            "--position nan,0,0",
+                            "--yaw nan",
+                            "--yaw ninety",
+                            "--merge cubic",
+                            "--projection mercator",
+                            "--range 0,400",
+                            "--face inside",
+                            "--convergence toe-in,0",
+                            "--axis 0,0,0",
+                            "--lens 1",
+                            "--like cycles:cheese=1",
+                            "--like cheese",
+                            "--merge map",
+                            "--projection cube-3x2 --width 100",
+                            "--fov 200 --projection perspective",
+                            "--merge cosine,80,60",
+                            "--merge cosine,10,95",
+                            "--merge cosine,",
+                            "--merge ,",
+                            "--merge cosine,60,90,0",
+                            "--merge cosine,60,90,1,1",
+                            "--merge-top nan",
+                            "--camera nowhere",
+                            "--camera="}) {
+    EXPECT_EQ(run(render(words)), 2) << words;
+    expect_one_error();
+  }
+}
+
+TEST_F(Cli, ANameThatMisleadsIsSaidOnce) {
+  for (const auto& [name, more] :
+       {std::pair<std::string, std::string>{"a_180_LR.png", ""}, {"a_180_LR.####.png", " --frames 1 --turntable 1"}}) {
+    ASSERT_EQ(run("render furnace --width 16 --samples 1 -o " + folder.path(name) + more), 0) << err;
+    const size_t at = err.find("its name ends in _LR, but it is top-bottom: readers will go by the name");
+    EXPECT_NE(at, std::string::npos) << err;
+    EXPECT_EQ(err.find("readers will go by the name", at + 60), std::string::npos) << err;
+  }
+}
+
+// The command line takes every camera that files take, and says it into them as it was given.
+TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
+  const std::string sidecar = folder.path("a.camera.json");
+  for (const bool most : {false, true}) {
+    for (const std::string projection : {"lat-long", "fisheye", "perspective"}) {
+      ods::CameraRig rig;
+      rig.projection = ods::find_projection(projection)->setting;
+      rig.top.mode = rig.bottom.mode = ods::kMergeCosine, rig.convergence = ods::kToeIn;
+      std::string words;
+      for (const ods::CameraField field : ods::kCameraFields) {
+        const ods::FieldRange range = range_of(field);
+        const bool derived = field == ods::CameraField::kAspect || field == ods::CameraField::kLongitude ||
+                             field == ods::CameraField::kLatitude || field == ods::CameraField::kMergeStart ||
+                             field == ods::CameraField::kMergeEnd || field == ods::CameraField::kFov;
+        for (float* number : numbers_of(rig, field)) *number = derived ? *number : most ? range.most : range.least;
+      }
+      const bool lens = projection != "lat-long";
+      if (lens) rig.projection.fov = projection == "fisheye" ? (most ? 360.0f : 1.0f) : most ? 170.0f : 0.001f;
+      if (!lens) rig.projection.pan = rig.projection.tilt = 0.0f;
+      if (!lens) rig.projection.longitude = most ? ods::vec2(35640, 36000) : ods::vec2(-36000, -35999);
+      words = fmt::format("--position {0},{0},{0} --yaw {1} --pitch {1} --roll {1} --ipd {2} --neck {3}",
+                          rig.position.x, rig.yaw, rig.ipd, rig.neck);
+      words += fmt::format(" --merge cosine,60,90,{} --convergence toe-in,{} --lens {},{}", rig.top.exponent,
+                           rig.convergence_distance, rig.lens_radius, rig.focus_distance);
+      words += lens ? fmt::format(" --fov {} --look {},{}", rig.projection.fov, rig.projection.pan, rig.projection.tilt)
+                    : fmt::format(" --range {},{}", rig.projection.longitude.x, rig.projection.longitude.y);
+      ASSERT_EQ(run("camera --for json --width 64 --projection " + projection + " " + words + " -o " + sidecar), 0)
+          << words << "\n"
+          << err;
+      std::vector<std::string> warnings;
+      const ods::CameraFile back = ods::load_camera(sidecar, warnings);
+      rig.projection.aspect = back.rig.projection.aspect;
+      EXPECT_EQ(back.rig, rig) << words;
+      ASSERT_EQ(run("camera --for json --from " + sidecar + " -o " + sidecar), 0) << err;
+    }
+  }
+}
+
+TEST_F(Cli, CamerasBeyondTheirRangesAreUsageErrors) {
+  for (const char* words :
+       {"--yaw 36001", "--ipd 10001", "--neck 1001", "--merge cosine,60,90,1e-7", "--lens 10.1,1",
+        "--convergence toe-in,0.0009", "--range 36000,36010", "--projection perspective --fov 0.0009",
+        "--projection fisheye --look 0,36001", "--position 1000001,0,0", "--like arnold:eye_to_neck=1001"}) {
+    EXPECT_EQ(run(std::string("camera --width 64 ") + words), 2) << words;
+    expect_one_error();
+  }
+}
+
+}  // namespace

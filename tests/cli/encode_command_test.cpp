@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods encode as its users meet it.
+#include <algorithm>
+#include <filesystem>
+
+#include "ods/video/container/film.h"
+#include "ods/video/encode.h"
+#include "tests/support/cli_runner.h"
+#include "tests/support/made_frames.h"
+
+namespace {
+
+using ods::Layout;
+
+class EncodeCommand : public Cli {
+ protected:
+  std::string pattern(const std::string& name = "a.#.png") const { return folder.path(name); }
+
+  void expect_one_line(const std::string& words) const {
+    EXPECT_EQ(out, "");
+    EXPECT_TRUE(err.starts_with("ods: error: ")) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find(words), std::string::npos) << err;
+  }
+};
+
+TEST_F(EncodeCommand, FramesBecomeAFilm) {
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  const std::string film = folder.path("film_360_TB.mp4");
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --fps 29.97 -o " + film), 0) << err;
+  EXPECT_EQ(out, film + "\n");
+  EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 3 frames at 29.97 a second"), std::string::npos) << err;
+  EXPECT_NE(err.find("top-bottom: it has the shape of two eyes"), std::string::npos) << err;
+  EXPECT_EQ(err.find("warning"), std::string::npos) << err;
+}
+
+TEST_F(EncodeCommand, SoundOfAFilmThatIsThereCanBeSaidToBeAmbisonics) {
+  ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
+  folder.write("sound.wav", ods::made::wav(4, 0.2));
+  const std::string film = folder.path("film.mov"), encode = "encode -q " + pattern() + " --codec h264 -o ";
+  ASSERT_EQ(run(encode + film + " --audio " + folder.path("sound.wav")), 0) << err;
+  const std::string said = folder.read("film.mov");
+  std::string unsaid = said;
+  unsaid.replace(unsaid.find("SA3D"), 4, "free");
+  folder.write("film.mov", unsaid);
+  EXPECT_FALSE(ods::read_film(film).sound.at(0).ambisonics);
+  ASSERT_EQ(run("inject --ambisonics --layout top-bottom --projection lat-long " + film), 0) << err;
+  EXPECT_TRUE(ods::read_film(film).sound.at(0).ambisonics);
+  ASSERT_EQ(run(encode + film), 0) << err;
+  EXPECT_EQ(run("inject --ambisonics " + film), 2);
+  expect_one_line("has 0 tracks of sound");
+}
+
+TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
+  ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
+  const std::string words =
+      "encode " + pattern() + " --codec h264 -o " + folder.path("film.mp4") + " --audio " + folder.path("sound.wav");
+  folder.write("sound.wav", ods::made::wav(2, 1.0));
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_NE(err.find("the sound, 1.0 s, is cut where the pictures end, at 0.2 s"), std::string::npos) << err;
+  folder.write("sound.wav", ods::made::wav(2, 0.1));
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_NE(err.find("warning: the sound ends at 0.1 s, the pictures at 0.2 s"), std::string::npos) << err;
+  folder.write("sound.wav", ods::made::wav(3, 0.1));
+  EXPECT_EQ(run(words), 3);
+  expect_one_line("it has 3 channels");
+}
+
+// Whatever of a sound file's header is wrong: one line without addresses, of the input; nothing is left.
+TEST_F(EncodeCommand, BrokenSoundIsOneCleanLine) {
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  const std::string words = "encode -q " + pattern() + " --codec h264 --preset ultrafast -o " +
+                            folder.path("film.mp4") + " --audio " + folder.path("sound.wav");
+  const std::string whole = ods::made::wav(2, 0.2);
+  const auto expect_clean = [&] {
+    EXPECT_EQ(err.find(" @ 0x"), std::string::npos) << err;
+    expect_one_line("sound.wav");
+    EXPECT_EQ(files(), 4u);
+  };
+  std::string fast = whole;
+  fast.replace(24, 4, std::string("\xff\xff\xff\x7f", 4));  // samples a second
+  folder.write("sound.wav", fast);
+  EXPECT_EQ(run(words), 3);
+  expect_clean();
+  EXPECT_NE(err.find("it claims 2147483647 samples a second"), std::string::npos) << err;
+  for (size_t at = 0; at < 44; at += 4) {
+    std::string bad = whole;
+    for (size_t i = at; i < at + 4; i++) bad[i] = '\xff';
+    folder.write("sound.wav", bad);
+    const int code = run(words);
+    if (code == 0) {
+      std::filesystem::remove(folder.path("film.mp4"));
+      continue;
+    }
+    EXPECT_EQ(code, 3) << at;
+    expect_clean();
+  }
+}
+
+// --- what goes wrong -------------------------------------------------------------------------------------------------
+
+TEST_F(EncodeCommand, ExitCodesSayWhatWasWrong) {
+  ods::made::write_frames(pattern(), {1, 2, 4});
+  const size_t before = files();
+  const std::string film = folder.path("film.mp4"), all = "encode " + pattern() + " --frames 1-2 ";
+  const std::tuple<std::string, int, const char*> kCases[] = {
+      {"encode " + pattern() + " -o " + film, 3, "frames are missing: 3 of"},
+      {all, 2, "-o film.mp4"},
+      {all + "-o " + folder.path("film.avi"), 2, "ends in .mp4, .mov, .mkv or .webm"},
+      {all + "-o " + folder.path("film.webm") + " --codec h264", 2,
+       "webm holds av1, vp9, not h264, which goes into mp4, mov, mkv"},
+      {all + "-o " + film + " --target master", 2, "not prores, which goes into mov, mkv"},
+      {all + "-o " + film + " --codec mpeg1", 2, "--codec is one of h264, hevc, av1, vp9, prores, not 'mpeg1'"},
+      {all + "-o " + film + " --encoder h263", 2, "--encoder is one of"},
+      {all + "-o " + film + " --encoder libx265 --codec h264", 2, "libx265 does not encode h264"},
+      {all + "-o " + film + " --bits 9", 2, "there is no h264 of 9 bits"},
+      {all + "-o " + film + " --crf 60", 2, "from 0, the best, to 51"},
+      {all + "-o " + film + " --fps 0", 2, "--fps is a number or a fraction"},
+      {all + "-o " + film + " --fps 30/0", 2, "--fps is a number or a fraction"},
+      {all + "-o " + film + " --fps nan", 2, "--fps is a number or a fraction"},
+      {all + "-o " + film + " --layout anaglyph", 2, "top-bottom or side-by-side"},
+      {all + "-o " + folder.path("a.1.png/film.mp4"), 4, "film.mp4"},
+      {"encode " + pattern() + " --frames 1-x -o " + film, 2, "frames '1-x'"},
+      {"encode " + folder.path("b.#.png") + " -o " + film, 3, "there is no file like"},
+  };
+  for (const auto& [words, code, why] : kCases) {
+    EXPECT_EQ(run(words), code) << words << err;
+    expect_one_line(why);
+  }
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(EncodeCommand, AFullDiskLeavesNothing) {
+  ods::TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: this machine lets nobody mount a disk";
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  disk.fill();
+  for (const char* name : {"film.mp4", "film.mkv"}) {
+    EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + disk.folder().path(name)), 4);
+    expect_one_line("cannot write");
+  }
+  EXPECT_EQ(disk.folder().names(), std::vector<std::string>{"ballast"});
+}
+
+TEST_F(EncodeCommand, ALimitOnFilesLeavesNothing) {
+  ods::made::write_frames(pattern(), {1, 2, 3});
+  const size_t before = files();
+  EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + folder.path("film.mp4"), 200), 4);
+  expect_one_line("cannot write");
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
+  std::vector<int> frames;
+  for (int i = 1; i <= 40; i++) frames.push_back(i);
+  ods::made::write_frames(pattern(), frames);
+  const size_t before = files();
+  for (const char* encoder : {"libx264", "libsvtav1"}) {
+    if (!ods::has_encoder(encoder)) continue;
+    Ods command({"encode", pattern(), "-o", folder.path("film.mp4"), "--encoder", encoder, "--progress", "json"});
+    command.wait_for("\"progress\"");
+    command.kill(SIGINT);
+    EXPECT_EQ(command.finish(), 130);
+    if (std::filesystem::exists(folder.path("film.mp4"))) {  // it came when the film was there: all of it
+      EXPECT_EQ(ods::read_film(folder.path("film.mp4")).video.size(), 1u);
+      std::filesystem::remove(folder.path("film.mp4"));
+    }
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(EncodeCommand, SizesThatNoLevelHoldsAreSaidWithTheLargest) {
+  ods::made::write_frames(pattern(), {1}, Layout::kTopBottom, {4096, 544});
+  const std::string words = "encode " + pattern() + " --from-layout top-bottom --from lat-long --codec h264 " +
+                            "--preset ultrafast -o " + folder.path("film.mp4");
+  ASSERT_EQ(run(words + " --fps 900"), 0) << err;
+  EXPECT_EQ(err.find("no level"), std::string::npos) << err;
+  ASSERT_EQ(run(words + " --fps 1000"), 0) << err;
+  EXPECT_NE(err.find("no level of H.264 holds 4096x1088 at 1000 frames a second"), std::string::npos) << err;
+  EXPECT_NE(err.find("the largest is 3968x1054"), std::string::npos) << err;
+}
+
+TEST_F(EncodeCommand, NamesThatPlayersGoByAreSuggested) {
+  ods::made::write_frames(pattern(), {1});
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("film.mp4")), 0) << err;
+  EXPECT_NE(err.find("would know it as film_360_TB.mp4"), std::string::npos) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("film_360_LR.mp4")), 0) << err;
+  EXPECT_NE(err.find("its name says side-by-side"), std::string::npos) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --bits 10 -o " + folder.path("film_360_TB.mp4")), 0) << err;
+  EXPECT_NE(err.find("few players take h264 of 10 bits"), std::string::npos) << err;
+  EXPECT_EQ(err.find("its name says"), std::string::npos) << err;
+}
+
+TEST_F(EncodeCommand, ATitleGoesOverAFilm) {
+  ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
+  folder.write("sound.wav", ods::made::wav(2, 0.2));
+  const std::string film = folder.path("film_360_TB.mp4"), made = folder.path("made_360_TB.mp4");
+  const std::string title = folder.path("title.exr"), over = "over " + title + " " + film + " --progress none -o ";
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --audio " + folder.path("sound.wav") + " -q -o " + film), 0);
+  ASSERT_EQ(run("title End --at 0,0,2 --height 1 --width 64 -o " + title), 0) << err;
+  ASSERT_EQ(run("over " + title + " " + film + " -o " + made), 0) << err;
+  EXPECT_EQ(out, made + "\n");
+  EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 6 frames at 30 a second"), std::string::npos) << err;
+  EXPECT_EQ(ods::read_film(made).sound.size(), 1u);
+  ASSERT_EQ(run(over + folder.path("x.#.png") + " --frames 2-4x2"), 0) << err;
+  EXPECT_EQ(out, folder.path("x.2.png") + "\n" + folder.path("x.4.png") + "\n");
+  const std::pair<std::string, const char*> kWrong[] = {{made + " --frames 1-5x2", "follow each other"},
+                                                        {made + " --frames 3-1", "rise"},
+                                                        {film, "overwritten"},
+                                                        {folder.path("x.png"), "place for the number"}};
+  for (const auto& [words, fault] : kWrong) {
+    EXPECT_EQ(run(over + words), 2) << words;
+    expect_one_line(fault);
+  }
+}
+
+TEST_F(EncodeCommand, TheTestCardIsAFilm) {
+  const std::string film = folder.path("card_360_TB.mp4");
+  ASSERT_EQ(run("testcard --film --width 128 --duration 0.2 -o " + film), 0) << err;
+  EXPECT_EQ(out, film + "\n");
+  EXPECT_NE(err.find("128x128, 6 frames at 30 a second"), std::string::npos) << err;
+  EXPECT_EQ(run("testcard --film --layout anaglyph -o " + film), 2);
+  expect_one_line("a film's layout is");
+  EXPECT_EQ(run("testcard --film -o " + folder.path("card.png")), 2);
+  expect_one_line("no name of a film");
+}
+
+}  // namespace

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures with depth whose eyes are moved, against the world that they are of: a ball in a box, in closed form.
+#include "ods/convert/reproject.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ods/kernel/camera/project.h"
+#include "tests/support/stored_pictures.h"
+
+namespace ods {
+namespace {
+
+const std::vector<int> kBoth{kLeft, kRight};
+const vec3 kBox(3.0f, 2.0f, 3.0f);  // half of it
+const vec3 kBall(0.4f, -0.1f, -1.2f);
+const float kRadius = 0.35f;
+
+struct Seen {
+  float depth;
+  bool ball;
+  vec3 color;
+};
+
+Seen look_at_world(const Ray& ray) {
+  float box = 1e9f;
+  for (int i = 0; i < 3; i++) {
+    const float d = ray.direction[i];
+    if (d != 0.0f) box = std::min(box, (std::copysign(kBox[i], d) - ray.origin[i]) / d);
+  }
+  const vec3 away = ray.origin - kBall;
+  const float b = dot(away, ray.direction), square = b * b - dot(away, away) + kRadius * kRadius;
+  const bool ball = square > 0.0f && -b - std::sqrt(square) > 0.0f;
+  const float depth = ball ? -b - std::sqrt(square) : box;
+  const vec3 p = ray.origin + ray.direction * depth;
+  const vec3 color =
+      ball ? vec3(0.9f, 0.2f + 0.1f * std::sin(9.0f * p.x), 0.1f)
+           : vec3(0.1f, 0.5f + 0.3f * std::sin(4.0f * p.x + 3.0f * p.z), 0.5f + 0.3f * std::sin(4.0f * p.y));
+  return {depth, ball, color};
+}
+
+MadePicture picture_of_world(const CameraRig& rig, Extent size, const std::vector<int>& eyes) {
+  MadePicture made = make_picture(rig, size, eyes);
+  const Camera camera = make_camera(rig);
+  add_colour(made, [&](int eye, vec2 uv, float* out) {
+    const vec3 color = look_at_world(camera_ray(camera, eye, uv)).color;
+    std::copy(&color[0], &color[0] + 3, out);
+  });
+  add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat,
+                   [&](int eye, vec2 uv, float* out) { *out = look_at_world(camera_ray(camera, eye, uv)).depth; });
+  return made;
+}
+
+struct Result {
+  double psnr = 0.0;
+  double depth_off = 0.0;  // share of pixels whose depth is not within a hundredth
+  double holes = 0.0;      // share of all
+  double needless = 0.0;   // share of all: holes where a picture had something
+};
+
+// Whether the picture saw the point that the ray meets.
+bool was_seen(const MadePicture& made, const Ray& ray, float depth) {
+  const Camera camera = make_camera(made.picture.rig);
+  const vec3 point = ray.origin + ray.direction * depth;
+  for (const StoredEye& eye : made.picture.eyes) {
+    const ImagePosition at = project_point(camera, eye.eye, point);
+    const Seen seen = look_at_world(camera_ray(camera, eye.eye, at.uv));
+    if (at.seen && std::abs(seen.depth - at.depth) < 0.02f * at.depth) return true;
+  }
+  return false;
+}
+
+Result convert_and_measure(const MadePicture& made, const ConvertTarget& target) {
+  EXPECT_EQ(conversion_fault(made.picture, target), "");
+  const Conversion conversion = convert(made.picture, target);
+  EXPECT_TRUE(conversion.sees_around);
+  const std::vector<Image> images = images_of(conversion.rows);
+  const Camera camera = make_camera(target.rig);
+  double squares = 0.0;
+  int64_t filled = 0, holes = 0, off = 0, needless = 0;
+  for (size_t eye = 0; eye < images.size(); eye++) {
+    for (int i = 0; i < target.eye.width * target.eye.height; i++) {
+      const int x = i % target.eye.width, y = i / target.eye.width;
+      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(target.eye.width),
+                    (static_cast<float>(y) + 0.5f) / static_cast<float>(target.eye.height));
+      const Ray ray = camera_ray(camera, target.eyes[eye], uv);
+      const Seen seen = look_at_world(ray);
+      const float* pixel = images[eye].at(x, y);  // R, G, B, A, Z
+      if (pixel[3] == 0.0f) {
+        holes++;
+        needless += was_seen(made, ray, seen.depth);
+        continue;
+      }
+      filled++;
+      for (int c = 0; c < 3; c++) squares += std::pow(double{pixel[c] - seen.color[c]}, 2);
+      off += std::abs(pixel[4] - seen.depth) > 0.01f * seen.depth;
+    }
+  }
+  EXPECT_EQ(*conversion.empty, holes);
+  const double all = static_cast<double>(filled + holes);
+  return {-10.0 * std::log10(squares / static_cast<double>(3 * filled)), static_cast<double>(off) / all,
+          static_cast<double>(holes) / all, static_cast<double>(needless) / all};
+}
+
+TEST(Reproject, NewDistanceBetweenTheEyes) {
+  CameraRig rig;
+  const MadePicture made = picture_of_world(rig, {512, 256}, kBoth);
+  for (const float ipd : {0.03f, 0.05f, 0.1f}) {
+    ConvertTarget target = target_of(made, rig.projection, made.picture.size);
+    target.rig.ipd = ipd;
+    const Result result = convert_and_measure(made, target);
+    EXPECT_GT(result.psnr, 40.0) << ipd;
+    EXPECT_LT(result.depth_off, 0.002) << ipd;
+    EXPECT_LT(result.holes, 0.01) << ipd;  // most of them straight up and down, where no eye looks
+    EXPECT_LT(result.needless, 0.001) << ipd;
+  }
+}
+
+TEST(Reproject, NewMerge) {
+  CameraRig rig;
+  const MadePicture made = picture_of_world(rig, {512, 256}, kBoth);
+  ConvertTarget target = target_of(made, projection_named("cube-3x2"), {384, 256});
+  target.rig.top.mode = kMergeCosine;
+  target.rig.bottom = {kMergeSmoothstep, 30.0f, 80.0f, 1.0f};
+  const Result result = convert_and_measure(made, target);
+  EXPECT_GT(result.psnr, 40.0);
+  EXPECT_LT(result.needless, 0.001);
+}
+
+// Moved by nothing, everything is where it was.
+TEST(Reproject, MeetsWhatThePictureShows) {
+  const MadePicture made = picture_of_world(CameraRig(), {256, 128}, kBoth);
+  const Source source = make_source(made.picture);
+  const Reprojection reprojection = make_reprojection(source);
+  for (int i = 0; i < 256 * 128; i++) {
+    const vec2 uv((static_cast<float>(i % 256) + 0.5f) / 256.0f, (static_cast<float>(i / 256) + 0.5f) / 128.0f);
+    const Ray ray = camera_ray(source.camera, kLeft, uv);
+    const SurfaceHit met = meet_surface(reprojection, 0, ray);
+    ASSERT_TRUE(met.place.seen) << i;
+    EXPECT_EQ(met.place.eye, 0);
+    EXPECT_NEAR(met.place.at.y, uv.y * 128.0f, 0.01f);
+    EXPECT_NEAR(met.depth, look_at_world(ray).depth, 1e-3f) << i;
+  }
+}
+
+// Depths as others write them: nothing there, or nonsense.
+TEST(Reproject, BadDepths) {
+  const float bad[] = {0.0f, -1.0f, std::nanf(""), INFINITY, 1e-30f, 1e10f};
+  MadePicture made = make_picture(CameraRig(), {24, 12}, kBoth);
+  add_colour(made, [](int, vec2, float* out) { out[0] = out[1] = out[2] = 0.5f; });
+  add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat,
+                   [&](int, vec2 uv, float* out) { *out = bad[static_cast<int>(uv.x * 6.0f)]; });
+  ConvertTarget target = target_of(made, projection_named("eac"), {24, 16});
+  target.rig.ipd = 0.2f;
+  const Conversion conversion = convert(made.picture, target);
+  EXPECT_EQ(conversion.no_depth, 2 * 12 * 12);  // both eyes; 0, -1 and NaN are half of each
+  for (const Image& image : images_of(conversion.rows)) {
+    for (const float value : image.pixels) EXPECT_FALSE(std::isnan(value));
+  }
+}
+
+TEST(Reproject, TwoEyesFromOne) {
+  CameraRig rig;
+  const MadePicture made = picture_of_world(rig, {512, 256}, {kMono});
+  ConvertTarget target = target_of(made, rig.projection, made.picture.size);
+  target.eyes = kBoth;
+  const Result result = convert_and_measure(made, target);
+  EXPECT_GT(result.psnr, 40.0);
+  EXPECT_LT(result.needless, 0.001);
+  EXPECT_GT(result.holes, 0.0002);  // beside the ball
+  EXPECT_LT(result.holes, 0.002);
+}
+
+}  // namespace
+}  // namespace ods

@@ -1,0 +1,417 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every projection against its definition in double precision, its inverse, and the whole camera through each of them.
+#include "ods/camera/projection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ods/camera/camera_rig.h"
+#include "ods/kernel/camera/project.h"
+#include "tests/support/exact_camera.h"
+#include "tests/support/statistics.h"
+
+namespace ods {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+dvec3 at_angles(double theta, double phi) {
+  return {std::sin(theta) * std::cos(phi), std::sin(phi), -std::cos(theta) * std::cos(phi)};
+}
+
+// pan to the right, then tilt up.
+dvec3 turned(dvec3 d, double pan, double tilt) {
+  const dvec3 up(d.x, d.y * std::cos(tilt) - d.z * std::sin(tilt), d.y * std::sin(tilt) + d.z * std::cos(tilt));
+  return {up.x * std::cos(pan) - up.z * std::sin(pan), up.y, up.x * std::sin(pan) + up.z * std::cos(pan)};
+}
+
+dvec3 exact_fisheye(const ProjectionSetting& setting, dvec2 uv) {
+  const double x = 2.0 * uv.x - 1.0, y = 1.0 - 2.0 * uv.y, r = std::hypot(x, y);
+  const double fov = glm::radians(double{setting.fov});
+  const double angle =
+      setting.kind == kFisheye ? fov / 2.0 * r : 2.0 * std::asin(std::min(r * std::sin(fov / 4.0), 1.0));
+  const double roll = std::atan2(y, x);
+  return {std::sin(angle) * std::cos(roll), std::sin(angle) * std::sin(roll), -std::cos(angle)};
+}
+
+// The faces as the VR camera for Arnold's source lists them, s to the right and t up; kEac as players unfold it.
+dvec3 exact_face(int kind, int cell, double s, double t) {
+  if (kind == kCube3x2) {
+    const dvec3 faces[] = {{s, t, -1}, {-s, 1, -t}, {-s, -1, t}, {1, t, s}, {-s, t, 1}, {-1, t, -s}};
+    return faces[cell];
+  }
+  if (kind == kEac) {
+    s = std::tan(kExactPi / 4.0 * s), t = std::tan(kExactPi / 4.0 * t);
+    const dvec3 faces[] = {{-1, t, -s}, {s, t, -1}, {1, t, s}, {t, -1, s}, {t, s, 1}, {t, 1, -s}};
+    return faces[cell];
+  }
+  const dvec3 faces[] = {{1, -s, t}, {-1, s, t}, {s, -t, 1}, {s, t, -1}, {s, 1, t}, {-s, -1, t}};
+  return faces[cell];
+}
+
+dvec3 exact_cube(int kind, dvec2 uv) {
+  const int columns = kind == kCube6x1 ? 6 : kind == kCube1x6 ? 1 : 3, rows = 6 / columns;
+  const int column = std::min(static_cast<int>(uv.x * columns), columns - 1);
+  const int row = std::min(static_cast<int>(uv.y * rows), rows - 1);
+  return exact_face(kind, row * columns + column, 2.0 * (uv.x * columns - column) - 1.0,
+                    1.0 - 2.0 * (uv.y * rows - row));
+}
+
+dvec3 exact_direction(const ProjectionSetting& setting, dvec2 uv) {
+  const auto angle = [](float low, float high, double at) {
+    return glm::radians(glm::mix(double{low}, double{high}, at));
+  };
+  const double pan = glm::radians(double{setting.pan}), tilt = glm::radians(double{setting.tilt});
+  const double theta = angle(setting.longitude.x, setting.longitude.y, uv.x);
+  switch (setting.kind) {
+    case kLatLong:
+      return at_angles(theta, angle(setting.latitude.y, setting.latitude.x, uv.y));
+    case kCylinder: {
+      const double top = std::tan(glm::radians(double{setting.latitude.y}));
+      const double bottom = std::tan(glm::radians(double{setting.latitude.x}));
+      return {std::sin(theta), glm::mix(top, bottom, uv.y), -std::cos(theta)};
+    }
+    case kFisheye:
+    case kFisheyeEquisolid:
+      return turned(exact_fisheye(setting, uv), pan, tilt);
+    case kPerspective: {
+      const double half = std::tan(glm::radians(double{setting.fov}) / 2.0);
+      return turned({half * (2.0 * uv.x - 1.0), half / double{setting.aspect} * (1.0 - 2.0 * uv.y), -1.0}, pan, tilt);
+    }
+    default:
+      return exact_cube(setting.kind, uv);
+  }
+}
+
+// Each named one as it stands, and with numbers of its own.
+std::vector<ProjectionSetting> many_settings(Dice& dice) {
+  std::vector<ProjectionSetting> settings;
+  for (const NamedProjection& named : named_projections()) {
+    settings.push_back(named.setting);
+    ProjectionSetting other = named.setting;
+    other.longitude.x = dice.between(-400.0f, 300.0f);
+    other.longitude.y = other.longitude.x + dice.between(20.0f, 350.0f);
+    other.latitude = vec2(dice.between(-85.0f, -5.0f), dice.between(5.0f, 85.0f));
+    other.fov = dice.between(20.0f, other.kind == kPerspective ? 160.0f : 350.0f);
+    other.aspect = dice.between(0.3f, 3.0f);
+    other.pan = dice.between(-180.0f, 180.0f);
+    other.tilt = dice.between(-90.0f, 90.0f);
+    settings.push_back(other);
+  }
+  return settings;
+}
+
+bool in_circle(dvec2 uv) {
+  return length(uv - dvec2(0.5)) < 0.4999;
+}
+
+TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
+  Dice dice(1);
+  for (const ProjectionSetting& setting : many_settings(dice)) {
+    ASSERT_EQ(projection_fault(setting), "");
+    const Projection projection = make_projection(setting);
+    for (int i = 0; i < 10000; i++) {
+      const vec2 uv = dice.pair();
+      if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
+      const Look look = look_of(projection, uv, uv);
+      const dvec3 exact = normalize(exact_direction(setting, uv));
+      ASSERT_TRUE(look.seen);
+      ASSERT_LT(angle_between(look.direction, exact), 1e-6) << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
+      ASSERT_NEAR(length(look.direction), 1.0f, 5e-7f);
+      ASSERT_NEAR(look.elevation, std::asin(glm::clamp(exact.y, -1.0, 1.0)), 1e-3);
+      const double level = std::hypot(exact.x, exact.z);
+      if (level > 1e-3) {
+        ASSERT_LT(length(dvec3(look.heading) - dvec3(exact.x, 0.0, exact.z) / level), 2e-6 / level);
+      }
+      // Back: the place where the found direction lies looks that way again.
+      const ImagePlace place = place_of(projection, look.direction * 3.0f);
+      const vec2 inside = clamp(place.uv, vec2(0.0f), vec2(1.0f));
+      ASSERT_LT(length(place.uv - inside), 1e-5f) << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
+      ASSERT_LT(angle_between(exact, exact_direction(setting, place.uv)), 3e-6)
+          << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
+    }
+  }
+}
+
+// What lies outside is known to: no place is seen whose direction is another.
+TEST(Projections, KnowWhatTheyDoNotSee) {
+  Dice dice(2);
+  for (const ProjectionSetting& setting : many_settings(dice)) {
+    const Projection projection = make_projection(setting);
+    int seen = 0;
+    for (int i = 0; i < 10000; i++) {
+      const vec3 direction = normalize(vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)));
+      const ImagePlace place = place_of(projection, direction);
+      if (!place.seen) continue;
+      seen++;
+      ASSERT_LT(angle_between(direction, exact_direction(setting, place.uv)), 3e-6) << projection_name(setting);
+    }
+    EXPECT_GT(seen, 20) << projection_name(setting);
+    const bool all = setting.kind >= kCube3x2 || is_full_lat_long(setting);
+    EXPECT_EQ(seen == 10000, all) << projection_name(setting);
+  }
+  const Projection half = make_projection(find_projection("vr180")->setting);
+  EXPECT_FALSE(place_of(half, vec3(0.1f, 0.0f, 1.0f)).seen);
+  EXPECT_TRUE(place_of(half, vec3(0.1f, 0.0f, -1.0f)).seen);
+  const Projection dome = make_projection(find_projection("dome")->setting);
+  EXPECT_FALSE(place_of(dome, vec3(0.0f, -0.1f, -1.0f)).seen);
+  EXPECT_FALSE(look_of(dome, vec2(0.02f), vec2(0.02f)).seen);
+  EXPECT_LT(length(look_of(dome, vec2(0.5f), vec2(0.5f)).direction - vec3(0, 1, 0)), 1e-6f);
+}
+
+// A pixel filter reaches over a face's edge: the face goes on there, the neighbour in the picture does not matter.
+TEST(Projections, FacesGoOnBeyondTheirCells) {
+  for (int kind : {kCube3x2, kCube6x1, kCube1x6, kEac}) {
+    ProjectionSetting setting;
+    setting.kind = kind;
+    const Projection projection = make_projection(setting);
+    const int columns = cube_columns(kind), rows = 6 / columns;
+    const vec2 cell(1.0f / static_cast<float>(columns), 1.0f / static_cast<float>(rows));
+    for (int i = 0; i < 6; i++) {
+      const vec2 home = (vec2(i % columns, i / columns) + vec2(0.99f, 0.5f)) * cell;
+      const vec3 in = look_of(projection, home, home).direction;
+      const vec3 out = look_of(projection, home, home + vec2(0.02f, 0.0f) * cell).direction;
+      EXPECT_NEAR(angle_between(in, out), 0.02 * kExactPi / (kind == kEac ? 2.0 : 4.0) * (kind == kEac ? 1.0 : 1.27),
+                  1e-2);
+      EXPECT_LT(angle_between(in, out), 0.05) << kind << ' ' << i;
+    }
+  }
+}
+
+// Seen from inside, no face is mirrored; and in the rows that players show as strips, neighbours share an edge.
+TEST(Projections, FacesAreSeenFromInside) {
+  for (int kind : {kCube3x2, kCube6x1, kCube1x6, kEac}) {
+    for (int cell = 0; cell < 6; cell++) {
+      const CubeFace face = cube_cell(kind, cell);
+      EXPECT_EQ(cross(face.right, face.top), -face.middle) << kind << ' ' << cell;
+    }
+  }
+  const auto joined = [](int kind, int cell) {
+    const CubeFace left = cube_cell(kind, cell), right = cube_cell(kind, cell + 1);
+    return left.right == right.middle && right.right == -left.middle && left.top == right.top;
+  };
+  for (int cell : {0, 1, 3, 4}) EXPECT_TRUE(joined(kEac, cell)) << cell;
+  for (int cell : {3, 4}) EXPECT_TRUE(joined(kCube3x2, cell)) << cell;
+}
+
+TEST(Projections, HaveNames) {
+  for (const NamedProjection& named : named_projections()) {
+    EXPECT_EQ(find_projection(named.name), &named);
+    EXPECT_EQ(projection_name(named.setting), named.name);
+    EXPECT_EQ(projection_fault(named.setting), "");
+  }
+  EXPECT_EQ(find_projection("mercator"), nullptr);
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    ProjectionSetting setting;
+    setting.kind = kind;
+    EXPECT_FALSE(projection_name(setting).empty()) << kind;
+  }
+}
+
+TEST(Projections, HaveTheirNaturalHeight) {
+  const auto height = [](const char* name, int width) { return natural_height(find_projection(name)->setting, width); };
+  EXPECT_EQ(height("lat-long", 4096), 2048);
+  EXPECT_EQ(height("vr180", 2048), 2048);
+  EXPECT_EQ(height("fisheye", 1000), 1000);
+  EXPECT_EQ(height("cube-3x2", 1536), 1024);
+  EXPECT_EQ(height("cube-6x1", 1536 * 6), 1536);
+  EXPECT_EQ(height("cube-1x6", 1536), 1536 * 6);
+  EXPECT_EQ(height("eac", 3000), 2000);
+  EXPECT_EQ(height("cylinder", 6283), 3464);  // 2 pi wide, 2 tan(60) high
+}
+
+TEST(Projections, FaultsAreTold) {
+  for (auto spoil :
+       {+[](ProjectionSetting& s) { s.longitude = vec2(10.0f, 10.0f); },
+        +[](ProjectionSetting& s) { s.longitude = vec2(0.0f, 361.0f); },
+        +[](ProjectionSetting& s) { s.latitude.y = 91.0f; },
+        +[](ProjectionSetting& s) { s.latitude.x = std::nanf(""); }, +[](ProjectionSetting& s) { s.kind = kCylinder; },
+        +[](ProjectionSetting& s) { s.kind = kFisheye, s.fov = 361.0f; },
+        +[](ProjectionSetting& s) { s.kind = kPerspective; },
+        +[](ProjectionSetting& s) { s.kind = kPerspective, s.fov = 90.0f, s.aspect = 0.0f; }}) {
+    ProjectionSetting setting;
+    spoil(setting);
+    EXPECT_NE(projection_fault(setting), "") << setting.kind;
+  }
+}
+
+// --- the camera through them -----------------------------------------------------------------------------------------
+
+CameraRig odd_rig(Dice& dice, const ProjectionSetting& setting, int convergence) {
+  CameraRig rig;
+  rig.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
+  rig.yaw = dice.between(-180, 180), rig.pitch = dice.between(-40, 40), rig.roll = dice.between(-40, 40);
+  rig.projection = setting;
+  rig.convergence = convergence;
+  rig.convergence_distance = dice.between(0.5f, 5.0f);
+  if (dice.next() < 0.5f) rig.neck = dice.between(0.0f, 0.1f);
+  if (dice.next() < 0.5f) rig.axis = vec3(0.0f, 2.0f, 0.0f);
+  rig.mirrored = dice.next() < 0.3f;
+  rig.top.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
+  rig.bottom.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
+  rig.top.start = 20.0f, rig.bottom.start = 0.0f;
+  if (dice.next() < 0.5f) rig.bottom.exponent = 2.0f;
+  return rig;
+}
+
+// As ods/kernel/camera/camera.h says it, in world coordinates.
+ExactRay exact_ray(const CameraRig& rig, const Camera& camera, double side, dvec2 uv) {
+  const dvec3 d = normalize(exact_direction(rig.projection, uv));
+  const dvec3 right(camera.right), up(camera.up), back(camera.back);
+  const dvec3 axis = rig.axis ? normalize(dvec3(*rig.axis)) : up;
+  dvec3 direction = right * d.x + up * d.y + back * d.z;
+  const dvec3 a(dot(axis, right), dot(axis, up), dot(axis, back));
+  const double half = double{rig.ipd} / 2.0;
+  dvec3 look = d;
+  if (rig.convergence == kShift) {
+    const double turn = side * std::asin(half / double{rig.convergence_distance});
+    look = d * std::cos(turn) + cross(a, d) * std::sin(turn) + a * dot(a, d) * (1.0 - std::cos(turn));
+  }
+  const double phi = std::asin(std::clamp(dot(look, a), -1.0, 1.0));
+  const double left = exact_factor(phi < 0.0 ? rig.bottom : rig.top, phi);
+  const dvec3 heading = normalize(look - a * dot(look, a));
+  const dvec3 stereo = cross(heading, a) * (side * half * left);
+  const dvec3 origin = stereo + heading * (double{rig.neck} * left);
+  if (rig.convergence == kToeIn) look = normalize(look * double{rig.convergence_distance} - stereo);
+  direction = right * look.x + up * look.y + back * look.z;
+  return {dvec3(rig.position) + right * origin.x + up * origin.y + back * origin.z, direction};
+}
+
+TEST(Cameras, AgreeWithTheirTwinThroughEveryProjection) {
+  Dice dice(3);
+  for (int round = 0; round < 6; round++) {
+    for (const ProjectionSetting& setting : many_settings(dice)) {
+      const CameraRig rig = odd_rig(dice, setting, kConvergences[round % 3]);
+      const Camera camera = make_camera(rig);
+      for (int i = 0; i < 500; i++) {
+        const vec2 uv = dice.pair();
+        if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
+        const int eye = i % 3;
+        const Ray ray = camera_ray(camera, eye, uv);
+        const ExactRay exact = exact_ray(rig, camera, double{eye_side(eye)}, uv);
+        ASSERT_LT(angle_between(ray.direction, exact.direction), 1.5e-6) << projection_name(setting);
+        // The heading of a ray that all but points at the pole is as uncertain as its direction is small there.
+        const dvec3 a = rig.axis ? dvec3(0, 1, 0) : dvec3(camera.up);
+        const double level = std::max(length(cross(exact.direction, a)), 1e-6);
+        ASSERT_LT(length(dvec3(ray.origin) - exact.origin), 6e-7 + 1e-7 / level) << projection_name(setting);
+      }
+    }
+  }
+}
+
+TEST(Cameras, FindTheRayThatMeetsAPointThroughEveryProjection) {
+  Dice dice(4);
+  for (int round = 0; round < 6; round++) {
+    for (const ProjectionSetting& setting : many_settings(dice)) {
+      CameraRig rig = odd_rig(dice, setting, kConvergences[round % 3]);
+      if (round < 3) rig.neck = 0.0f, rig.top = rig.bottom = PoleMergeSetting();
+      const Camera camera = make_camera(rig);
+      for (int i = 0; i < 300; i++) {
+        const vec2 uv = dice.pair();
+        if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
+        const int eye = i % 3;
+        const Ray ray = camera_ray(camera, eye, uv);
+        const vec3 a = rig.axis ? vec3(0, 1, 0) : camera.up;
+        const float level = length(cross(ray.direction, a));
+        if (level < 0.05f) continue;  // near the axis a rounded point has another heading
+        const float t = std::exp(dice.between(std::log(0.5f), std::log(100.0f)));
+        const ImagePosition found = project_point(camera, eye, ray.origin + t * ray.direction);
+        ASSERT_NEAR(found.depth, t, t * 2e-5f) << projection_name(setting) << ' ' << rig.convergence;
+        const double error = angle_between(exact_direction(setting, found.uv), exact_direction(setting, uv));
+        ASSERT_LT(error, 1e-5 / double{level}) << projection_name(setting) << ' ' << rig.convergence << ' ' << t;
+      }
+    }
+  }
+}
+
+// The closed forms of the two ways to put a point at the distance C on the same place of both pictures.
+TEST(Cameras, ConvergeAtTheirDistance) {
+  for (int convergence : {kToeIn, kShift}) {
+    CameraRig rig;
+    rig.convergence = convergence;
+    rig.convergence_distance = 1.5f;
+    const Camera camera = make_camera(rig);
+    for (double azimuth : {0.0, 1.0, -2.5}) {
+      const auto at = [&](double distance) {
+        return vec3(dvec3(std::sin(azimuth), 0.0, -std::cos(azimuth)) * distance);
+      };
+      const vec3 near = at(1.5);
+      EXPECT_NEAR(project_point(camera, kLeft, near).uv.x, project_point(camera, kRight, near).uv.x, 1e-6f);
+      EXPECT_NEAR(project_point(camera, kLeft, near).uv.x, 0.5 + azimuth / (2.0 * kExactPi), 1e-6);
+      // theta = alpha - e (asin(r / (rho sqrt(1 + (r/C)^2))) - atan(r/C)), or with asin(r/C) for the shift.
+      const double r = 0.0325, c = 1.5, rho = 0.7;
+      double turn = std::asin(r / rho) - std::asin(r / c);
+      if (convergence == kToeIn) turn = std::asin(r / (rho * std::sqrt(1.0 + r * r / (c * c)))) - std::atan(r / c);
+      EXPECT_NEAR(project_point(camera, kLeft, at(rho)).uv.x, 0.5 + (azimuth + turn) / (2.0 * kExactPi), 1e-6);
+      EXPECT_NEAR(project_point(camera, kRight, at(rho)).uv.x, 0.5 + (azimuth - turn) / (2.0 * kExactPi), 1e-6);
+    }
+  }
+}
+
+TEST(Cameras, LensesFocusAtTheirDistance) {
+  CameraRig rig;
+  rig.lens_radius = 0.02f;
+  rig.focus_distance = 3.0f;
+  const Camera camera = make_camera(rig);
+  Dice dice(5);
+  for (int i = 0; i < 1000; i++) {
+    const vec2 uv = dice.pair();
+    const Ray chief = camera_ray(camera, kRight, uv);
+    const Ray ray = camera_ray(camera, kRight, uv, uv, dice.pair());
+    const vec3 focus = chief.origin + 3.0f * chief.direction;
+    EXPECT_LT(length(cross(focus - ray.origin, ray.direction)), 2e-6f);
+    EXPECT_LT(length(ray.origin - chief.origin), 0.0200001f);
+    EXPECT_NEAR(dot(ray.origin - chief.origin, chief.direction), 0.0f, 1e-7f);
+  }
+}
+
+// The picture is 1 above, 0 below, with a step of two texels between.
+TEST(Cameras, MergeMapsScaleTheCircle) {
+  auto map = std::make_shared<Image>(8, 4, 1);
+  for (int y = 0; y < 4; y++) {
+    for (int x = 0; x < 8; x++) *map->at(x, y) = y < 2 ? 1.0f : 0.25f;
+  }
+  CameraRig rig;
+  rig.top.mode = rig.bottom.mode = kMergeMap;
+  rig.merge_map = map;
+  const Camera camera = make_camera(rig);
+  EXPECT_NEAR(length(camera_ray(camera, kLeft, vec2(0.3f, 0.1f)).origin), 0.0325f, 1e-7f);
+  EXPECT_NEAR(length(camera_ray(camera, kLeft, vec2(0.3f, 0.9f)).origin), 0.0325f * 0.25f, 1e-7f);
+  EXPECT_NEAR(length(camera_ray(camera, kLeft, vec2(0.99f, 0.5f)).origin), 0.0325f * 0.625f, 1e-7f);
+  Dice dice(6);
+  for (int i = 0; i < 1000; i++) {
+    const vec2 uv(dice.next(), dice.between(0.05f, 0.95f));
+    const Ray ray = camera_ray(camera, kLeft, uv);
+    const ImagePosition found = project_point(camera, kLeft, ray.origin + 1.3f * ray.direction);
+    EXPECT_LT(std::abs(std::remainder(found.uv.x - uv.x, 1.0f)), 1e-5f);
+    EXPECT_NEAR(found.uv.y, uv.y, 1e-5f);
+  }
+}
+
+// Every kind is one of these, and none is two: what is not known is not silently a cube.
+TEST(Projection, EveryKindIsOfOneFamily) {
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    EXPECT_EQ(int{has_range(kind)} + int{has_lens(kind)} + int{is_cube(kind)}, 1) << kind;
+    EXPECT_EQ(has_image_circle(kind), kind == kFisheye || kind == kFisheyeEquisolid) << kind;
+    EXPECT_EQ(std::count_if(named_projections().begin(), named_projections().end(),
+                            [&](const NamedProjection& named) { return named.setting.kind == kind; }) > 0,
+              true)
+        << kind;
+  }
+  for (const int unknown : {kProjectionCount, -1, 1000}) {
+    EXPECT_FALSE(has_range(unknown) || has_lens(unknown) || is_cube(unknown)) << unknown;
+    ProjectionSetting setting;
+    Projection projection = make_projection(setting);
+    projection.kind = setting.kind = unknown;
+    EXPECT_FALSE(look_of(projection, vec2(0.5f), vec2(0.5f)).seen);
+    EXPECT_FALSE(place_of(projection, vec3(0.0f, 0.0f, -1.0f)).seen);
+    EXPECT_EQ(width_step(setting), 1);
+  }
+}
+
+}  // namespace
+}  // namespace ods

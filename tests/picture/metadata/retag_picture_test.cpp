@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures that say something already, and are made to say something else: nothing changes that is not asked for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "ods/image/format/exr_attributes.h"
+#include "ods/image/format/xmp.h"
+#include "ods/image/format/xmp_file.h"
+#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/tag_picture.h"
+#include "ods/picture/save.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+Picture gradient(const std::vector<int>& eyes) {
+  Picture picture;
+  for (int eye : eyes) {
+    EyeImage& image = picture.eyes.emplace_back();
+    image.eye = eye;
+    image.radiance = Image(16, 8, 3);
+    for (size_t i = 0; i < image.radiance.pixels.size(); i++) {
+      image.radiance.pixels[i] = static_cast<float>(i % 97) / 97.0f;
+    }
+  }
+  return picture;
+}
+// As ods inject has it: what is known of the picture, with another yaw.
+void turn(const std::string& path, float yaw) {
+  std::vector<std::string> guesses;
+  PictureTag tag = complete_tag({}, path, guesses);
+  tag.rig.yaw = yaw;
+  tag_picture(path, path, tag);
+}
+
+TEST(RetagPicture, OnlyWhatIsAskedForChangesInGpano) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.jpg");
+  save_picture(gradient({kMono}), {}, path);
+  const Extent size{read_info(path).width, read_info(path).height};
+  std::vector<Attribute> crop = {{"GPano:ProjectionType", std::string("equirectangular")},
+                                 {"GPano:CroppedAreaImageWidthPixels", size.width},
+                                 {"GPano:CroppedAreaImageHeightPixels", size.height},
+                                 {"GPano:FullPanoWidthPixels", size.width + 3},
+                                 {"GPano:FullPanoHeightPixels", 3 * size.height},
+                                 {"GPano:CroppedAreaLeftPixels", 1},
+                                 {"GPano:CroppedAreaTopPixels", 5},
+                                 {"GPano:PosePitchDegrees", std::string("12.50")},
+                                 {"GPano:PoseRollDegrees", -3.25f},
+                                 {"GPano:InitialViewHeadingDegrees", 77},
+                                 {"GPano:StitchingSoftware", std::string("Hugin & <friends>")}};
+  {
+    const FileInput file(path);
+    AtomicFile to(path);
+    write_xmp(file, to, make_xmp(crop));
+    to.commit();
+  }
+  CameraFile sidecar;  // of the whole sphere: the picture knows better
+  sidecar.eyes = {kMono};
+  save_camera(sidecar, folder.path("a.camera.json"));
+  const auto properties = [&] {
+    std::map<std::string, std::string> all;
+    for (const Attribute& each : gpano_properties(read_xmp(path))) all[each.name] = std::get<std::string>(each.value);
+    return all;
+  };
+  std::map<std::string, std::string> wished = properties();
+  EXPECT_EQ(wished.at("GPano:StitchingSoftware"), "Hugin & <friends>");
+  const std::string before = folder.read("a.jpg");
+  std::vector<std::string> guesses;
+  tag_picture(path, path, complete_tag({}, path, guesses));
+  EXPECT_TRUE(folder.read("a.jpg") == before) << "it says all that already";
+  turn(path, 30.0f);
+  wished["GPano:PoseHeadingDegrees"] = "30";
+  EXPECT_EQ(properties(), wished);
+}
+
+TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
+  const TemporaryFolder folder;
+  for (const Layout layout : {Layout::kTopBottom, Layout::kMultiview}) {
+    const std::string path = folder.path("a.exr");
+    CameraRig rig;
+    rig.ipd = 0.07f, rig.position = vec3(1.0f, 2.0f, 3.0f), rig.pitch = 5.0f, rig.neck = 0.1f;
+    rig.top.mode = kMergeCosine;
+    SaveOptions options;
+    options.layout = layout;
+    save_picture(gradient({kLeft, kRight}), rig, options, path);
+    ExrHeader header = read_exr_header(FileInput(path));
+    header.attributes.push_back(exr_attribute({"ods:somebody", std::string("else")}));
+    const auto is_bottom = [](const ExrAttribute& each) { return each.name == "ods:poleMergeBottom"; };
+    std::find_if(header.attributes.begin(), header.attributes.end(), is_bottom)->value = "map";
+    const FileInput file(path);
+    AtomicFile to(path);
+    write_exr_header(file, to, header);
+    to.commit();
+    turn(path, 30.0f);
+    const std::vector<ExrAttribute> after = read_exr_header(FileInput(path)).attributes;
+    std::string names, wished;
+    for (const ExrAttribute& each : after) names += each.name + " ";
+    for (const ExrAttribute& each : header.attributes) wished += each.name + " ";
+    ASSERT_EQ(names, wished);
+    for (size_t i = 0; i < after.size(); i++) {
+      EXPECT_EQ(after[i].name, header.attributes[i].name);
+      EXPECT_EQ(after[i].value == header.attributes[i].value, after[i].name != "ods:yaw") << after[i].name;
+    }
+  }
+}
+
+TEST(RetagPicture, AnExrKeepsAPositionOfWhichNobodyKnowsTheEyes) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.exr");
+  save_picture(gradient({kMono}), CameraRig(), {}, path);
+  ExrHeader header = read_exr_header(FileInput(path));
+  std::erase_if(header.attributes, [](const ExrAttribute& each) { return each.name == "ods:ipd"; });
+  const FileInput file(path);
+  AtomicFile to(path);
+  write_exr_header(file, to, header);
+  to.commit();
+  turn(path, 30.0f);
+  const FileInfo info = read_info(path);
+  EXPECT_TRUE(info.numbers.contains("ods:position"));
+  EXPECT_FALSE(info.numbers.contains("ods:ipd"));
+  EXPECT_EQ(info.text.at("textureformat"), "LatLong Environment");
+}
+
+}  // namespace
+}  // namespace ods

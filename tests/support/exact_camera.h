@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the camera's twins in double precision share.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ods/camera/camera_rig.h"
+
+namespace ods {
+
+inline const double kExactPi = std::numbers::pi;
+
+struct ExactRay {
+  glm::dvec3 origin, direction;
+};
+
+// phi: radians above the horizon or below it.
+inline double exact_factor(const PoleMergeSetting& merge, double phi) {
+  const double start = double{merge.start},
+               t = std::clamp((std::abs(phi) * 180.0 / kExactPi - start) / (double{merge.end} - start), 0.0, 1.0);
+  double left = 1.0 - t;
+  if (merge.mode == kMergeNone) return 1.0;
+  if (merge.mode == kMergePower) return 1.0 - std::pow(t, double{merge.exponent});
+  if (merge.mode == kMergeCosine) left = std::max(std::cos(t * kExactPi / 2.0), 0.0);
+  if (merge.mode == kMergeSmoothstep) left = 1.0 - t * t * (3.0 - 2.0 * t);
+  if (merge.mode == kMergeGaussian) left = (std::exp(-t * t) - 0.36787944117144233) / 0.63212055882855767;
+  if (merge.mode == kMergeTiltBrush) left = 1.0 - std::sin(t / (2.0 * kExactPi));
+  return std::pow(left, double{merge.exponent});
+}
+
+inline double angle_between(glm::dvec3 a, glm::dvec3 b) {
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+}  // namespace ods

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Films that come back as pictures.
+#include "ods/video/decode.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ods/base/error.h"
+#include "ods/video/footage.h"
+#include "ods/video/make_film.h"
+#include "tests/support/decoded_film.h"
+#include "tests/support/made_frames.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+bool can_encode(FilmCodec codec, Chroma chroma) {
+  for (const EncoderFacts& facts : known_encoders()) {
+    if (facts.codec == codec && (chroma == Chroma::k420 || !facts.only_420) && has_encoder(facts.name)) return true;
+  }
+  return false;
+}
+
+Packing usual(FilmCodec codec) {
+  if (codec == FilmCodec::kProRes) return {codec, 10, Chroma::k422, {}};
+  return {codec, 8, Chroma::k420, {}};
+}
+
+// Of 255.
+double code_at(const StoredPicture& picture, size_t eye, int x, int y, size_t channel) {
+  const LayerPixels& layer = picture.eyes[eye].layers[0];
+  const std::byte* at = layer.first + y * layer.row_stride + x * layer.pixel_stride;
+  return 255.0 * static_cast<double>(sample_value(layer.sample, at + channel * bytes_of(layer.sample)));
+}
+
+class Decode : public ::testing::Test {
+ protected:
+  std::string make(const std::string& name, const Packing& packing, std::optional<Layout> layout = {}) const {
+    const FrameFiles files = find_frames(folder.path("a.#.png"));
+    EncodeOptions options;
+    options.packing = packing;
+    make_film(files, plan_film(files, {}, layout), {0.0f, ToneCurve::kLinear}, options, folder.path(name));
+    return folder.path(name);
+  }
+
+  // What opening and reading it says; empty: all is well.
+  std::string error_of(const std::string& path) const {
+    try {
+      Footage film(path, {});
+      for (int i = 0; film.picture(i); i++) {
+      }
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Decode, EveryContainerCodecAndLayoutComesBack) {
+  made::write_frames(folder.path("a.#.png"), {1, 2, 3});
+  for (Container container : kContainers) {
+    for (FilmCodec codec : kFilmCodecs) {
+      if (!can_hold(container, codec) || !can_encode(codec, usual(codec).chroma)) continue;
+      for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", film_codec_name(codec), container_name(container), layout_name(layout)));
+        Footage film(make(fmt::format("film.{}", container_name(container)), usual(codec), layout), {});
+        ASSERT_EQ(film.kind(), FootageKind::kFilm);
+        EXPECT_EQ(film.stream().codec, codec);
+        EXPECT_EQ(film.stream().bits, usual(codec).bits);
+        EXPECT_EQ(film.stream().chroma, usual(codec).chroma);
+        EXPECT_NEAR(film.stream().rate.value(), 30.0, 1e-6);
+        EXPECT_EQ(film.frames(), (std::vector<int>{0, 1, 2}));
+        EXPECT_EQ(film.film().like.layout, layout);
+        for (int frame = 0; frame < 3; frame++) {
+          const std::optional<StoredPicture> picture = film.picture(frame);
+          ASSERT_TRUE(picture);
+          ASSERT_EQ(picture->eyes.size(), 2u);
+          EXPECT_EQ(picture->size.width, 128);
+          for (size_t eye : {0u, 1u}) {
+            for (size_t c = 0; c < 3; c++) {
+              const double expected = c == 2 * eye ? made::code_of(frame + 1) : 20.0;
+              EXPECT_NEAR(code_at(*picture, eye, 64, 32, c), expected, 4.0) << frame << ' ' << eye << ' ' << c;
+            }
+          }
+        }
+        EXPECT_FALSE(film.picture(3));
+      }
+    }
+  }
+}
+
+// 32 fields of 16x16 pixels, as encode_test writes them.
+TEST_F(Decode, ARampComesBack) {
+  const auto color = [](int i) { return vec3(i % 4, i / 4 % 4, i / 16 * 2 + 1) * 80.0f; };
+  const auto grey = [](int i) { return vec3(std::round(static_cast<float>(i) * 255.0f / 31.0f)); };
+  for (const bool colored : {false, true}) {
+    Image image(128, 64, 3);
+    for (int y = 0; y < 64; y++) {
+      for (int x = 0; x < 128; x++) {
+        const int field = x / 16 + y / 16 * 8;
+        const vec3 codes = (colored ? color(field) : grey(field)) / 255.0f;
+        for (int c = 0; c < 3; c++) image.at(x, y)[c] = srgb_decode(codes[c]);
+      }
+    }
+    Picture picture;
+    picture.eyes.push_back({kMono, image, {}, {}, {}, {}});
+    SaveOptions save;
+    save.tone = ToneCurve::kLinear;
+    save_picture(picture, save, folder.path("a.1.png"));
+    for (int bits : {8, 10}) {
+      for (Chroma chroma : kChromas) {
+        SCOPED_TRACE(fmt::format("{} bits, {}, {}", bits, chroma_name(chroma), colored ? "colours" : "greys"));
+        if (!can_encode(FilmCodec::kH264, chroma)) continue;
+        Footage film(make("ramp.mkv", {FilmCodec::kH264, bits, chroma, 4}), {});
+        const std::optional<StoredPicture> back = film.picture(0);
+        ASSERT_TRUE(back);
+        const double most = colored && bits == 8 ? 2.5 : 1.5;  // 8 bits of blue are 2.1 codes apart
+        for (int field = 0; field < 32; field++) {
+          const vec3 expected = colored ? color(field) : grey(field);
+          for (size_t c = 0; c < 3; c++) {
+            EXPECT_NEAR(code_at(*back, 0, field % 8 * 16 + 8, field / 8 * 16 + 8, c),
+                        static_cast<double>(expected[static_cast<int>(c)]), most)
+                << field << ' ' << c;
+          }
+        }
+      }
+    }
+  }
+}
+
+// --- numbers ---------------------------------------------------------------------------------------------------------
+
+// A smooth picture through put_ycbcr() and back: interpolated colours follow it.
+TEST(GetCodes, IsTheWayBackOfPutYcbcr) {
+  const Extent size{64, 32};
+  const auto value = [](int x, int y, int c) {
+    return 0.5f + 0.4f * std::sin(0.07f * static_cast<float>(x + 5 * c)) * std::cos(0.09f * static_cast<float>(y - c));
+  };
+  for (int bits : {8, 10}) {
+    for (Chroma chroma : kChromas) {
+      const FilmFrame frame(size, {FilmCodec::kHevc, bits, chroma, {}});
+      const auto rows = [&](int y, std::span<float> row) {
+        for (int x = 0; x < 64; x++) {
+          for (int c = 0; c < 3; c++) row[static_cast<size_t>(64 * c + x)] = value(x, y, c);
+        }
+      };
+      put_ycbcr(rows, size, frame.planes());
+      for (int y = 1; y < 31; y++) {  // beyond the edge nothing is known
+        std::vector<float> row(3 * 50);
+        get_codes(frame.planes(), size, {}, y, 7, row);
+        for (int x = 7; x < 57; x++) {
+          for (int c = 0; c < 3; c++) {
+            ASSERT_NEAR(row[static_cast<size_t>(50 * c + x - 7)], value(x, y, c), bits == 8 ? 1.8f / 255 : 0.7f / 255)
+                << bits << ' ' << chroma_name(chroma) << ' ' << x << ' ' << y << ' ' << c;
+          }
+        }
+      }
+    }
+  }
+}
+
+// Numbers by the standards' own formulas.
+TEST(GetCodes, KnowsBothMatricesAndRanges) {
+  const vec3 colors[] = {vec3(0.0f), vec3(1.0f), vec3(1.0f, 0.0f, 0.0f), vec3(0.2f, 0.9f, 0.4f),
+                         vec3(0.1f, 0.3f, 1.0f)};
+  for (const bool is_601 : {false, true}) {
+    for (const bool full : {false, true}) {
+      for (const vec3& color : colors) {
+        const float kr = is_601 ? 0.299f : 0.2126f, kb = is_601 ? 0.114f : 0.0722f;
+        const float luma = kr * color.x + (1.0f - kr - kb) * color.y + kb * color.z;
+        const float cb = (color.z - luma) / (2.0f - 2.0f * kb), cr = (color.x - luma) / (2.0f - 2.0f * kr);
+        const float scale = full ? 1023.0f : 876.0f, chroma_scale = full ? 1023.0f : 896.0f;
+        uint16_t numbers[3] = {static_cast<uint16_t>(std::lround((full ? 0.0f : 64.0f) + scale * luma)),
+                               static_cast<uint16_t>(std::lround(std::min(512.0f + chroma_scale * cb, 1023.0f))),
+                               static_cast<uint16_t>(std::lround(std::min(512.0f + chroma_scale * cr, 1023.0f)))};
+        Planes planes;
+        planes.bits = 10;
+        planes.chroma = Chroma::k444;
+        for (size_t i = 0; i < 3; i++)
+          planes.first[i] = reinterpret_cast<std::byte*>(&numbers[i]), planes.stride[i] = 2;
+        std::vector<float> row(3);
+        get_codes(planes, {1, 1}, {is_601, full}, 0, 0, row);
+        for (int c = 0; c < 3; c++) EXPECT_NEAR(row[static_cast<size_t>(c)], color[c], 2.5e-3f) << is_601 << full << c;
+      }
+    }
+  }
+}
+
+// --- bad input -------------------------------------------------------------------------------------------------------
+
+void expect_refused(const std::string& error, const std::string& words) {
+  EXPECT_NE(error.find(words), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+TEST_F(Decode, TurnedPicturesAreRefused) {
+  made::write_frames(folder.path("a.#.png"), {1, 2});
+  make("film.mp4", usual(FilmCodec::kH264));
+  std::string bytes = folder.read("film.mp4");
+  const auto put = [&](size_t at, uint32_t value) {
+    for (size_t i = 0; i < 4; i++) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
+  };
+  const size_t matrix = bytes.find("tkhd") + 44;
+  const uint32_t turned[] = {0, 0x10000, 0, 0xffff0000, 0, 0, 0, 0, 0x40000000};
+  for (size_t i = 0; i < 9; i++) put(matrix + 4 * i, turned[i]);
+  folder.write("turned.mp4", bytes);
+  expect_refused(error_of(folder.path("turned.mp4")), "lie turned");
+}
+
+TEST_F(Decode, DamagedFilmsAreOneLine) {
+  made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4});
+  for (const char* name : {"film.mp4", "film.mkv"}) {
+    const std::string path = make(name, usual(FilmCodec::kH264));
+    const std::string whole = folder.read(name);
+    folder.write(name, whole.substr(0, whole.size() / 2));
+    expect_refused(error_of(path), name);
+    std::string broken = whole;
+    const size_t samples = whole.find(name[5] == 'm' && name[6] == 'p' ? "mdat" : "\x1f\x43\xb6\x75");
+    ASSERT_NE(samples, std::string::npos);
+    for (size_t i = samples + 40; i < broken.size() && i < samples + 3000; i += 3)
+      broken[i] = static_cast<char>(i * 77);
+    folder.write(name, broken);
+    const std::string error = error_of(path);  // what the decoder mends need not be said
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+  folder.write("film.mp4", "no film at all");
+  EXPECT_NE(error_of(folder.path("film.mp4")), "");
+}
+
+TEST_F(Decode, UnevenTimesAreRefused) {
+  if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
+  made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4, 5, 6});
+  const std::string film = make("film.mp4", usual(FilmCodec::kH264)), uneven = folder.path("uneven_360_TB.mp4");
+  const std::string command =
+      "ffmpeg -v error -i " + film + " -vf 'setpts=PTS+gte(N\\,3)*4/30/TB' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
+  if (!output_of(command).empty()) GTEST_SKIP() << "skipped: this ffmpeg makes no uneven film";
+  expect_refused(error_of(uneven), "uneven times");
+}
+
+// Their numbers mean other light than BT.709's: shown or laid over as they are they would be wrong.
+TEST_F(Decode, HdrIsRefused) {
+  if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
+  if (!can_encode(FilmCodec::kHevc, Chroma::k420)) GTEST_SKIP() << "skipped: this machine encodes no HEVC";
+  made::write_frames(folder.path("a.#.png"), {1, 2});
+  const std::string film = make("film.mkv", usual(FilmCodec::kHevc)), hdr = folder.path("hdr.mkv");
+  EXPECT_EQ(error_of(film), "");
+  const char* const kCurves[][2] = {{"16", "smpte2084"}, {"18", "arib-std-b67"}};  // PQ and HLG
+  for (const auto& [number, name] : kCurves) {
+    const std::string command =
+        "ffmpeg -y -v error -i " + film + " -c copy -bsf:v hevc_metadata=transfer_characteristics=";
+    ASSERT_EQ(output_of(command + number + " " + hdr + " 2>&1"), "");
+    EXPECT_EQ(error_of(hdr), fmt::format("cannot read '{}': it is HDR ({}); ods knows BT.709", hdr, name));
+  }
+}
+
+}  // namespace
+}  // namespace ods
