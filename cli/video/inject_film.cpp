@@ -85,12 +85,13 @@ FilmForm wished_form(const InjectJob& job, ods::Container container, const ods::
                                  job.file));
   }
   if (job.for_apple && !fits_vexu(form)) {
-    throw ods::Error(ods::ErrorKind::kInput,
+    throw ods::Error(ods::ErrorKind::kUsage,
                      fmt::format("--apple: vexu has no words for {} ('{}')", form_text(form), job.file));
   }
   if (!can_say(container, track, form)) {
-    throw ods::Error(ods::ErrorKind::kInput, fmt::format("cannot use '{}': {} has no words for {}", job.file,
-                                                         container_name(container), form_text(form)));
+    const auto kind = asks_for_something(job) ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;
+    throw ods::Error(kind, fmt::format("cannot use '{}': {} has no words for {}", job.file, container_name(container),
+                                       form_text(form)));
   }
   for (const std::string& each : plan.notes) note(each);
   return form;
