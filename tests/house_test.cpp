@@ -281,4 +281,26 @@ TEST(House, TestsStandWhereTheirSourcesDo) {
   }
 }
 
+// NAME and ROOM stand for any.
+TEST(House, PathsThatThePagesNameExist) {
+  const fs::path root = ODS_SOURCE_DIR;
+  std::vector<fs::path> pages = {root / "README.md", root / "ARCHITECTURE.md", root / "CONTRIBUTING.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  const std::regex path("`((ods|cli|tests|docs|bench|fuzz|examples|cmake)/[A-Za-z0-9_/.-]+)`");
+  size_t found = 0;
+  for (const fs::path& page : pages) {
+    for (const std::string& line : read_lines(page)) {
+      for (std::sregex_iterator match(line.begin(), line.end(), path), end; match != end; ++match) {
+        const std::string name = (*match)[1].str();
+        if (name.find("NAME") != std::string::npos || name.find("ROOM") != std::string::npos) continue;
+        found++;
+        EXPECT_TRUE(fs::exists(root / name)) << page.filename() << " names " << name;
+      }
+    }
+  }
+  EXPECT_GT(found, 30u);
+}
+
 }  // namespace
