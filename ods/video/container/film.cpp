@@ -91,10 +91,6 @@ TagResult tag_film(const std::string& path, const std::string& to, uint64_t trac
   const bool matroska = is_of_matroska(file);
   AtomicFile output(to);
   TagResult result;
-  if (form && !matroska && !fits_v2(*form)) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("cannot tag '{}': mp4 and mov have no words for {}; .mkv has", path, form_text(*form)));
-  }
   try {
     result = matroska ? tag_matroska(file, output, track, form) : tag_mp4(file, output, track, form, sound);
   } catch (const Broken& broken) {
