@@ -68,8 +68,8 @@ struct TagResult {
 // form: one that says nothing. What says the form already stays byte for byte, also where it is of a kind that is not
 // written anew (a mesh, a padded cubemap); with what complete_form() returns, only what was asked for changes. Every
 // sample stays bit for bit what it was. Throws Error(kInput), also where the container cannot say such a form;
-// Error(kOutput). With `sound`, the sound of an mp4 or mov says so, too; in Matroska
-// Opus says by itself what its channels are. `progress` is told now and then which share is copied.
+// Error(kOutput). With `sound`, the sound of an mp4 or mov says so, too; in Matroska Opus says by itself what its
+// channels are. `progress` is told now and then which share is copied.
 TagResult tag_film(const std::string& path, const std::string& to, uint64_t track, const std::optional<FilmForm>& form,
                    const std::optional<Ambisonics>& sound = {}, const std::function<void(double done)>& progress = {});
 
