@@ -27,12 +27,10 @@ constexpr const char* kExamples =
     "  ods lint film_frame.jpg --layout side-by-side --projection vr180 || echo do not ship it";
 
 constexpr const char* kSummary =
-    "Finds faults in a stereo 360 picture: swapped eyes, one eye twice, a wrong layout, a mirrored viewing circle, "
-    "two\n"
-    "fixed cameras, a visible seam, no pole merge, a wrong shape, metadata that contradicts the pixels. Each finding "
-    "has\n"
-    "a certainty (0 to 1), the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains\n"
-    "them. Exit code 1: a fault was found; warnings and information do not count.";
+    "Finds faults in a stereo 360 picture: swapped eyes, one eye twice, a wrong layout, a mirrored viewing circle,\n"
+    "two fixed cameras, a visible seam, no pole merge, a wrong shape, metadata that contradicts the pixels. Each\n"
+    "finding has a certainty (0 to 1), the evidence and a cure; what was judged and what was not is listed.\n"
+    "docs/lint.md explains them. Exit code 1: a fault was found; warnings and information do not count.";
 
 struct LintJob {
   std::string path;

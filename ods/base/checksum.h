@@ -6,10 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace ods {
 
-// CRC-32 (that of zip and png). `start`: of the bytes before these.
+// CRC-32 (that of zip, png and Matroska). `start`: of the bytes before these.
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t start = 0);
+inline uint32_t crc32(std::string_view bytes, uint32_t start = 0) {
+  return crc32(std::as_bytes(std::span(bytes)), start);
+}
 
 }  // namespace ods

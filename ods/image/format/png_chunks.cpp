@@ -5,54 +5,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <iterator>
 
 #include "ods/base/bytes.h"
+#include "ods/base/checksum.h"
 #include "ods/base/error.h"
 
 namespace ods {
-
-// CRC-32 of ISO 3309. The first table is of a byte, the others of one that has so many bytes behind it: eight are
-// looked up at once.
-static constexpr std::array<std::array<uint32_t, 256>, 8> kCrcTables = [] {
-  std::array<std::array<uint32_t, 256>, 8> tables{};
-  for (uint32_t i = 0; i < 256; i++) {
-    uint32_t crc = i;
-    for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
-    tables[0][i] = crc;
-  }
-  for (size_t behind = 1; behind < 8; behind++) {
-    for (size_t i = 0; i < 256; i++) {
-      const uint32_t crc = tables[behind - 1][i];
-      tables[behind][i] = crc >> 8 ^ tables[0][crc & 0xffu];
-    }
-  }
-  return tables;
-}();
-
-constexpr uint32_t kCrcStart = 0xffffffffu;
-
-static uint32_t add_to_crc(uint32_t crc, std::string_view bytes) {
-  const auto byte = [&](size_t i) { return uint32_t{static_cast<unsigned char>(bytes[i])}; };
-  size_t at = 0;
-  for (; at + 8 <= bytes.size(); at += 8) {
-    crc ^= byte(at) | byte(at + 1) << 8 | byte(at + 2) << 16 | byte(at + 3) << 24;
-    crc = kCrcTables[7][crc & 0xffu] ^ kCrcTables[6][crc >> 8 & 0xffu] ^ kCrcTables[5][crc >> 16 & 0xffu] ^
-          kCrcTables[4][crc >> 24] ^ kCrcTables[3][byte(at + 4)] ^ kCrcTables[2][byte(at + 5)] ^
-          kCrcTables[1][byte(at + 6)] ^ kCrcTables[0][byte(at + 7)];
-  }
-  for (; at < bytes.size(); at++) crc = crc >> 8 ^ kCrcTables[0][(crc ^ byte(at)) & 0xffu];
-  return crc;
-}
 
 std::string png_chunk(std::string_view type, std::string_view data) {
   const std::string typed = std::string(type) + std::string(data);
   std::string chunk;
   append_number(chunk, data.size(), 4);
   chunk += typed;
-  append_number(chunk, ~add_to_crc(kCrcStart, typed), 4);
+  append_number(chunk, crc32(typed), 4);
   return chunk;
 }
 
@@ -104,15 +71,15 @@ struct Chunk {
 
 static bool is_whole(const Chunk& chunk, const ByteReader& read) {
   const size_t kPiece = size_t{1} << 18;
-  uint32_t crc = add_to_crc(kCrcStart, chunk.type);
+  uint32_t crc = crc32(chunk.type);
   std::string piece;
   for (size_t done = 0; done < chunk.length; done += piece.size()) {
     piece.resize(std::min(kPiece, chunk.length - done));
     if (!read(chunk.offset + 8 + done, piece.data(), piece.size())) return false;
-    crc = add_to_crc(crc, piece);
+    crc = crc32(piece, crc);
   }
   std::string stored(4, '\0');
-  return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && get_number(stored, 0, 4) == ~crc;
+  return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && get_number(stored, 0, 4) == crc;
 }
 
 // The mark of a view's rig (ods/stitch/rig_mark.h).

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
+
+#include "ods/base/checksum.h"
 
 namespace ods {
 
@@ -138,21 +139,6 @@ void write_element(const Element& element, std::string& bytes) {
   append_size(bytes, body_size(element), element.size_width);
   bytes += element.body;
   for (const Element& child : element.children) write_element(child, bytes);
-}
-
-// ISO/IEC 3309, as zlib has it.
-static uint32_t crc32(std::string_view bytes) {
-  static const std::array<uint32_t, 256> kTable = [] {
-    std::array<uint32_t, 256> table{};
-    for (uint32_t i = 0; i < 256; i++) {
-      table[i] = i;
-      for (int bit = 0; bit < 8; bit++) table[i] = table[i] >> 1 ^ ((table[i] & 1) != 0 ? 0xedb88320u : 0u);
-    }
-    return table;
-  }();
-  uint32_t crc = 0xffffffff;
-  for (char byte : bytes) crc = crc >> 8 ^ kTable[(crc ^ static_cast<unsigned char>(byte)) & 0xff];
-  return ~crc;
 }
 
 // Of all that follows it in what holds it; the low byte first.
