@@ -194,7 +194,7 @@ std::string claim_path(const std::string& path) {
 std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, ClaimTimes times) {
   const std::string claim = claim_path(path);
   const fs::path folder = fs::path(claim).parent_path();
-  std::error_code ignored;  // it is said when the file cannot be made
+  std::error_code ignored;  // making the file reports it
   if (!folder.empty()) fs::create_directories(folder, ignored);
   const int kLooks = 4;  // another process may just be taking over what a dead one left
   bool was_silent = false, was_empty = false;

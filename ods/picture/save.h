@@ -41,8 +41,7 @@ struct SaveOptions {
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;              // of jpg and webp, 1..100
   std::vector<Attribute> attributes;  // more words for the header of exr and png
-  bool sidecar =
-      false;  // picture.camera.json too (ods/picture/metadata/camera_file.h); one that is there is always written anew
+  bool sidecar = false;               // also write picture.camera.json; an existing one is always rewritten
 };
 
 // Throws what save_picture() would, as far as that can be known before rendering. Error(kUsage): an unknown extension,

@@ -229,7 +229,7 @@ TEST_F(CliConvert, RefusalsSayWhy) {
   EXPECT_EQ(convert(room, "no.bmp"), 2);
 }
 
-// docs/cameras.md has these words for who works with FFmpeg.
+// docs/cameras.md lists these FFmpeg options.
 TEST_F(CliConvert, OurCubesAreThoseOfV360InItsWords) {
   if (!ods::is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
   const int width = 512, height = 256;

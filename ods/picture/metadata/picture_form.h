@@ -56,9 +56,8 @@ struct KnownForm {
 
 struct PictureForm {
   LayoutGuess layout;
-  int eye = kMono;  // which, of one
-  bool is_photo =
-      false;  // a Cardboard photo (ods/picture/metadata/cardboard.h): layout kSeparate, both eyes in one file
+  int eye = kMono;        // which, of one
+  bool is_photo = false;  // a Cardboard photo (cardboard.h): layout kSeparate, both eyes in one file
   CameraRig camera;
   bool camera_is_said = false;       // by the caller, the file or its sidecar; else only its projection is a guess
   bool ipd_is_said = false;          // likewise; GPano and envmap are no words on it
