@@ -35,7 +35,7 @@ void make_picture(const std::string& path, const std::vector<int>& eyes, Extent 
   PictureRows rows;
   rows.eye = eye;
   rows.eyes = eyes;
-  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}};
+  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}};
   rows.fill = [eye](int index, int y, std::span<float> row) {
     const float v = static_cast<float>(y) / static_cast<float>(eye.height);
     for (int x = 0; x < eye.width; x++) {
@@ -50,8 +50,8 @@ void make_picture(const std::string& path, const std::vector<int>& eyes, Extent 
   };
   SaveOptions options;
   options.tone = ToneCurve::kLinear;
-  const CameraRig rig;
-  save_picture(rows, &rig, options, path);
+  const StereoCamera camera;
+  save_picture(rows, &camera, options, path);
 }
 
 // What `ods convert` does: the whole way from file to file.
@@ -60,15 +60,15 @@ void convert_file(const std::string& from, const std::string& to, const Projecti
   OpenOptions open;
   open.scratch_folder = scratch_folder;
   const StoredPicture picture = open_picture(from, open);
-  ConvertTarget target = own_form(picture);
-  target.rig.projection = projection;
+  ConvertTarget target = same_format(picture);
+  target.camera.projection = projection;
   target.eye = eye.value_or(fitting_extent(picture, projection));
   const std::string fault = conversion_fault(picture, target);
   if (!fault.empty()) throw Error(ErrorKind::kInput, fault);
   Conversion conversion = convert(picture, target);
   SaveOptions save;
   save.tone = ToneCurve::kLinear;
-  save_picture(conversion.rows, &target.rig, save, to);
+  save_picture(conversion.rows, &target.camera, save, to);
 }
 
 struct Pixels {

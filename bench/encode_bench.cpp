@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast frames become a film, over the ffmpeg program on the same frames with the same encoder and settings,
+// How fast frames become a video, over the ffmpeg program on the same frames with the same encoder and settings,
 // measured in turns in the same run. The frames have gradients, edges and grain that moves, so that they take about as
 // long to pack as photographs. above_ffmpeg: 1 is as fast, more is faster;
-// by wall clock and, for machines that have other work, by CPU seconds. And how fast a title is laid over a film, over
+// by wall clock and, for machines that have other work, by CPU seconds. And how fast a title is laid over a video, over
 // the ffmpeg program decoding and encoding it alone.
 #include <benchmark/benchmark.h>
 
@@ -15,9 +15,9 @@
 #include <sstream>
 
 #include "bench/measure.h"
-#include "ods/compose/film_over.h"
+#include "ods/compose/over_video.h"
 #include "ods/picture/save.h"
-#include "ods/video/make_film.h"
+#include "ods/video/make_video.h"
 
 namespace {
 
@@ -63,23 +63,23 @@ struct Race {
 
 struct Settings {
   const char* encoder;
-  FilmCodec codec;
+  VideoCodec codec;
   const char* preset_option;
   const char* preset;
 };
-constexpr Settings kSettings[] = {{"libx264", FilmCodec::kH264, "-preset", "medium"},
-                                  {"libx264", FilmCodec::kH264, "-preset", "ultrafast"},
-                                  {"libx265", FilmCodec::kHevc, "-preset", "ultrafast"},
-                                  {"libsvtav1", FilmCodec::kAv1, "-preset", "12"}};
+constexpr Settings kSettings[] = {{"libx264", VideoCodec::kH264, "-preset", "medium"},
+                                  {"libx264", VideoCodec::kH264, "-preset", "ultrafast"},
+                                  {"libx265", VideoCodec::kHevc, "-preset", "ultrafast"},
+                                  {"libsvtav1", VideoCodec::kAv1, "-preset", "12"}};
 
 // What a user of ffmpeg writes to get the same pictures: the matrix and the rounding are not its defaults.
-std::string ffmpeg_words(const Settings& settings, const std::string& frames, const std::string& film) {
+std::string ffmpeg_words(const Settings& settings, const std::string& frames, const std::string& video) {
   std::ostringstream words;
   words << "ffmpeg -v error -y -framerate 30 -i " << frames
         << " -vf scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,format=yuv420p"
         << " -c:v " << settings.encoder << " " << settings.preset_option << " " << settings.preset
         << " -crf 24 -g 30 -flags +cgop -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv"
-        << " -movflags +faststart " << film;
+        << " -movflags +faststart " << video;
   if (std::string(settings.encoder) == "libx265") return words.str() + " -x265-params log-level=none:open-gop=0";
   return words.str();
 }
@@ -107,7 +107,7 @@ void encode(benchmark::State& state) {
     static_cast<void>(round);
     race.round(state, command, [&] {
       const FrameFiles files = find_frames(folder.path("frame.####.png"));
-      make_film(files, plan_film(files, {}, {}), {}, options, folder.path("ours.mp4"));
+      make_video(files, plan_video(files, {}, {}), {}, options, folder.path("ours.mp4"));
     });
   }
   state.SetLabel(std::string(settings.encoder) + " " + settings.preset);
@@ -142,7 +142,7 @@ void over(benchmark::State& state) {
   if (!has_encoder("libx264")) return state.SkipWithError("skipped: this machine has no libx264");
   const Folder folder;
   EncodeOptions options;
-  options.packing = {FilmCodec::kH264, 8, Chroma::k420, 24};
+  options.packing = {VideoCodec::kH264, 8, Chroma::k420, 24};
   options.encoder = "libx264";
   options.preset = "ultrafast";
   SaveOptions save;
@@ -151,18 +151,18 @@ void over(benchmark::State& state) {
     save_picture(frame(width, i), nullptr, save, frame_names(folder.path("frame.####.png"))->path(i));
   }
   const FrameFiles files = find_frames(folder.path("frame.####.png"));
-  make_film(files, plan_film(files, {}, {}), {}, options, folder.path("film.mp4"));
-  const CameraRig rig;
-  save_picture(title(width), &rig, save, folder.path("title.exr"));
-  const std::string command = "ffmpeg -v error -y -i " + folder.path("film.mp4") +
+  make_video(files, plan_video(files, {}, {}), {}, options, folder.path("video.mp4"));
+  const StereoCamera camera;
+  save_picture(title(width), &camera, save, folder.path("title.exr"));
+  const std::string command = "ffmpeg -v error -y -i " + folder.path("video.mp4") +
                               " -c:v libx264 -preset ultrafast -crf 24 -g 30 -flags +cgop -movflags +faststart " +
                               folder.path("theirs.mp4");
   Race race;
   for (auto round : state) {
     static_cast<void>(round);
     race.round(state, command, [&] {
-      Footage back(folder.path("film.mp4"), {}), front(folder.path("title.exr"), {});
-      over_film(back, front, 0, frames, {}, options, folder.path("ours.mp4"));
+      Footage back(folder.path("video.mp4"), {}), front(folder.path("title.exr"), {});
+      over_video(back, front, 0, frames, {}, options, folder.path("ours.mp4"));
     });
   }
   const double pixels = 1.0 * width * width * frames;

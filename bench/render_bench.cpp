@@ -54,10 +54,10 @@ Scene load(const Subject& subject) {
   return scene;
 }
 
-CameraRig rig_of(const Subject& subject) {
-  CameraRig rig;
-  rig.position = subject.position;
-  return rig;
+StereoCamera camera_of(const Subject& subject) {
+  StereoCamera stereo;
+  stereo.position = subject.position;
+  return stereo;
 }
 
 RenderOptions options_of(int width, int samples) {
@@ -79,7 +79,7 @@ void samples_per_second(benchmark::State& state, const Subject& subject) {
   const RenderOptions options = options_of(1024, 16);
   for (auto _ : state) {
     const double start = cpu_seconds();
-    benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options));
+    benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options));
     state.counters["Msamples_per_cpu_s"] = million_samples(options) / (cpu_seconds() - start);
   }
 }
@@ -119,7 +119,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
   const EmbreeScene embree(scene);
   PathTracer tracer;
   set_scene(tracer, scene, lights);
-  const Camera camera = make_camera(rig_of(subject));
+  const Camera camera = make_camera(camera_of(subject));
   const std::vector<TracedRay> rays = record_rays(embree, tracer, camera, 512);
   for (auto _ : state) {
     const double start = cpu_seconds();
@@ -139,7 +139,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
     progress.report = [&](double) {
       if (first_tile == 0.0) first_tile = cpu_seconds();
     };
-    benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options, progress));
+    benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options, progress));
     const double whole = (cpu_seconds() - std::max(before, first_tile)) / options.samples;
     state.counters["share_percent"] = 100.0 * bare / whole;
     state.counters["Mrays_per_s"] = 1e-6 * static_cast<double>(rays.size()) / bare;
@@ -163,14 +163,14 @@ void seconds_to_equal_noise(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
   RenderOptions reference = options_of(256, 1024);
   reference.seed = 1;
-  const Picture truth = render_cpu(scene, rig_of(subject), reference);
+  const Picture truth = render_cpu(scene, camera_of(subject), reference);
   for (auto _ : state) {
     double error = 0.0, seconds = 0.0;
     int samples = 8;
     do {
       samples *= 2;
       const double start = cpu_seconds();
-      error = difference(render_cpu(scene, rig_of(subject), options_of(256, samples)), truth);
+      error = difference(render_cpu(scene, camera_of(subject), options_of(256, samples)), truth);
       seconds = cpu_seconds() - start;
       if (samples == 16) state.counters["rmse_at_16"] = error;
     } while (error > subject.noise && samples < 1024);
@@ -190,7 +190,7 @@ void load_to_first_ray(benchmark::State& state, const Subject& subject) {
     const EmbreeScene embree(scene);
     PathTracer tracer;
     set_scene(tracer, scene, lights);
-    const Ray ray = camera_ray(make_camera(rig_of(subject)), kLeft, vec2(0.5f));
+    const Ray ray = camera_ray(make_camera(camera_of(subject)), kLeft, vec2(0.5f));
     benchmark::DoNotOptimize(embree.closest_hit(tracer, ray, kPathRay));
     state.counters["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     state.counters["peak_MB"] = peak_megabytes();
@@ -205,14 +205,14 @@ void two_threads_against_one(benchmark::State& state, const Subject& subject) {
       RenderOptions options = options_of(512, 16);
       options.threads = threads;
       const auto start = std::chrono::steady_clock::now();
-      benchmark::DoNotOptimize(render_cpu(scene, rig_of(subject), options));
+      benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options));
       wall[threads - 1] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     state.counters["speedup"] = wall[0] / wall[1];
   }
 }
 
-// What a frame of a film costs beside tracing it: the scene at another time, its trees and lights, against making them
+// What a frame of a video costs beside tracing it: the scene at another time, its trees and lights, against making them
 // all as for a first frame. The built-in toys, or a scene that stands still.
 void frame_overhead(benchmark::State& state, const Subject& subject) {
   const bool moves = std::string_view(subject.name) == "toys";

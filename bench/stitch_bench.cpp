@@ -18,13 +18,13 @@ namespace {
 using namespace ods;
 
 // A pattern on a ball of 3 m, with depth or without.
-void make_view(const SlitRig& rig, const CameraRig& pose, const std::string& path) {
+void make_view(const SlitRig& rig, const StereoCamera& pose, const std::string& path) {
   PictureRows rows;
   rows.eye = rig.view;
   rows.eyes = {kMono};
-  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}};
+  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}};
   const bool deep = rig.options.depth != ViewDepth::kNone;
-  if (deep) rows.layers.push_back({{"Z"}, LayerRule::kNearest, Sample::kFloat});
+  if (deep) rows.layers.push_back({{"Z"}, LayerRule::kNearest, SampleType::kFloat});
   rows.fill = [&, camera = make_camera(pose)](int, int y, std::span<float> row) {
     for (int x = 0; x < rig.view.width; x++) {
       const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(rig.view.width),
@@ -48,7 +48,7 @@ void stitch_views(benchmark::State& state, int slits, ViewDepth depth, const std
   SlitOptions options;
   options.slits = slits;
   options.depth = depth;
-  const SlitRig rig = make_slit_rig(CameraRig(), {4096, 2048}, {kLeft, kRight}, options);
+  const SlitRig rig = make_slit_rig(StereoCamera(), {4096, 2048}, {kLeft, kRight}, options);
   ViewFiles files;
   files.names = folder.path("####." + extension);
   tbb::parallel_for(size_t{0}, rig.views.size(),

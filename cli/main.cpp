@@ -30,7 +30,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "render a scene as a stereo 360 picture or frames", "ods_render"},
     {"convert", "change a picture's projection, layout, size or eyes", "ods_convert"},
-    {"film", "render a scene as a stereo 360 video", "ods_film"},
+    {"video", "render a scene as a stereo 360 video", "ods_video"},
     {"encode", "encode frames as a stereo 360 video", "ods_encode"},
     {"title", "make a title with depth for stereo 360", "ods_title"},
     {"over", "composite a picture or video over another", "ods_over"},

@@ -45,31 +45,31 @@ sheet 4x3 layouts.jpg
 # Straight down at the floor's grid, where a merge shows most: red-cyan, with eyes far apart.
 for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 gaussian,0,90 power,0,90,10 \
   tilt-brush,0,72; do
-  tile "$merge" --layout anaglyph --projection fisheye --look 0,-90 --ipd 0.4 --merge "$merge" --width 320
+  tile "$merge" --layout anaglyph --projection fisheye --lens-direction 0,-90 --ipd 0.4 --merge "$merge" --width 320
 done
 sheet 4x2 merges.jpg
 
 # Ahead and a little down, red-cyan, eyes 20 cm apart where nothing else is said.
-window="--layout anaglyph --projection perspective --fov 80 --look 0,-15 --width 320"
+window="--layout anaglyph --projection perspective --fov 80 --lens-direction 0,-15 --width 320"
 tile "--ipd 0.2" $window --ipd 0.2
 tile "--ipd 0.065" $window --ipd 0.065
 tile "--convergence toe-in,3" $window --ipd 0.2 --convergence toe-in,3
 tile "--convergence shift,3" $window --ipd 0.2 --convergence shift,3
-tile "--neck 0.8" $window --ipd 0.2 --neck 0.8
+tile "--eye-to-neck 0.8" $window --ipd 0.2 --eye-to-neck 0.8
 tile "--roll 20" $window --ipd 0.2 --roll 20
 tile "--roll 20 --axis world" $window --ipd 0.2 --roll 20 --axis world
 tile "--lens 0.15,2" $window --ipd 0.2 --lens 0.15,2
-tile "--mirrored" $window --ipd 0.2 --mirrored
-down="--layout anaglyph --projection fisheye --look 0,-90 --width 320"
-tile "--like povray" $down --like povray:odsIPD=0.4
-tile "--like ospray" $down --like ospray:interpupillaryDistance=0.4
-tile "--like cycles:use_pole_merge=1" $down --like cycles:interocular_distance=0.4,convergence_mode=PARALLEL,use_pole_merge=1
+tile "--left-handed" $window --ipd 0.2 --left-handed
+down="--layout anaglyph --projection fisheye --lens-direction 0,-90 --width 320"
+tile "--camera-preset povray" $down --camera-preset povray:odsIPD=0.4
+tile "--camera-preset ospray" $down --camera-preset ospray:interpupillaryDistance=0.4
+tile "--camera-preset cycles:use_pole_merge=1" $down --camera-preset cycles:interocular_distance=0.4,convergence_mode=PARALLEL,use_pole_merge=1
 sheet 4x3 eyes.jpg
 
 # What one sees ahead and straight up, of each eye.
 for look in 0,0 0,90; do
   for eye in left right; do
-    "$ods" testcard --quiet -o "$parts/tile-$look-$eye.png" --eyes $eye --projection perspective --fov 84 --look $look --width 560 > /dev/null
+    "$ods" testcard --quiet -o "$parts/tile-$look-$eye.png" --eyes $eye --projection perspective --fov 84 --lens-direction $look --width 560 > /dev/null
   done
 done
 sheet 2x2 testcard.jpg

@@ -15,16 +15,16 @@ int main(int argc, char** argv) try {
   if (!ods::has_light(scene)) scene.environment.radiance = ods::vec3(1.0f);
 
   const ods::ViewPoint view = ods::default_view(scene);
-  ods::CameraRig rig;
-  rig.position = view.position;
-  rig.yaw = view.yaw;
+  ods::StereoCamera camera;
+  camera.position = view.position;
+  camera.yaw = view.yaw;
 
   ods::RenderOptions options;
   options.width = argc > 2 ? std::atoi(argv[2]) : 1024;
   options.samples = argc > 3 ? std::atoi(argv[3]) : 16;
 
-  const ods::Picture picture = ods::render_cpu(scene, rig, options);
-  ods::save_picture(picture, rig, {}, argc > 1 ? argv[1] : "room.png");
+  const ods::Picture picture = ods::render_cpu(scene, camera, options);
+  ods::save_picture(picture, camera, {}, argc > 1 ? argv[1] : "room.png");
 } catch (const ods::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -17,8 +17,8 @@ constexpr int kManyPixels = 1 << 16;  // converting more takes too long to try m
 
 static void convert_picture(const ods::StoredPicture& picture) {
   ods::ConvertTarget target;
-  target.rig = picture.rig;
-  target.rig.projection = ods::find_projection("cube-3x2")->setting;
+  target.camera = picture.camera;
+  target.camera.projection = ods::find_projection("cube-3x2")->setting;
   target.eye = {24, 16};
   target.eyes = {ods::kMono};
   if (!ods::conversion_fault(picture, target).empty()) return;

@@ -10,8 +10,8 @@
 #include "ods/base/error.h"
 #include "ods/files/memory_file.h"
 #include "ods/image/format/xmp_file.h"
-#include "ods/picture/metadata/cardboard.h"
 #include "ods/picture/metadata/tag_picture.h"
+#include "ods/picture/metadata/vr_photo.h"
 
 static void read_photo(const std::string& path) {
   try {
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string tagged = "/dev/shm/ods-fuzz/picture";
   read_photo(file.path());
   ods::PictureTag tag;
-  tag.rig.yaw = 90.0f;
+  tag.camera.yaw = 90.0f;
   try {
     std::vector<std::string> guesses;
     ods::complete_tag({}, file.path(), guesses);

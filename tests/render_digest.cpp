@@ -14,16 +14,16 @@ int main() {
   ods::RenderOptions options = ods::small_render(64, 8);
   options.eyes = ods::Eyes::kBothEyes;
   options.filter = ods::PixelFilter::kBlackmanHarris;
-  ods::CameraRig rig;
-  rig.yaw = 20.0f;
-  rig.top.mode = ods::kMergeCosine;
-  rig.bottom.mode = ods::kMergeSmoothstep;
-  const ods::Picture picture = ods::render_cpu(ods::feature_scene(), rig, options);
+  ods::StereoCamera camera;
+  camera.yaw = 20.0f;
+  camera.top.mode = ods::kMergeCosine;
+  camera.bottom.mode = ods::kMergeSmoothstep;
+  const ods::Picture picture = ods::render_cpu(ods::feature_scene(), camera, options);
   ods::Scene toys = ods::load_scene("toys");
   ods::play(toys.animation, "");
   ods::open_shutter(toys, 1.3, 1.32);
-  rig.position = toys.view_points[0].position;
-  const ods::Picture moving = ods::render_cpu(toys, rig, options);
+  camera.position = toys.view_points[0].position;
+  const ods::Picture moving = ods::render_cpu(toys, camera, options);
   std::printf("%016llx %016llx\n", static_cast<unsigned long long>(ods::digest(picture)),
               static_cast<unsigned long long>(ods::digest(moving)));
 }

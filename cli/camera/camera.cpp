@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kExamples =
     "  ods camera --for povray --ipd 0.064 --merge cosine,0,90,0.2 --position 0,1.6,0 > camera.inc\n"
     "  ods camera --for blender --from picture.camera.json -o match.py\n"
-    "  ods camera --for json --like arnold -o arnold.camera.json";
+    "  ods camera --for json --camera-preset arnold -o arnold.camera.json";
 
 void camera(int argc, char** argv) {
   CameraSource source;

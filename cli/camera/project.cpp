@@ -17,7 +17,7 @@
 #include "cli/options/camera_source.h"
 #include "ods/camera/layout.h"
 
-using ods::Camera, ods::CameraFile, ods::vec2, ods::vec3;
+using ods::Camera, ods::Sidecar, ods::vec2, ods::vec3;
 
 namespace {
 
@@ -35,7 +35,7 @@ struct Found {
   bool seen;
 };
 
-std::vector<Found> find(const CameraFile& file, const Camera& camera, vec3 point) {
+std::vector<Found> find(const Sidecar& file, const Camera& camera, vec3 point) {
   std::vector<Found> all;
   for (const int eye : file.eyes) {
     const ods::ImagePosition at = project_point(camera, eye, point);
@@ -68,7 +68,7 @@ nlohmann::ordered_json to_json(vec3 point, const std::vector<Found>& all) {
 }
 
 // EYE,X,Y,DEPTH -> the point of the world.
-void print_point_of(const std::string& word, const CameraFile& file, const Camera& camera, bool json) {
+void print_point_of(const std::string& word, const Sidecar& file, const Camera& camera, bool json) {
   const size_t comma = std::min(word.find(','), word.size());
   const std::vector<float> n = comma < word.size() ? parse_numbers(word.substr(comma + 1)) : std::vector<float>();
   int eye = -1;
@@ -106,8 +106,8 @@ void project(int argc, char** argv) {
   options.group("Console");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
-  const CameraFile file = read_camera_source(source);
-  const Camera camera = make_camera(file.rig);
+  const Sidecar file = read_camera_source(source);
+  const Camera camera = make_camera(file.camera);
   const auto print = [&](std::string word) {
     std::replace_if(
         word.begin(), word.end(), [](char c) { return c == ' ' || c == '\t'; }, ',');

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
-#include "cli/options/form_options.h"
-#include "ods/camera/video_level.h"
+#include "cli/options/picture_options.h"
+#include "ods/camera/codec_level.h"
 
 using ods::NamedSize;
 
@@ -53,7 +53,7 @@ void print_table(std::span<const NamedSize> sizes) {
                threshold ? size.antialias.substr(14) : size.antialias, short_source(size));
   }
   fmt::print(
-      "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a film, at {} pictures a second where fps\n"
+      "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a video, at {} pictures a second where fps\n"
       "is empty; with none, players may refuse it. AA: antialiasing the source asks for, off or POV-Ray's threshold.\n",
       kStillFps);
 }

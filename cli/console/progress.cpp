@@ -50,7 +50,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-ProgressStep film_step(std::string_view kind, double done, size_t frames, const std::string& file) {
+ProgressStep video_step(std::string_view kind, double done, size_t frames, const std::string& file) {
   const int count = static_cast<int>(frames);
   return {kind, std::clamp(static_cast<int>(done * count) + 1, 1, std::max(count, 1)), count, file};
 }
@@ -69,7 +69,7 @@ std::string frame_text(const ProgressStep& step) {
   return step.frames > 1 ? fmt::format(", frame {} of {}", step.frame, step.frames) : "";
 }
 
-// A long film is below one percent for a long time.
+// A long video is below one percent for a long time.
 std::string percent_text(double done) {
   const double percent = std::floor(1000.0 * done + 1e-9) / 10.0;
   return percent < 10.0 && percent > 0.0 ? fmt::format("{:.1f}", percent)

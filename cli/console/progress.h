@@ -37,15 +37,15 @@ std::string duration_text(double seconds);
 struct ProgressStep {
   std::string_view kind;  // render, stitch, encode, ...: a word that outlives the call
   int frame = 0;          // counted from 1
-  int frames = 0;         // in all; 0: not a film
+  int frames = 0;         // in all; 0: not a video
   std::string file;       // that is being made
 };
 
 // The share done of all, 0..1, and what it is at.
 using StepReport = std::function<void(double done, const ProgressStep& step)>;
 
-// The step of a job that has done this share of a film's frames.
-ProgressStep film_step(std::string_view kind, double done, size_t frames, const std::string& file);
+// The step of a job that has done this share of a video's frames.
+ProgressStep video_step(std::string_view kind, double done, size_t frames, const std::string& file);
 
 // Writes one job's progress; kAuto is the caller's to resolve.
 class ProgressLines {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much room the frames of a film need on the disk.
+// How much room the frames of a video need on the disk.
 #pragma once
 #include <cstddef>
 #include <string>

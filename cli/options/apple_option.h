@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// --apple, of the commands that write films.
+// --apple, of the commands that write videos.
 #pragma once
 #include "cli/console/console.h"
 #include "cli/console/options.h"
-#include "ods/video/container/film.h"
+#include "ods/video/container/video_file.h"
 
 inline void add_apple_option(Options& options, bool& for_apple) {
   options.flag("--apple", for_apple,

@@ -12,7 +12,7 @@
 #include "cli/options/projection_options.h"
 #include "ods/base/suggest.h"
 
-using ods::CameraField, ods::CameraRig, ods::Scene, ods::vec3, ods::ViewPoint;
+using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
 
 namespace {
 
@@ -49,9 +49,9 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; tilts the horizon too");
   add_field_option(options, "--roll", camera.roll, CameraField::kRoll,
                    "roll clockwise, degrees; tilts the horizon too");
-  add_dialect_option(options, camera);
+  add_camera_preset_option(options, camera);
   add_eye_options(options, camera);
-  add_projection_options(options, camera.rig.projection);
+  add_projection_options(options, camera.stereo.projection);
 }
 
 void add_place_options(Options& options, CameraOptions& camera) {
@@ -74,43 +74,43 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
 
 void finish_camera_options(CameraOptions& camera, int width, int& height) {
   finish_eye_options(camera);
-  finish_projection(camera.rig.projection, width, height);
+  finish_projection(camera.stereo.projection, width, height);
 }
 
 static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
   return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
 }
 
-CameraRig place_camera_again(const CameraOptions& camera, const Scene& scene) {
+StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
   const ViewPoint view = chosen_view(camera, scene);
-  CameraRig rig = camera.rig;
-  rig.position = camera.position.value_or(view.position);
-  rig.yaw = camera.yaw.value_or(view.yaw);
-  rig.pitch = camera.pitch.value_or(0.0f);
-  rig.roll = camera.roll.value_or(0.0f);
-  const std::string fault = camera_fault(rig);  // scenes may stand anywhere
+  StereoCamera stereo = camera.stereo;
+  stereo.position = camera.position.value_or(view.position);
+  stereo.yaw = camera.yaw.value_or(view.yaw);
+  stereo.pitch = camera.pitch.value_or(0.0f);
+  stereo.roll = camera.roll.value_or(0.0f);
+  const std::string fault = camera_fault(stereo);  // scenes may stand anywhere
   if (!fault.empty()) throw UsageError("the camera's " + fault);
-  return rig;
+  return stereo;
 }
 
-CameraRig place_camera(const CameraOptions& camera, const Scene& scene) {
+StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
   const ViewPoint view = chosen_view(camera, scene);
-  const CameraRig rig = place_camera_again(camera, scene);
+  const StereoCamera stereo = place_camera_again(camera, scene);
   std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
-  note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", rig.position.x, rig.position.y, rig.position.z,
-                   rig.yaw, from));
+  note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", stereo.position.x, stereo.position.y,
+                   stereo.position.z, stereo.yaw, from));
   if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {
     note(fmt::format("kept level; --pitch {:.4g} --roll {:.4g} tilts it as in the file", view.pitch, view.roll));
   }
-  return rig;
+  return stereo;
 }
 
-ods::CameraRig place_camera(const CameraOptions& camera) {
-  ods::CameraRig rig = camera.rig;
-  rig.position = camera.position.value_or(vec3(0.0f));
-  rig.yaw = camera.yaw.value_or(0.0f);
-  rig.pitch = camera.pitch.value_or(0.0f);
-  rig.roll = camera.roll.value_or(0.0f);
-  return rig;
+ods::StereoCamera place_camera(const CameraOptions& camera) {
+  ods::StereoCamera stereo = camera.stereo;
+  stereo.position = camera.position.value_or(vec3(0.0f));
+  stereo.yaw = camera.yaw.value_or(0.0f);
+  stereo.pitch = camera.pitch.value_or(0.0f);
+  stereo.roll = camera.roll.value_or(0.0f);
+  return stereo;
 }

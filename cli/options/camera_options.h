@@ -7,11 +7,11 @@
 #include <string>
 
 #include "cli/console/options.h"
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/scene/scene.h"
 
 struct CameraOptions {
-  ods::CameraRig rig;  // what holds for every scene
+  ods::StereoCamera stereo;  // what holds for every scene
   std::string merge_map;
   bool merge_map_inverted = false;
   std::string view_point;
@@ -37,10 +37,10 @@ void finish_camera_options(CameraOptions& camera, int width, int& height);
 // The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or
 // above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.
 // Pitch and roll of a view point are left out: in a headset the horizon must be level. Throws UsageError.
-ods::CameraRig place_camera(const CameraOptions& camera, const ods::Scene& scene);
+ods::StereoCamera place_camera(const CameraOptions& camera, const ods::Scene& scene);
 
-// The same without the note: for every frame of a film.
-ods::CameraRig place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
+// The same without the note: for every frame of a video.
+ods::StereoCamera place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
 
 // The camera asked for where there is no scene: at the origin, unless something else was given.
-ods::CameraRig place_camera(const CameraOptions& camera);
+ods::StereoCamera place_camera(const CameraOptions& camera);

@@ -3,21 +3,21 @@
 #include "cli/options/camera_source.h"
 
 #include "cli/console/console.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 
-using ods::CameraFile, ods::Eyes;
+using ods::Sidecar, ods::Eyes;
 
 namespace {
 
 void load(const std::string& path, CameraSource& source) {
   std::vector<std::string> warnings;
-  source.file = ods::load_camera(path, warnings);
+  source.file = ods::open_camera(path, warnings);
   for (const std::string& warning : warnings) note(warning);
   CameraOptions& camera = source.camera;
-  camera.rig = source.file.rig;
-  camera.position = camera.rig.position;
-  camera.yaw = camera.rig.yaw, camera.pitch = camera.rig.pitch, camera.roll = camera.rig.roll;
+  camera.stereo = source.file.camera;
+  camera.position = camera.stereo.position;
+  camera.yaw = camera.stereo.yaw, camera.pitch = camera.stereo.pitch, camera.roll = camera.stereo.roll;
   if (source.file.eye.width > 0) source.width = source.file.eye.width;
   for (const Eyes eyes : ods::kAllEyes) {
     if (ods::eye_list(eyes) == source.file.eyes) source.eyes = eyes;
@@ -30,7 +30,7 @@ void add_camera_source(Options& options, CameraSource& source) {
   options.group("Picture");
   options.custom(
       "--from", "FILE", "", [&](const std::string& path) { load(path, source); },
-      "a .camera.json file (ods render --sidecar); the options below override it");
+      "take the camera from a .camera.json file or a picture that carries it");
   options.number("--width", source.width, 2, 32768, "width of one eye in pixels");
   options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
   add_layout_option(options, source.layout,
@@ -38,12 +38,12 @@ void add_camera_source(Options& options, CameraSource& source) {
   add_sceneless_camera_options(options, source.camera);
 }
 
-CameraFile read_camera_source(CameraSource& source) {
+Sidecar read_camera_source(CameraSource& source) {
   int height = source.width == source.file.eye.width ? source.file.eye.height : 0;  // its own stays with its width
   finish_camera_options(source.camera, source.width, height);
-  CameraFile file = source.file;
-  file.rig = place_camera(source.camera);
-  const ods::Layout kept = layout_of_converted(file.layout, source.file.rig.projection, file.rig.projection);
+  Sidecar file = source.file;
+  file.camera = place_camera(source.camera);
+  const ods::Layout kept = layout_of_converted(file.layout, source.file.camera.projection, file.camera.projection);
   file.layout = source.layout.value_or(kept);
   file.eyes = ods::eye_list(source.eyes);
   file.eye = {source.width, height};

@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "cli/options/camera_options.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "ods/render/render_options.h"
 
 struct CameraSource {
   CameraOptions camera;
-  ods::CameraFile file;
+  ods::Sidecar file;
   std::optional<ods::Layout> layout;  // as --layout has it
   int width = 2048;                   // of one eye
   ods::Eyes eyes = ods::Eyes::kBothEyes;
@@ -21,4 +21,4 @@ struct CameraSource {
 void add_camera_source(Options& options, CameraSource& source);
 
 // What was asked for, once the options are parsed. Throws UsageError and ods::Error.
-ods::CameraFile read_camera_source(CameraSource& source);
+ods::Sidecar read_camera_source(CameraSource& source);

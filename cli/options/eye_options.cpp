@@ -12,10 +12,10 @@
 #include "cli/console/console.h"
 #include "cli/options/field_option.h"
 #include "ods/base/suggest.h"
-#include "ods/camera/dialect.h"
+#include "ods/camera/camera_preset.h"
 #include "ods/image/image_file.h"
 
-using ods::CameraField, ods::CameraRig, ods::PoleMergeSetting, ods::vec3;
+using ods::CameraField, ods::StereoCamera, ods::PoleMergeSetting, ods::vec3;
 
 namespace {
 
@@ -60,22 +60,22 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
 }
 
 // parallel, toe-in,METRES or shift,METRES
-void parse_convergence(const std::string& text, CameraRig& rig) {
+void parse_convergence(const std::string& text, StereoCamera& stereo) {
   const WordAndNumbers parts = split(text);
   for (int convergence : ods::kConvergences) {
     if (parts.word != ods::convergence_name(convergence) || !parts.legal || parts.numbers.size() > 1) continue;
     if (parts.numbers.size() == 1 && !range_of(CameraField::kConvergenceDistance).contains(parts.numbers[0])) continue;
-    rig.convergence = convergence;
-    if (parts.numbers.size() == 1) rig.convergence_distance = parts.numbers[0];
+    stereo.convergence = convergence;
+    if (parts.numbers.size() == 1) stereo.convergence_distance = parts.numbers[0];
     return;
   }
   throw UsageError(
       fmt::format("--convergence is parallel, toe-in,METRES or shift,METRES (0.001 to a million), not '{}'", text));
 }
 
-void parse_axis(const std::string& text, CameraRig& rig) {
+void parse_axis(const std::string& text, StereoCamera& stereo) {
   if (text == "camera") {
-    rig.axis.reset();
+    stereo.axis.reset();
     return;
   }
   std::vector<float> numbers = text == "world" ? std::vector<float>{0.0f, 1.0f, 0.0f} : parse_numbers(text);
@@ -84,26 +84,26 @@ void parse_axis(const std::string& text, CameraRig& rig) {
   if (!(size > 1e-6f && size < range_of(CameraField::kAxis).most)) {
     throw UsageError(fmt::format("--axis is camera, world or a direction X,Y,Z, not '{}'", text));
   }
-  rig.axis = vec3(numbers[0], numbers[1], numbers[2]) / size;
+  stereo.axis = vec3(numbers[0], numbers[1], numbers[2]) / size;
 }
 
-void parse_lens(const std::string& text, CameraRig& rig) {
+void parse_lens(const std::string& text, StereoCamera& stereo) {
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 2 && range_of(CameraField::kLensRadius).contains(numbers[0]) &&
                      range_of(CameraField::kFocusDistance).contains(numbers[1]);
   if (!legal) throw UsageError(fmt::format("--lens is RADIUS,FOCUS in metres, as 0.005,2, not '{}'", text));
-  rig.lens_radius = numbers[0], rig.focus_distance = numbers[1];
+  stereo.lens_radius = numbers[0], stereo.focus_distance = numbers[1];
 }
 
 // NAME[:PARAMETER=VALUE,...]
-void parse_dialect(const std::string& text, CameraOptions& camera) {
+void parse_camera_preset(const std::string& text, CameraOptions& camera) {
   const size_t colon = std::min(text.find(':'), text.size());
   const std::string name = text.substr(0, colon);
-  const ods::Dialect* dialect = ods::find_dialect(name);
-  if (!dialect) {
+  const ods::CameraPreset* preset = ods::find_camera_preset(name);
+  if (!preset) {
     std::vector<std::string> names;
-    for (const ods::Dialect& each : ods::dialects()) names.emplace_back(each.name);
-    throw UsageError(fmt::format("--like knows no '{}'{}; it knows {}", name, ods::did_you_mean(name, names),
+    for (const ods::CameraPreset& each : ods::camera_presets()) names.emplace_back(each.name);
+    throw UsageError(fmt::format("--camera-preset knows no '{}'{}; it knows {}", name, ods::did_you_mean(name, names),
                                  fmt::join(names, ", ")));
   }
   std::map<std::string, std::string> given;
@@ -112,36 +112,37 @@ void parse_dialect(const std::string& text, CameraOptions& camera) {
     const std::string pair = text.substr(at, end - at);
     const size_t equals = pair.find('=');
     if (equals == std::string::npos)
-      throw UsageError(fmt::format("--like {}: '{}' is not PARAMETER=VALUE", name, pair));
+      throw UsageError(fmt::format("--camera-preset {}: '{}' is not PARAMETER=VALUE", name, pair));
     given[pair.substr(0, equals)] = pair.substr(equals + 1);
     at = end + 1;
   }
   try {
-    camera.rig = ods::rig_like(*dialect, given);
+    camera.stereo = ods::camera_like(*preset, given);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--like ") + error.what());
+    throw UsageError(std::string("--camera-preset ") + error.what());
   }
-  if (camera.rig.yaw != 0.0f && !camera.yaw) camera.yaw = camera.rig.yaw;
-  if (!dialect->exact) note(fmt::format("{} is only approximated: {}", dialect->system, dialect->note));
+  if (camera.stereo.yaw != 0.0f && !camera.yaw) camera.yaw = camera.stereo.yaw;
+  if (!preset->exact) note(fmt::format("{} is only approximated: {}", preset->system, preset->note));
 }
 
 }  // namespace
 
-void add_dialect_option(Options& options, CameraOptions& camera) {
+void add_camera_preset_option(Options& options, CameraOptions& camera) {
   options.custom(
-      "--like", "SYSTEM[:PARAMETER=VALUE,..]", "", [&](const std::string& text) { parse_dialect(text, camera); },
+      "--camera-preset", "SYSTEM[:PARAMETER=VALUE,..]", "",
+      [&](const std::string& text) { parse_camera_preset(text, camera); },
       "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
       "the options below override it");
 }
 
 void add_circle_options(Options& options, CameraOptions& camera) {
-  CameraRig& rig = camera.rig;
+  StereoCamera& stereo = camera.stereo;
   options.group("Eyes");
-  add_field_option(options, "--ipd", rig.ipd, CameraField::kIpd,
+  add_field_option(options, "--ipd", stereo.ipd, CameraField::kIpd,
                    "distance between the eyes (interpupillary distance), metres");
-  const auto set_both = [&](const std::string& text) { rig.top = rig.bottom = parse_merge("--merge", text); };
-  const auto set_top = [&](const std::string& text) { rig.top = parse_merge("--merge-top", text); };
-  const auto set_bottom = [&](const std::string& text) { rig.bottom = parse_merge("--merge-bottom", text); };
+  const auto set_both = [&](const std::string& text) { stereo.top = stereo.bottom = parse_merge("--merge", text); };
+  const auto set_top = [&](const std::string& text) { stereo.top = parse_merge("--merge-top", text); };
+  const auto set_bottom = [&](const std::string& text) { stereo.bottom = parse_merge("--merge-bottom", text); };
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
   options.custom("--merge", merge_unit, "none,60,90,1", set_both,
                  "reduce the eye distance to 0 towards the poles: none, linear, cosine, smoothstep, gaussian, power, "
@@ -153,23 +154,23 @@ void add_circle_options(Options& options, CameraOptions& camera) {
   options.flag("--merge-map-inverted", camera.merge_map_inverted,
                "invert the map: black is full stereo, as in Arnold's manual");
   options.custom(
-      "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, rig); },
+      "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, stereo); },
       "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
       "METRES coincide");
-  add_field_option(options, "--neck", rig.neck, CameraField::kNeck,
+  add_field_option(options, "--eye-to-neck", stereo.neck, CameraField::kNeck,
                    "distance of the eyes in front of the axis they turn about, metres");
 }
 
 void add_eye_options(Options& options, CameraOptions& camera) {
-  CameraRig& rig = camera.rig;
+  StereoCamera& stereo = camera.stereo;
   add_circle_options(options, camera);
   options.custom(
-      "--axis", "AXIS", "camera", [&](const std::string& text) { parse_axis(text, rig); },
+      "--axis", "AXIS", "camera", [&](const std::string& text) { parse_axis(text, stereo); },
       "normal of the viewing circle: the camera's up axis, the world's up axis, or X,Y,Z");
   options.custom(
-      "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { parse_lens(text, rig); },
+      "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { parse_lens(text, stereo); },
       "depth of field: radius of the lens and focus distance, in metres");
-  options.flag("--mirrored", rig.mirrored, "swap front and back, to show a left-handed world as it is");
+  options.flag("--left-handed", stereo.mirrored, "swap front and back, to show a left-handed world as it is");
 }
 
 static void read_merge_map(CameraOptions& camera) {
@@ -184,18 +185,18 @@ static void read_merge_map(CameraOptions& camera) {
       *map->at(x, y) = camera.merge_map_inverted ? 1.0f - share : share;
     }
   }
-  camera.rig.merge_map = map;
+  camera.stereo.merge_map = map;
 }
 
 void finish_eye_options(CameraOptions& camera) {
-  CameraRig& rig = camera.rig;
-  const bool wanted = rig.top.mode == ods::kMergeMap || rig.bottom.mode == ods::kMergeMap;
-  if (camera.merge_map.empty() && wanted && !rig.merge_map)
+  StereoCamera& stereo = camera.stereo;
+  const bool wanted = stereo.top.mode == ods::kMergeMap || stereo.bottom.mode == ods::kMergeMap;
+  if (camera.merge_map.empty() && wanted && !stereo.merge_map)
     throw UsageError("--merge map needs a picture: --merge-map FILE");
   if (camera.merge_map.empty() && camera.merge_map_inverted)
     throw UsageError("--merge-map-inverted needs a picture: --merge-map FILE");
   if (!camera.merge_map.empty()) {
-    if (!wanted) rig.top.mode = rig.bottom.mode = ods::kMergeMap;
+    if (!wanted) stereo.top.mode = stereo.bottom.mode = ods::kMergeMap;
     read_merge_map(camera);
   }
 }

@@ -5,7 +5,7 @@
 #pragma once
 #include "cli/options/camera_options.h"
 
-void add_dialect_option(Options& options, CameraOptions& camera);
+void add_camera_preset_option(Options& options, CameraOptions& camera);
 // What makes up the viewing circle: distance, merges, convergence, neck. Then the rest too.
 void add_circle_options(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How eyes share a picture or a film, by name.
+// How eyes share a picture or a video, by name.
 #pragma once
 #include <optional>
 #include <string>

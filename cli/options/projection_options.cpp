@@ -46,11 +46,11 @@ void parse_range(const std::string& text, ProjectionSetting& projection) {
 }
 
 void parse_look(const std::string& text, ProjectionSetting& projection) {
-  expect_lens("--look", projection);
+  expect_lens("--lens-direction", projection);
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 2 && range_of(ods::CameraField::kPan).contains(numbers[0]) &&
                      range_of(ods::CameraField::kTilt).contains(numbers[1]);
-  if (!legal) throw UsageError(fmt::format("--look is PAN,TILT in degrees, not '{}'", text));
+  if (!legal) throw UsageError(fmt::format("--lens-direction is PAN,TILT in degrees, not '{}'", text));
   projection.pan = numbers[0], projection.tilt = numbers[1];
 }
 
@@ -108,7 +108,7 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
       "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
       "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
   options.custom(
-      "--look", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
+      "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
       "direction of a fisheye or perspective view, degrees right and up; the eyes stay level");
 }
 

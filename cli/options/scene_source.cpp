@@ -48,8 +48,8 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   if (names.empty()) return "; it names no objects and materials";
   const std::string near = ods::did_you_mean(name, names);
   if (!near.empty()) return near;
-  const size_t kMost = 12;
-  const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMost));
+  const size_t kMax = 12;
+  const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMax));
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
 }
 
@@ -69,7 +69,8 @@ Scene open_scene(const SceneSource& source) {
   for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
-    throw UsageError(fmt::format("--catch: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
+    throw UsageError(
+        fmt::format("--shadow-catcher: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
   }
   return scene;
 }

@@ -13,11 +13,11 @@
 #include "ods/base/suggest.h"
 #include "ods/files/frames.h"
 
-std::string_view film_noise_name(FilmNoise noise) {
+std::string_view video_noise_name(VideoNoise noise) {
   switch (noise) {
-    case FilmNoise::kFixed:
+    case VideoNoise::kFixed:
       return "fixed";
-    case FilmNoise::kChanging:
+    case VideoNoise::kChanging:
       return "changing";
   }
   return "";
@@ -72,24 +72,24 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 is none");
-  options.choice("--noise", time.noise, kFilmNoises, film_noise_name,
+  options.choice("--noise", time.noise, kVideoNoises, video_noise_name,
                  "noise pattern: the same in every frame, or different in each");
   options.flag("--skip-existing", time.skip_existing,
                "do not render frames whose files exist; several processes with this option share the rest");
 }
 
-bool asks_for_film(const TimeOptions& time) {
-  return time.is_film || !time.frames.empty() || time.duration || ods::moves(time.move);
+bool asks_for_video(const TimeOptions& time) {
+  return time.is_video || !time.frames.empty() || time.duration || ods::moves(time.move);
 }
 
 void check_time_options(const TimeOptions& time) {
-  if (time.time && asks_for_film(time)) throw UsageError("--time is for one picture, --frames for a film; give one");
+  if (time.time && asks_for_video(time)) throw UsageError("--time is for one picture, --frames for a video; give one");
   if (names_frames(time)) ods::parse_frames(time.frames);
 }
 
 void start_clock(TimeOptions& time, ods::Scene& scene) {
   ods::Animation& animation = scene.animation;
-  const bool timed = time.time || asks_for_film(time);
+  const bool timed = time.time || asks_for_video(time);
   std::vector<std::string> names;
   for (const ods::Clip& clip : animation.clips) names.push_back(clip.name);
   if (!timed && time.animation.empty()) {
@@ -105,10 +105,10 @@ void start_clock(TimeOptions& time, ods::Scene& scene) {
   time.move.seconds = time.duration ? static_cast<double>(*time.duration) : length > 0.0 ? length : 10.0;
 }
 
-std::vector<int> film_frames(const TimeOptions& time) {
+std::vector<int> video_frames(const TimeOptions& time) {
   if (names_frames(time)) return ods::parse_frames(time.frames);
   const double count = std::round(time.move.seconds * static_cast<double>(time.fps));
-  if (count > 1e6) throw UsageError("the film would have more than a million frames; --frames says which to render");
+  if (count > 1e6) throw UsageError("the video would have more than a million frames; --frames says which to render");
   std::vector<int> frames(static_cast<size_t>(std::max(count, 1.0)));
   std::iota(frames.begin(), frames.end(), 0);
   return frames;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that say when: a moment of a scene, or the frames of a film and how the camera moves in it.
+// The options that say when: a moment of a scene, or the frames of a video and how the camera moves in it.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,34 +12,34 @@
 #include "ods/camera/camera_move.h"
 #include "ods/scene/scene.h"
 
-// Whether every frame of a film has the same noise, or each its own.
-enum class FilmNoise { kFixed, kChanging };
-inline constexpr FilmNoise kFilmNoises[] = {FilmNoise::kFixed, FilmNoise::kChanging};
-std::string_view film_noise_name(FilmNoise noise);  // fixed, changing
+// Whether every frame of a video has the same noise, or each its own.
+enum class VideoNoise { kFixed, kChanging };
+inline constexpr VideoNoise kVideoNoises[] = {VideoNoise::kFixed, VideoNoise::kChanging};
+std::string_view video_noise_name(VideoNoise noise);  // fixed, changing
 
 struct TimeOptions {
   std::optional<float> time;  // seconds
   std::string animation;      // empty: what ods::play() chooses
   std::string frames;         // empty or "all": all of the duration
   float fps = 30.0f;
-  std::optional<float> duration;  // seconds; of a film, or of the camera's move
+  std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
   float shutter = 0.0f;  // degrees of the time between two frames
-  FilmNoise noise = FilmNoise::kFixed;
+  VideoNoise noise = VideoNoise::kFixed;
   bool skip_existing = false;
-  bool is_film = false;  // whatever else is given
+  bool is_video = false;  // whatever else is given
 };
 
 void add_time_options(Options& options, TimeOptions& time);
 
-// Whether a film is asked for, frame by frame.
-bool asks_for_film(const TimeOptions& time);
+// Whether a video is asked for, frame by frame.
+bool asks_for_video(const TimeOptions& time);
 
 // Looks at what was given as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);
 
-// Lets the scene play what was asked for, and finds out how long the film is. Throws UsageError.
+// Lets the scene play what was asked for, and finds out how long the video is. Throws UsageError.
 void start_clock(TimeOptions& time, ods::Scene& scene);
 
-// The frames of the film; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.
-std::vector<int> film_frames(const TimeOptions& time);
+// The frames of the video; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.
+std::vector<int> video_frames(const TimeOptions& time);

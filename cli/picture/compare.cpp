@@ -12,7 +12,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/picture/compare_report.h"
 #include "ods/base/error.h"
 #include "ods/kernel/camera/camera.h"

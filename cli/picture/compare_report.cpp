@@ -75,8 +75,7 @@ Json to_json(const CompareReport& report, const char* name, const ods::Errors& e
 
 void print_text(const CompareReport& report) {
   for (size_t i = 0; i < 2; i++) {
-    fmt::print("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]),
-               report.files[i].guess.because);
+    fmt::print("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]), report.files[i].guess.reason);
   }
   fmt::print("in {}\n\n", report.in_code_values ? "code values 0..1, as a display gets them" : "linear light");
   fmt::print("{:<6} {:>10} {:>7} {:>7} {:>10}  {:<18} {:<13} {}\n", "eye", "RMSE", "PSNR", "WS-PSNR", "largest",
@@ -96,9 +95,8 @@ void print_text(const CompareReport& report) {
 void print_json(const CompareReport& report) {
   Json json = {{"in", report.in_code_values ? "code values" : "linear light"}};
   for (size_t i = 0; i < 2; i++) {
-    json[i == 0 ? "a" : "b"] = {{"path", report.paths[i]},
-                                {"layout", layout_word(report.files[i])},
-                                {"because", report.files[i].guess.because}};
+    json[i == 0 ? "a" : "b"] = {
+        {"path", report.paths[i]}, {"layout", layout_word(report.files[i])}, {"reason", report.files[i].guess.reason}};
   }
   const std::vector<ods::Errors>& eyes = report.comparison.eyes;
   for (size_t i = 0; i < eyes.size(); i++) json["eyes"].push_back(to_json(report, eye_word(report, i), eyes[i]));

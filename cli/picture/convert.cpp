@@ -42,7 +42,7 @@ void say_what_is_missing(const ods::Conversion& conversion) {
 }
 
 void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
-  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.rig.projection);
+  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
   const std::string fault = ods::conversion_fault(job.picture, job.target);
   if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
   const auto start = std::chrono::steady_clock::now();
@@ -52,13 +52,13 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
                      conversion.no_depth));
   }
   count_rows(conversion.rows, job.output, lines, start);
-  const auto files = ods::save_picture(conversion.rows, &job.target.rig, job.save, job.output);
+  const auto files = ods::save_picture(conversion.rows, &job.target.camera, job.save, job.output);
   lines.report(1.0, seconds_since(start), {"convert", 0, 0, job.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
   say_what_is_missing(conversion);
   const ods::Extent eye = job.target.eye;
-  note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.rig.projection), eye.width,
+  note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.camera.projection), eye.width,
                    eye.height, duration_text(seconds_since(start))));
 }
 

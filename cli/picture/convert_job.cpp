@@ -10,11 +10,11 @@
 #include "cli/console/long_job.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/field_option.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 
-using ods::CameraField, ods::CameraRig, ods::Eyes, ods::Layout;
+using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout;
 
 namespace {
 
@@ -48,19 +48,20 @@ void add_input_options(Options& options, ConvertJob& job) {
                    "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   options.group("Input, if neither the file nor its name tells");
   options.custom(
-      "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
+      "--from-projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
       "its projection");
   add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
   options.custom(
       "--from-camera", "FILE", "",
       [&](const std::string& path) {
         std::vector<std::string> warnings;
-        const ods::CameraFile file = ods::load_camera(path, warnings);
-        job.known.camera = file.rig;
+        const ods::Sidecar file = ods::open_camera(path, warnings);
+        job.known.camera = file.camera;
         if (!job.known.layout) job.known.layout = file.eyes.size() == 2 ? file.layout : Layout::kSeparate;
         for (const std::string& warning : warnings) note(warning);
       },
-      "its camera: a .camera.json file (ods render --sidecar)");
+      "its camera: a .camera.json file or a picture that carries it");
 }
 
 void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
@@ -84,7 +85,7 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
 }
 
 void add_camera(Options& options, CameraOptions& camera) {
-  add_projection_options(options, camera.rig.projection, "--to");
+  add_projection_options(options, camera.stereo.projection, "--to");
   options.group("Turn");
   add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw, "turn to the right, degrees");
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; mono pictures only");
@@ -112,35 +113,18 @@ bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv)
   return true;
 }
 
-// Turned from where the picture looks.
-void turn(CameraRig& rig, const CameraOptions& by) {
-  const float yaw = by.yaw.value_or(0.0f), pitch = by.pitch.value_or(0.0f), roll = by.roll.value_or(0.0f);
-  if (rig.pitch == 0.0f && rig.roll == 0.0f) {
-    rig.yaw = ods::angle_in_range(double{rig.yaw} + double{yaw}), rig.pitch = pitch, rig.roll = roll;
-    return;
-  }
-  const auto frame = [](float y, float p, float r) {
-    return ods::attitude(glm::radians(double{y}), glm::radians(double{p}), glm::radians(double{r}));
-  };
-  const auto [right, up, back] = frame(rig.yaw, rig.pitch, rig.roll);
-  const auto turned = frame(yaw, pitch, roll);
-  const auto placed = [&](glm::dvec3 v) { return v.x * right + v.y * up + v.z * back; };
-  const ods::ViewAngles angles = ods::view_angles(-placed(turned[2]), placed(turned[1]));
-  rig.yaw = angles.yaw, rig.pitch = angles.pitch, rig.roll = angles.roll;
-}
-
 // A mono picture is one of the eyes that there are, wherever eyes are wanted.
-void note_unmoved(const ConvertJob& job, const CameraRig& wished) {
-  const CameraRig& own = job.picture.rig;
+void note_unmoved(const ConvertJob& job, const StereoCamera& wished) {
+  const StereoCamera& own = job.picture.camera;
   const bool moves = wished.ipd != own.ipd || wished.neck != own.neck || !ods::same_merge(wished.top, own.top) ||
                      !ods::same_merge(wished.bottom, own.bottom);
-  if (moves && job.target.eyes[0] == ods::kMono) note("--ipd, --merge and --neck change nothing of one eye");
+  if (moves && job.target.eyes[0] == ods::kMono) note("--ipd, --merge and --eye-to-neck change nothing of one eye");
 }
 
 std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
   if (wishes.mono || wishes.size.eyes == Eyes::kMonoEye) return {ods::kMono};
   if (given) return ods::eye_list(wishes.size.eyes);
-  return own_form(job.picture).eyes;
+  return same_format(job.picture).eyes;
 }
 
 // Where the output will lie, or what there is of the way to it.
@@ -170,26 +154,27 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
 
 void open_convert_job(ConvertJob& job, int argc, char** argv) {
   ods::OpenOptions open;
-  open.form = job.known;
+  open.format = job.known;
   open.scratch_folder = folder_of(job.output);
   job.picture = ods::open_picture(job.input, open);
   note_guesses(job.input, job.picture);
 
   Given given{};
   Wishes wishes;
-  wishes.camera.rig = job.picture.rig;
+  wishes.camera.stereo = job.picture.camera;
   parse(job, wishes, given, argc, argv);
   finish_eye_options(wishes.camera);
-  CameraRig& rig = job.target.rig = wishes.camera.rig;
-  turn(rig, wishes.camera);
+  StereoCamera& stereo = job.target.camera = wishes.camera.stereo;
+  const CameraOptions& by = wishes.camera;
+  turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
   job.target.eyes = wished_eyes(job, wishes, given.eyes);
-  note_unmoved(job, rig);
+  note_unmoved(job, stereo);
   if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
-  save_as_it_was(job.picture, rig.projection, job.output, wishes.layout, given.tone, job.save);
+  save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, given.tone, job.save);
   if (given.exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
 
-  ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, rig.projection);
+  ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, stereo.projection);
   if (given.size) eye = {wishes.size.width, wishes.size.height};
-  finish_projection(rig.projection, eye.width, eye.height);
-  note_misleading_name(job.output, job.save, job.target.eyes.size(), rig.projection);
+  finish_projection(stereo.projection, eye.width, eye.height);
+  note_misleading_name(job.output, job.save, job.target.eyes.size(), stereo.projection);
 }

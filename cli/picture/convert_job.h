@@ -13,7 +13,7 @@
 struct ConvertJob {
   std::string input;
   std::string output;
-  ods::KnownForm known;  // of the input
+  ods::FormatHint known;  // of the input
   ods::StoredPicture picture;
   ods::ConvertTarget target;
   ods::SaveOptions save;

@@ -13,7 +13,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 
 using ods::Finding, ods::LintReport, ods::Severity;
@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kExamples =
     "  ods lint picture.png\n"
     "  ods lint eye_%V.exr --json\n"
-    "  ods lint film_frame.jpg --layout side-by-side --projection vr180 || echo do not ship it";
+    "  ods lint video_frame.jpg --layout side-by-side --projection vr180 || echo do not ship it";
 
 constexpr const char* kSummary =
     "Finds faults in a stereo 360 picture: swapped eyes, one eye twice, a wrong layout, a mirrored viewing circle,\n"
@@ -75,7 +75,7 @@ bool is_told(const LintJob& job, const Finding& finding) {
 
 void print_text(const LintJob& job, const LintReport& report) {
   fmt::print("{}: {}x{}, {} ({}), {}, an eye {}x{}\n", job.path, report.file.width, report.file.height,
-             layout_word(report), report.because, report.projection, report.eye.width, report.eye.height);
+             layout_word(report), report.reason, report.projection, report.eye.width, report.eye.height);
   int faults = 0;
   for (const Finding& finding : report.findings) {
     if (!is_told(job, finding)) continue;
@@ -99,7 +99,7 @@ void print_json(const LintJob& job, const LintReport& report) {
                {"eye", {report.eye.width, report.eye.height}},
                {"eyes", report.eye_count},
                {"layout", layout_word(report)},
-               {"because", report.because},
+               {"reason", report.reason},
                {"projection", report.projection},
                {"findings", Json::array()},
                {"judged", names_of(report.judged)},

@@ -11,9 +11,9 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/form_options.h"
-#include "cli/picture/over_film.h"
+#include "cli/options/picture_options.h"
 #include "cli/picture/over_job.h"
+#include "cli/picture/over_video.h"
 #include "ods/base/error.h"
 #include "ods/files/frames.h"
 
@@ -25,7 +25,7 @@ namespace {
 void lay(const OverJob& job, const std::optional<StoredPicture>& front, const StoredPicture& back,
          const std::string& output, bool is_first) {
   ods::SaveOptions save = job.save;
-  save_as_it_was(back, back.rig.projection, output, job.layout, job.has_tone, save);
+  save_as_it_was(back, back.camera.projection, output, job.layout, job.has_tone, save);
   ods::Overlay overlay;
   if (front) {
     check_over(job, *front, back);
@@ -34,19 +34,19 @@ void lay(const OverJob& job, const std::optional<StoredPicture>& front, const St
     }
     overlay = lay_over(*front, back, job.over);
   } else {
-    overlay.rows = convert(back, own_form(back)).rows;
+    overlay.rows = convert(back, same_format(back)).rows;
   }
-  if (is_first) note_misleading_name(output, save, back.eyes.size(), back.rig.projection);
-  for (const std::string& file : save_picture(overlay.rows, &back.rig, save, output)) announce_file(file);
+  if (is_first) note_misleading_name(output, save, back.eyes.size(), back.camera.projection);
+  for (const std::string& file : save_picture(overlay.rows, &back.camera, save, output)) announce_file(file);
   const std::string behind = behind_warning(overlay);
   if (is_first && !behind.empty()) warn(behind);
 }
 
-// False behind the last frame of a film.
+// False behind the last frame of a video.
 bool lay_frame(const OverJob& job, Footage& back, Footage& front, int frame, const std::string& output, bool is_first) {
   for (const Footage* input : {&front, &back}) refuse_overwriting(output, input->path_of(frame));
   const std::optional<StoredPicture> before = front.picture(frame), behind = back.picture(frame);
-  if (!behind && back.kind() == FootageKind::kFilm) return false;
+  if (!behind && back.kind() == FootageKind::kVideo) return false;
   if (!behind) throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no '{}'", back.path_of(frame)));
   if (is_first && before) note_guesses(front.path_of(frame), *before);
   if (is_first) note_guesses(back.path_of(frame), *behind);
@@ -55,13 +55,13 @@ bool lay_frame(const OverJob& job, Footage& back, Footage& front, int frame, con
 }
 
 void lay_frames(const OverJob& job, Footage& back, Footage& front, ProgressLines& lines) {
-  const ods::FrameNames output = film_names(job.output);
-  const bool to_the_end = back.kind() == FootageKind::kFilm && !job.frames;
+  const ods::FrameNames output = video_names(job.output);
+  const bool to_the_end = back.kind() == FootageKind::kVideo && !job.frames;
   const std::vector<int> frames = job.frames ? *job.frames : back.frames();
   if (frames.empty() && !to_the_end) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no frame '{}'", job.background));
   }
-  if (job.frames && (back.kind() == FootageKind::kFilm || front.kind() == FootageKind::kFilm)) check_rising(frames);
+  if (job.frames && (back.kind() == FootageKind::kVideo || front.kind() == FootageKind::kVideo)) check_rising(frames);
   const auto start = std::chrono::steady_clock::now();
   for (size_t i = 0; to_the_end || i < frames.size(); i++) {
     const int frame = to_the_end ? static_cast<int>(i) : frames[i];
@@ -90,10 +90,10 @@ void warn_of_no_cover(const OverJob& job, const Footage& back, const Footage& fr
 void lay_all(const OverJob& job, ProgressLines& lines) {
   Footage back(job.background, job.known), front(job.foreground, {});
   warn_of_no_cover(job, back, front);
-  const bool to_film = ods::container_of_path(job.output).has_value();
-  if (back.kind() == FootageKind::kFilm && to_film) return lay_over_film(job, back, front, lines);
-  if (to_film) {
-    throw UsageError("a film is made over a film; lay these over each other, -o 'x.####.png', and ods encode them");
+  const bool to_video = ods::container_of_path(job.output).has_value();
+  if (back.kind() == FootageKind::kVideo && to_video) return lay_over_video(job, back, front, lines);
+  if (to_video) {
+    throw UsageError("a video is made over a video; lay these over each other, -o 'x.####.png', and ods encode them");
   }
   if (back.kind() != FootageKind::kPicture) return lay_frames(job, back, front, lines);
   if (front.kind() != FootageKind::kPicture) {

@@ -6,7 +6,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 #include "ods/files/frames.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kExamples =
     "  ods over title.exr footage_TB.png -o titled_TB.png\n"
-    "  ods over title.exr film_360_TB.mp4 -o titled_360_TB.mp4\n"
+    "  ods over title.exr video_360_TB.mp4 -o titled_360_TB.mp4\n"
     "  ods over robot.exr street.exr -o both.exr --by-depth\n"
     "  ods over 'title.####.exr' 'footage_TB.####.jpg' -o 'titled_TB.####.jpg'";
 
@@ -41,7 +41,8 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
       "frames of the background: 1-100, 1-100x2, ...; by default all");
   options.custom(
-      "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
+      "--from-projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
       "the background's projection, if neither the file nor its name tells");
   add_layout_option(options, job.known.layout, "the background's layout, if neither the file nor its name tells",
                     "--from-layout");
@@ -54,7 +55,7 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
                  "tone curve, when converting .hdr or .exr to another format");
   options.group("Video (by default encoded like the background)");
-  add_packing_options(options, job.film);
+  add_packing_options(options, job.video);
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);

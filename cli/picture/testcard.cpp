@@ -12,8 +12,8 @@
 #include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
-#include "cli/options/form_options.h"
-#include "cli/picture/testcard_film.h"
+#include "cli/options/picture_options.h"
+#include "cli/picture/testcard_video.h"
 #include "ods/picture/save.h"
 
 namespace {
@@ -22,7 +22,7 @@ constexpr const char* kExamples =
     "  ods testcard -o card.png\n"
     "  ods testcard -o card_180.jpg --projection vr180 --width 2880\n"
     "  ods testcard -o card.png --size deovr-4096 --merge cosine,60,90\n"
-    "  ods testcard --film -o card_360_TB.mp4 --duration 60 --fps 60";
+    "  ods testcard --video -o card_360_TB.mp4 --duration 60 --fps 60";
 
 constexpr const char* kSummary =
     "Makes a picture that shows at a glance what a player does with stereo 360: each eye sees its own name, plates "
@@ -36,7 +36,7 @@ struct TestcardJob {
   ods::RenderOptions picture;
   ods::SaveOptions save;
   CameraOptions camera;
-  TestcardFilmWishes film;
+  TestcardVideoWishes video;
 };
 
 bool read_options(TestcardJob& job, int argc, char** argv) {
@@ -45,31 +45,31 @@ bool read_options(TestcardJob& job, int argc, char** argv) {
   options.text("-o,--output", "FILE", job.output,
                "output file: .png .jpg .tif .webp .hdr .exr, or a video; %V in the name writes one file per eye");
   job.picture.width = 4096;
-  add_form_options(options, job.picture, job.save);
+  add_picture_options(options, job.picture, job.save);
   add_sceneless_camera_options(options, job.camera);
-  add_testcard_film_options(options, job.film);
+  add_testcard_video_options(options, job.video);
   options.group("Console");
-  options.number("--threads", job.film.threads, 0, 1024, "number of threads; 0: all processors");
-  add_progress_options(options, job.film.progress);
+  options.number("--threads", job.video.threads, 0, 1024, "number of threads; 0: all processors");
+  add_progress_options(options, job.video.progress);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o card.png");
-  finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
+  finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
-  job.film.is_film = job.film.is_film || ods::container_of_path(job.output).has_value();
-  job.film.film.output = job.output;
-  if (job.film.is_film && job.save.sidecar)
-    throw UsageError("--sidecar is for pictures; a film says itself what it shows");
+  job.video.is_video = job.video.is_video || ods::container_of_path(job.output).has_value();
+  job.video.video.output = job.output;
+  if (job.video.is_video && job.save.sidecar)
+    throw UsageError("--sidecar is for pictures; a video says itself what it shows");
   job.save.tone = ods::ToneCurve::kLinear;  // the codes of the greys are what they say
   return true;
 }
 
-std::vector<std::string> lettering(const TestcardJob& job, const ods::CameraRig& rig, ods::Extent eye,
+std::vector<std::string> lettering(const TestcardJob& job, const ods::StereoCamera& stereo, ods::Extent eye,
                                    const std::vector<int>& eyes) {
   const ods::Layout shared = ods::names_eye(job.output) ? ods::Layout::kSeparate : job.save.layout;
   const std::string layout(eyes.size() == 2 ? ods::layout_name(shared) : ods::eye_name(eyes[0]));
-  return {fmt::format("{} {}", projection_name(rig.projection), layout),
+  return {fmt::format("{} {}", projection_name(stereo.projection), layout),
           fmt::format("{} x {} an eye", eye.width, eye.height),
-          fmt::format("{:g} mm between the eyes", 1000.0f * rig.ipd)};
+          fmt::format("{:g} mm between the eyes", 1000.0f * stereo.ipd)};
 }
 
 void warn_if_illegible(const ods::ProjectionSetting& projection, int width) {
@@ -79,31 +79,31 @@ void warn_if_illegible(const ods::ProjectionSetting& projection, int width) {
   warn(fmt::format("its small letters are {:.2g} pixels high and cannot be read: --width {} or more", height, enough));
 }
 
-void draw(const TestcardJob& job, const ods::CameraRig& rig, ods::Extent eye, const std::vector<int>& eyes) {
+void draw(const TestcardJob& job, const ods::StereoCamera& stereo, ods::Extent eye, const std::vector<int>& eyes) {
   ods::check_output(job.output, job.save, eyes, eye);
-  note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
-  warn_if_illegible(rig.projection, eye.width);
-  const ods::Testcard card = make_testcard(rig, eye, lettering(job, rig, eye, eyes));
+  note_misleading_name(job.output, job.save, eyes.size(), stereo.projection);
+  warn_if_illegible(stereo.projection, eye.width);
+  const ods::Testcard card = make_testcard(stereo, eye, lettering(job, stereo, eye, eyes));
   ods::PictureRows rows{eye, eyes, {{{"R", "G", "B"}}}, {}, {}};
   rows.fill = [&](int index, int y, std::span<float> row) {
     fill_testcard_row(card, eyes[static_cast<size_t>(index)], y, row);
   };
-  for (const std::string& file : save_picture(rows, &rig, job.save, job.output)) announce_file(file);
+  for (const std::string& file : save_picture(rows, &stereo, job.save, job.output)) announce_file(file);
 }
 
 void testcard(int argc, char** argv) {
   TestcardJob job;
   if (!read_options(job, argc, argv)) return;
-  const ods::CameraRig rig = place_camera(job.camera);
+  const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
-  if (!job.film.is_film) {
+  if (!job.video.is_video) {
     end_on_interrupts("ods: interrupted\n");
-    return draw(job, rig, eye, eyes);
+    return draw(job, stereo, eye, eyes);
   }
-  warn_if_illegible(rig.projection, eye.width);
-  run_long_job(job.film.progress, job.film.threads, [&](ProgressLines& lines) {
-    make_film_of_card(rig, eye, eyes, job.save.layout, lettering(job, rig, eye, eyes), job.film, lines);
+  warn_if_illegible(stereo.projection, eye.width);
+  run_long_job(job.video.progress, job.video.threads, [&](ProgressLines& lines) {
+    make_video_of_card(stereo, eye, eyes, job.save.layout, lettering(job, stereo, eye, eyes), job.video, lines);
   });
 }
 

@@ -10,14 +10,14 @@
 
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/picture/title_job.h"
 #include "ods/files/frames.h"
 
 namespace {
 
-ods::Lettering letter(const TitleJob& job, const ods::CameraRig& rig, ods::Extent eye) {
-  ods::Lettering lettering = ods::draw_lettering(job.text, ods::lettering_em(rig, eye, job.title), job.lettering);
+ods::Lettering letter(const TitleJob& job, const ods::StereoCamera& stereo, ods::Extent eye) {
+  ods::Lettering lettering = ods::draw_lettering(job.text, ods::lettering_em(stereo, eye, job.title), job.lettering);
   if (lettering.characters_lost > 0) {
     warn(fmt::format("no font here has {} of its characters; --font FILE may", lettering.characters_lost));
   }
@@ -27,8 +27,8 @@ ods::Lettering letter(const TitleJob& job, const ods::CameraRig& rig, ods::Exten
   return lettering;
 }
 
-void warn_if_too_near(const TitleJob& job, const ods::CameraRig& rig) {
-  const float nearest = ods::nearest_comfortable(rig, job.title.pitch);
+void warn_if_too_near(const TitleJob& job, const ods::StereoCamera& stereo) {
+  const float nearest = ods::nearest_comfortable(stereo, job.title.pitch);
   if (job.title.distance >= nearest) return;
   warn(fmt::format("at {:g} m it strains the eyes: {:.2g} m or more are comfortable there", job.title.distance,
                    nearest));
@@ -38,7 +38,7 @@ void warn_if_too_wide(const ods::Title& title) {
   const float width = ods::title_width(title);
   if (width <= ods::kComfortableWidth) return;
   warn(fmt::format(
-      "the text is {:.0f} degrees wide; beyond {:g}, viewers turn their heads to read it: --height {:.2g}, a "
+      "the text is {:.0f} degrees wide; beyond {:g}, viewers turn their heads to read it: --text-height {:.2g}, a "
       "larger distance or a line break (\\n) makes it narrower",
       width, ods::kComfortableWidth, ods::comfortable_height(title)));
 }
@@ -52,34 +52,34 @@ float fade(const TitleJob& job, int frame) {
   return std::clamp(std::min(in, out), 0.0f, 1.0f);
 }
 
-void save(const TitleJob& job, const ods::Title& title, const ods::CameraRig& rig, const std::string& path) {
+void save(const TitleJob& job, const ods::Title& title, const ods::StereoCamera& stereo, const std::string& path) {
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
   ods::PictureRows rows;
   rows.eye = title.eye;
   rows.eyes = eyes;
-  rows.layers = {{{"R", "G", "B", "A"}}, {{"Z"}, ods::LayerRule::kNearest, ods::Sample::kFloat}};
+  rows.layers = {{{"R", "G", "B", "A"}}, {{"Z"}, ods::LayerRule::kNearest, ods::SampleType::kFloat}};
   rows.fill = [&](int index, int y, std::span<float> row) {
     fill_title_row(title, eyes[static_cast<size_t>(index)], y, row);
   };
-  for (const std::string& file : save_picture(rows, &rig, job.save, path)) announce_file(file);
+  for (const std::string& file : save_picture(rows, &stereo, job.save, path)) announce_file(file);
 }
 
 void title(int argc, char** argv) {
   TitleJob job;
   if (!read_title_job(job, argc, argv)) return;
   end_on_interrupts("ods: interrupted\n");
-  const ods::CameraRig rig = place_camera(job.camera);
+  const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
-  ods::check_output(job.frames ? film_names(job.output).path(0) : job.output, job.save, eyes, eye);
-  note_misleading_name(job.output, job.save, eyes.size(), rig.projection);
-  warn_if_too_near(job, rig);
-  ods::Title title = make_title(rig, eye, job.title, letter(job, rig, eye));
+  ods::check_output(job.frames ? video_names(job.output).path(0) : job.output, job.save, eyes, eye);
+  note_misleading_name(job.output, job.save, eyes.size(), stereo.projection);
+  warn_if_too_near(job, stereo);
+  ods::Title title = make_title(stereo, eye, job.title, letter(job, stereo, eye));
   warn_if_too_wide(title);
-  if (!job.frames) return save(job, title, rig, job.output);
+  if (!job.frames) return save(job, title, stereo, job.output);
   for (const int frame : *job.frames) {
     title.setting.opacity = job.title.opacity * fade(job, frame);
-    save(job, title, rig, film_names(job.output).path(frame));
+    save(job, title, stereo, video_names(job.output).path(frame));
   }
 }
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "cli/console/console.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "ods/files/frames.h"
 
 namespace {
@@ -57,7 +57,7 @@ void add_text_options(Options& options, TitleJob& job) {
   options.custom(
       "--at", "YAW,PITCH,METRES", "0,0,3", [&](const std::string& text) { parse_place(text, job.title); },
       "position of the text's centre: degrees right, degrees up, distance in metres");
-  options.number("--height", job.title.height, 1e-3f, 1e5f, "line height, metres");
+  options.number("--text-height", job.title.height, 1e-3f, 1e5f, "line height, metres");
   options.text("--font", "FONT", job.lettering.font, "font name, e.g. 'DejaVu Serif Bold Italic', or a font file");
   options.choice("--align", job.lettering.align, ods::kTextAligns, ods::text_align_name, "alignment of the lines");
   options.number("--spacing", job.lettering.spacing, 0.1f, 10.0f, "line spacing, as a multiple of the font's own");
@@ -68,7 +68,7 @@ void add_text_options(Options& options, TitleJob& job) {
 }
 
 void add_frame_options(Options& options, TitleJob& job) {
-  options.group("Film");
+  options.group("Video");
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
       "frames to write: 1-100, 1-100x2, ...; the name needs ####");
@@ -91,7 +91,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   options.text("-o,--output", "FILE", job.output,
                "output file: .exr .png .tif .webp; %V in the name writes one file per eye");
   job.picture.width = 4096;
-  add_form_options_but_height(options, job.picture, job.save);
+  add_picture_options(options, job.picture, job.save);
   add_sceneless_camera_options(options, job.camera);
   options.group("Console");
   add_console_options(options);
@@ -99,12 +99,11 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   if (job.output.empty()) throw UsageError("no output file: add -o title.exr");
   if (!ods::has_alpha(job.output)) throw UsageError("a title needs alpha: .exr, .png, .tif and .webp have it");
   const bool fades = options.given("--fps") || options.given("--fade-in") || options.given("--fade-out");
-  if (fades && !job.frames) throw UsageError("--fps and fades are for films: --frames 1-100");
+  if (fades && !job.frames) throw UsageError("--fps and fades are for videos: --frames 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
   job.save.tone = ods::ToneCurve::kLinear;               // a colour is shown as it is given
-  if (options.given("--width")) job.picture.height = 0;  // --height is the text's
-  finish_form_options(options, job.camera.rig.projection, job.picture, job.save);
+  finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
   return true;
 }

@@ -12,7 +12,7 @@
 #include "cli/console/long_job.h"
 #include "cli/frames/disk_room.h"
 #include "cli/frames/shared_frames.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
 #include "ods/kernel/random.h"
@@ -32,17 +32,17 @@ struct Frame {
 
 Frame make_frame(const RenderJob& job, const FrameNames& names, int number) {
   const auto bits = static_cast<ods::uint>(number);
-  const bool changing = job.time.noise == FilmNoise::kChanging;
+  const bool changing = job.time.noise == VideoNoise::kChanging;
   return {number, number / static_cast<double>(job.time.fps), names.path(number),
           changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
 }
 
 std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) {
-  if (!asks_for_film(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
-  const FrameNames names = film_names(job.output);
+  if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
+  const FrameNames names = video_names(job.output);
   std::vector<Frame> frames;
   size_t skipped = 0;
-  for (const int number : film_frames(time)) {
+  for (const int number : video_frames(time)) {
     Frame frame = make_frame(job, names, number);
     if (time.skip_existing && ods::is_saved(frame.path)) {
       remove_dead_claim(frame.path);
@@ -56,10 +56,10 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
 }
 
 void check_outputs(const RenderJob& job) {
-  const std::string path = asks_for_film(job.time) ? film_names(job.output).path(0) : job.output;
+  const std::string path = asks_for_video(job.time) ? video_names(job.output).path(0) : job.output;
   const std::vector<int> eyes = ods::eye_list(job.render.eyes);
-  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height}, &job.camera.rig.projection);
-  note_misleading_name(path, job.save, eyes.size(), job.camera.rig.projection);
+  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height}, &job.camera.stereo.projection);
+  note_misleading_name(path, job.save, eyes.size(), job.camera.stereo.projection);
 }
 
 void tell_speed(const RenderJob& job, size_t frames, const std::string& file, double seconds) {
@@ -72,7 +72,7 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
 // The scene as a frame has it, and where the camera is while the shutter is open.
 struct Shot {
   ods::SceneChange change;
-  std::vector<ods::CameraRig> rigs;
+  std::vector<ods::StereoCamera> cameras;
 };
 
 Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const Frame& frame) {
@@ -81,21 +81,21 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
     return ods::moved(place_camera_again(job.camera, scene), time.move, seconds);
   };
   const double open = static_cast<double>(time.shutter) / 360.0 / static_cast<double>(time.fps);
-  if (open == 0.0 || !(asks_for_film(time) || time.time)) {
+  if (open == 0.0 || !(asks_for_video(time) || time.time)) {
     shot.change = ods::set_time(scene, frame.time);
-    shot.rigs = {camera_at(frame.time)};
+    shot.cameras = {camera_at(frame.time)};
     return shot;
   }
   for (int key = 0; key < ods::kShutterKeys; key++) {
     const double seconds = frame.time + open * (static_cast<double>(key) / (ods::kShutterKeys - 1) - 0.5);
     if (!scene.animation.views.empty()) ods::set_time(scene, seconds);
-    shot.rigs.push_back(camera_at(seconds));
+    shot.cameras.push_back(camera_at(seconds));
   }
-  const auto same = [&](const ods::CameraRig& a) {
-    const ods::CameraRig& b = shot.rigs.front();
+  const auto same = [&](const ods::StereoCamera& a) {
+    const ods::StereoCamera& b = shot.cameras.front();
     return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
   };
-  if (std::all_of(shot.rigs.begin(), shot.rigs.end(), same)) shot.rigs.resize(1);
+  if (std::all_of(shot.cameras.begin(), shot.cameras.end(), same)) shot.cameras.resize(1);
   shot.change = ods::open_shutter(scene, frame.time - 0.5 * open, frame.time + 0.5 * open);
   return shot;
 }
@@ -121,8 +121,8 @@ class FrameRenderer {
     options.seed = frame.seed;
     ods::Progress progress;
     progress.report = report;
-    const ods::Picture picture = renderer_->render(shot.rigs, options, progress);
-    return ods::save_picture(picture, shot.rigs[shot.rigs.size() / 2], job_.save, frame.path);
+    const ods::Picture picture = renderer_->render(shot.cameras, options, progress);
+    return ods::save_picture(picture, shot.cameras[shot.cameras.size() / 2], job_.save, frame.path);
   }
 
  private:
@@ -139,7 +139,7 @@ size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& ti
   size_t rendered = 0;
   const auto render = [&](size_t i) {
     const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
-    const ProgressStep step{"render", number, asks_for_film(time) ? count : 0, frames[i].path};
+    const ProgressStep step{"render", number, asks_for_video(time) ? count : 0, frames[i].path};
     saved(renderer.render(frames[i], [&](double done) { report((static_cast<double>(i) + done) / count, step); }));
     rendered++;
   };
@@ -154,7 +154,7 @@ size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& ti
 }
 
 void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
-  if (!asks_for_film(job.time) || frames.empty()) return;
+  if (!asks_for_video(job.time) || frames.empty()) return;
   say_disk_room(job.output, frames.size(), largest_frame(job.output, job.render, job.save));
 }
 
@@ -175,7 +175,7 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
     first = files.front();
     for (const std::string& file : files) announce_file(file);
   };
-  const bool shared = asks_for_film(time) && time.skip_existing;
+  const bool shared = asks_for_video(time) && time.skip_existing;
   const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
   const size_t rendered = render_all(job, scene, time, frames, shared, report, saved);
   if (rendered > 0) tell_speed(job, rendered, first, seconds_since(start));
@@ -192,7 +192,7 @@ std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
     throw UsageError(
         "the scene has no animation: add --duration SECONDS, or move the camera with --turntable or --fly-to");
   }
-  const std::vector<int> numbers = film_frames(time);
+  const std::vector<int> numbers = video_frames(time);
   planned(numbers);
   const std::vector<Frame> frames = choose_frames(job, time);
   if (!frames.empty()) {

@@ -6,7 +6,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 
 namespace {
 
@@ -25,12 +25,12 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
-  add_form_options(options, job.render, job.save);
+  add_picture_options(options, job.render, job.save);
   options.text("--rig", "FILE", job.rig, "render the views of this rig (made by ods rig), for ods stitch");
   options.flag("--transparent", job.render.transparent,
                "leave the background transparent, for ods over; the sky still lights the scene (.exr .png .tif .webp)");
   options.texts(
-      "--catch", "NAME", job.scene.catchers,
+      "--shadow-catcher", "NAME", job.scene.catchers,
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
@@ -68,7 +68,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (!options.given("--samples")) job.render.samples = quality.samples;
   job.has_layout = options.given("--layout") || options.given("--size");
-  finish_form_options(options, job.camera.rig.projection, job.render, job.save);
+  finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);
   finish_camera_options(job.camera, job.render.width, job.render.height);
 }
 
@@ -91,7 +91,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
     throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
   }
   if (!job.scene.catchers.empty() && !job.render.transparent) {
-    throw UsageError("--catch leaves shadows to lay over something: it needs --transparent");
+    throw UsageError("--shadow-catcher leaves shadows to lay over something: it needs --transparent");
   }
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);

@@ -32,7 +32,7 @@ struct Quality {
   int samples;
 };
 
-// Those that ods film has too, in a group of their own, and what is left to do when they were read.
+// Those that ods video has too, in a group of their own, and what is left to do when they were read.
 void add_quality_options(Options& options, RenderJob& job, Quality& quality);
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 

@@ -66,7 +66,7 @@ bool read_options(RigJob& job, int argc, char** argv) {
 }
 
 // The depth of the nearest thing, as the eyes see it.
-float measure(const ods::Scene& scene, ods::CameraRig camera) {
+float measure(const ods::Scene& scene, ods::StereoCamera camera) {
   ods::RenderOptions options;
   options.width = 1024, options.height = 512, options.samples = 1, options.bounces = 0;
   camera.projection = {};
@@ -79,12 +79,12 @@ float measure(const ods::Scene& scene, ods::CameraRig camera) {
 }
 
 // The camera and the nearest distance.
-std::pair<ods::CameraFile, float> survey(RigJob& job) {
-  ods::CameraFile file = read_camera_source(job.source);
+std::pair<ods::Sidecar, float> survey(RigJob& job) {
+  ods::Sidecar file = read_camera_source(job.source);
   if (job.scene.name.empty()) return {file, job.nearest.value_or(1.0f)};
   ods::Scene scene = open_scene(job.scene);
-  file.rig = place_camera(job.source.camera, scene);
-  return {file, measure(scene, file.rig)};
+  file.camera = place_camera(job.source.camera, scene);
+  return {file, measure(scene, file.camera)};
 }
 
 void rig(int argc, char** argv) {
@@ -92,10 +92,10 @@ void rig(int argc, char** argv) {
   if (!read_options(job, argc, argv)) return;
   const auto [file, nearest] = survey(job);
   if (!job.scene.name.empty()) note(fmt::format("the nearest thing is {:.3g} m away", nearest));
-  job.slits.slits = job.count ? *job.count : ods::slits_for(file.rig, file.eye, job.slits, nearest, job.max_error);
-  const std::string fault = slit_fault(file.rig, file.eye, job.slits);
+  job.slits.slits = job.count ? *job.count : ods::slits_for(file.camera, file.eye, job.slits, nearest, job.max_error);
+  const std::string fault = slit_fault(file.camera, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);
-  const ods::SlitRig made = make_slit_rig(file.rig, file.eye, file.eyes, job.slits);
+  const ods::SlitRig made = make_slit_rig(file.camera, file.eye, file.eyes, job.slits);
   if (job.output.empty() || !console.quiet) print_plan(made, nearest);
   if (!job.output.empty()) write_rig(made, job.targets, job.output);
 }

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods stitch: the views of a rig become its picture, or those of every frame a film's.
+// ods stitch: the views of a rig become its picture, or those of every frame a video's.
 #include <chrono>
 #include <iostream>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/slits/stitch_frames.h"
 #include "ods/files/claim.h"
 
@@ -25,10 +25,10 @@ void run(const StitchJob& job, ProgressLines& lines) {
     if (!faults.empty()) std::cout << view_ranges(rig, job.views, faults) << std::endl;
     return;
   }
-  const bool is_film = !job.frames.empty();
-  ods::check_output(is_film ? film_names(job.output).path(0) : job.output, job.save, rig.eyes, rig.eye);
+  const bool is_video = !job.frames.empty();
+  ods::check_output(is_video ? video_names(job.output).path(0) : job.output, job.save, rig.eyes, rig.eye);
   const auto report = [&](double part, const ProgressStep& step) { lines.report(part, seconds_since(start), step); };
-  if (is_film) {
+  if (is_video) {
     stitch_frames(job, rig, report);
   } else {
     const std::unique_ptr<ods::Claim> own = ods::claim(job.output);

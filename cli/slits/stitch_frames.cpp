@@ -11,7 +11,7 @@
 
 #include "cli/console/console.h"
 #include "cli/frames/shared_frames.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "ods/base/error.h"
 #include "ods/files/claim.h"
 #include "ods/stitch/rig_mark.h"
@@ -30,9 +30,9 @@ ods::SlitRig open_rig(const std::string& path) {
 // --- views that are missing -----------------------------------------------------------------------------------------
 
 void tell_faults(const std::vector<ViewFault>& faults, const std::function<void(const std::string&)>& say) {
-  constexpr size_t kMostSaid = 5;
-  for (size_t i = 0; i < std::min(faults.size(), kMostSaid); i++) say(faults[i].what);
-  if (faults.size() > kMostSaid) say(fmt::format("and {} views more", faults.size() - kMostSaid));
+  constexpr size_t kMaxSaid = 5;
+  for (size_t i = 0; i < std::min(faults.size(), kMaxSaid); i++) say(faults[i].what);
+  if (faults.size() > kMaxSaid) say(fmt::format("and {} views more", faults.size() - kMaxSaid));
 }
 
 [[noreturn]] static void refuse(const ods::SlitRig& rig, const ViewFiles& views, const std::vector<ViewFault>& faults) {
@@ -99,7 +99,7 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   for (const std::string& file : save_picture(seams.picture, {}, job.report)) announce_file(file);
 }
 
-// --- pictures of a film ---------------------------------------------------------------------------------------------
+// --- pictures of a video ---------------------------------------------------------------------------------------------
 
 static FrameNames folder_names(const std::string& views) {
   const std::filesystem::path path(views);
@@ -108,7 +108,7 @@ static FrameNames folder_names(const std::string& views) {
 }
 
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report) {
-  const FrameNames folders = folder_names(job.views.names), outputs = film_names(job.output);
+  const FrameNames folders = folder_names(job.views.names), outputs = video_names(job.output);
   const std::string file = std::filesystem::path(job.views.names).filename().string();
   const std::vector<int> frames = ods::parse_frames(job.frames);
   StitchJob each = job;

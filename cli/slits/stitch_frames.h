@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of the views of a rig: one, or the frames of a film.
+// Pictures of the views of a rig: one, or the frames of a video.
 #pragma once
 #include <functional>
 #include <string>
@@ -21,5 +21,5 @@ void tell_faults(const std::vector<ods::ViewFault>& faults, const std::function<
 void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ods::ViewFiles& views,
                     const std::string& output, const StepReport& report);
 
-// The same of every frame of a film, whose views lie in a folder each. Returns their numbers.
+// The same of every frame of a video, whose views lie in a folder each. Returns their numbers.
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report);

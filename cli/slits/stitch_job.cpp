@@ -6,7 +6,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 
 static constexpr const char* kExamples =
     "  ods stitch rig.json 'views/####.exr' -o picture.exr\n"

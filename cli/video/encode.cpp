@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods encode: frames become a film.
+// ods encode: frames become a video.
 #include <fmt/format.h>
 
 #include <chrono>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/film_options.h"
-#include "cli/options/form_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
+#include "cli/options/video_options.h"
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr const char* kExamples =
     "  ods encode 'shot.####.exr' -o shot_360_TB.mp4\n"
     "  ods encode 'shot_%V.####.png' -o shot_360_TB.mp4 --target quest --fps 60 --audio sound.wav\n"
     "  ods encode 'shot.####.exr' -o shot.mov --target master --frames 1-250\n"
-    "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --from vr180 --codec av1 --bits 10";
+    "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --from-projection vr180 --codec av1 --bits 10";
 
 constexpr const char* kSummary =
     "Encodes frames from any renderer as a video that players recognize as stereo 360: both eyes in a frame, the left\n"
@@ -29,18 +29,18 @@ constexpr const char* kSummary =
 struct EncodeJob {
   std::string pattern;
   std::optional<std::vector<int>> frames;
-  ods::KnownForm known;
-  ods::Development development;
-  FilmWishes film;
+  ods::FormatHint known;
+  ods::DisplayTransform development;
+  VideoWishes video;
   std::optional<ods::Layout> layout;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-ods::Layout film_layout(const std::string& word) {
+ods::Layout video_layout(const std::string& word) {
   const ods::Layout layout = layout_by_name("--layout", word);
   if (layout == ods::Layout::kTopBottom || layout == ods::Layout::kSideBySide) return layout;
-  throw UsageError("--layout of a film is top-bottom or side-by-side");
+  throw UsageError("--layout of a video is top-bottom or side-by-side");
 }
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
@@ -51,7 +51,8 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
       "frames to encode, in this order: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.custom(
-      "--from", "NAME", "", [&](const std::string& name) { job.known.projection = projection_by_name("--from", name); },
+      "--from-projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
       "the frames' projection, if neither the files nor their names tell");
   add_layout_option(options, job.known.layout,
                     "the frames' layout, if neither the files nor their names tell; separate: one eye",
@@ -59,11 +60,11 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
   options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name,
                  "tone curve; ignored as --exposure is");
-  add_film_options(options, job.film);
+  add_video_options(options, job.video);
   options.custom(
-      "--fps", "X|N/M", "30", [&](const std::string& text) { job.film.rate = parse_rate(text); }, "frames per second");
+      "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); }, "frames per second");
   options.custom(
-      "--layout", "LAYOUT", "", [&](const std::string& word) { job.layout = film_layout(word); },
+      "--layout", "LAYOUT", "", [&](const std::string& word) { job.layout = video_layout(word); },
       "how both eyes share a frame: top-bottom, or side-by-side (usual for vr180)");
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
@@ -74,22 +75,22 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
 
 void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  encode_options(job.film, {256, 256}, job.threads);  // before the frames are looked at, which takes time
+  encode_options(job.video, {256, 256}, job.threads);  // before the frames are looked at, which takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
-  const ods::FilmPlan plan = ods::plan_film(files, job.known, job.layout);
-  const ods::EncodeOptions options = encode_options(job.film, plan.size, job.threads);
+  const ods::VideoPlan plan = ods::plan_video(files, job.known, job.layout);
+  const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);
   ods::check_packing(plan, options.packing);
   for (const std::string& each : plan.notes) note(each);
-  say_what_players_need(job.film, plan, options);
+  say_what_players_need(job.video, plan, options);
   say_length_of_sound(options, files.frames.size());
   ods::Progress progress;
   progress.report = [&](double done) {
-    lines.report(done, seconds_since(start), film_step("encode", done, files.frames.size(), job.film.output));
+    lines.report(done, seconds_since(start), video_step("encode", done, files.frames.size(), job.video.output));
   };
-  ods::make_film(files, plan, job.development, options, job.film.output, progress);
+  ods::make_video(files, plan, job.development, options, job.video.output, progress);
   lines.clear();
-  announce_file(job.film.output);
-  note(fmt::format("{}: {}, in {}", job.film.output, film_text(plan, options, files.frames.size()),
+  announce_file(job.video.output);
+  note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, files.frames.size()),
                    duration_text(seconds_since(start))));
 }
 

@@ -69,7 +69,7 @@ void add_scene(Settings& settings, const SceneSource& source) {
   } else {
     add(settings, "--env", environment.empty() ? "of the scene" : environment);
   }
-  add(settings, "--catch", fmt::format("{}", fmt::join(catchers, ", ")));
+  add(settings, "--shadow-catcher", fmt::format("{}", fmt::join(catchers, ", ")));
 }
 
 void add_projection(Settings& settings, const ods::ProjectionSetting& projection) {
@@ -78,7 +78,7 @@ void add_projection(Settings& settings, const ods::ProjectionSetting& projection
   add(settings, "--range", fmt::format("{},{},{},{}", longitude.x, longitude.y, latitude.x, latitude.y));
   add_float(settings, "--fov", fov);
   add_float(settings, "width over height", aspect);
-  add(settings, "--look", fmt::format("{},{}", pan, tilt));
+  add(settings, "--lens-direction", fmt::format("{},{}", pan, tilt));
 }
 
 std::string merge_text(const ods::PoleMergeSetting& merge) {
@@ -115,19 +115,19 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
   const bool parallel = convergence == ods::kParallel;
   add(settings, "--convergence",
       parallel ? "parallel" : fmt::format("{},{}", ods::convergence_name(convergence), convergence_distance));
-  add_float(settings, "--neck", neck);
+  add_float(settings, "--eye-to-neck", neck);
   add(settings, "--axis", axis ? text_of(*axis) : "camera");
   add(settings, "--lens", lens_radius == 0.0f ? "none" : fmt::format("{},{}", lens_radius, focus_distance));
-  add_flag(settings, "--mirrored", mirrored);
+  add_flag(settings, "--left-handed", mirrored);
 }
 
 void add_time(Settings& settings, const TimeOptions& options) {
-  const auto& [time, animation, frames, fps, duration, move, shutter, noise, skip_existing, is_film] = options;
+  const auto& [time, animation, frames, fps, duration, move, shutter, noise, skip_existing, is_video] = options;
   const auto& [seconds, turns, pivot, fly_to] = move;
   add(settings, "--animation", animation.empty() ? "all" : animation);
   add_float(settings, "--fps", fps);
   add_float(settings, "--shutter", shutter);
-  add(settings, "--noise", std::string(film_noise_name(noise)));
+  add(settings, "--noise", std::string(video_noise_name(noise)));
   add(settings, "--turntable", fmt::format("{}{}", turns, pivot ? "," + text_of(*pivot) : ""));
   std::vector<std::string> places;
   for (const ods::vec3& place : fly_to) places.push_back(text_of(place));
@@ -150,7 +150,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add(settings, "--seed", fmt::format("{}", seed));
 }
 
-// A frame keeps the scene's light: exposure, tone and quality are the film's.
+// A frame keeps the scene's light: exposure, tone and quality are the video's.
 void add_save(Settings& settings, const ods::SaveOptions& save) {
   const auto& [layout, exposure, tone, jpeg_quality, attributes, sidecar] = save;
   add(settings, "--layout", std::string(ods::layout_name(layout)));
@@ -204,8 +204,8 @@ std::string settings_difference(const std::vector<Setting>& then, const std::vec
   for (const Setting& was : then) {
     if (!find(now, was.option)) changes.push_back(change(was.option, &was, nullptr));
   }
-  const size_t kMost = 3;
-  const std::string more = changes.size() > kMost ? fmt::format("; and {} more", changes.size() - kMost) : "";
-  changes.resize(std::min(changes.size(), kMost));
+  const size_t kMax = 3;
+  const std::string more = changes.size() > kMax ? fmt::format("; and {} more", changes.size() - kMax) : "";
+  changes.resize(std::min(changes.size(), kMax));
   return fmt::format("{}{}", fmt::join(changes, "; "), more);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that a film's frames depend on, option by option. Two jobs whose settings are equal make the same frames.
-// What only the film depends on (codec, exposure, sound, ...) and which frames there are is no part of it.
+// Everything that a video's frames depend on, option by option. Two jobs whose settings are equal make the same frames.
+// What only the video depends on (codec, exposure, sound, ...) and which frames there are is no part of it.
 #pragma once
 #include <string>
 #include <vector>

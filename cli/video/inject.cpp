@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods inject: makes a film or a picture say what it is, without encoding it again.
+// ods inject: makes a video or a picture say what it is, without encoding it again.
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
@@ -9,15 +9,15 @@
 #include "cli/options/apple_option.h"
 #include "cli/options/layout_options.h"
 #include "cli/video/inject_job.h"
-#include "ods/video/container/film.h"
+#include "ods/video/container/video_file.h"
 
 namespace {
 
 constexpr const char* kExamples =
-    "  ods inject film_360_TB.mp4                 as its name says\n"
-    "  ods inject film.mp4 -o tagged.mp4 --layout top-bottom --projection lat-long\n"
-    "  ods inject film.mov --projection vr180 --layout side-by-side\n"
-    "  ods inject film.mp4 --remove\n"
+    "  ods inject video_360_TB.mp4                 as its name says\n"
+    "  ods inject video.mp4 -o tagged.mp4 --layout top-bottom --projection lat-long\n"
+    "  ods inject video.mov --projection vr180 --layout side-by-side\n"
+    "  ods inject video.mp4 --remove\n"
     "  ods inject panorama_360.jpg --yaw 90       GPano, which viewers of pictures read";
 
 constexpr const char* kSummary =
@@ -65,8 +65,8 @@ void inject(int argc, char** argv) {
   InjectJob job;
   ProgressMode mode = ProgressMode::kAuto;
   if (!read_options(job, mode, argc, argv)) return;
-  const bool is_film = ods::is_film(job.file);
-  run_long_job(mode, 0, [&](ProgressLines& lines) { is_film ? inject_film(job, lines) : inject_picture(job); });
+  const bool is_video = ods::is_video(job.file);
+  run_long_job(mode, 0, [&](ProgressLines& lines) { is_video ? inject_video(job, lines) : inject_picture(job); });
   announce_file(job.output);
 }
 

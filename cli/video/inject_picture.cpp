@@ -10,8 +10,8 @@
 
 namespace {
 
-ods::KnownForm known_form(const InjectJob& job) {
-  ods::KnownForm known;
+ods::FormatHint known_format(const InjectJob& job) {
+  ods::FormatHint known;
   known.one_eye = job.is_mono;
   known.layout = job.layout;
   if (job.projection.empty()) return known;
@@ -28,7 +28,7 @@ ods::KnownForm known_form(const InjectJob& job) {
 
 // A picture whose name contradicts its own words is not tagged on the name's word, nor silently against it.
 void settle_name(const InjectJob& job, const ods::PictureTag& tag) {
-  const std::string fault = ods::name_fault(job.file, tag.layout, tag.rig.projection);
+  const std::string fault = ods::name_fault(job.file, tag.layout, tag.camera.projection);
   if (fault.empty()) return;
   const bool asks = job.is_mono || job.layout || !job.projection.empty() || job.yaw || job.pitch || job.roll;
   if (asks) return warn(fmt::format("'{}': {}", job.file, fault));
@@ -41,16 +41,16 @@ void settle_name(const InjectJob& job, const ods::PictureTag& tag) {
 
 void inject_picture(const InjectJob& job) {
   if (job.track || job.ambisonics || job.for_apple)
-    throw UsageError(fmt::format("--track, --ambisonics and --apple are of films, and '{}' is a picture", job.file));
+    throw UsageError(fmt::format("--track, --ambisonics and --apple are of videos, and '{}' is a picture", job.file));
   if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
   std::vector<std::string> guesses;
-  ods::PictureTag tag = ods::complete_tag(known_form(job), job.file, guesses);
+  ods::PictureTag tag = ods::complete_tag(known_format(job), job.file, guesses);
   settle_name(job, tag);
-  tag.rig.yaw = job.yaw.value_or(tag.rig.yaw);
-  tag.rig.pitch = job.pitch.value_or(tag.rig.pitch);
-  tag.rig.roll = job.roll.value_or(tag.rig.roll);
+  tag.camera.yaw = job.yaw.value_or(tag.camera.yaw);
+  tag.camera.pitch = job.pitch.value_or(tag.camera.pitch);
+  tag.camera.roll = job.roll.value_or(tag.camera.roll);
   ods::tag_picture(job.file, job.output, tag);
   for (const std::string& guess : guesses) note(guess);
   note(fmt::format("{}, {}: written", tag.layout ? layout_name(*tag.layout) : ods::eye_name(tag.eye),
-                   projection_name(tag.rig.projection)));
+                   projection_name(tag.camera.projection)));
 }

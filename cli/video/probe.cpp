@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods probe: what a film or a picture says of itself, and what players will take it for.
+// ods probe: what a video or a picture says of itself, and what players will take it for.
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
@@ -11,15 +11,15 @@
 #include "ods/base/error.h"
 #include "ods/files/memory_file.h"
 #include "ods/image/format/xmp_file.h"
-#include "ods/picture/metadata/cardboard.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/vr_photo.h"
 
 namespace {
 
 constexpr const char* kExamples =
-    "  ods probe film_360_TB.mp4\n"
+    "  ods probe video_360_TB.mp4\n"
     "  ods probe picture.jpg\n"
-    "  ods probe film.mkv --json";
+    "  ods probe video.mkv --json";
 
 constexpr const char* kSummary =
     "Shows the metadata of a video (mp4, mov, mkv, webm) or picture: tracks, Spherical Video V1 and V2, GPano, "
@@ -45,23 +45,23 @@ void probe_right_eye(PictureReport& report, const std::string& path, std::vector
 ProbeReport probe(const std::string& path) {
   ProbeReport report;
   report.path = path;
-  if (ods::is_film(path)) {
-    report.film = ods::read_film(path);
-    for (const ods::VideoTrack& track : report.film->video) {
-      report.views.push_back(film_views(*report.film, track, path));
-      report.warnings.push_back(film_warnings(*report.film, track, path));
+  if (ods::is_video(path)) {
+    report.video = ods::read_video_file(path);
+    for (const ods::VideoTrack& track : report.video->tracks) {
+      report.views.push_back(video_views(*report.video, track, path));
+      report.warnings.push_back(video_warnings(*report.video, track, path));
     }
     return report;
   }
   const ods::FileInfo info = ods::read_info(path);
-  const ods::PictureForm form = find_form(info, path, {});
+  const ods::StereoFormat format = find_format(info, path, {});
   const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
-  report.picture = PictureReport{info, form, ods::gpano_camera(xmp), ""};
+  report.picture = PictureReport{info, format, ods::gpano_camera(xmp), ""};
   const bool has_gpano = report.picture->gpano.has_value();
-  report.views.push_back(picture_views(info, form, has_gpano, path));
-  report.warnings.push_back(picture_warnings(info, form, has_gpano, path));
+  report.views.push_back(picture_views(info, format, has_gpano, path));
+  report.warnings.push_back(picture_warnings(info, format, has_gpano, path));
   if (!info.color_fault.empty()) report.warnings[0].push_back(info.color_fault);
-  if (form.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
+  if (format.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
   return report;
 }
 

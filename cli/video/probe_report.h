@@ -11,15 +11,15 @@
 
 struct PictureReport {
   ods::FileInfo info;
-  ods::PictureForm form;
-  std::optional<ods::CameraRig> gpano;
+  ods::StereoFormat format;
+  std::optional<ods::StereoCamera> gpano;
   std::string right_eye;  // of a Cardboard photo: "64x32", or what is wrong with it
 };
 
-// Of a film or a picture.
+// Of a video or a picture.
 struct ProbeReport {
   std::string path;
-  std::optional<ods::FilmInfo> film;
+  std::optional<ods::VideoFile> video;
   std::optional<PictureReport> picture;
   std::vector<std::vector<ods::PlayerView>> views;  // of every video track, or of the picture
   std::vector<std::vector<std::string>> warnings;   // likewise

@@ -5,7 +5,7 @@
 namespace ods {
 
 static void check_place(std::string_view bytes, size_t at, size_t count) {
-  if (at > bytes.size() || count > bytes.size() - at) throw Broken("a table in it ends too early");
+  if (at > bytes.size() || count > bytes.size() - at) throw MalformedFile("a table in it ends too early");
 }
 
 uint64_t get_number(std::string_view bytes, size_t at, size_t count) {
@@ -25,7 +25,8 @@ void append_number(std::string& bytes, uint64_t value, size_t count) {
 
 void set_number(std::string& bytes, size_t at, uint64_t value, size_t count) {
   check_place(bytes, at, count);
-  if (count < 8 && value >> (8 * count) != 0) throw Broken("a place in it that holds an offset is too small for it");
+  if (count < 8 && value >> (8 * count) != 0)
+    throw MalformedFile("a place in it that holds an offset is too small for it");
   for (size_t i = 0; i < count; i++) bytes[at + i] = byte_of(value, count - 1 - i);
 }
 

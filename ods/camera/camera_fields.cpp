@@ -12,7 +12,7 @@ namespace {
 struct FieldRow {
   std::string_view name;
   FieldRange range;
-  std::vector<float*> (*numbers)(CameraRig&);
+  std::vector<float*> (*numbers)(StereoCamera&);
 };
 
 constexpr FieldRange kAngle{-36000.0f, 36000.0f};
@@ -28,42 +28,42 @@ const FieldRow& row_of(CameraField field) {
   using Numbers = std::vector<float*>;
   // As CameraField counts.
   static const FieldRow kRows[] = {
-      {"position", kPlace, [](CameraRig& rig) { return numbers_of(rig.position); }},
-      {"yaw", kAngle, [](CameraRig& rig) { return Numbers{&rig.yaw}; }},
-      {"pitch", kAngle, [](CameraRig& rig) { return Numbers{&rig.pitch}; }},
-      {"roll", kAngle, [](CameraRig& rig) { return Numbers{&rig.roll}; }},
-      {"ipd", {0.0f, 1e4f}, [](CameraRig& rig) { return Numbers{&rig.ipd}; }},
-      {"neck", {-1e3f, 1e3f}, [](CameraRig& rig) { return Numbers{&rig.neck}; }},
+      {"position", kPlace, [](StereoCamera& camera) { return numbers_of(camera.position); }},
+      {"yaw", kAngle, [](StereoCamera& camera) { return Numbers{&camera.yaw}; }},
+      {"pitch", kAngle, [](StereoCamera& camera) { return Numbers{&camera.pitch}; }},
+      {"roll", kAngle, [](StereoCamera& camera) { return Numbers{&camera.roll}; }},
+      {"ipd", {0.0f, 1e4f}, [](StereoCamera& camera) { return Numbers{&camera.ipd}; }},
+      {"neck", {-1e3f, 1e3f}, [](StereoCamera& camera) { return Numbers{&camera.neck}; }},
       {"merge start", kElevation,
-       [](CameraRig& rig) {
-         return Numbers{&rig.top.start, &rig.bottom.start};
+       [](StereoCamera& camera) {
+         return Numbers{&camera.top.start, &camera.bottom.start};
        }},
       {"merge end", kElevation,
-       [](CameraRig& rig) {
-         return Numbers{&rig.top.end, &rig.bottom.end};
+       [](StereoCamera& camera) {
+         return Numbers{&camera.top.end, &camera.bottom.end};
        }},
       {"merge exponent",
        {1e-6f, 100.0f},
-       [](CameraRig& rig) {
-         return Numbers{&rig.top.exponent, &rig.bottom.exponent};
+       [](StereoCamera& camera) {
+         return Numbers{&camera.top.exponent, &camera.bottom.exponent};
        }},
-      {"convergence distance", kDistance, [](CameraRig& rig) { return Numbers{&rig.convergence_distance}; }},
-      {"axis", kPlace, [](CameraRig& rig) { return rig.axis ? numbers_of(*rig.axis) : Numbers(); }},
-      {"lens radius", {0.0f, 10.0f}, [](CameraRig& rig) { return Numbers{&rig.lens_radius}; }},
-      {"focus distance", kDistance, [](CameraRig& rig) { return Numbers{&rig.focus_distance}; }},
+      {"convergence distance", kDistance, [](StereoCamera& camera) { return Numbers{&camera.convergence_distance}; }},
+      {"axis", kPlace, [](StereoCamera& camera) { return camera.axis ? numbers_of(*camera.axis) : Numbers(); }},
+      {"lens radius", {0.0f, 10.0f}, [](StereoCamera& camera) { return Numbers{&camera.lens_radius}; }},
+      {"focus distance", kDistance, [](StereoCamera& camera) { return Numbers{&camera.focus_distance}; }},
       {"longitude", kAngle,
-       [](CameraRig& rig) {
-         return Numbers{&rig.projection.longitude.x, &rig.projection.longitude.y};
+       [](StereoCamera& camera) {
+         return Numbers{&camera.projection.longitude.x, &camera.projection.longitude.y};
        }},
       {"latitude",
        {-90.0f, 90.0f},
-       [](CameraRig& rig) {
-         return Numbers{&rig.projection.latitude.x, &rig.projection.latitude.y};
+       [](StereoCamera& camera) {
+         return Numbers{&camera.projection.latitude.x, &camera.projection.latitude.y};
        }},
-      {"fov", {0.001f, 360.0f}, [](CameraRig& rig) { return Numbers{&rig.projection.fov}; }},
-      {"aspect", {1.0f / 32768.0f, 32768.0f}, [](CameraRig& rig) { return Numbers{&rig.projection.aspect}; }},
-      {"pan", kAngle, [](CameraRig& rig) { return Numbers{&rig.projection.pan}; }},
-      {"tilt", kAngle, [](CameraRig& rig) { return Numbers{&rig.projection.tilt}; }},
+      {"fov", {0.001f, 360.0f}, [](StereoCamera& camera) { return Numbers{&camera.projection.fov}; }},
+      {"aspect", {1.0f / 32768.0f, 32768.0f}, [](StereoCamera& camera) { return Numbers{&camera.projection.aspect}; }},
+      {"pan", kAngle, [](StereoCamera& camera) { return Numbers{&camera.projection.pan}; }},
+      {"tilt", kAngle, [](StereoCamera& camera) { return Numbers{&camera.projection.tilt}; }},
   };
   static_assert(std::size(kRows) == std::size(kCameraFields));
   return kRows[static_cast<size_t>(field)];
@@ -79,12 +79,12 @@ FieldRange range_of(CameraField field) {
   return row_of(field).range;
 }
 
-std::vector<float*> numbers_of(CameraRig& rig, CameraField field) {
-  return row_of(field).numbers(rig);
+std::vector<float*> numbers_of(StereoCamera& camera, CameraField field) {
+  return row_of(field).numbers(camera);
 }
 
-std::string camera_fault(const CameraRig& rig) {
-  CameraRig copy = rig;
+std::string camera_fault(const StereoCamera& camera) {
+  StereoCamera copy = camera;
   for (const CameraField field : kCameraFields) {
     const FieldRange range = range_of(field);
     for (const float* number : numbers_of(copy, field)) {
@@ -92,11 +92,11 @@ std::string camera_fault(const CameraRig& rig) {
       return fmt::format("{} is from {:g} to {:g}, not {:g}", field_name(field), range.least, range.most, *number);
     }
   }
-  for (const PoleMergeSetting& merge : {rig.top, rig.bottom}) {
+  for (const PoleMergeSetting& merge : {camera.top, camera.bottom}) {
     if (!(merge.start < merge.end)) return "a pole merge starts below its end";
   }
-  if (rig.axis && !(length(*rig.axis) > 1e-6f)) return "axis is a direction, not 0";
-  return projection_fault(rig.projection);
+  if (camera.axis && !(length(*camera.axis) > 1e-6f)) return "axis is a direction, not 0";
+  return projection_fault(camera.projection);
 }
 
 float angle_in_range(double degrees) {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 
 namespace ods {
 
@@ -54,12 +54,12 @@ struct FieldRange {
 };
 FieldRange range_of(CameraField field);
 
-// Where a rig keeps them: three of a position, one for each pole of a merge, none of an axis that it has not.
-std::vector<float*> numbers_of(CameraRig& rig, CameraField field);
+// Where a camera keeps them: three of a position, one for each pole of a merge, none of an axis that it has not.
+std::vector<float*> numbers_of(StereoCamera& camera, CameraField field);
 
 // What is wrong with a camera, in words for a message; empty: nothing. A number out of its range, a merge that ends
 // where it starts, an axis without a direction, projection_fault().
-std::string camera_fault(const CameraRig& rig);
+std::string camera_fault(const StereoCamera& camera);
 
 // The same angle within the range of angles, if it is not there already. Degrees.
 float angle_in_range(double degrees);

@@ -63,17 +63,17 @@ bool moves(const CameraMove& move) {
   return move.turns != 0.0 || !move.fly_to.empty();
 }
 
-CameraRig moved(const CameraRig& rig, const CameraMove& move, double time) {
-  CameraRig result = rig;
+StereoCamera moved(const StereoCamera& camera, const CameraMove& move, double time) {
+  StereoCamera result = camera;
   const double share = time / move.seconds;
   if (!move.fly_to.empty()) {
     const double t = std::clamp(share, 0.0, 1.0);
-    result.position = vec3(point_along(flight(dvec3(rig.position), move.fly_to), t * t * (3.0 - 2.0 * t)));
+    result.position = vec3(point_along(flight(dvec3(camera.position), move.fly_to), t * t * (3.0 - 2.0 * t)));
   }
   if (move.turns == 0.0) return result;
   const double turns = move.turns * share;
   const double degrees = 360.0 * (turns - std::floor(turns));
-  result.yaw = angle_in_range(static_cast<double>(rig.yaw) + degrees);
+  result.yaw = angle_in_range(static_cast<double>(camera.yaw) + degrees);
   if (move.pivot) {
     const double a = glm::radians(degrees), c = std::cos(a), s = std::sin(a);
     const dvec3 pivot(*move.pivot), out = dvec3(result.position) - pivot;

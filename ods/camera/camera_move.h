@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves of the camera, so that a scene that stands still can make a film.
+// Moves of the camera, so that a scene that stands still can make a video.
 #pragma once
 #include <optional>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 
 namespace ods {
 
@@ -21,8 +21,8 @@ struct CameraMove {
 
 bool moves(const CameraMove& move);
 
-// Where the camera of a time is that would stand at `rig` without the move. The flight follows a Catmull-Rom curve,
+// The camera at a time, moved from where it is without the move. The flight follows a Catmull-Rom curve,
 // chords as knot distances, and covers its length by the smoothstep of time.
-CameraRig moved(const CameraRig& rig, const CameraMove& move, double time);
+StereoCamera moved(const StereoCamera& camera, const CameraMove& move, double time);
 
 }  // namespace ods

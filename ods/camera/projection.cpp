@@ -77,7 +77,7 @@ bool is_vr180(const ProjectionSetting& setting) {
   return setting.kind == kVr180.kind && same_numbers(setting, kVr180);
 }
 
-constexpr float kLeastRange = 0.01f;  // degrees
+constexpr float kMinRange = 0.01f;  // degrees
 
 static std::string range_fault(const ProjectionSetting& setting) {
   const float limit = setting.kind == kLatLong ? range_of(CameraField::kLatitude).most : 89.0f;
@@ -91,7 +91,7 @@ static std::string range_fault(const ProjectionSetting& setting) {
     return setting.kind == kLatLong ? "latitudes run from bottom to top within -90 and 90 degrees"
                                     : "a cylinder's latitudes run from bottom to top within -89 and 89 degrees";
   }
-  if (turn < kLeastRange || setting.latitude.y - setting.latitude.x < kLeastRange) {
+  if (turn < kMinRange || setting.latitude.y - setting.latitude.x < kMinRange) {
     return "a part of the sphere is at least 0.01 degrees wide and high";
   }
   return {};
@@ -182,7 +182,7 @@ int width_step(const ProjectionSetting& setting) {
 }
 
 // Columns of Ry(-yaw) * Rx(pitch) * Rz(-roll).
-std::array<glm::dvec3, 3> attitude(double yaw, double pitch, double roll) {
+std::array<glm::dvec3, 3> orientation(double yaw, double pitch, double roll) {
   const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch);
   const double cr = std::cos(roll), sr = std::sin(roll);
   const glm::dvec3 level_right(cy, 0.0, sy);
@@ -205,7 +205,7 @@ Projection make_projection(const ProjectionSetting& setting) {
   const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
   projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
   const auto [right, up, back] =
-      attitude(glm::radians(static_cast<double>(setting.pan)), glm::radians(static_cast<double>(setting.tilt)), 0.0);
+      orientation(glm::radians(static_cast<double>(setting.pan)), glm::radians(static_cast<double>(setting.tilt)), 0.0);
   projection.lens_right = vec3(right);
   projection.lens_up = vec3(up);
   projection.lens_back = vec3(back);

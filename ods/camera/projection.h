@@ -59,7 +59,7 @@ int width_step(const ProjectionSetting& setting);
 
 // Right, up and back of what looks along -Z and is rolled clockwise, then pitched up, then turned to the right.
 // Radians.
-std::array<glm::dvec3, 3> attitude(double yaw, double pitch, double roll);
+std::array<glm::dvec3, 3> orientation(double yaw, double pitch, double roll);
 
 // Precondition: projection_fault() is empty.
 Projection make_projection(const ProjectionSetting& setting);

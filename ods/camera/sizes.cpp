@@ -36,7 +36,7 @@ static constexpr NamedSize kSizes[] = {
     {"quest-3-vr180", "Quest 3: the same, with --projection vr180", {3840, 3840}, kLr, 30, "", kMeta},
     {"quest-4k", "Quest 2 and later: the browser plays 4K in every codec", {4096, 2048}, kOneEye, 30, "", kMeta},
     {"quest-store-preview", "Quest store: mono preview, 7680 x 3840 or more", {7680, 3840}, kOneEye, 0, "", kMetaStore},
-    {"vision-pro-vr180", "Apple's immersive films, with --projection vr180", {4320, 4320}, kLr, 0, "", kVisionPro},
+    {"vision-pro-vr180", "Apple's immersive videos, with --projection vr180", {4320, 4320}, kLr, 0, "", kVisionPro},
     {"youtube-8k", "YouTube takes up to 8K", {5760, 2880}, kTb, 0, "", kYouTube},
     {"youtube-8k-mono", "YouTube takes up to 8K, one eye", {7680, 3840}, kOneEye, 0, "", kYouTube},
     {"deovr-4096", "DeoVR, H.264 up to 4096 x 4096 at 30", {4096, 2048}, kTb, 30, "", kDeoVr},

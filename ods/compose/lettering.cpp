@@ -159,7 +159,7 @@ class Text {
 
 Lettering draw_lettering(const std::string& text, float em, const LetteringOptions& options) {
   assert(em > 0.0f);
-  const double kMostPixels = 1 << 26;
+  const double kMaxPixels = 1 << 26;
   if (!g_utf8_validate(text.data(), static_cast<gssize>(text.size()), nullptr)) {
     throw Error(ErrorKind::kUsage, "the text is not valid UTF-8");
   }
@@ -169,8 +169,8 @@ Lettering draw_lettering(const std::string& text, float em, const LetteringOptio
   drawn.set_em(em);
   PangoRectangle ink = drawn.ink();
   const double pixels = 1.0 * ink.width * ink.height;
-  if (pixels > kMostPixels) {
-    lettering.em *= static_cast<float>(std::sqrt(kMostPixels / pixels));
+  if (pixels > kMaxPixels) {
+    lettering.em *= static_cast<float>(std::sqrt(kMaxPixels / pixels));
     drawn.set_em(lettering.em);
     ink = drawn.ink();
   }

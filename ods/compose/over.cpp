@@ -14,10 +14,10 @@
 namespace ods {
 
 // The foreground as if its eyes were the background's.
-static StoredPicture with_eyes_of(StoredPicture foreground, const CameraRig& rig) {
-  CameraRig& own = foreground.rig;
-  own.ipd = rig.ipd, own.neck = rig.neck, own.axis = rig.axis, own.mirrored = rig.mirrored;
-  own.top = rig.top, own.bottom = rig.bottom, own.merge_map = rig.merge_map;
+static StoredPicture with_eyes_of(StoredPicture foreground, const StereoCamera& camera) {
+  StereoCamera& own = foreground.camera;
+  own.ipd = camera.ipd, own.neck = camera.neck, own.axis = camera.axis, own.mirrored = camera.mirrored;
+  own.top = camera.top, own.bottom = camera.bottom, own.merge_map = camera.merge_map;
   return foreground;
 }
 
@@ -37,13 +37,13 @@ std::string over_fault(const StoredPicture& foreground, const StoredPicture& bac
                        foreground.eyes.size() == 2 ? "two eyes" : "one eye",
                        background.eyes.size() == 2 ? "two" : "one");
   }
-  return conversion_fault(with_eyes_of(foreground, background.rig), own_form(background));
+  return conversion_fault(with_eyes_of(foreground, background.camera), same_format(background));
 }
 
 // --- what is suspicious ----------------------------------------------------------------------------------------------
 
-static void compare_eyes_of(const CameraRig& front, const CameraRig& back, std::vector<std::string>& warnings) {
-  const float micrometre = 1e-6f;  // finer than films have it
+static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back, std::vector<std::string>& warnings) {
+  const float micrometre = 1e-6f;  // finer than videos have it
   if (std::abs(front.ipd - back.ipd) > micrometre) {
     warnings.push_back(
         fmt::format("the foreground was made for eyes {:g} mm apart, the background for {:g}: make it with "
@@ -54,12 +54,13 @@ static void compare_eyes_of(const CameraRig& front, const CameraRig& back, std::
     warnings.push_back(
         "the foreground's eyes are merged otherwise towards the poles: it floats off what it stands on there");
   }
-  if (front.neck != back.neck) warnings.push_back("the foreground's eyes stand otherwise before the neck (--neck)");
+  if (front.neck != back.neck)
+    warnings.push_back("the foreground's eyes stand otherwise before the neck (--eye-to-neck)");
 }
 
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
   std::vector<std::string> warnings;
-  compare_eyes_of(foreground.rig, background.rig, warnings);
+  compare_eyes_of(foreground.camera, background.camera, warnings);
   return warnings;
 }
 
@@ -117,8 +118,8 @@ static Count lay_row(const Rows& front, const Rows& back, const OverOptions& opt
 
 Overlay lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
   assert(over_fault(foreground, background, options).empty());
-  const ConvertTarget target = own_form(background);
-  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.rig));
+  const ConvertTarget target = same_format(background);
+  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.camera));
   const auto front = std::make_shared<const Rows>(*moved, target);
   const auto back = std::make_shared<const Rows>(background, target);
   Overlay overlay;
@@ -135,8 +136,8 @@ Overlay lay_over(const StoredPicture& foreground, const StoredPicture& backgroun
 PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPicture& background,
                               const OverOptions& options) {
   assert(over_fault(foreground, background, options).empty());
-  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.rig));
-  const auto front = std::make_shared<const Rows>(*moved, own_form(background));
+  const auto moved = std::make_shared<const StoredPicture>(with_eyes_of(foreground, background.camera));
+  const auto front = std::make_shared<const Rows>(*moved, same_format(background));
   PictureRows rows = front->rows;
   rows.layers = {{{"R", "G", "B", "A"}}};
   rows.fill = [moved, front, opacity = options.opacity](int index, int y, std::span<float> row) {

@@ -14,29 +14,30 @@ namespace ods {
 
 constexpr float kPixelsPerPixel = 2.0f;  // of the lettering in one of the picture: its own edges are to be no wider
 
-float lettering_em(const CameraRig& rig, Extent eye, const TitleSetting& setting) {
+float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& setting) {
   const double angle = static_cast<double>(setting.height / setting.distance);
-  const double pixels = angle * pixels_per_radian(rig.projection, eye.width) * static_cast<double>(kPixelsPerPixel);
+  const double pixels = angle * pixels_per_radian(stereo.projection, eye.width) * static_cast<double>(kPixelsPerPixel);
   return static_cast<float>(std::clamp(pixels, 8.0, 2048.0));
 }
 
-Title make_title(const CameraRig& rig, Extent eye, const TitleSetting& setting, const Lettering& lettering) {
+Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& setting, const Lettering& lettering) {
   assert(eye.width > 0 && eye.height > 0 && setting.distance > 0.0f && setting.height > 0.0f);
   Title title;
-  CameraRig centred = rig;
+  StereoCamera centred = stereo;
   centred.position = vec3(0.0f);
   title.camera = make_camera(centred);
   title.eye = eye;
   title.coverage = lettering.coverage;
   title.setting = setting;
-  const auto [right, up, back] = attitude(glm::radians(double{setting.yaw}), glm::radians(double{setting.pitch}), 0.0);
+  const auto [right, up, back] =
+      orientation(glm::radians(double{setting.yaw}), glm::radians(double{setting.pitch}), 0.0);
   title.right = vec3(right), title.up = vec3(up), title.middle = -vec3(back);
   title.pixels = lettering.em / setting.height;
   // The corner, as much as the eye stands beside the middle, and some pixels.
   const vec2 half = vec2(title.coverage.width, title.coverage.height) * (0.5f / title.pixels / setting.distance);
   const float across = setting.curved ? half.x : std::atan(half.x);
-  const float away = std::hypot(0.5f * rig.ipd, rig.neck) / setting.distance;
-  const float step = 4.0f / static_cast<float>(std::max(1.0, pixels_per_radian(rig.projection, eye.width)));
+  const float away = std::hypot(0.5f * stereo.ipd, stereo.neck) / setting.distance;
+  const float step = 4.0f / static_cast<float>(std::max(1.0, pixels_per_radian(stereo.projection, eye.width)));
   const float slack = std::asin(std::min(1.0f, away)) + step, up_or_down = std::atan(half.y);
   const float angle = std::hypot(across, up_or_down) + slack;
   title.reach = angle < kPi ? std::cos(angle) : -1.0f;
@@ -136,13 +137,13 @@ float comfortable_height(const Title& title) {
   return title.setting.height * std::min(1.0f, most / half_width(title));
 }
 
-float nearest_comfortable(const CameraRig& rig, float pitch) {
+float nearest_comfortable(const StereoCamera& stereo, float pitch) {
   const float kAlongHorizon = 0.6f, kOverhead = 3.5f, kSourcesIpd = 0.065f;
   const float kSteep = 58.6f;  // degrees: where both rules allow the same difference in height between the eyes
-  const Camera camera = make_camera(rig);
+  const Camera camera = make_camera(stereo);
   const float phi = glm::radians(pitch);
   const float merged = merge_at(camera, vec3(0.0f, std::sin(phi), -std::cos(phi)), phi);
-  return (std::abs(pitch) < kSteep ? kAlongHorizon : kOverhead) * rig.ipd * merged / kSourcesIpd;
+  return (std::abs(pitch) < kSteep ? kAlongHorizon : kOverhead) * stereo.ipd * merged / kSourcesIpd;
 }
 
 }  // namespace ods

@@ -9,8 +9,8 @@
 #pragma once
 #include <span>
 
-#include "ods/camera/camera_rig.h"
 #include "ods/camera/layout.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/compose/lettering.h"
 
 namespace ods {
@@ -37,11 +37,11 @@ struct Title {
 };
 
 // How many of the lettering's pixels an em should have, so that it is as sharp as the picture.
-float lettering_em(const CameraRig& rig, Extent eye, const TitleSetting& setting);
+float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& setting);
 
-// The rig stands at the middle of the title's world, wherever its position is.
+// The camera is at the centre of the title's world, whatever its position.
 // Precondition: as of make_camera(); sides, distance and height above 0.
-Title make_title(const CameraRig& rig, Extent eye, const TitleSetting& setting, const Lettering& lettering);
+Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& setting, const Lettering& lettering);
 
 // Row y of one eye: R, G, B multiplied by A, A, and Z (metres along the ray, kFarDepth where there is no letter) of
 // every pixel.
@@ -56,7 +56,7 @@ inline constexpr float kComfortableWidth = 60.0f;
 // Metres. The setting's height, or what makes the text no wider than is comfortable.
 float comfortable_height(const Title& title);
 
-// Metres. What is nearer strains the eyes, by the source's two rules and this rig's distance between the eyes.
-float nearest_comfortable(const CameraRig& rig, float pitch);
+// Metres. What is nearer strains the eyes, by the source's two rules and this camera's ipd.
+float nearest_comfortable(const StereoCamera& stereo, float pitch);
 
 }  // namespace ods

@@ -17,44 +17,44 @@ namespace ods {
 
 // --- what can become what ------------------------------------------------------------------------------------------
 
-ConvertTarget own_form(const StoredPicture& picture) {
-  ConvertTarget form{picture.rig, picture.size, {}};
-  for (const StoredEye& eye : picture.eyes) form.eyes.push_back(eye.eye);
-  return form;
+ConvertTarget same_format(const StoredPicture& picture) {
+  ConvertTarget format{picture.camera, picture.size, {}};
+  for (const StoredEye& eye : picture.eyes) format.eyes.push_back(eye.eye);
+  return format;
 }
 
 std::vector<RowLayer> row_layers(const StoredPicture& picture) {
   std::vector<RowLayer> layers;
   for (const LayerPixels& layer : picture.eyes[0].layers) {
-    const Sample sample = layer.sample == Sample::kFloat ? Sample::kFloat : Sample::kHalf;
+    const SampleType sample = layer.sample == SampleType::kFloat ? SampleType::kFloat : SampleType::kHalf;
     layers.push_back({layer.channels, layer.rule, sample});
   }
   return layers;
 }
 
-static bool is_tilted(const CameraRig& from, const CameraRig& to) {
+static bool is_tilted(const StereoCamera& from, const StereoCamera& to) {
   return length(axis_in_world(make_camera(from)) - axis_in_world(make_camera(to))) > 1e-4f;
 }
 
 // The target's eyes stand elsewhere than the picture's. A mono target takes an eye as it is.
 static bool sees_around(const StoredPicture& picture, const ConvertTarget& target) {
   if (target.eyes[0] == kMono) return false;
-  const CameraRig &from = picture.rig, &to = target.rig;
+  const StereoCamera &from = picture.camera, &to = target.camera;
   return picture.eyes[0].eye == kMono || from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
          !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map;
 }
 
 std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
-  const std::vector<int> eyes = own_form(picture).eyes;
+  const std::vector<int> eyes = same_format(picture).eyes;
   const bool from_mono = eyes[0] == kMono;
-  if (picture.rig.mirrored != target.rig.mirrored) return "a mirrored picture stays mirrored";
+  if (picture.camera.mirrored != target.camera.mirrored) return "a mirrored picture stays mirrored";
   if (target.eyes[0] == kMono) return "";
   for (const int eye : target.eyes) {
     if (!from_mono && std::find(eyes.begin(), eyes.end(), eye) == eyes.end()) {
       return fmt::format("the picture has no {} eye", eye_name(eye));
     }
   }
-  if (!from_mono && is_tilted(picture.rig, target.rig)) {
+  if (!from_mono && is_tilted(picture.camera, target.camera)) {
     return "a stereo picture turns about its viewing circle's axis only (yaw): pitched or rolled, its eyes would need "
            "lines of sight that nobody has seen; a mono one can be tilted";
   }
@@ -64,7 +64,7 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
 }
 
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection) {
-  const ProjectionSetting& own = picture.rig.projection;
+  const ProjectionSetting& own = picture.camera.projection;
   const double natural = natural_height(own, picture.size.width);
   const double stretch = std::max(1.0, picture.size.height / natural);  // of eyes that are squeezed from the sides
   const double width = stretch * pixels_per_radian(own, picture.size.width) / pixels_per_radian(projection, 1.0);
@@ -82,7 +82,7 @@ namespace {
 
 // The pixels that are made, seen from the source's.
 struct Mapping {
-  CameraRig rig;  // the camera reads its merge map
+  StereoCamera stereo;  // the camera reads its merge map
   Source source;
   Camera camera;  // of the target, the centre at 0
   Extent size;
@@ -124,16 +124,17 @@ Place Mapping::find(int index, vec2 home, vec2 uv) const {
 
 // Every pixel is a texel of the picture.
 bool is_as_stored(const StoredPicture& picture, const ConvertTarget& target) {
-  CameraRig rig = target.rig;
-  rig.position = picture.rig.position, rig.lens_radius = picture.rig.lens_radius;
-  rig.focus_distance = picture.rig.focus_distance;
+  StereoCamera stereo = target.camera;
+  stereo.position = picture.camera.position, stereo.lens_radius = picture.camera.lens_radius;
+  stereo.focus_distance = picture.camera.focus_distance;
   const auto has_eye = [&](int eye) { return picture.eyes[static_cast<size_t>(eye_index(picture, eye))].eye == eye; };
-  return rig == picture.rig && !has_image_circle(rig.projection.kind) && target.eye.width == picture.size.width &&
-         target.eye.height == picture.size.height && std::all_of(target.eyes.begin(), target.eyes.end(), has_eye);
+  return stereo == picture.camera && !has_image_circle(stereo.projection.kind) &&
+         target.eye.width == picture.size.width && target.eye.height == picture.size.height &&
+         std::all_of(target.eyes.begin(), target.eyes.end(), has_eye);
 }
 
 Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) {
-  Mapping mapping{target.rig, make_source(picture), make_camera(target.rig), target.eye, target.eyes, {}};
+  Mapping mapping{target.camera, make_source(picture), make_camera(target.camera), target.eye, target.eyes, {}};
   mapping.camera.center = vec3(0.0f);
   mapping.camera.lens_radius = 0.0f;
   for (const int eye : target.eyes) mapping.from.push_back(eye_index(picture, eye == kMono ? target.mono_from : eye));
@@ -327,7 +328,7 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
 }
 
 void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const {
-  constexpr int kAlike = static_cast<int>(kMostAlike);
+  constexpr int kAlike = static_cast<int>(kMaxAlike);
   PixelRun run(resampler_, stretch.eye, stretch.cell);
   for (int i = 0; i < count; i += kAlike) {
     const int alike = std::min(kAlike, count - i);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture becomes another: of another projection, size, attitude or convergence, of other eyes. Every pixel looks up
-// its line of sight in the picture that there is (source.h), and averages what it covers there (resample.h).
+// A picture becomes another: of another projection, size, orientation or convergence, of other eyes. Every pixel looks
+// up its line of sight in the picture that there is (source.h), and averages what it covers there (resample.h).
 //
 // A stereo picture can be turned about its viewing circle's axis, exactly. It cannot be tilted: the circle would lie in
 // the old plane, and the lines that the tilted eyes need were never seen. A mono picture can be turned any way.
@@ -19,14 +19,14 @@
 namespace ods {
 
 struct ConvertTarget {
-  CameraRig rig;
+  StereoCamera camera;
   Extent eye;
   std::vector<int> eyes{kLeft, kRight};  // as EyeImage has them
   int mono_from = kLeft;                 // the eye of a stereo picture that a mono one is made of
 };
 
 // A picture's own form: what converts it to itself.
-ConvertTarget own_form(const StoredPicture& picture);
+ConvertTarget same_format(const StoredPicture& picture);
 
 // A picture's layers as rows of it have them: floats stay floats, all else is halves.
 std::vector<RowLayer> row_layers(const StoredPicture& picture);

@@ -16,7 +16,7 @@ static float depth_at(const Reprojection& reprojection, const Texel& texel) {
   const LayerPixels& layer =
       reprojection.source->picture->eyes[static_cast<size_t>(texel.eye)].layers[reprojection.layer];
   const std::byte* at = layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride;
-  if (layer.sample != Sample::kFloat) return sample_value(layer.sample, at);
+  if (layer.sample != SampleType::kFloat) return sample_value(layer.sample, at);
   float depth;
   std::memcpy(&depth, at, sizeof depth);
   return depth;
@@ -32,7 +32,7 @@ std::optional<size_t> depth_layer(const StoredPicture& picture) {
   const std::vector<LayerPixels>& layers = picture.eyes[0].layers;
   for (size_t i = 0; i < layers.size(); i++) {
     const bool fits = layers[i].rule == LayerRule::kNearest && layers[i].channels == std::vector<std::string>{"Z"};
-    if (fits && (layers[i].sample == Sample::kFloat || layers[i].sample == Sample::kHalf)) return i;
+    if (fits && (layers[i].sample == SampleType::kFloat || layers[i].sample == SampleType::kHalf)) return i;
   }
   return {};
 }
@@ -84,7 +84,7 @@ namespace {
 // Where a point of the ray lies in an eye's picture, by 1 / its distance along the ray.
 struct Shown {
   Place place;
-  float nearness = 0.0f;  // of the point, for that eye
+  float inverse_depth = 0.0f;  // of the point, for that eye
 };
 
 struct Curve {
@@ -95,26 +95,26 @@ struct Curve {
   bool is_parabola = false;  // through three of its points
   Shown at_far, at_middle, at_near;
 
-  Shown find(float nearness) const;
-  Shown at(float nearness) const;
+  Shown find(float inverse_depth) const;
+  Shown at(float inverse_depth) const;
 };
 
-const float kLeastNearness = 1e-6f;  // 1/metres: as far as numbers tell points apart
+const float kMinInverseDepth = 1e-6f;  // 1/metres: as far as numbers tell points apart
 
-Shown Curve::find(float nearness) const {
+Shown Curve::find(float inverse_depth) const {
   const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
-  const vec3 point = ray.origin + ray.direction * (1.0f / std::max(nearness, kLeastNearness));
+  const vec3 point = ray.origin + ray.direction * (1.0f / std::max(inverse_depth, kMinInverseDepth));
   const ImagePosition found = project_point(source.camera, which, point);
   const Extent size = source.picture->size;
   const vec2 at = found.uv * vec2(static_cast<float>(size.width), static_cast<float>(size.height));
   return {{eye, at, found.seen}, found.seen ? 1.0f / found.depth : 0.0f};
 }
 
-Shown Curve::at(float nearness) const {
-  if (!is_parabola) return find(nearness);
-  const float t = 2.0f * nearness / most;
+Shown Curve::at(float inverse_depth) const {
+  if (!is_parabola) return find(inverse_depth);
+  const float t = 2.0f * inverse_depth / most;
   return {{eye, on_parabola(at_far.place.at, at_middle.place.at, at_near.place.at, t), true},
-          on_parabola(at_far.nearness, at_middle.nearness, at_near.nearness, t)};
+          on_parabola(at_far.inverse_depth, at_middle.inverse_depth, at_near.inverse_depth, t)};
 }
 
 Curve make_curve(const Source& source, int eye, const Ray& ray, float most) {
@@ -137,28 +137,28 @@ std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const 
   bool before = false;
   float last_nearness = 0.0f, last_surface = 0.0f, last_ahead = 0.0f;
   for (int i = 0; i <= steps; i++) {
-    const float nearness = curve.most * static_cast<float>(steps - i) / static_cast<float>(steps);
-    const Shown shown = curve.at(nearness);
+    const float inverse_depth = curve.most * static_cast<float>(steps - i) / static_cast<float>(steps);
+    const Shown shown = curve.at(inverse_depth);
     if (!shown.place.seen) {
       before = false;
       continue;
     }
     const float surface = nearness_of(reprojection, shown.place);
-    const float ahead = (i == steps ? 0.0f : shown.nearness) - surface;  // above 0: before the surface
+    const float ahead = (i == steps ? 0.0f : shown.inverse_depth) - surface;  // above 0: before the surface
     if (ahead <= 0.0f && before && is_one_surface(surface, last_surface)) {
-      float low = nearness, high = last_nearness, below = ahead, above = last_ahead;
+      float low = inverse_depth, high = last_nearness, below = ahead, above = last_ahead;
       for (int round = 0; round < 4; round++) {
         const float middle = low + (high - low) * (-below / std::max(above - below, 1e-20f));
         const Shown there = curve.at(middle);
-        const float off = (middle > 0.0f ? there.nearness : 0.0f) - nearness_of(reprojection, there.place);
+        const float off = (middle > 0.0f ? there.inverse_depth : 0.0f) - nearness_of(reprojection, there.place);
         (off > 0.0f ? high : low) = middle;
         (off > 0.0f ? above : below) = off;
       }
       const float met = low + (high - low) * (-below / std::max(above - below, 1e-20f));
-      return SurfaceHit{curve.at(met).place, met > kLeastNearness ? 1.0f / met : kFarDepth};
+      return SurfaceHit{curve.at(met).place, met > kMinInverseDepth ? 1.0f / met : kFarDepth};
     }
     before = ahead > 0.0f;
-    last_nearness = nearness, last_surface = surface, last_ahead = ahead;
+    last_nearness = inverse_depth, last_surface = surface, last_ahead = ahead;
   }
   return {};
 }

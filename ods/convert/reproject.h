@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "ods/convert/source.h"
+#include "ods/convert/panorama.h"
 
 namespace ods {
 

@@ -25,7 +25,7 @@ static std::vector<float> light_of_halves() {
   return light;
 }
 
-constexpr float kMost = std::numeric_limits<float>::max();
+constexpr float kMax = std::numeric_limits<float>::max();
 
 namespace {
 
@@ -35,7 +35,7 @@ struct Codes {
   using Type = T;
   static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
   static const float* table() {
-    static const std::vector<float> kTable = light_of_codes(std::numeric_limits<T>::max());
+    static const std::vector<float> kTable = linear_from_encoded(std::numeric_limits<T>::max());
     return kTable.data();
   }
   static float light(const float* table, T code) { return table[code]; }
@@ -57,8 +57,8 @@ struct Floats {
   using Type = float;
   static constexpr bool kIsAssociated = true;
   static const float* table() { return nullptr; }
-  static float light(const float*, float value) { return finite(value, -kMost, kMost); }
-  static float number(float value) { return finite(value, -kMost, kMost); }
+  static float light(const float*, float value) { return finite(value, -kMax, kMax); }
+  static float number(float value) { return finite(value, -kMax, kMax); }
 };
 
 }  // namespace
@@ -146,15 +146,15 @@ static ReadLights light_reader(int count, bool alpha) {
   return count == 3 ? read_lights<Samples, 3, false> : read_lights<Samples, 4, false>;
 }
 
-static ReadLights light_reader_of(Sample sample, int count, bool alpha) {
+static ReadLights light_reader_of(SampleType sample, int count, bool alpha) {
   switch (sample) {
-    case Sample::kUint8:
+    case SampleType::kUint8:
       return light_reader<Codes<uint8_t>>(count, alpha);
-    case Sample::kUint16:
+    case SampleType::kUint16:
       return light_reader<Codes<uint16_t>>(count, alpha);
-    case Sample::kHalf:
+    case SampleType::kHalf:
       return light_reader<Halves>(count, alpha);
-    case Sample::kFloat:
+    case SampleType::kFloat:
       break;
   }
   return light_reader<Floats>(count, alpha);
@@ -162,15 +162,15 @@ static ReadLights light_reader_of(Sample sample, int count, bool alpha) {
 
 using ReadNumbers = void (*)(const std::byte* texel, int count, float* out);
 
-static ReadNumbers number_reader_of(Sample sample) {
+static ReadNumbers number_reader_of(SampleType sample) {
   switch (sample) {
-    case Sample::kUint8:
+    case SampleType::kUint8:
       return read_numbers<Codes<uint8_t>>;
-    case Sample::kUint16:
+    case SampleType::kUint16:
       return read_numbers<Codes<uint16_t>>;
-    case Sample::kHalf:
+    case SampleType::kHalf:
       return read_numbers<Halves>;
-    case Sample::kFloat:
+    case SampleType::kFloat:
       break;
   }
   return read_numbers<Floats>;
@@ -281,15 +281,15 @@ void Resampler::add(const Place& place, const Cell& cell, float weight, float* s
 
 // Neighbours share most of their texels, which are read once for all: of as many pixels as have them in a small box.
 void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) const {
-  const int kMostTexels = 1024;  // of one filter
+  const int kMaxTexels = 1024;  // of one filter
   const Reach reach = reach_of(filters);
   const int left = reach.box.left, top = reach.box.top, width = reach.box.right - left, height = reach.box.bottom - top;
-  if (filters.size() > 1 && width * height > std::min(reach.texels, kMostTexels)) {
+  if (filters.size() > 1 && width * height > std::min(reach.texels, kMaxTexels)) {
     const size_t half = filters.size() / 2;
     fill(eye, filters.first(half), out);
     return fill(eye, filters.subspan(half), out + half * static_cast<size_t>(channels_));
   }
-  Four texels[kMostTexels];
+  Four texels[kMaxTexels];
   for (const Group& group : mixed_) {
     group.read_lights(group.block(source_, eye, left, top), width, height, texels);
     float* pixel = out + group.first;

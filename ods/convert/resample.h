@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ods/convert/source.h"
+#include "ods/convert/panorama.h"
 #include "ods/convert/texel_filter.h"
 
 namespace ods {
@@ -57,7 +57,7 @@ class PixelRun {
  public:
   PixelRun(const Resampler& resampler, int eye, const Cell& cell) : resampler_(resampler), eye_(eye), cell_(cell) {}
 
-  // Takes the pixels beside the last one, at most kMostAlike; false: their texels are not all of the cell, or they have
+  // Takes the pixels beside the last one, at most kMaxAlike; false: their texels are not all of the cell, or they have
   // no tents, and they are left alone.
   bool add(const std::optional<TexelTents>& tents, std::span<const vec2> places, float* pixels);
 

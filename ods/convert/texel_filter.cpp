@@ -12,8 +12,8 @@ namespace ods {
 // --- tents ----------------------------------------------------------------------------------------------------------
 
 // Below this the picture is only interpolated: half a texel's hundredth of blur would cost its sharpness for nothing.
-static const float kLeastRadius = 0.15f;
-static const int kMostPoints = 65;  // along one axis
+static const float kMinRadius = 0.15f;
+static const int kMaxPoints = 65;  // along one axis
 
 namespace {
 
@@ -34,8 +34,8 @@ struct Tent {
 // sums of 1, 3, 5, ... and their squares and cubes: a sixth of `variance`.
 static Tent make_tent(float variance_of_6) {
   Tent tent;
-  if (variance_of_6 < kLeastRadius * kLeastRadius) return tent;
-  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * std::sqrt(variance_of_6))), kMostPoints);
+  if (variance_of_6 < kMinRadius * kMinRadius) return tent;
+  tent.count = std::min(1 + static_cast<int>(std::ceil(2.0f * std::sqrt(variance_of_6))), kMaxPoints);
   const bool even = tent.count % 2 == 0;
   const float n = static_cast<float>(tent.count), nn = n * n;
   const float variance = even ? 1.0f + 2.0f / nn : (nn - 1.0f) * (nn + 3.0f) / (nn * (nn + 1.0f));
@@ -130,11 +130,11 @@ struct TentTable {
   static constexpr int kSteps = 48;  // of the square: of what the filter's variance grows by
   static constexpr int kSquares = 9 * kSteps;
   static constexpr int kPhases = 128;  // of a texel
-  static constexpr int kMost = 12;     // weights
+  static constexpr int kMax = 12;      // weights
   struct Row {
-    int first = kMost;  // texel of the first weight, from that before the place
+    int first = kMax;  // texel of the first weight, from that before the place
     int count = 0;
-    std::array<std::array<float, kMost>, kPhases + 2> weights;  // the last twice: it has a next one, too
+    std::array<std::array<float, kMax>, kPhases + 2> weights;  // the last twice: it has a next one, too
   };
   std::vector<Row> rows{kSquares};
 
@@ -147,7 +147,7 @@ TentTable::TentTable() {
   for (size_t i = 0; i < rows.size(); i++) {
     const Tent tent = make_tent(static_cast<float>(i) / kSteps);
     std::array<TexelWeights, kPhases + 1> phases;
-    int end = -kMost;
+    int end = -kMax;
     for (size_t j = 0; j <= kPhases; j++) {
       sum_weights(0.5f + static_cast<float>(j) / kPhases, tent, phases[j]);
       rows[i].first = std::min(rows[i].first, phases[j].first);
@@ -167,7 +167,7 @@ namespace {
 
 // Places along one axis, and which weights those of their filters are.
 struct Axis {
-  float places[kMostAlike];
+  float places[kMaxAlike];
   std::span<TexelFilter> filters;
   TexelWeights TexelFilter::*weights;
 };
@@ -176,8 +176,8 @@ struct Axis {
 
 // Its loops, and those below, are over all places there is room for: compilers turn them into a few steps.
 static void interpolate(const Axis& axis) {
-  Position positions[kMostAlike];
-  for (size_t i = 0; i < kMostAlike; i++) positions[i] = split(axis.places[i]);
+  Position positions[kMaxAlike];
+  for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split(axis.places[i]);
   for (size_t i = 0; i < axis.filters.size(); i++) {
     TexelWeights& to = axis.filters[i].*axis.weights;
     to.first = positions[i].texel - 1;
@@ -188,8 +188,8 @@ static void interpolate(const Axis& axis) {
 }
 
 static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
-  Position positions[kMostAlike];
-  for (size_t i = 0; i < kMostAlike; i++) positions[i] = split_exactly(axis.places[i]);
+  Position positions[kMaxAlike];
+  for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split_exactly(axis.places[i]);
   for (size_t i = 0; i < axis.filters.size(); i++) {
     const float place = positions[i].beyond * TentTable::kPhases;
     const size_t phase = std::min<size_t>(static_cast<unsigned>(place), TentTable::kPhases);
@@ -209,7 +209,7 @@ static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
 }
 
 static void set_weights(float square, const Axis& axis) {
-  if (square < kLeastRadius * kLeastRadius) return interpolate(axis);
+  if (square < kMinRadius * kMinRadius) return interpolate(axis);
   const float step = square * TentTable::kSteps + 0.5f;
   if (step < TentTable::kSquares) {
     static const TentTable kTable;  // a few milliseconds, for those who need it
@@ -223,19 +223,19 @@ static void set_weights(float square, const Axis& axis) {
 
 std::optional<TexelTents> texel_tents(const Footprint& footprint) {
   // Beyond it the ellipse leans so far that columns and rows tell another one.
-  const float kMostLean = 0.1f;
+  const float kMaxLean = 0.1f;
   // Nor does it matter how it leans if that moves the ends of its tent no further than this many texels aside.
-  const float kMostAside = 0.05f;
+  const float kMaxAside = 0.05f;
   // A filter this wide has fewer texels than there is room for.
-  const float kMostRadius = 12.0f;
+  const float kMaxRadius = 12.0f;
   // An ellipse within this circle is only interpolated, however it leans.
-  const float kSharp = 1.0f + kLeastRadius * kLeastRadius;
+  const float kSharp = 1.0f + kMinRadius * kMinRadius;
   const vec2 dx = footprint.dx, dy = footprint.dy;
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
   if (xx < kSharp && yy < kSharp && xy * xy < (kSharp - xx) * (kSharp - yy)) return TexelTents{};
-  const bool straight = xy * xy <= kMostLean * kMostLean * xx * yy;
-  const bool upright = xy * xy * (std::max(xx, yy) - 1.0f) <= kMostAside * kMostAside * (xx - yy) * (xx - yy);
-  if (!(xx + yy < kMostRadius * kMostRadius && (straight || upright))) return std::nullopt;
+  const bool straight = xy * xy <= kMaxLean * kMaxLean * xx * yy;
+  const bool upright = xy * xy * (std::max(xx, yy) - 1.0f) <= kMaxAside * kMaxAside * (xx - yy) * (xx - yy);
+  if (!(xx + yy < kMaxRadius * kMaxRadius && (straight || upright))) return std::nullopt;
   return TexelTents{std::max(xx - 1.0f, 0.0f), std::max(yy - 1.0f, 0.0f)};
 }
 

@@ -53,7 +53,7 @@ struct TexelFilter {
 };
 
 // The weights of such tents at places, which are quicker to find for several: a filter for each.
-constexpr size_t kMostAlike = 8;
+constexpr size_t kMaxAlike = 8;
 void texel_filters(const TexelTents& tents, std::span<const vec2> places, TexelFilter* filters);
 
 }  // namespace ods

@@ -35,8 +35,8 @@ data.clip_end = 10000.0
 
 class Script {
  public:
-  Script(const CameraFile& file, std::vector<std::string>& warnings)
-      : file_(file), rig_(file.rig), warnings_(warnings) {
+  Script(const Sidecar& file, std::vector<std::string>& warnings)
+      : file_(file), rig_(file.camera), warnings_(warnings) {
     warnings_ = lacking(file, {.system = "Blender", .tilt = true, .toe_in = true, .partial = true});
     place();
     lens();
@@ -168,15 +168,15 @@ class Script {
 
   void warn(const std::string& warning) { warnings_.push_back(warning); }
 
-  const CameraFile& file_;
-  const CameraRig& rig_;
+  const Sidecar& file_;
+  const StereoCamera& rig_;
   std::vector<std::string>& warnings_;
   std::string text_;
 };
 
 }  // namespace
 
-CameraExport to_blender(const CameraFile& file) {
+CameraExport to_blender(const Sidecar& file) {
   CameraExport result;
   const Script script(file, result.warnings);
   result.text = comment_block("#", "Blender 3.4 to 5.x: " + camera_title(file) + ".", result.warnings);

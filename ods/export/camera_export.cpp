@@ -44,7 +44,7 @@ std::string_view camera_target_name(CameraTarget target) {
   return {};
 }
 
-CameraExport export_camera(const CameraFile& file, CameraTarget target) {
+CameraExport export_camera(const Sidecar& file, CameraTarget target) {
   switch (target) {
     case CameraTarget::kPovray:
       return to_povray(file);
@@ -71,7 +71,7 @@ CameraExport export_camera(const CameraFile& file, CameraTarget target) {
     case CameraTarget::kPython:
       return to_python(file);
     case CameraTarget::kJson:
-      return {write_camera(file), {}, ""};
+      return {write_sidecar(file), {}, ""};
     case CameraTarget::kNumbers:
       return to_numbers(file);
   }
@@ -90,13 +90,13 @@ std::string one_merge(const PoleMergeSetting& merge) {
                      merge.exponent == 1.0f ? "" : fmt::format(" to the power {}", merge.exponent));
 }
 
-std::string merge_text(const CameraRig& rig) {
-  if (same_merge(rig.top, rig.bottom)) return one_merge(rig.top);
-  return fmt::format("{} above, {} below", one_merge(rig.top), one_merge(rig.bottom));
+std::string merge_text(const StereoCamera& stereo) {
+  if (same_merge(stereo.top, stereo.bottom)) return one_merge(stereo.top);
+  return fmt::format("{} above, {} below", one_merge(stereo.top), one_merge(stereo.bottom));
 }
 
-std::string camera_title(const CameraFile& file) {
-  const std::string projection(projection_name(file.rig.projection));
+std::string camera_title(const Sidecar& file) {
+  const std::string projection(projection_name(file.camera.projection));
   if (file.eyes.size() == 2) return fmt::format("both eyes, {}, {}", layout_name(file.layout), projection);
   return fmt::format("{}, {}",
                      file.eyes[0] == kMono   ? "mono"
@@ -105,31 +105,32 @@ std::string camera_title(const CameraFile& file) {
                      projection);
 }
 
-Extent picture_size(const CameraFile& file) {
+Extent picture_size(const Sidecar& file) {
   const int count = static_cast<int>(file.eyes.size());
   return packed_size(file.layout, squeezed_eye(file.layout, file.eye, count), count);
 }
 
-std::string yaw_pitch_roll(const CameraRig& rig) {
-  return fmt::format("yaw {}, pitch {}, roll {}", rig.yaw, rig.pitch, rig.roll);
+std::string yaw_pitch_roll(const StereoCamera& stereo) {
+  return fmt::format("yaw {}, pitch {}, roll {}", stereo.yaw, stereo.pitch, stereo.roll);
 }
 
-std::vector<std::string> lacking(const CameraFile& file, const Abilities& can) {
-  const CameraRig& rig = file.rig;
+std::vector<std::string> lacking(const Sidecar& file, const Abilities& can) {
+  const StereoCamera& stereo = file.camera;
   std::vector<std::string> list;
   const auto lacks = [&](bool wanted, const std::string& what) {
     if (wanted) list.push_back(fmt::format("{} has no {}", can.system, what));
   };
-  const bool level = rig.pitch == 0.0f && rig.roll == 0.0f;
-  const bool upright = !rig.axis || (level && *rig.axis == vec3(0.0f, 1.0f, 0.0f));
-  lacks(!can.tilt && !level, fmt::format("pitch and roll ({})", yaw_pitch_roll(rig)));
+  const bool level = stereo.pitch == 0.0f && stereo.roll == 0.0f;
+  const bool upright = !stereo.axis || (level && *stereo.axis == vec3(0.0f, 1.0f, 0.0f));
+  lacks(!can.tilt && !level, fmt::format("pitch and roll ({})", yaw_pitch_roll(stereo)));
   lacks(!upright, "axis of the eyes but the camera's up");
-  lacks(!can.neck && rig.neck != 0.0f, fmt::format("eye-to-neck distance ({} m)", rig.neck));
-  lacks(!can.toe_in && rig.convergence == kToeIn, fmt::format("toe-in ({} m)", rig.convergence_distance));
-  lacks(rig.convergence == kShift, fmt::format("shift to a convergence distance ({} m)", rig.convergence_distance));
-  lacks(rig.lens_radius > 0.0f, "blur like our lens, which stands about the displaced eye");
-  lacks(rig.mirrored, "mirrored world");
-  const bool partial = rig.projection.kind == kLatLong && !is_full_lat_long(rig.projection);
+  lacks(!can.neck && stereo.neck != 0.0f, fmt::format("eye-to-neck distance ({} m)", stereo.neck));
+  lacks(!can.toe_in && stereo.convergence == kToeIn, fmt::format("toe-in ({} m)", stereo.convergence_distance));
+  lacks(stereo.convergence == kShift,
+        fmt::format("shift to a convergence distance ({} m)", stereo.convergence_distance));
+  lacks(stereo.lens_radius > 0.0f, "blur like our lens, which stands about the displaced eye");
+  lacks(stereo.mirrored, "mirrored world");
+  const bool partial = stereo.projection.kind == kLatLong && !is_full_lat_long(stereo.projection);
   lacks(!can.partial && partial, "part of a lat-long");
   return list;
 }
@@ -140,10 +141,11 @@ std::string comment_block(const std::string& mark, const std::string& title, con
   return text;
 }
 
-std::array<glm::dvec3, 4> placement(const CameraRig& rig) {
-  const Camera camera = make_camera(rig);
+std::array<glm::dvec3, 4> placement(const StereoCamera& stereo) {
+  const Camera camera = make_camera(stereo);
   std::array<glm::dvec3, 4> columns{glm::dvec3(camera.right), glm::dvec3(camera.up),
-                                    glm::dvec3(rig.mirrored ? -camera.back : camera.back), glm::dvec3(camera.center)};
+                                    glm::dvec3(stereo.mirrored ? -camera.back : camera.back),
+                                    glm::dvec3(camera.center)};
   for (glm::dvec3& column : columns) {
     for (int i = 0; i < 3; i++) column[i] = std::abs(column[i]) < 1e-7 ? 0.0 : column[i];
   }

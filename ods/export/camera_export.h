@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 
 namespace ods {
 
@@ -44,6 +44,6 @@ struct CameraExport {
   std::string refusal;                // why there is no text, where there is none
 };
 
-CameraExport export_camera(const CameraFile& file, CameraTarget target);
+CameraExport export_camera(const Sidecar& file, CameraTarget target);
 
 }  // namespace ods

@@ -36,10 +36,10 @@ Vector combine(const std::array<glm::dvec3, 3>& columns, const Vector& v) {
 
 class Writer {
  public:
-  Writer(const CameraFile& file, const FormulaView& view)
+  Writer(const Sidecar& file, const FormulaView& view)
       : file_(file),
-        rig_(file.rig),
-        setting_(file.rig.projection),
+        rig_(file.camera),
+        setting_(file.camera.projection),
         view_(view),
         level_(is_level()),
         has_axis_(rig_.axis && !level_) {}
@@ -151,7 +151,7 @@ class Writer {
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
     static_assert(kProjectionCount == 9, "a new projection needs its formula here");
-    const std::array<glm::dvec3, 3> columns = attitude(radians(setting_.pan), radians(setting_.tilt), 0.0);
+    const std::array<glm::dvec3, 3> columns = orientation(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
     if (setting_.kind == kPerspective) {
       const double half = std::tan(radians(setting_.fov) / 2.0);
@@ -199,7 +199,7 @@ class Writer {
 
   // The camera's frame in the world: its right, up and back.
   std::array<glm::dvec3, 3> frame() const {
-    std::array<glm::dvec3, 3> columns = attitude(radians(rig_.yaw), radians(rig_.pitch), radians(rig_.roll));
+    std::array<glm::dvec3, 3> columns = orientation(radians(rig_.yaw), radians(rig_.pitch), radians(rig_.roll));
     if (rig_.mirrored) columns[2] = -columns[2];
     return columns;
   }
@@ -305,8 +305,8 @@ class Writer {
     }
   }
 
-  const CameraFile& file_;
-  const CameraRig& rig_;
+  const Sidecar& file_;
+  const StereoCamera& rig_;
   const ProjectionSetting& setting_;
   const FormulaView& view_;
   const bool level_;
@@ -322,9 +322,9 @@ class Writer {
 
 }  // namespace
 
-std::string formula_fault(const CameraFile& file) {
-  const CameraRig& rig = file.rig;
-  if (rig.top.mode == kMergeMap || rig.bottom.mode == kMergeMap) return "a merge map is no formula";
+std::string formula_fault(const Sidecar& file) {
+  const StereoCamera& stereo = file.camera;
+  if (stereo.top.mode == kMergeMap || stereo.bottom.mode == kMergeMap) return "a merge map is no formula";
   const bool mixed = file.layout == Layout::kRowInterleaved || is_anaglyph(file.layout);
   if (file.eyes.size() == 2 && mixed) {
     return fmt::format("{} mixes the eyes in a way that is no formula of the image position; export top-bottom",
@@ -333,7 +333,7 @@ std::string formula_fault(const CameraFile& file) {
   return {};
 }
 
-CameraFormula camera_formula(const CameraFile& file, const FormulaView& view) {
+CameraFormula camera_formula(const Sidecar& file, const FormulaView& view) {
   assert(formula_fault(file).empty());
   return Writer(file, view).write();
 }

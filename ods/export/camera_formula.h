@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ods/export/formula.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 
 namespace ods {
 
@@ -36,10 +36,10 @@ struct CameraFormula {
 };
 
 // Why a camera is no formula, in words for a message; empty: it is one.
-std::string formula_fault(const CameraFile& file);
+std::string formula_fault(const Sidecar& file);
 
 // A single eye, and two that do not share a picture, have the parameter `eye`: -1 is the left, 1 the right.
 // Precondition: formula_fault() is empty.
-CameraFormula camera_formula(const CameraFile& file, const FormulaView& view);
+CameraFormula camera_formula(const Sidecar& file, const FormulaView& view);
 
 }  // namespace ods

@@ -19,8 +19,8 @@ CameraExport refuse(const std::string& fault) {
   return {"", {}, fault};
 }
 
-std::vector<std::string> formula_warnings(const CameraFile& file) {
-  if (file.rig.lens_radius == 0.0f) return {};
+std::vector<std::string> formula_warnings(const Sidecar& file) {
+  if (file.camera.lens_radius == 0.0f) return {};
   return {"the blur of the lens is left out: a formula has one ray per position"};
 }
 
@@ -29,7 +29,7 @@ std::string print_vector(const std::array<Formula, 3>& v, Language language) {
 }
 
 // Two eyes that share no picture are rendered one after the other.
-std::string eye_hint(const CameraFile& file, const CameraFormula& formula, const std::string& mark,
+std::string eye_hint(const Sidecar& file, const CameraFormula& formula, const std::string& mark,
                      const std::string& name) {
   for (const NamedFormula& parameter : formula.parameters) {
     if (parameter.name != "eye" || file.eyes.size() == 1) continue;
@@ -58,7 +58,7 @@ std::string remark(const std::string& meaning, const char* mark) {
   return meaning.empty() ? "" : fmt::format("  {} {}", mark, meaning);
 }
 
-CameraExport to_shader(const CameraFile& file, const FormulaView& view, const Shader& shader,
+CameraExport to_shader(const Sidecar& file, const FormulaView& view, const Shader& shader,
                        const std::string& convention) {
   const std::string fault = formula_fault(file);
   if (!fault.empty()) return refuse(fault);
@@ -68,7 +68,7 @@ CameraExport to_shader(const CameraFile& file, const FormulaView& view, const Sh
   text = comment_block("//", "The ray of a stereo 360 picture: " + camera_title(file) + ".", result.warnings);
   text += "// x, y: position in the whole picture, 0..1 from its left and top edge. Metres.\n";
   text += fmt::format("// {}\n", convention);
-  if (has_image_circle(file.rig.projection.kind)) text += "// Where the picture is empty the direction is 0.\n";
+  if (has_image_circle(file.camera.projection.kind)) text += "// Where the picture is empty the direction is 0.\n";
   text += eye_hint(file, formula, "//", "eye");
   text += fmt::format("{} pi = 3.141592653589793;\n", shader.number);
   for (const NamedFormula& parameter : formula.parameters) {
@@ -200,7 +200,7 @@ class PovrayVector {
 
 }  // namespace
 
-CameraExport to_povray(const CameraFile& file) {
+CameraExport to_povray(const Sidecar& file) {
   const std::string fault = formula_fault(file);
   if (!fault.empty()) return refuse(fault);
   FormulaView view{kX + 0.5, 0.5 - kY};
@@ -214,7 +214,7 @@ CameraExport to_povray(const CameraFile& file) {
       "// shall look the same. Lengths are metres.\n";
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Render with +W{} +H{}.\n", size.width, size.height);
-  if (has_image_circle(file.rig.projection.kind)) {
+  if (has_image_circle(file.camera.projection.kind)) {
     text += "// Where the picture is empty the direction is 0, which POV-Ray 3.8 paints black with alpha 0.\n";
   }
   text += eye_hint(file, formula, "//", "odsEye");
@@ -235,14 +235,14 @@ CameraExport to_povray(const CameraFile& file) {
   return result;
 }
 
-CameraExport to_glsl(const CameraFile& file) {
+CameraExport to_glsl(const Sidecar& file) {
   return to_shader(file, {kX, kY},
                    {Language::kGlsl, "const float",
                     "void ods_camera_ray(float x, float y, out vec3 location, out vec3 direction)", "vec3"},
                    "World: right-handed, +Y up; at yaw 0 the middle of the picture looks along -Z.");
 }
 
-CameraExport to_hlsl(const CameraFile& file) {
+CameraExport to_hlsl(const Sidecar& file) {
   FormulaView view{kX, kY};
   view.left_handed = true;
   return to_shader(file, view,
@@ -252,7 +252,7 @@ CameraExport to_hlsl(const CameraFile& file) {
                    "round.");
 }
 
-CameraExport to_osl(const CameraFile& file) {
+CameraExport to_osl(const Sidecar& file) {
   const std::string fault = formula_fault(file);
   if (!fault.empty()) return refuse(fault);
   FormulaView view{kX, 1.0 - kY};
@@ -270,7 +270,8 @@ CameraExport to_osl(const CameraFile& file) {
   const Extent size = picture_size(file);
   if (size.width > 0) text += fmt::format("// Resolution {} x {}.\n", size.width, size.height);
   text += fmt::format("// Place the camera object: position {:.6g}, {:.6g}, {:.6g} (x, -z, y of ours), {}.\n",
-                      file.rig.position.x, 0.0f - file.rig.position.z, file.rig.position.y, yaw_pitch_roll(file.rig));
+                      file.camera.position.x, 0.0f - file.camera.position.z, file.camera.position.y,
+                      yaw_pitch_roll(file.camera));
   text += eye_hint(file, formula, "//", "eye");
   text += "#include \"stdcycles.h\"\n\nshader ods_camera(\n";
   for (const NamedFormula& parameter : formula.parameters) {
@@ -288,12 +289,12 @@ CameraExport to_osl(const CameraFile& file) {
   text += steps_text(formula, Language::kOsl, "float ", ";");
   text += fmt::format("  position = point({});\n", print_vector(formula.location, Language::kOsl));
   text += fmt::format("  direction = vector({});\n", print_vector(formula.direction, Language::kOsl));
-  if (has_image_circle(file.rig.projection.kind)) text += "  throughput = color(seen, seen, seen);\n";
+  if (has_image_circle(file.camera.projection.kind)) text += "  throughput = color(seen, seen, seen);\n";
   text += "}\n";
   return result;
 }
 
-CameraExport to_python(const CameraFile& file) {
+CameraExport to_python(const Sidecar& file) {
   const std::string fault = formula_fault(file);
   if (!fault.empty()) return refuse(fault);
   const CameraFormula formula = camera_formula(file, {kX, kY});
@@ -317,8 +318,8 @@ CameraExport to_python(const CameraFile& file) {
   return result;
 }
 
-CameraExport to_numbers(const CameraFile& file) {
-  const CameraRig& rig = file.rig;
+CameraExport to_numbers(const Sidecar& file) {
+  const StereoCamera& camera = file.camera;
   CameraExport result;
   std::string& text = result.text;
   const auto row = [&](const char* name, const auto&... values) {
@@ -329,23 +330,23 @@ CameraExport to_numbers(const CameraFile& file) {
   const Extent size = picture_size(file);
   row("title", camera_title(file));
   if (size.width > 0) row("picture", size.width, size.height);
-  const std::array<glm::dvec3, 4> place = placement(rig);
+  const std::array<glm::dvec3, 4> place = placement(camera);
   const char* names[] = {"right", "up", "back", "location"};
   for (size_t i = 0; i < 4; i++) {
     text += fmt::format("{} {:.8g} {:.8g} {:.8g}\n", names[i], place[i].x, place[i].y, place[i].z);
   }
-  row("yaw_pitch_roll", rig.yaw, rig.pitch, rig.roll);
-  row("ipd", rig.ipd);
-  row("neck", rig.neck);
-  row("merge", merge_text(rig));
-  row("convergence", convergence_name(rig.convergence), rig.convergence_distance);
-  row("axis", rig.axis ? fmt::format("{} {} {}", rig.axis->x, rig.axis->y, rig.axis->z) : "camera");
-  row("longitude", rig.projection.longitude.x, rig.projection.longitude.y);
-  row("latitude", rig.projection.latitude.x, rig.projection.latitude.y);
-  row("fov", rig.projection.fov);
-  row("look", rig.projection.pan, rig.projection.tilt);
-  row("lens", rig.lens_radius, rig.focus_distance);
-  row("mirrored", rig.mirrored);
+  row("yaw_pitch_roll", camera.yaw, camera.pitch, camera.roll);
+  row("ipd", camera.ipd);
+  row("neck", camera.neck);
+  row("merge", merge_text(camera));
+  row("convergence", convergence_name(camera.convergence), camera.convergence_distance);
+  row("axis", camera.axis ? fmt::format("{} {} {}", camera.axis->x, camera.axis->y, camera.axis->z) : "camera");
+  row("longitude", camera.projection.longitude.x, camera.projection.longitude.y);
+  row("latitude", camera.projection.latitude.x, camera.projection.latitude.y);
+  row("fov", camera.projection.fov);
+  row("look", camera.projection.pan, camera.projection.tilt);
+  row("lens", camera.lens_radius, camera.focus_distance);
+  row("mirrored", camera.mirrored);
   const std::string fault = formula_fault(file);
   if (!fault.empty()) {
     result.warnings.push_back("the formulas are left out: " + fault);

@@ -128,7 +128,7 @@ RigExport rig_to_blender(const SlitRig& rig, const std::string& name) {
   text += fmt::format("HALF_WIDTH = {:.10g}  # of a view, a metre ahead of it\n", half_size(rig).x);
   text += "# Three rows of four each: a view's matrix in Blender's world, whose z is our y and whose y is our -z.\n";
   text += "VIEWS = [\n";
-  for (const CameraRig& view : rig.views)
+  for (const StereoCamera& view : rig.views)
     text += fmt::format("    ({}),\n", matrix_rows(turned(pose_of(view), turn_z_up)));
   text += "]\n";
   result.scripts.push_back({".blender.py", text + kBody});

@@ -72,7 +72,7 @@ RigExport rig_to_three(const SlitRig& rig, const std::string& name) {
                       rig.view.width, rig.view.height, degrees_of(half.y));
   text += fmt::format("export const mark = {};\n", mark_literal(rig));
   text += "// Three rows of four each: a view's matrix.\nexport const views = [\n";
-  for (const CameraRig& view : rig.views) text += fmt::format("  [{}],\n", matrix_rows(pose_of(view)));
+  for (const StereoCamera& view : rig.views) text += fmt::format("  [{}],\n", matrix_rows(pose_of(view)));
   text += "];\n";
   result.scripts.push_back({".three.js", text + kThreeBody});
   return result;
@@ -154,7 +154,7 @@ RigExport rig_to_unity(const SlitRig& rig, const std::string& name) {
   text += fmt::format("  const string Mark = {};\n", mark_literal(rig));
   text += "  // Place, ahead, up of each view. Unity's world is left-handed: its z is ours turned round.\n";
   text += "  static readonly float[] Views = {\n";
-  for (const CameraRig& view : rig.views) {
+  for (const StereoCamera& view : rig.views) {
     const ViewPose pose = turned(pose_of(view), turn_left_handed);
     text += "    ";
     for (const glm::dvec3& v : {pose.place, -pose.back, pose.up}) {
@@ -256,7 +256,7 @@ RigExport rig_to_unreal(const SlitRig& rig, const std::string& name) {
                       degrees_of(half_size(rig).x));
   text += fmt::format("MARK = {}\n", mark_literal(rig));
   text += "# Place (centimetres), ahead, up of each view. Unreal's x is our -z, its y our x, its z our y.\nVIEWS = [\n";
-  for (const CameraRig& view : rig.views) {
+  for (const StereoCamera& view : rig.views) {
     const ViewPose pose = turned(pose_of(view), turn_to_unreal);
     text += fmt::format("    ({}, {}, {}),\n", list(100.0 * pose.place), list(-pose.back), list(pose.up));
   }

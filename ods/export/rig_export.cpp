@@ -60,7 +60,7 @@ RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& fi
 
 // --- what the writers share ------------------------------------------------------------------------------------------
 
-ViewPose pose_of(const CameraRig& view) {
+ViewPose pose_of(const StereoCamera& view) {
   const std::array<glm::dvec3, 4> columns = placement(view);
   return {columns[0], columns[1], columns[2], columns[3]};
 }

@@ -14,7 +14,7 @@ namespace ods {
 struct ViewPose {
   glm::dvec3 right, up, back, place;
 };
-ViewPose pose_of(const CameraRig& view);  // in ours: right-handed, metres, +Y up
+ViewPose pose_of(const StereoCamera& view);  // in ours: right-handed, metres, +Y up
 
 // The same in the world of another program.
 using Turn = glm::dvec3 (*)(glm::dvec3);

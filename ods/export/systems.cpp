@@ -18,7 +18,7 @@ struct ModeNames {
   std::string_view mono, left, right, side_by_side, top_bottom;
 };
 
-std::string_view mode_name(const CameraFile& file, const ModeNames& names) {
+std::string_view mode_name(const Sidecar& file, const ModeNames& names) {
   if (file.eyes.size() == 1) {
     return file.eyes[0] == kMono ? names.mono : file.eyes[0] == kLeft ? names.left : names.right;
   }
@@ -27,7 +27,7 @@ std::string_view mode_name(const CameraFile& file, const ModeNames& names) {
   return "";
 }
 
-std::string no_layout(const CameraFile& file, std::string_view system) {
+std::string no_layout(const Sidecar& file, std::string_view system) {
   return fmt::format("{} has no layout {}", system, layout_name(file.layout));
 }
 
@@ -42,26 +42,27 @@ std::string json_strings(const std::vector<std::string>& words) {
   return fmt::format("[{}]", text);
 }
 
-void warn_of_projection(const CameraFile& file, std::string_view system, std::vector<std::string>& warnings) {
-  if (file.rig.projection.kind == kLatLong) return;
+void warn_of_projection(const Sidecar& file, std::string_view system, std::vector<std::string>& warnings) {
+  if (file.camera.projection.kind == kLatLong) return;
   warnings.push_back(
-      fmt::format("{} has no projection {}; lat-long stands in", system, projection_name(file.rig.projection)));
+      fmt::format("{} has no projection {}; lat-long stands in", system, projection_name(file.camera.projection)));
 }
 
 }  // namespace
 
-CameraExport to_povray_fork(const CameraFile& file) {
-  const CameraRig& rig = file.rig;
+CameraExport to_povray_fork(const Sidecar& file) {
+  const StereoCamera& stereo = file.camera;
   std::vector<std::string> faults = lacking(file, {.system = "the fork"});
   std::erase_if(faults, [](const std::string& fault) { return fault.ends_with("mirrored world"); });
   std::string_view mode = mode_name(file, {"1", "1", "2", "3", "4"});
   if (mode.empty()) faults.push_back(no_layout(file, "the fork"));
-  if (rig.projection.kind != kLatLong) {
-    faults.push_back(fmt::format("the fork has no projection {}", projection_name(rig.projection)));
+  if (stereo.projection.kind != kLatLong) {
+    faults.push_back(fmt::format("the fork has no projection {}", projection_name(stereo.projection)));
   }
-  const bool merged = rig.top.mode == kMergeCosine && rig.top.start == 0.0f && rig.top.end == 90.0f;
-  if (!same_merge(rig.top, rig.bottom) || (rig.top.mode != kMergeNone && !merged)) {
-    faults.push_back(fmt::format("its merge is a power of the cosine from 0 to 90 degrees, not {}", merge_text(rig)));
+  const bool merged = stereo.top.mode == kMergeCosine && stereo.top.start == 0.0f && stereo.top.end == 90.0f;
+  if (!same_merge(stereo.top, stereo.bottom) || (stereo.top.mode != kMergeNone && !merged)) {
+    faults.push_back(
+        fmt::format("its merge is a power of the cosine from 0 to 90 degrees, not {}", merge_text(stereo)));
   }
   if (!faults.empty()) return {"", {}, fmt::format("{} (--for povray has it all)", fmt::join(faults, "; "))};
   const bool mono = file.eyes.size() == 1 && file.eyes[0] == kMono;
@@ -72,13 +73,14 @@ CameraExport to_povray_fork(const CameraFile& file) {
   result.text += fmt::format(
       "camera {{\n  spherical\n  ods {}\n  ipd {}\n  ods_angle {}\n  ods_modulation {}\n  ods_handedness {}\n"
       "  location <{}, {}, {}>\n}}\n",
-      mode, mono ? 0.0f : rig.ipd, rig.mirrored ? -rig.yaw : rig.yaw, merged ? rig.top.exponent : 0.0f,
-      rig.mirrored ? 1 : -1, rig.position.x, rig.position.y, rig.position.z == 0.0f ? 0.0f : -rig.position.z);
+      mode, mono ? 0.0f : stereo.ipd, stereo.mirrored ? -stereo.yaw : stereo.yaw, merged ? stereo.top.exponent : 0.0f,
+      stereo.mirrored ? 1 : -1, stereo.position.x, stereo.position.y,
+      stereo.position.z == 0.0f ? 0.0f : -stereo.position.z);
   return result;
 }
 
-CameraExport to_ospray(const CameraFile& file) {
-  const CameraRig& rig = file.rig;
+CameraExport to_ospray(const Sidecar& file) {
+  const StereoCamera& stereo = file.camera;
   CameraExport result;
   std::vector<std::string>& warnings = result.warnings;
   warnings = lacking(file, {.system = "OSPRay", .tilt = true, .partial = true});
@@ -88,18 +90,18 @@ CameraExport to_ospray(const CameraFile& file) {
     mode = "topBottom";
   }
   warn_of_projection(file, "OSPRay", warnings);
-  const bool cosine = is_plain_cosine(rig.top) && rig.top.start == 0.0f && same_merge(rig.top, rig.bottom);
+  const bool cosine = is_plain_cosine(stereo.top) && stereo.top.start == 0.0f && same_merge(stereo.top, stereo.bottom);
   if (mode != "none" && !cosine) {
-    warnings.push_back(fmt::format("its merge is always the cosine of the elevation, not {}", merge_text(rig)));
+    warnings.push_back(fmt::format("its merge is always the cosine of the elevation, not {}", merge_text(stereo)));
   }
-  const std::array<glm::dvec3, 4> place = placement(rig);
+  const std::array<glm::dvec3, 4> place = placement(stereo);
   const auto parameters = [&] {
     std::string text = fmt::format(
         "    \"position\": {},\n    \"direction\": {},\n    \"up\": {},\n    \"stereoMode\": \"{}\",\n"
         "    \"interpupillaryDistance\": {}",
-        json_numbers(place[3]), json_numbers(-place[2] + 0.0), json_numbers(place[1]), mode, rig.ipd);
-    const vec2 lon = rig.projection.longitude, lat = rig.projection.latitude;
-    if (rig.projection.kind != kLatLong || is_full_lat_long(rig.projection)) return text;
+        json_numbers(place[3]), json_numbers(-place[2] + 0.0), json_numbers(place[1]), mode, stereo.ipd);
+    const vec2 lon = stereo.projection.longitude, lat = stereo.projection.latitude;
+    if (stereo.projection.kind != kLatLong || is_full_lat_long(stereo.projection)) return text;
     return text + fmt::format(",\n    \"imageStart\": [{:.8g}, {:.8g}],\n    \"imageEnd\": [{:.8g}, {:.8g}]",
                               lon.x / 360.0f + 0.5f, lat.x / 180.0f + 0.5f, lon.y / 360.0f + 0.5f,
                               lat.y / 180.0f + 0.5f);
@@ -127,22 +129,22 @@ struct VrCamera {
   float bottom_angle;
 };
 
-VrCamera vr_camera(const CameraFile& file, std::vector<std::string>& warnings) {
-  const CameraRig& rig = file.rig;
+VrCamera vr_camera(const Sidecar& file, std::vector<std::string>& warnings) {
+  const StereoCamera& stereo = file.camera;
   warnings = lacking(file, {.system = "Arnold", .tilt = true, .neck = true});
   VrCamera camera{mode_name(file, {"left_eye", "left_eye", "right_eye", "side_by_side", "over_under"}),
                   "latlong",
                   "none",
                   "none",
-                  file.eyes.size() == 1 && file.eyes[0] == kMono ? 0.0f : rig.ipd,
+                  file.eyes.size() == 1 && file.eyes[0] == kMono ? 0.0f : stereo.ipd,
                   90.0f,
                   90.0f};
   if (camera.mode.empty()) {
     warnings.push_back(no_layout(file, "Arnold") + "; over_under stands in");
     camera.mode = "over_under";
   }
-  if (rig.projection.kind == kCube3x2) camera.projection = "cubemap_3x2";
-  if (rig.projection.kind == kCube6x1) camera.projection = "cubemap_6x1";
+  if (stereo.projection.kind == kCube3x2) camera.projection = "cubemap_3x2";
+  if (stereo.projection.kind == kCube6x1) camera.projection = "cubemap_6x1";
   if (camera.projection == "latlong") warn_of_projection(file, "Arnold", warnings);
   const auto merge = [&](const PoleMergeSetting& setting, std::string_view& mode, float& angle, const char* pole) {
     if (setting.mode == kMergeNone) return;
@@ -155,8 +157,8 @@ VrCamera vr_camera(const CameraFile& file, std::vector<std::string>& warnings) {
           fmt::format("its merge at the {} is a plain cosine up to the pole, not {}", pole, one_merge(setting)));
     }
   };
-  merge(rig.top, camera.top_mode, camera.top_angle, "top");
-  merge(rig.bottom, camera.bottom_mode, camera.bottom_angle, "bottom");
+  merge(stereo.top, camera.top_mode, camera.top_angle, "top");
+  merge(stereo.bottom, camera.bottom_mode, camera.bottom_angle, "bottom");
   return camera;
 }
 
@@ -165,7 +167,7 @@ constexpr const char* kArnoldNote =
 
 }  // namespace
 
-CameraExport to_arnold(const CameraFile& file) {
+CameraExport to_arnold(const Sidecar& file) {
   CameraExport result;
   const VrCamera camera = vr_camera(file, result.warnings);
   result.text = comment_block("#", "Arnold's vr_camera: " + camera_title(file) + ". Metres.", result.warnings);
@@ -174,22 +176,22 @@ CameraExport to_arnold(const CameraFile& file) {
     result.text += fmt::format("# Resolution {} x {}.\n", size.width, size.height);
   }
   std::string matrix;
-  const std::array<glm::dvec3, 4> place = placement(file.rig);
+  const std::array<glm::dvec3, 4> place = placement(file.camera);
   for (size_t i = 0; i < 4; i++) {
     matrix += fmt::format(" {:.8g} {:.8g} {:.8g} {}\n", place[i].x, place[i].y, place[i].z, i == 3 ? 1 : 0);
   }
   result.text += fmt::format(
       "vr_camera\n{{\n name ods\n matrix\n{} mode \"{}\"\n projection \"{}\"\n eye_separation {}\n eye_to_neck {}\n"
       " top_merge_mode \"{}\"\n top_merge_angle {}\n bottom_merge_mode \"{}\"\n bottom_merge_angle {}\n}}\n",
-      matrix, camera.mode, camera.projection, camera.separation, file.rig.neck, camera.top_mode, camera.top_angle,
+      matrix, camera.mode, camera.projection, camera.separation, file.camera.neck, camera.top_mode, camera.top_angle,
       camera.bottom_mode, camera.bottom_angle);
   return result;
 }
 
-CameraExport to_mtoa(const CameraFile& file) {
+CameraExport to_mtoa(const Sidecar& file) {
   CameraExport result;
   const VrCamera camera = vr_camera(file, result.warnings);
-  const CameraRig& rig = file.rig;
+  const StereoCamera& stereo = file.camera;
   const auto place = [](std::string_view word, std::initializer_list<std::string_view> words) {
     return std::find(words.begin(), words.end(), word) - words.begin();
   };
@@ -202,10 +204,10 @@ CameraExport to_mtoa(const CameraFile& file) {
       "// section after running this.\n"
       "string $c[] = `camera -name \"ods\"`;\n";
   text += fmt::format("setAttr ($c[0] + \".rotateOrder\") 2;  // zxy: roll, then pitch, then yaw\n");
-  text += fmt::format("setAttr ($c[0] + \".translate\") -type \"double3\" {} {} {};\n", 100.0f * rig.position.x,
-                      100.0f * rig.position.y, 100.0f * rig.position.z);
-  text += fmt::format("setAttr ($c[0] + \".rotate\") -type \"double3\" {} {} {};\n", rig.pitch, 0.0f - rig.yaw,
-                      0.0f - rig.roll);
+  text += fmt::format("setAttr ($c[0] + \".translate\") -type \"double3\" {} {} {};\n", 100.0f * stereo.position.x,
+                      100.0f * stereo.position.y, 100.0f * stereo.position.z);
+  text += fmt::format("setAttr ($c[0] + \".rotate\") -type \"double3\" {} {} {};\n", stereo.pitch, 0.0f - stereo.yaw,
+                      0.0f - stereo.roll);
   text += "setAttr ($c[1] + \".aiTranslator\") -type \"string\" \"vr_camera\";\n";
   const auto row = [&](const char* attribute, const auto& value, std::string_view word) {
     text += fmt::format("setAttr ($c[1] + \".{}\") {};{}{}\n", attribute, value, word.empty() ? "" : "  // ", word);
@@ -213,7 +215,7 @@ CameraExport to_mtoa(const CameraFile& file) {
   row("aiMode", place(camera.mode, {"side_by_side", "over_under", "left_eye", "right_eye"}), camera.mode);
   row("aiProjection", place(camera.projection, {"latlong", "cubemap_6x1", "cubemap_3x2"}), camera.projection);
   row("aiEyeSeparation", 100.0f * camera.separation, "");
-  row("aiEyeToNeck", 100.0f * rig.neck, "");
+  row("aiEyeToNeck", 100.0f * stereo.neck, "");
   row("aiTopMergeMode", place(camera.top_mode, {"none", "cosine", "shader"}), camera.top_mode);
   row("aiTopMergeAngle", camera.top_angle, "");
   row("aiBottomMergeMode", place(camera.bottom_mode, {"none", "cosine", "shader"}), camera.bottom_mode);
@@ -221,14 +223,14 @@ CameraExport to_mtoa(const CameraFile& file) {
   return result;
 }
 
-CameraExport to_unity(const CameraFile& file) {
-  const CameraRig& rig = file.rig;
+CameraExport to_unity(const Sidecar& file) {
+  const StereoCamera& stereo = file.camera;
   CameraExport result;
   std::vector<std::string>& warnings = result.warnings;
   warnings = lacking(file, {.system = "Unity"});
   warn_of_projection(file, "Unity", warnings);
-  if (rig.top.mode != kMergeNone || rig.bottom.mode != kMergeNone) {
-    warnings.push_back(fmt::format("Unity has no merge ({})", merge_text(rig)));
+  if (stereo.top.mode != kMergeNone || stereo.bottom.mode != kMergeNone) {
+    warnings.push_back(fmt::format("Unity has no merge ({})", merge_text(stereo)));
   }
   if (file.eyes.size() == 2 && file.layout != Layout::kTopBottom) {
     warnings.push_back(no_layout(file, "ConvertToEquirect") + "; the left eye is the top half");
@@ -242,7 +244,7 @@ CameraExport to_unity(const CameraFile& file) {
   text += fmt::format(
       "camera.transform.SetPositionAndRotation(new Vector3({}f, {}f, {}f), Quaternion.Euler(0f, {}f, 0f));\n"
       "camera.stereoSeparation = {}f;\n",
-      rig.position.x, rig.position.y, 0.0f - rig.position.z, rig.yaw, rig.ipd);
+      stereo.position.x, stereo.position.y, 0.0f - stereo.position.z, stereo.yaw, stereo.ipd);
   const bool mono = file.eyes.size() == 1 && file.eyes[0] == kMono;
   text += fmt::format("var picture = new RenderTexture({}, {}, 24);\n", size.width,
                       size.height * static_cast<int>(file.eyes.size()));
@@ -256,14 +258,14 @@ CameraExport to_unity(const CameraFile& file) {
   return result;
 }
 
-CameraExport to_unreal(const CameraFile& file) {
-  const CameraRig& rig = file.rig;
+CameraExport to_unreal(const Sidecar& file) {
+  const StereoCamera& stereo = file.camera;
   CameraExport result;
   std::vector<std::string>& warnings = result.warnings;
   warnings = lacking(file, {.system = "Unreal", .tilt = true});
   warn_of_projection(file, "Unreal", warnings);
-  if (rig.top.mode != kMergeNone || rig.bottom.mode != kMergeNone) {
-    warnings.push_back(fmt::format("Unreal has no merge towards the poles ({})", merge_text(rig)));
+  if (stereo.top.mode != kMergeNone || stereo.bottom.mode != kMergeNone) {
+    warnings.push_back(fmt::format("Unreal has no merge towards the poles ({})", merge_text(stereo)));
   }
   if (file.eyes.size() == 1 && file.eyes[0] != kMono) warnings.push_back("Unreal renders both eyes or mono");
   if (file.eyes.size() == 2 && file.layout != Layout::kTopBottom) warnings.push_back(no_layout(file, "Unreal"));
@@ -272,10 +274,10 @@ CameraExport to_unreal(const CameraFile& file) {
   text +=
       "// It captures slits of one eye point each: one degree of heading at a time by default.\n"
       "// Untested in the editor: the names are those that the plug-in's source registers.\n";
-  text +=
-      fmt::format("// Camera: X={:.6g} Y={:.6g} Z={:.6g}, Pitch={} Yaw={} Roll={}\n", -100.0f * rig.position.z + 0.0f,
-                  100.0f * rig.position.x, 100.0f * rig.position.y, rig.pitch, rig.yaw, rig.roll);
-  text += fmt::format("SP.EyeSeparation {}\n", 100.0f * rig.ipd);
+  text += fmt::format("// Camera: X={:.6g} Y={:.6g} Z={:.6g}, Pitch={} Yaw={} Roll={}\n",
+                      -100.0f * stereo.position.z + 0.0f, 100.0f * stereo.position.x, 100.0f * stereo.position.y,
+                      stereo.pitch, stereo.yaw, stereo.roll);
+  text += fmt::format("SP.EyeSeparation {}\n", 100.0f * stereo.ipd);
   text += fmt::format("SP.StepCaptureWidth {}\n", file.eye.width > 0 ? file.eye.width : 4096);
   text += "SP.HorizontalAngularIncrement 1\n";
   text += fmt::format("SP.MonoscopicMode {}\n", file.eyes.size() == 1 && file.eyes[0] == kMono ? 1 : 0);

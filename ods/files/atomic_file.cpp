@@ -147,10 +147,10 @@ void check_writable(const std::string& path) {
 
 // A link stays one, and what it stands for is replaced.
 static std::string behind_links(const std::string& path) {
-  const int kMostLinks = 40;  // as Linux has it
+  const int kMaxLinks = 40;  // as Linux has it
   fs::path target = path;
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); i++) {
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(target, error); i++) {
     target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces the folder
   }
   return target.native();

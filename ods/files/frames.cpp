@@ -18,8 +18,8 @@ namespace ods {
 
 namespace {
 
-constexpr size_t kMostDigits = 9;
-constexpr size_t kMostFrames = 1'000'000;
+constexpr size_t kMaxDigits = 9;
+constexpr size_t kMaxFrames = 1'000'000;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -51,7 +51,7 @@ struct Reader {
     const size_t sign = rest.starts_with('-') ? 1 : 0;
     const size_t digits = digits_at(rest, sign);
     if (digits == 0) fail(rest.empty() ? "a number is missing at the end" : fmt::format("'{}' is no number", rest));
-    if (digits > kMostDigits) fail(fmt::format("a number has at most {} digits", kMostDigits));
+    if (digits > kMaxDigits) fail(fmt::format("a number has at most {} digits", kMaxDigits));
     int value = 0;
     std::from_chars(rest.data(), rest.data() + sign + digits, value);
     rest.remove_prefix(sign + digits);
@@ -116,8 +116,8 @@ std::vector<int> parse_frames(const std::string& text) {
   do {
     const Range range = read_range(reader);
     const auto count = static_cast<size_t>((int64_t{range.last} - range.first) / range.step) + 1;
-    if (count > kMostFrames || frames.size() + count > kMostFrames) {
-      reader.fail(fmt::format("that are more than {} frames", kMostFrames));
+    if (count > kMaxFrames || frames.size() + count > kMaxFrames) {
+      reader.fail(fmt::format("that are more than {} frames", kMaxFrames));
     }
     for (size_t i = 0; i < count; ++i) {
       const int frame = range.first + static_cast<int>(i) * range.step;
@@ -152,7 +152,7 @@ std::vector<int> gaps(const std::vector<int>& frames) {
   }
   std::vector<int> missing;
   for (size_t i = 1; i < frames.size(); ++i) {
-    for (int64_t frame = frames[i - 1] + step; frame < frames[i] && missing.size() < kMostFrames; frame += step) {
+    for (int64_t frame = frames[i - 1] + step; frame < frames[i] && missing.size() < kMaxFrames; frame += step) {
       missing.push_back(static_cast<int>(frame));
     }
   }

@@ -112,7 +112,7 @@ glm::dmat3 rec709_of_d50_xyz() {
   return glm::inverse(xyz_matrix(kRec709)) * bradford(d50, xyz_of(kRec709.white));
 }
 
-vec3 light_of_codes(const ColorSpace& color, vec3 codes) {
+vec3 linear_from_encoded(const ColorSpace& color, vec3 codes) {
   glm::dvec3 light;
   for (int c = 0; c < 3; c++) {
     const std::vector<float>& table = color.light[static_cast<size_t>(c)];
@@ -133,7 +133,7 @@ static uint16_t srgb_code(float light) {
 
 SrgbConverter::SrgbConverter(const ColorSpace& color) : color_(color) {
   for (size_t c = 0; c < 3; c++) {
-    if (color_.light[c].empty()) color_.light[c] = light_of_codes(kLargest);
+    if (color_.light[c].empty()) color_.light[c] = linear_from_encoded(kLargest);
     if (c > 0 && color_.light[c] == color_.light[0]) {
       codes_[c] = codes_[0];
       continue;

@@ -56,7 +56,7 @@ std::optional<glm::dmat3> to_rec709(const Chromaticities& from);
 glm::dmat3 rec709_of_d50_xyz();
 
 // Linear light of Rec. 709: of three code values, 0..1, and of three floats, which are light of the file's primaries.
-vec3 light_of_codes(const ColorSpace& color, vec3 codes);
+vec3 linear_from_encoded(const ColorSpace& color, vec3 codes);
 vec3 light_of_floats(const ColorSpace& color, vec3 light);
 
 // Turns 16-bit code values of a colour space into 16-bit code values of sRGB. Colours outside sRGB are clipped.

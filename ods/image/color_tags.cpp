@@ -55,7 +55,7 @@ static std::map<std::string, std::string> color_chunks(const FileInput& file) {
   return chunks;
 }
 
-// ITU-T H.273. Curves of television count as sRGB: that is what their code values are shown as, here and in films.
+// ITU-T H.273. Curves of television count as sRGB: that is what their code values are shown as, here and in videos.
 static ColorSpace of_cicp(const std::string& data) {
   if (data.size() != 4) return ignored("cICP", "is damaged");
   const uint64_t primaries = get_number(data, 0, 1), transfer = get_number(data, 1, 1);

@@ -14,7 +14,7 @@
 
 namespace ods {
 
-static void check_same_form(const std::vector<Image>& a, const std::vector<Image>& b) {
+static void check_same_shape(const std::vector<Image>& a, const std::vector<Image>& b) {
   const auto differ = [](const char* what, size_t one, size_t other) {
     return Error(ErrorKind::kInput, fmt::format("the pictures have {} and {} {}", one, other, what));
   };
@@ -92,7 +92,7 @@ static Errors errors_of(const Sums& sums) {
 }
 
 Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b) {
-  check_same_form(a, b);
+  check_same_shape(a, b);
   Comparison comparison;
   Sums whole;
   for (size_t i = 0; i < a.size(); i++) {

@@ -19,7 +19,7 @@
 #include "ods/files/read_file.h"
 #include "ods/image/color_tags.h"
 #include "ods/image/exr_rows.h"
-#include "ods/image/format/exr_header.h"
+#include "ods/image/format/exr_guard.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/openimageio.h"
@@ -27,7 +27,7 @@
 
 namespace ods {
 
-static OIIO::TypeDesc type_of(Sample sample) {
+static OIIO::TypeDesc type_of(SampleType sample) {
   return OIIO::TypeDesc(type_name(sample));
 }
 
@@ -72,11 +72,11 @@ struct Reader {
 }  // namespace
 
 // In a file of floats whole numbers are as large as floats, and become such.
-static Sample sample_of(const OIIO::TypeDesc& type, bool is_float) {
-  for (const Sample sample : {Sample::kUint8, Sample::kUint16, Sample::kHalf}) {
+static SampleType sample_of(const OIIO::TypeDesc& type, bool is_float) {
+  for (const SampleType sample : {SampleType::kUint8, SampleType::kUint16, SampleType::kHalf}) {
     if (type == type_of(sample)) return sample;
   }
-  return is_float ? Sample::kFloat : Sample::kUint16;
+  return is_float ? SampleType::kFloat : SampleType::kUint16;
 }
 
 static FileInfo info_of(const OIIO::ImageSpec& spec) {
@@ -191,7 +191,7 @@ Image read_image(const std::string& path, std::string* color_fault) {
   const bool is_float = reader.spec.format.is_floating_point();
   for (size_t i = 0; i < image.pixels.size() && !(is_float && reader.color.has_our_primaries); i += 3) {
     vec3 value(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
-    value = is_float ? light_of_floats(reader.color, value) : light_of_codes(reader.color, value);
+    value = is_float ? light_of_floats(reader.color, value) : linear_from_encoded(reader.color, value);
     std::copy_n(&value.x, 3, &image.pixels[i]);
   }
   if (color_fault) *color_fault = reader.color.fault;
@@ -268,9 +268,10 @@ RowReader::RowReader(const std::string& path) : state_(new State{path, open_read
     const bool whole = state.info.is_float && type == OIIO::TypeDesc::UINT32;
     as_they_are = as_they_are && (whole || type == type_of(state.info.samples[static_cast<size_t>(c)]));
   }
-  state.type = as_they_are ? OIIO::TypeDesc() : type_of(state.info.is_float ? Sample::kFloat : Sample::kUint16);
+  state.type = as_they_are ? OIIO::TypeDesc() : type_of(state.info.is_float ? SampleType::kFloat : SampleType::kUint16);
   if (!as_they_are) {
-    for (Sample& sample : state.info.samples) sample = state.info.is_float ? Sample::kFloat : Sample::kUint16;
+    for (SampleType& sample : state.info.samples)
+      sample = state.info.is_float ? SampleType::kFloat : SampleType::kUint16;
   }
   if (state.reader.format == FileFormat::kExr && as_they_are) state.exr = ExrRows::open(path, spec.channelnames);
   // OpenImageIO multiplies WebP whatever it is asked, with a curve of its own.
@@ -296,8 +297,8 @@ const ColorSpace& RowReader::color_space() const {
 
 void RowReader::widen() {
   if (state_->info.is_float) return;
-  state_->type = type_of(Sample::kUint16);
-  for (Sample& sample : state_->info.samples) sample = Sample::kUint16;
+  state_->type = type_of(SampleType::kUint16);
+  for (SampleType& sample : state_->info.samples) sample = SampleType::kUint16;
 }
 
 bool RowReader::is_whole_number(size_t channel) const {
@@ -325,7 +326,7 @@ void RowReader::read(int begin, int end, size_t channels, std::byte* to) {
   } else if (!read_by_openimageio()) {
     throw cannot_read(state.path, library_words(input.geterror()));
   }
-  const std::vector<Sample>& samples = state.info.samples;
+  const std::vector<SampleType>& samples = state.info.samples;
   size_t stride = 0;
   for (size_t c = 0; c < channels; c++) stride += bytes_of(samples[c]);
   const size_t size = static_cast<size_t>(end - begin) * static_cast<size_t>(spec.width) * stride;

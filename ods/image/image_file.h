@@ -79,7 +79,7 @@ CodeImage decode_image(std::span<const std::byte> file, const std::string& name)
 
 struct Channel {
   std::string name;  // R, G, B; others only in EXR
-  Sample sample = Sample::kUint8;
+  SampleType sample = SampleType::kUint8;
 };
 
 struct FileHeader {

@@ -26,7 +26,7 @@ const char* plugin_name(FileFormat format) {
   return kNames[static_cast<size_t>(format)];
 }
 
-const char* type_name(Sample sample) {
+const char* type_name(SampleType sample) {
   constexpr const char* kNames[] = {"uint8", "uint16", "half", "float"};  // as Sample counts
   return kNames[static_cast<size_t>(sample)];
 }
@@ -48,7 +48,7 @@ std::string no_plugin(const char* plugin, const char* kind) {
   return fmt::format("OpenImageIO here has no {} {}", plugin, kind);
 }
 
-static OIIO::TypeDesc type_of(Sample sample) {
+static OIIO::TypeDesc type_of(SampleType sample) {
   return OIIO::TypeDesc(type_name(sample));
 }
 
@@ -127,10 +127,10 @@ static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, cons
                        const std::function<void()>& band_done) {
   const int kBand = 64;
   // OpenImageIO makes integers of floats well, and halves slowly.
-  std::vector<Sample> samples;
+  std::vector<SampleType> samples;
   size_t pixel_size = 0;
   for (const Channel& channel : header.channels) {
-    samples.push_back(channel.sample == Sample::kHalf ? Sample::kHalf : Sample::kFloat);
+    samples.push_back(channel.sample == SampleType::kHalf ? SampleType::kHalf : SampleType::kFloat);
     pixel_size += bytes_of(samples.back());
   }
   const bool floats = pixel_size == samples.size() * sizeof(float);  // else as the file has them

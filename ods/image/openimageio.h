@@ -6,13 +6,13 @@
 #include <string>
 
 #include "ods/image/format/file_format.h"
-#include "ods/image/format/sample.h"
+#include "ods/image/format/sample_type.h"
 
 namespace ods {
 
 // OpenImageIO's names of its plugin and of a number type.
 const char* plugin_name(FileFormat format);
-const char* type_name(Sample sample);
+const char* type_name(SampleType sample);
 
 // Before anything else of it is called. Debian builds OpenImageIO so that it comments on broken files on stderr; that
 // is not a library's place. It and OpenEXR have threads of their own: as many as TBB may have, so that one limit

@@ -51,7 +51,7 @@ float srgb_decode(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-std::vector<float> light_of_codes(int largest) {
+std::vector<float> linear_from_encoded(int largest) {
   std::vector<float> light;
   for (int code = 0; code <= largest; code++) {
     light.push_back(srgb_decode(static_cast<float>(code) / static_cast<float>(largest)));

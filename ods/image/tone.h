@@ -29,6 +29,6 @@ float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
 // The light of every code value 0..largest.
-std::vector<float> light_of_codes(int largest);
+std::vector<float> linear_from_encoded(int largest);
 
 }  // namespace ods

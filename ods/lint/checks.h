@@ -5,22 +5,22 @@
 #pragma once
 #include "ods/image/image_file.h"
 #include "ods/lint/lint.h"
-#include "ods/picture/metadata/camera_file.h"
-#include "ods/picture/metadata/picture_form.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/picture/metadata/stereo_format.h"
 
 namespace ods {
 
 struct Subject {
   std::string path;
   FileInfo info;  // of the left file of a pair
-  PictureForm form;
+  StereoFormat format;
   std::vector<Image> eyes;  // luminance of linear light, 1 channel, as stored
   Image packed;             // the whole file, where it can be cut in other ways
-  std::optional<CameraFile> sidecar;
+  std::optional<Sidecar> sidecar;
   std::optional<Camera> camera;  // where something says how the eyes converge
 
-  Layout layout() const { return form.layout.layout.value_or(Layout::kSeparate); }
-  const ProjectionSetting& projection() const { return form.camera.projection; }
+  Layout layout() const { return format.layout.layout.value_or(Layout::kSeparate); }
+  const ProjectionSetting& projection() const { return format.camera.projection; }
 };
 
 // Every check calls one of them, for each Check that is its business.
@@ -35,7 +35,7 @@ bool check_layout(const Subject& subject, LintReport& report);
 void check_parallax(const Subject& subject, LintReport& report);
 void check_poles(const Subject& subject, LintReport& report);
 void check_seam(const Subject& subject, LintReport& report);
-void check_form(const Subject& subject, LintReport& report);      // aspect, film levels
+void check_shape(const Subject& subject, LintReport& report);     // aspect, video levels
 void check_metadata(const Subject& subject, LintReport& report);  // but for the layout, which check_layout() measures
 
 }  // namespace ods

@@ -57,7 +57,7 @@ std::string cut_name(const Subject& subject, Layout layout) {
 // The layouts that a file may have in truth, other than the one it was read in.
 std::vector<Cut> other_cuts(const Subject& subject) {
   std::vector<Cut> cuts;
-  const std::optional<Layout> read = subject.form.layout.layout;
+  const std::optional<Layout> read = subject.format.layout.layout;
   const Extent size{subject.packed.width, subject.packed.height};
   for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
     if (subject.packed.pixels.empty() || !unpacked_size(layout, size)) continue;
@@ -76,7 +76,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
                  LintReport& report) {
   const std::string truth = cut_name(subject, cut.layout);
   const auto [fault, cure] = [&]() -> std::pair<Fault, std::string> {
-    switch (subject.form.layout.source) {
+    switch (subject.format.layout.source) {
       case LayoutSource::kName:
         return {Fault::kMetadata, fmt::format("rename the file: it is {}", truth)};
       case LayoutSource::kSidecar:
@@ -87,7 +87,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
         return {Fault::kLayoutMisread, fmt::format("read it as {} (--layout {})", truth, truth)};
     }
   }();
-  report.findings.push_back({fault, certainty, evidence + ", " + subject.form.layout.because, cure});
+  report.findings.push_back({fault, certainty, evidence + ", " + subject.format.layout.reason, cure});
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ bool check_layout(const Subject& subject, LintReport& report) {
   if (misread < 0.5 && alone >= 0.1) {
     report.findings.push_back({Fault::kMonoAsStereo, alone,
                                fmt::format("what is said to be two eyes ({}) shows two places: {}",
-                                           subject.form.layout.because, matching(read)),
+                                           subject.format.layout.reason, matching(read)),
                                "it is one picture: give it the shape of one eye (lat-long: twice as wide as high) and "
                                "show it as mono"});
   }

@@ -51,10 +51,10 @@ static FaultNames names_of(Fault fault) {
       return {"wrong-aspect", "the shape does not fit", Severity::kFault};
     case Fault::kMetadata:
       return {"metadata", "its words do not fit its pixels", Severity::kFault};
-    case Fault::kFilmLevels:
+    case Fault::kVideoLevels:
       break;
   }
-  return {"film-levels", "too large for films", Severity::kInformation};
+  return {"video-levels", "too large for videos", Severity::kInformation};
 }
 
 std::string_view fault_name(Fault fault) {
@@ -101,8 +101,8 @@ std::string_view check_name(Check check) {
       return "the shape";
     case Check::kMetadata:
       return "metadata";
-    case Check::kFilmLevels:
-      return "film levels";
+    case Check::kVideoLevels:
+      return "video levels";
     case Check::kBetweenEyes:
       break;
   }
@@ -130,11 +130,11 @@ static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
   subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
   OpenOptions open;
-  open.form.layout = options.layout;
-  open.form.projection = options.projection;
-  open.only_light = true;
-  subject.form = find_form(subject.info, path, open.form);
-  if (names_eye(path) || subject.form.is_photo || subject.layout() == Layout::kMultiview) {
+  open.format.layout = options.layout;
+  open.format.projection = options.projection;
+  open.color_only = true;
+  subject.format = find_format(subject.info, path, open.format);
+  if (names_eye(path) || subject.format.is_photo || subject.layout() == Layout::kMultiview) {
     subject.eyes = grey_eyes(open_picture(path, open));
     return;
   }
@@ -143,8 +143,8 @@ static void load(Subject& subject, const LintOptions& options) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
                                                path, size.width, size.height, layout_name(subject.layout())));
   }
-  open.form.layout = Layout::kSeparate;
-  open.form.projection = ProjectionSetting();  // any: its pixels are taken as they lie
+  open.format.layout = Layout::kSeparate;
+  open.format.projection = ProjectionSetting();  // any: its pixels are taken as they lie
   subject.packed = grey_eyes(open_picture(path, open))[0];
   subject.eyes = unpack(subject.layout(), subject.packed);
 }
@@ -153,11 +153,11 @@ static void load_sidecar(Subject& subject) {
   const std::string path = sidecar_path(subject.path);
   std::vector<std::string> warnings;
   std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) subject.sidecar = load_camera(path, warnings);
+  if (std::filesystem::exists(path, ignored)) subject.sidecar = load_sidecar(path, warnings);
 }
 
 static void find_camera(Subject& subject) {
-  if (subject.form.camera_is_said) subject.camera = make_camera(subject.form.camera);
+  if (subject.format.has_camera) subject.camera = make_camera(subject.format.camera);
 }
 
 static void describe(const Subject& subject, LintReport& report) {
@@ -165,8 +165,8 @@ static void describe(const Subject& subject, LintReport& report) {
   report.file = {subject.info.width, subject.info.height};
   report.eye = {eye.width, eye.height};
   report.eye_count = static_cast<int>(subject.eyes.size());
-  if (report.eye_count > 1) report.layout = subject.form.layout.layout;
-  report.because = subject.form.layout.because;
+  if (report.eye_count > 1) report.layout = subject.format.layout.layout;
+  report.reason = subject.format.layout.reason;
   report.projection = projection_name(subject.projection());
   int64_t not_finite = 0;
   for (const Image& each : subject.eyes) {
@@ -179,8 +179,8 @@ static void describe(const Subject& subject, LintReport& report) {
 
 // --- the checks ----------------------------------------------------------------------------------------------------
 
-constexpr double kLeastAround = 256.0;  // pixels of an eye for 360 degrees
-constexpr int kLeastHeight = 32;
+constexpr double kMinAround = 256.0;  // pixels of an eye for 360 degrees
+constexpr int kMinHeight = 32;
 
 static void check_pixels(const Subject& subject, LintReport& report) {
   check_seam(subject, report);
@@ -213,13 +213,13 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   find_camera(subject);
   describe(subject, report);
   const double around = 2.0 * std::numbers::pi * pixels_per_radian(subject.projection(), report.eye.width);
-  const bool small = around < kLeastAround || report.eye.height < kLeastHeight;
+  const bool small = around < kMinAround || report.eye.height < kMinHeight;
   std::string reason = "there is only one eye";
   if (report.eye_count > 1) skip(report, Check::kBetweenEyes, "ods lint does not measure them yet");
   if (small) reason = fmt::format("an eye of {}x{} pixels is too small", report.eye.width, report.eye.height);
   if (small || check_layout(subject, report)) {
     check_metadata(subject, report);
-    check_form(subject, report);
+    check_shape(subject, report);
     if (!small) check_pixels(subject, report);
   } else {
     reason = "the layout must be right first";

@@ -29,13 +29,13 @@ enum class Fault {
   kRaggedSeam,      // the picture does not go on from its right edge to its left one
   kWrongAspect,     // its shape is not its projection's
   kMetadata,        // what the file, its name or its sidecar says is not what it holds
-  kFilmLevels,      // too large for a film
+  kVideoLevels,     // too large for a video
 };
 
 inline constexpr Fault kFaults[] = {Fault::kEyesSwapped,  Fault::kRightOnTop,    Fault::kOneEyeTwice,
                                     Fault::kMonoAsStereo, Fault::kLayoutMisread, Fault::kMirroredCircle,
                                     Fault::kTwoCameras,   Fault::kNoPoleMerge,   Fault::kRaggedSeam,
-                                    Fault::kWrongAspect,  Fault::kMetadata,      Fault::kFilmLevels};
+                                    Fault::kWrongAspect,  Fault::kMetadata,      Fault::kVideoLevels};
 std::string_view fault_name(Fault fault);   // eyes-swapped, right-on-top, ...
 std::string_view fault_title(Fault fault);  // a few words for people
 
@@ -65,13 +65,13 @@ enum class Check {
   kSeam,         // where the right edge meets the left one
   kShape,        // width over height
   kMetadata,     // what file, name and sidecar say
-  kFilmLevels,   // of codecs
+  kVideoLevels,  // of codecs
   kBetweenEyes,  // height, roll, colour and sharpness: nothing here measures them
 };
 
-inline constexpr Check kChecks[] = {Check::kLayout,   Check::kTwoEyes,    Check::kEyeOrder,   Check::kCircle,
-                                    Check::kTopPole,  Check::kBottomPole, Check::kSeam,       Check::kShape,
-                                    Check::kMetadata, Check::kFilmLevels, Check::kBetweenEyes};
+inline constexpr Check kChecks[] = {Check::kLayout,   Check::kTwoEyes,     Check::kEyeOrder,   Check::kCircle,
+                                    Check::kTopPole,  Check::kBottomPole,  Check::kSeam,       Check::kShape,
+                                    Check::kMetadata, Check::kVideoLevels, Check::kBetweenEyes};
 std::string_view check_name(Check check);  // in words: "which eye is which"
 
 struct NotJudged {
@@ -89,7 +89,7 @@ struct LintReport {
   Extent eye;   // as it is stored
   int eye_count = 1;
   std::optional<Layout> layout;  // as it was read; none: one eye
-  std::string because;
+  std::string reason;
   std::string projection;
   std::vector<Finding> findings;  // the surest first; also what is next to certainly not so
   std::vector<Check> judged;      // every check is here or among those that could not be made

@@ -23,7 +23,7 @@ static std::string_view read_as(const LintReport& report) {
 
 // GPano describes one sphere, and viewers would wrap the whole file around it.
 static void check_gpano(const Subject& subject, LintReport& report) {
-  if (report.eye_count < 2 || names_eye(subject.path) || subject.form.is_photo) return;
+  if (report.eye_count < 2 || names_eye(subject.path) || subject.format.is_photo) return;
   if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
   add(report, 1.0, "a stereo file carries GPano, which knows no stereo: viewers wrap both eyes around one sphere",
       "remove GPano from it (ods inject --remove FILE)");
@@ -42,13 +42,13 @@ static void check_name(const Subject& subject, LintReport& report) {
       return;  // the same halves by a looser word
     }
   }
-  add(report, 0.9, fmt::format("{}, but it is {} as {}", named.because, read_as(report), subject.form.layout.because),
+  add(report, 0.9, fmt::format("{}, but it is {} as {}", named.reason, read_as(report), subject.format.layout.reason),
       "rename it: players go by the name");
 }
 
 static void check_sidecar(const Subject& subject, LintReport& report) {
   if (!subject.sidecar) return;
-  const CameraFile& said = *subject.sidecar;
+  const Sidecar& said = *subject.sidecar;
   const std::string name = sidecar_path(subject.path);
   const char* cure = "write the sidecar again, or remove it";
   const int count = static_cast<int>(said.eyes.size());

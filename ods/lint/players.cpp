@@ -7,26 +7,26 @@
 #include <algorithm>
 
 #include "ods/base/error.h"
-#include "ods/camera/video_level.h"
-#include "ods/video/container/film_form.h"
+#include "ods/camera/codec_level.h"
+#include "ods/video/container/complete_metadata.h"
 
 namespace ods {
 
-constexpr double kUsualFps = 30.0;  // of a film that does not say
+constexpr double kUsualFps = 30.0;  // of a video that does not say
 
-static bool is_matroska(const FilmInfo& film) {
-  return film.container == Container::kMatroska || film.container == Container::kWebm;
+static bool is_matroska(const VideoFile& video) {
+  return video.container == Container::kMatroska || video.container == Container::kWebm;
 }
 
-// What a player makes of it: no word on stereo is mono, no word on a projection is a flat film.
-static std::string shown_as(FilmForm form) {
-  form.stereo = form.stereo.value_or(FilmStereo::kOneView);
-  form.projection = form.projection.value_or(FilmProjection::kFlat);
-  return form_text(form);
+// What a player makes of it: no word on stereo is mono, no word on a projection is a flat video.
+static std::string shown_as(SphericalMetadata metadata) {
+  metadata.stereo = metadata.stereo.value_or(VideoStereo::kOneView);
+  metadata.projection = metadata.projection.value_or(VideoProjection::kFlat);
+  return metadata_text(metadata);
 }
 
-static PlayerView v2_view(const FilmInfo& film, const VideoTrack& track) {
-  const char* place = is_matroska(film) ? "StereoMode and Projection say so" : "st3d and sv3d say so";
+static PlayerView v2_view(const VideoFile& video, const VideoTrack& track) {
+  const char* place = is_matroska(video) ? "StereoMode and Projection say so" : "st3d and sv3d say so";
   if (track.v2) return {"reads V2", shown_as(*track.v2), place};
   if (track.v1) return {"reads V2", shown_as(*track.v1), "there is no V2, and V1 says so"};
   return {"reads V2", shown_as({}), "it says nothing"};
@@ -58,10 +58,10 @@ static PlayerView shape_view(Extent size) {
   return {"goes by the shape", "mono, flat", "it has the shape of neither one nor two spheres"};
 }
 
-std::vector<PlayerView> film_views(const FilmInfo& film, const VideoTrack& track, const std::string& path) {
-  std::vector<PlayerView> views{v2_view(film, track)};
-  if (!is_matroska(film) || track.v1) views.push_back(v1_view(track));
-  if (!is_matroska(film)) views.push_back(apple_view(track));
+std::vector<PlayerView> video_views(const VideoFile& video, const VideoTrack& track, const std::string& path) {
+  std::vector<PlayerView> views{v2_view(video, track)};
+  if (!is_matroska(video) || track.v1) views.push_back(v1_view(track));
+  if (!is_matroska(video)) views.push_back(apple_view(track));
   views.push_back(name_view(path));
   views.push_back(shape_view(track.size));
   return views;
@@ -112,15 +112,15 @@ static bool agree(const std::string& a, const std::string& b) {
 }
 
 // That ods inject helps, if it does, and what it has to be told: " (ods inject --track 2 adds it)".
-static std::string advice(const FilmInfo& film, const VideoTrack& track, const std::string& path,
+static std::string advice(const VideoFile& video, const VideoTrack& track, const std::string& path,
                           std::string_view what) {
   std::vector<std::string> guesses;
   try {
-    if (!can_say(film.container, track, complete_form({}, track, path, guesses))) return "";
+    if (!can_say(video.container, track, complete_metadata({}, track, path, guesses))) return "";
   } catch (const Error&) {
     return "";
   }
-  const std::string which = film.video.size() > 1 ? fmt::format(" --track {}", track.id) : "";
+  const std::string which = video.tracks.size() > 1 ? fmt::format(" --track {}", track.id) : "";
   std::string options;
   for (const FormConflict& conflict : find_conflicts({}, track, path)) {
     options += fmt::format("{}{}", options.empty() ? ", told which is true: " : ", and ", conflict.options);
@@ -128,30 +128,30 @@ static std::string advice(const FilmInfo& film, const VideoTrack& track, const s
   return fmt::format(" (ods inject{} {}{})", which, what, options);
 }
 
-std::vector<std::string> film_warnings(const FilmInfo& film, const VideoTrack& track, const std::string& path) {
+std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack& track, const std::string& path) {
   std::vector<std::string> warnings;
-  const PlayerView v2 = v2_view(film, track), name = name_view(path);
-  const std::string make_one = advice(film, track, path, "makes them one");
+  const PlayerView v2 = v2_view(video, track), name = name_view(path);
+  const std::string make_one = advice(video, track, path, "makes them one");
   if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {
-    warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ{}", form_text(*track.v1),
-                                   form_text(*track.v2), make_one));
+    warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ{}", metadata_text(*track.v1),
+                                   metadata_text(*track.v2), make_one));
   }
-  if (track.v2 && !track.v1 && !is_matroska(film) && fits_v1(*track.v2)) {
-    warnings.push_back("it has no V1: older players show it flat" + advice(film, track, path, "adds it"));
+  if (track.v2 && !track.v1 && !is_matroska(video) && fits_v1(*track.v2)) {
+    warnings.push_back("it has no V1: older players show it flat" + advice(video, track, path, "adds it"));
   }
-  if (track.v1 && !track.v2) warnings.push_back("it has no V2" + advice(film, track, path, "adds it"));
+  if (track.v1 && !track.v2) warnings.push_back("it has no V2" + advice(video, track, path, "adds it"));
   if (track.v2 && track.vexu && !agree(shown_as(*track.vexu), v2.takes_it_for)) {
-    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ{}", form_text(*track.vexu),
-                                   form_text(*track.v2), make_one));
+    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ{}", metadata_text(*track.vexu),
+                                   metadata_text(*track.v2), make_one));
   }
   const NameWords words = read_name(path);
   const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
   if (is_named && !agree(v2.takes_it_for, name.takes_it_for)) {
     warnings.push_back(
         fmt::format("its name says {}, the file {}: players differ", name.takes_it_for,
-                    track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(film, track, path, "tags it")));
+                    track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(video, track, path, "tags it")));
   }
-  const std::optional<FilmForm> said = said_form(track);
+  const std::optional<SphericalMetadata> said = said_metadata(track);
   const std::string fault = said ? shape_fault(*said, track.size) : "";
   if (!fault.empty()) warnings.push_back(fault);
   warn_of_size(track, warnings);
@@ -160,29 +160,29 @@ std::vector<std::string> film_warnings(const FilmInfo& film, const VideoTrack& t
 
 // --- pictures --------------------------------------------------------------------------------------------------------
 
-static std::string picture_text(const PictureForm& form) {
-  if (form.is_photo) return fmt::format("both eyes, {}", projection_name(form.camera.projection));
-  return fmt::format("{}, {}", form.layout.layout ? layout_name(*form.layout.layout) : "mono",
-                     projection_name(form.camera.projection));
+static std::string picture_text(const StereoFormat& format) {
+  if (format.is_photo) return fmt::format("both eyes, {}", projection_name(format.camera.projection));
+  return fmt::format("{}, {}", format.layout.layout ? layout_name(*format.layout.layout) : "mono",
+                     projection_name(format.camera.projection));
 }
 
-std::vector<PlayerView> picture_views(const FileInfo& info, const PictureForm& form, bool has_gpano,
+std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& format, bool has_gpano,
                                       const std::string& path) {
   PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
-  if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.because = "GPano says so, which knows no stereo";
-  std::vector<PlayerView> views{{"ods", picture_text(form), form.layout.because}, gpano};
-  if (form.is_photo) views.push_back({"reads VR photos", picture_text(form), "GImage has the right eye"});
+  if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.reason = "GPano says so, which knows no stereo";
+  std::vector<PlayerView> views{{"ods", picture_text(format), format.layout.reason}, gpano};
+  if (format.is_photo) views.push_back({"reads VR photos", picture_text(format), "GImage has the right eye"});
   views.push_back(name_view(path));
   views.push_back(shape_view({info.width, info.height}));
   return views;
 }
 
-std::vector<std::string> picture_warnings(const FileInfo& info, const PictureForm& form, bool has_gpano,
+std::vector<std::string> picture_warnings(const FileInfo& info, const StereoFormat& format, bool has_gpano,
                                           const std::string& path) {
   std::vector<std::string> warnings;
-  const std::string is = picture_text(form);
-  if (form.is_photo) return warnings;
-  if (has_gpano && form.layout.layout) {
+  const std::string is = picture_text(format);
+  if (format.is_photo) return warnings;
+  if (has_gpano && format.layout.layout) {
     warnings.push_back("it has GPano and holds two eyes: many viewers show both as one sphere, stretched");
   }
   const PlayerView name = name_view(path), shape = shape_view({info.width, info.height});
@@ -191,7 +191,7 @@ std::vector<std::string> picture_warnings(const FileInfo& info, const PictureFor
   if (is_named && !agree(is, name.takes_it_for)) {
     warnings.push_back(fmt::format("its name says {}, the file {}: players differ", name.takes_it_for, is));
   }
-  if (!is_named && form.layout.layout && !agree(is, shape.takes_it_for)) {
+  if (!is_named && format.layout.layout && !agree(is, shape.takes_it_for)) {
     warnings.push_back(
         fmt::format("players that go by its name or shape do not see that it is {} (a name that ends in "
                     "_360_TB, _180_LR ... tells most)",

@@ -49,7 +49,7 @@ class Sampler {
     for (int i = 0; i < n_ * n_; i++) {
       const float theta = turn((x + (i % n_ + 0.5) / n_) / width_ - 0.5);
       const float phi = turn(0.25 - 0.5 * (y + (i / n_ + 0.5) / n_) / (width_ / 2));
-      const ImagePlace place = place_of(projection_, look_at_angles(theta, phi).direction);
+      const ImagePoint place = place_of(projection_, look_at_angles(theta, phi).direction);
       if (!place.seen) return none_;
       const int column = std::clamp(static_cast<int>(place.uv.x * static_cast<float>(eye_.width)), 0, eye_.width - 1);
       const int row = std::clamp(static_cast<int>(place.uv.y * static_cast<float>(eye_.height)), 0, eye_.height - 1);

@@ -17,8 +17,8 @@ namespace ods {
 template <class Put>
 static void read_pixels(const LayerPixels& layer, Extent size, bool is_float, Put put) {
   const size_t step = bytes_of(layer.sample);
-  const int largest = layer.sample == Sample::kUint8 ? 255 : 65535;
-  const std::vector<float> light = is_float ? std::vector<float>() : light_of_codes(largest);
+  const int largest = layer.sample == SampleType::kUint8 ? 255 : 65535;
+  const std::vector<float> light = is_float ? std::vector<float>() : linear_from_encoded(largest);
   tbb::parallel_for(0, size.height, [&](int y) {
     const std::byte* in = layer.first + y * layer.row_stride;
     for (int x = 0; x < size.width; x++, in += layer.pixel_stride) {
@@ -59,12 +59,12 @@ static const LayerPixels* find_variance(const StoredEye& eye) {
 
 LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout) {
   OpenOptions options;
-  options.form.layout = layout;
+  options.format.layout = layout;
   const StoredPicture picture = open_picture(path, options);
   LoadedEyes loaded;
-  loaded.guess.because = picture.layout_because;
+  loaded.guess.reason = picture.layout_reason;
   if (picture.eyes.size() == 2) loaded.guess.layout = picture.layout;
-  loaded.projection = projection_name(picture.rig.projection);
+  loaded.projection = projection_name(picture.camera.projection);
   loaded.is_float = picture.is_float;
   loaded.color_fault = picture.color_fault;
   for (const StoredEye& eye : picture.eyes) {

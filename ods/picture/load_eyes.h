@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ods/camera/layout.h"
-#include "ods/picture/metadata/picture_form.h"
+#include "ods/picture/metadata/stereo_format.h"
 #include "ods/picture/picture.h"
 #include "ods/picture/stored_picture.h"
 
@@ -18,7 +18,7 @@ struct LoadedEyes {
   std::vector<Image> eyes;              // linear light, 3 channels; left and right, or the only one
   std::vector<Image> variance;          // of the noise in eyes, where an EXR has variance.R, G and B; else empty
   LayoutGuess guess;                    // how the file was understood
-  std::string projection = "lat-long";  // by its name, as find_form() has it
+  std::string projection = "lat-long";  // by its name, as find_format() has it
   bool is_float = false;                // the file holds light; else what a display shows, which is decoded
   std::string color_fault;              // as StoredPicture has it
 };

@@ -14,9 +14,9 @@
 #include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/anaglyph.h"
-#include "ods/picture/metadata/camera_file.h"
-#include "ods/picture/metadata/cardboard.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/picture/metadata/vr_photo.h"
 
 namespace ods {
 
@@ -88,7 +88,7 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 
 // --- what stands in the header -------------------------------------------------------------------------------------
 
-static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, Layout layout,
+static void add_exr(std::vector<Attribute>& attributes, const StereoCamera* camera, Layout layout,
                     const std::vector<int>& eyes) {
   const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
   text("compression", "zip");
@@ -98,7 +98,7 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, La
   if (layout == Layout::kMultiview) {
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   }
-  if (eyes.size() == 1 && rig != nullptr && is_full_lat_long(rig->projection)) {
+  if (eyes.size() == 1 && camera != nullptr && is_full_lat_long(camera->projection)) {
     // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
     text("textureformat", "LatLong Environment");
     attributes.push_back({"openexr:levelmode", 0});
@@ -106,7 +106,7 @@ static void add_exr(std::vector<Attribute>& attributes, const CameraRig* rig, La
   if (eyes.size() == 1 && eyes[0] != kMono) text("view", eye_name(eyes[0]));
   text("ods:version", ODS_VERSION);
   text("ods:layout", eyes.size() == 2 ? layout_name(layout) : eye_name(eyes[0]));
-  if (rig != nullptr) add_camera(attributes, *rig);
+  if (camera != nullptr) add_camera(attributes, *camera);
 }
 
 static bool carries_gpano(FileFormat format) {
@@ -275,7 +275,7 @@ static Extent stored_eye(const File& file) {
   return squeezed_eye(file.layout, file.picture.eye, static_cast<int>(file.indices.size()));
 }
 
-static FileHeader make_header(const File& file, const CameraRig* rig) {
+static FileHeader make_header(const File& file, const StereoCamera* camera) {
   const FileFormat format = file.format;
   const std::vector<int> eyes = file.eyes();
   const int count = static_cast<int>(eyes.size());
@@ -289,24 +289,24 @@ static FileHeader make_header(const File& file, const CameraRig* rig) {
     header.attributes.push_back({"DateTime", std::string()});
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
   header.attributes.push_back({"oiio:ColorSpace", std::string(is_scene_referred(format) ? "Linear" : "sRGB")});
-  if (carries_gpano(format) && count == 1 && rig != nullptr && fits_gpano(rig->projection)) {
-    add_gpano(header.attributes, *rig, size);
+  if (carries_gpano(format) && count == 1 && camera != nullptr && fits_gpano(camera->projection)) {
+    add_gpano(header.attributes, *camera, size);
   }
 
   if (format == FileFormat::kExr || format == FileFormat::kPng) {
     header.attributes.insert(header.attributes.end(), file.options.attributes.begin(), file.options.attributes.end());
   }
-  Sample sample = Sample::kUint8;
+  SampleType sample = SampleType::kUint8;
   switch (format) {
     case FileFormat::kExr:
-      add_exr(header.attributes, rig, file.layout, eyes);
+      add_exr(header.attributes, camera, file.layout, eyes);
       if (file.layout != Layout::kMultiview) add_exr_channels(header.channels, file.picture.layers, "", true);
       if (file.layout == Layout::kMultiview) {
         for (int eye : eyes) add_exr_channels(header.channels, file.picture.layers, eye_name(eye), eye == eyes[0]);
       }
       return header;
     case FileFormat::kHdr:
-      sample = Sample::kFloat;
+      sample = SampleType::kFloat;
       break;
     case FileFormat::kJpeg:
       header.attributes.push_back({"jpeg:subsampling", std::string("4:4:4")});
@@ -327,8 +327,8 @@ static FileHeader make_header(const File& file, const CameraRig* rig) {
   return header;
 }
 
-static void write_picture(AtomicFile& out, const File& file, const CameraRig* rig) {
-  const FileHeader header = make_header(file, rig);
+static void write_picture(AtomicFile& out, const File& file, const StereoCamera* camera) {
+  const FileHeader header = make_header(file, camera);
   const int count = static_cast<int>(file.indices.size());
   const Extent eye = stored_eye(file);
   const size_t stride = header.channels.size();
@@ -352,10 +352,10 @@ static void write_picture(AtomicFile& out, const File& file, const CameraRig* ri
 }
 
 // Both eyes as JPEGs of their own, which are not kept.
-static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const CameraRig* rig,
+static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const StereoCamera* camera,
                             const SaveOptions& options) {
-  if (rig == nullptr) throw unfit(out.path(), "a .vr.jpg says how it was taken, and of this nobody knows");
-  check_photo(out.path(), rig->projection);
+  if (camera == nullptr) throw unfit(out.path(), "a .vr.jpg says how it was taken, and of this nobody knows");
+  check_photo(out.path(), camera->projection);
   std::list<AtomicFile> eyes;
   for (const int index : {0, 1}) {
     const File file{picture, {index}, FileFormat::kJpeg, Layout::kSeparate, options, count_channels(picture.layers),
@@ -364,11 +364,11 @@ static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const C
     eyes.back().finish();
   }
   const FileInput left(eyes.front().temporary()), right(eyes.back().temporary());
-  write_photo(left, right.read(0, right.size()), *rig, picture.eye, out);
+  write_photo(left, right.read(0, right.size()), *camera, picture.eye, out);
 }
 
-std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
-                                      const std::string& path) {
+std::vector<std::string> save_picture(const PictureRows& picture, const StereoCamera* camera,
+                                      const SaveOptions& options, const std::string& path) {
   assert(picture.eyes.size() == 1 || picture.eyes.size() == 2);
   const FileFormat format = format_for(path);
   check_layout(path, format, options, picture.eyes, picture.eye);
@@ -378,7 +378,7 @@ std::vector<std::string> save_picture(const PictureRows& picture, const CameraRi
   const auto write = [&](const std::string& name, const std::vector<int>& indices) {
     const Extent squeeze = squeeze_of(layout, static_cast<int>(indices.size()));
     const File file{picture, indices, format, layout, options, count_channels(picture.layers), squeeze};
-    write_picture(files.emplace_back(name), file, rig);
+    write_picture(files.emplace_back(name), file, camera);
     names.push_back(name);
   };
   std::vector<int> all;
@@ -386,16 +386,16 @@ std::vector<std::string> save_picture(const PictureRows& picture, const CameraRi
   if (names_eye(path)) {
     for (int i : all) write(path_for_eye(path, picture.eyes[static_cast<size_t>(i)]), {i});
   } else if (is_photo_of(path, picture.eyes.size())) {
-    write_both_eyes(files.emplace_back(path), picture, rig, options);
+    write_both_eyes(files.emplace_back(path), picture, camera, options);
     names.push_back(path);
   } else {
     write(path, all);
   }
   // One that is there already would from now on tell of a picture that is gone.
   std::error_code ignored;
-  if (rig && (options.sidecar || std::filesystem::exists(sidecar_path(path), ignored))) {
+  if (camera && (options.sidecar || std::filesystem::exists(sidecar_path(path), ignored))) {
     names.push_back(sidecar_path(path));
-    const std::string text = write_camera({*rig, picture.eye, layout, picture.eyes});
+    const std::string text = write_sidecar({*camera, picture.eye, layout, picture.eyes});
     std::fwrite(text.data(), 1, text.size(), files.emplace_back(names.back()).stream());
   }
   commit_all(files);
@@ -415,10 +415,10 @@ struct ImageLayer {
 
 static const std::vector<ImageLayer>& image_layers() {
   static const std::vector<ImageLayer> layers = {
-      {&EyeImage::radiance, {{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}},
-      {&EyeImage::depth, {{"Z"}, LayerRule::kNearest, Sample::kFloat}},
-      {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, Sample::kHalf}},
-      {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, Sample::kHalf}},
+      {&EyeImage::radiance, {{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}},
+      {&EyeImage::depth, {{"Z"}, LayerRule::kNearest, SampleType::kFloat}},
+      {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kHalf}},
+      {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, SampleType::kHalf}},
   };
   return layers;
 }
@@ -450,9 +450,9 @@ static PictureRows rows_of(const Picture& picture, bool all_layers) {
   return rows;
 }
 
-std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
+std::vector<std::string> save_picture(const Picture& picture, const StereoCamera& camera, const SaveOptions& options,
                                       const std::string& path) {
-  return save_picture(rows_of(picture, keeps_layers(path)), &rig, options, path);
+  return save_picture(rows_of(picture, keeps_layers(path)), &camera, options, path);
 }
 
 std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path) {

@@ -19,17 +19,17 @@
 //
 // A file of one eye that can carry GPano (png, jpg, tif) does; a stereo one does not, because GPano knows no stereo and
 // viewers would wrap both eyes around one sphere. But NAME.vr.jpg of two eyes is a Cardboard photo: the left eye with
-// GPano, the right one in it (ods/picture/metadata/cardboard.h), whatever the layout.
+// GPano, the right one in it (ods/picture/metadata/vr_photo.h), whatever the layout.
 #pragma once
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
 #include "ods/camera/layout.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/image/format/attribute.h"
-#include "ods/image/format/sample.h"
+#include "ods/image/format/sample_type.h"
 #include "ods/image/tone.h"
 #include "ods/picture/picture.h"
 
@@ -64,7 +64,7 @@ bool is_saved(const std::string& path);
 // Returns the names written.
 // Layers that are empty are left out. Throws as check_output(), and Error(kOutput). Precondition: one eye or two, all
 // of one size, with light.
-std::vector<std::string> save_picture(const Picture& picture, const CameraRig& rig, const SaveOptions& options,
+std::vector<std::string> save_picture(const Picture& picture, const StereoCamera& camera, const SaveOptions& options,
                                       const std::string& path);
 
 // The same of a picture whose camera is not known: the file says nothing of one.
@@ -74,7 +74,7 @@ std::vector<std::string> save_picture(const Picture& picture, const SaveOptions&
 struct RowLayer {
   std::vector<std::string> channels;  // without a view: R, G, B, perhaps A; Z; N.X, N.Y, N.Z
   LayerRule rule = LayerRule::kLight;
-  Sample sample = Sample::kHalf;  // in an exr; kHalf or kFloat
+  SampleType sample = SampleType::kHalf;  // in an exr; kHalf or kFloat
 };
 
 struct PictureRows {
@@ -90,9 +90,9 @@ struct PictureRows {
 // Of a pixel of a row.
 size_t count_channels(const std::vector<RowLayer>& layers);
 
-// The same of such a picture. No rig: the file says nothing of one. Squeezed eyes take of a kNearest layer, of the
+// The same of such a picture. No camera: the file says nothing of one. Squeezed eyes take of a kNearest layer, of the
 // pixels that become one, that whose first channel is least. Throws as above, and what `fill` throws.
-std::vector<std::string> save_picture(const PictureRows& picture, const CameraRig* rig, const SaveOptions& options,
-                                      const std::string& path);
+std::vector<std::string> save_picture(const PictureRows& picture, const StereoCamera* camera,
+                                      const SaveOptions& options, const std::string& path);
 
 }  // namespace ods

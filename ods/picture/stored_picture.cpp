@@ -14,7 +14,7 @@
 #include "ods/base/text.h"
 #include "ods/files/memory_file.h"
 #include "ods/files/scratch.h"
-#include "ods/picture/metadata/cardboard.h"
+#include "ods/picture/metadata/vr_photo.h"
 
 namespace ods {
 
@@ -32,7 +32,7 @@ struct Plane {
   std::vector<std::string> channels;  // without the view
   std::vector<size_t> from;           // their numbers in the file
   LayerRule rule = LayerRule::kMean;
-  Sample sample = Sample::kUint8;
+  SampleType sample = SampleType::kUint8;
   std::byte* to = nullptr;
   size_t pixel_size() const { return channels.size() * bytes_of(sample); }
 };
@@ -78,7 +78,7 @@ static View channels_of_view(const FileInfo& info, const std::string& view, bool
 }
 
 // R, G, B, perhaps A, of some layer; of grey files Y and A. Taken out of `channels`.
-static std::optional<Plane> take_light(View& channels, const std::string& layer) {
+static std::optional<Plane> take_color(View& channels, const std::string& layer) {
   const std::string prefix = layer.empty() ? "" : layer + ".";
   Plane light;
   light.name = layer;
@@ -102,10 +102,10 @@ static std::optional<Plane> take_light(View& channels, const std::string& layer)
 }
 
 static std::optional<Plane> find_light(View& channels) {
-  if (std::optional<Plane> light = take_light(channels, "")) return light;
+  if (std::optional<Plane> light = take_color(channels, "")) return light;
   for (const auto& [name, number] : channels) {
     const std::string layer = split_name(name).first;
-    if (split_name(layer).second == "Combined") return take_light(channels, layer);
+    if (split_name(layer).second == "Combined") return take_color(channels, layer);
   }
   return std::nullopt;
 }
@@ -142,7 +142,7 @@ struct FileShare {
 
 }  // namespace
 
-static FileShare make_share(RowReader& reader, const std::string& path, View channels, bool only_light) {
+static FileShare make_share(RowReader& reader, const std::string& path, View channels, bool color_only) {
   const FileInfo& info = reader.info();
   FileShare share{&reader, {}};
   std::optional<Plane> light = find_light(channels);
@@ -156,7 +156,7 @@ static FileShare make_share(RowReader& reader, const std::string& path, View cha
     if (info.samples[c] != light->sample) throw unreadable(path, "its colours are not of one kind of number");
   }
   share.planes.push_back(*light);
-  if (only_light || !info.is_float) return share;
+  if (color_only || !info.is_float) return share;
   for (Plane& plane : other_planes(channels, reader)) share.planes.push_back(std::move(plane));
   return share;
 }
@@ -193,11 +193,11 @@ static void keep_common(std::vector<FileShare>& shares, const std::string& path,
 }
 
 static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const std::string& path, Layout layout,
-                                        bool only_light) {
+                                        bool color_only) {
   std::vector<FileShare> shares;
   if (layout != Layout::kMultiview) {
     for (RowReader& reader : readers) {
-      shares.push_back(make_share(reader, path, channels_of_view(reader.info(), "", true), only_light));
+      shares.push_back(make_share(reader, path, channels_of_view(reader.info(), "", true), color_only));
     }
     return shares;
   }
@@ -206,8 +206,8 @@ static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const s
   const View bare = channels_of_view(info, "left", true);
   if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
   if (left.contains("R") || right.contains("R")) {
-    shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), only_light));
-    shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), only_light));
+    shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
+    shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
     return shares;
   }
   throw unreadable(path, "it does not hold two views");
@@ -292,7 +292,7 @@ static void convert_rows(const Plane& plane, const ColorSpace& color, int begin,
       std::copy_n(&rgb.x, 3, &light[3 * x]);
     }
     std::vector<std::byte> packed(light.size() * size);
-    const Sample samples[] = {plane.sample, plane.sample, plane.sample};
+    const SampleType samples[] = {plane.sample, plane.sample, plane.sample};
     pack_floats(samples, light, packed.data());
     for (size_t x = 0; x < columns; x++) std::memcpy(row + x * pixel, &packed[3 * x * size], 3 * size);
   });
@@ -407,10 +407,10 @@ static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const
     throw unreadable(
         path, fmt::format("{}x{} pixels are not two eyes, {}", info.width, info.height, layout_name(picture.layout)));
   }
-  const int columns = width_step(picture.rig.projection);
+  const int columns = width_step(picture.camera.projection);
   if (size->width * squeeze_of(picture.layout, 2).width % columns != 0) {
     throw unreadable(path, fmt::format("{} has {} faces in a row, and {} pixels do not divide by that",
-                                       projection_name(picture.rig.projection), columns, size->width));
+                                       projection_name(picture.camera.projection), columns, size->width));
   }
   return *size;
 }
@@ -462,17 +462,17 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
 
 StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
   std::vector<RowReader> readers = open_files(path);
-  PictureForm form = find_form(readers[0].info(), path, options.form);
-  const MemoryFile right(form.is_photo ? read_right_eye(path) : "");
-  if (form.is_photo) open_right_eye(readers, right, path);
+  StereoFormat format = find_format(readers[0].info(), path, options.format);
+  const MemoryFile right(format.is_photo ? read_right_eye(path) : "");
+  if (format.is_photo) open_right_eye(readers, right, path);
   const FileInfo& info = readers[0].info();
   StoredPicture picture;
   picture.is_float = info.is_float;
-  picture.layout = form.layout.layout.value_or(Layout::kSeparate);
-  picture.layout_because = form.layout.because;
-  picture.rig = form.camera;
-  picture.ipd_is_said = form.ipd_is_said;
-  picture.guesses = std::move(form.guesses);
+  picture.layout = format.layout.layout.value_or(Layout::kSeparate);
+  picture.layout_reason = format.layout.reason;
+  picture.camera = format.camera;
+  picture.has_ipd = format.has_ipd;
+  picture.guesses = std::move(format.guesses);
   if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
   for (const RowReader& reader : readers) {
     if (picture.color_fault.empty()) picture.color_fault = reader.info().color_fault;
@@ -483,13 +483,13 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
     picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
   }
   picture.size = eye_size(picture, info, path);
-  std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.only_light);
+  std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);
   keep_common(shares, path, picture.guesses);
   picture.memory = make_room(shares, info, options);
   for (RowReader& reader : readers) read_file(reader, shares, *picture.memory);
   leave_out_unreadable(shares, path, picture.guesses);
   picture.memory->release();
-  picture.eyes = make_eyes(shares, picture.layout, picture.size, form.eye);
+  picture.eyes = make_eyes(shares, picture.layout, picture.size, format.eye);
   return picture;
 }
 

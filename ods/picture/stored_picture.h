@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
 #include "ods/camera/layout.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
-#include "ods/picture/metadata/picture_form.h"
+#include "ods/picture/metadata/stereo_format.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -26,7 +26,8 @@ class Scratch;
 struct LayerPixels {
   std::vector<std::string> channels;  // without the name of the view: R, G, B, perhaps A; Z; N.X, N.Y, N.Z
   LayerRule rule = LayerRule::kLight;
-  Sample sample = Sample::kUint8;  // kUint8, kUint16: sRGB code values but for alpha; kHalf, kFloat: light or numbers
+  SampleType sample =
+      SampleType::kUint8;  // kUint8, kUint16: sRGB code values but for alpha; kHalf, kFloat: light or numbers
   const std::byte* first = nullptr;
   ptrdiff_t pixel_stride = 0;
   ptrdiff_t row_stride = 0;
@@ -42,9 +43,9 @@ struct StoredPicture {
   std::vector<StoredEye> eyes;  // one, or left and right; of the same layers
   bool is_float = false;        // the file holds light; else what a display shows
   Layout layout = Layout::kSeparate;
-  std::string layout_because;        // how that is known: "its name ends in _TB"
-  CameraRig rig;                     // how it was taken, as far as is known: projection, ipd, merge, convergence, pose
-  bool ipd_is_said = false;          // by the caller, the file or its sidecar; else it is the usual one
+  std::string layout_reason;        // how that is known: "its name ends in _TB"
+  StereoCamera camera;               // how it was taken, as far as is known: projection, ipd, merge, convergence, pose
+  bool has_ipd = false;              // by the caller, the file or its sidecar; else it is the usual one
   std::string rig_mark;              // ods:rig: the rig of slits that it is a view of; empty: not said
   std::vector<std::string> guesses;  // what the file did not say, to be said to people: "top-bottom: ..."
   std::string color_fault;           // why what it says of its colours is ignored; empty: it is honoured
@@ -52,8 +53,8 @@ struct StoredPicture {
 };
 
 struct OpenOptions {
-  KnownForm form;
-  bool only_light = false;     // no layers but the colour
+  FormatHint format;
+  bool color_only = false;     // no layers but the colour
   std::string scratch_folder;  // where pixels lie that take more than `most_in_memory` bytes; empty: all is memory
   size_t most_in_memory = size_t{512} << 20;
 };

@@ -121,7 +121,7 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    if (!glows(material) || is_hidden(scene, i)) continue;
+    if (!is_emissive(material) || is_hidden(scene, i)) continue;
     table.instances[i].first_light = static_cast<int>(table.lights.size());
     for (uint t = 0; t < mesh.triangle_count; t++) {
       Light light = blank_light(kLightTriangle);

@@ -74,7 +74,7 @@ SceneInfo describe(const Scene& scene, vec3 camera_position) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
     info.instanced_triangles += mesh.triangle_count;
-    if (glows(material)) info.emissive_triangles += mesh.triangle_count;
+    if (is_emissive(material)) info.emissive_triangles += mesh.triangle_count;
     nearest = nearest_in(scene, instance, dvec3(camera_position), nearest);
   }
   if (std::isfinite(nearest)) info.nearest_surface = static_cast<float>(nearest);

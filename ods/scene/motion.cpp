@@ -156,7 +156,7 @@ void write_lights(Scene& scene, const Pose& pose, SceneChange& change) {
   for (const MovingLight& moving : scene.animation.lights) {
     PunctualLight& light = scene.lights[static_cast<size_t>(moving.light)];
     const PunctualLight before = light;
-    set_lamp(light, pose.lamps[static_cast<size_t>(moving.lamp)]);
+    set_light(light, pose.lamps[static_cast<size_t>(moving.lamp)]);
     if (moving.node != -1) {
       const dmat4& world = pose.world[static_cast<size_t>(moving.node)];
       place_light(light, is_bounded(world) ? world : dmat4(1.0));

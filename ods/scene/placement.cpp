@@ -68,7 +68,7 @@ static float bounded(double value, float fallback) {
   return std::isfinite(value) ? static_cast<float>(std::clamp(value, -1e15, 1e15)) : fallback;
 }
 
-void set_lamp(PunctualLight& light, const Lamp& lamp) {
+void set_light(PunctualLight& light, const Lamp& lamp) {
   for (int c = 0; c < 3; c++) light.intensity[c] = std::max(0.0f, bounded(lamp.color[c] * lamp.intensity, 0.0f));
   light.range = std::max(0.0f, bounded(lamp.range, 0.0f));
   light.outer_cone = std::clamp(bounded(lamp.outer_cone, 0.7853982f), 1e-3f, 1.5707963f);

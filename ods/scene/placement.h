@@ -33,7 +33,7 @@ Bounds mesh_bounds(const Scene& scene, const Mesh& mesh);
 void set_matrix(Instance& instance, const glm::dmat4& object_to_world);
 
 // Colour, strength, range and cones of a lamp.
-void set_lamp(PunctualLight& light, const Lamp& lamp);
+void set_light(PunctualLight& light, const Lamp& lamp);
 
 // A light or a view point at a node: along its -Z. Precondition: the matrix is bounded.
 void place_light(PunctualLight& light, const glm::dmat4& node);

@@ -11,7 +11,7 @@
 
 namespace ods {
 
-static constexpr int kMostHalvings = 3;
+static constexpr int kMaxHalvings = 3;
 static constexpr int kEnoughTexels = 65536;
 
 using Curve = std::array<float, 256>;  // what a stored value means
@@ -48,7 +48,7 @@ static uint mean_texel(const Texture& full, const uint* texels, int x0, int x1, 
 
 static Texture reduced_size(Texture texture) {
   int halvings = 0;
-  while (halvings < kMostHalvings && (texture.width >> halvings) * (texture.height >> halvings) > kEnoughTexels) {
+  while (halvings < kMaxHalvings && (texture.width >> halvings) * (texture.height >> halvings) > kEnoughTexels) {
     halvings++;
   }
   texture.width = std::max(texture.width >> halvings, 1);

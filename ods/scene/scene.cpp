@@ -117,7 +117,7 @@ ViewPoint default_view(const Scene& scene) {
   return view;
 }
 
-bool glows(const Material& material) {
+bool is_emissive(const Material& material) {
   return material.unlit == 0 && luminance(material.emission) > 0.0f;
 }
 
@@ -126,7 +126,7 @@ bool has_light(const Scene& scene) {
   return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    return material.unlit != 0 || (glows(material) && material.emission_slot.texture < 0);
+    return material.unlit != 0 || (is_emissive(material) && material.emission_slot.texture < 0);
   });
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/kernel/scene_data.h"
 #include "ods/scene/animation/animation.h"
 
@@ -36,7 +36,7 @@ struct Environment {
 struct ViewPoint {
   std::string name;
   vec3 position{0.0f};
-  float yaw = 0.0f;  // degrees, as in CameraRig
+  float yaw = 0.0f;  // degrees, as in StereoCamera
   float pitch = 0.0f;
   float roll = 0.0f;
 };
@@ -112,7 +112,7 @@ Bounds scene_bounds(const Scene& scene);
 ViewPoint default_view(const Scene& scene);
 
 // Whether a surface of it is a lamp. Unlit surfaces are not: they show a colour and light nothing.
-bool glows(const Material& material);
+bool is_emissive(const Material& material);
 
 // Whether there is anything to see without a sky of one's own. Glowing textures do not count: most are the little lamps
 // of a gadget, which leave its picture black.

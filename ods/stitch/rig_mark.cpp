@@ -58,7 +58,7 @@ static std::string merge_words(const PoleMergeSetting& merge) {
   return fmt::format("{},{}", merge_name(merge.mode), numbers(std::vector{merge.start, merge.end, merge.exponent}));
 }
 
-static std::string camera_words(const CameraRig& camera) {
+static std::string camera_words(const StereoCamera& camera) {
   std::string text = fmt::format(
       "ipd={} position={} yaw={} pitch={} roll={} neck={} merge_top={} merge_bottom={} longitude={} latitude={}",
       number(camera.ipd), numbers(camera.position), number(camera.yaw), number(camera.pitch), number(camera.roll),
@@ -119,7 +119,7 @@ std::string mark_in_file(const std::string& text) {
 }
 
 std::string mark_difference(const std::string& mark, const std::string& expected) {
-  constexpr size_t kMostSaid = 5, kLongest = 64;
+  constexpr size_t kMaxSaid = 5, kLongest = 64;
   if (mark == expected) return "";
   const std::string version = value_of(mark, "ods-rig");
   if (version.empty() || value_of(mark, "views").empty()) return "the mark is damaged";
@@ -139,7 +139,7 @@ std::string mark_difference(const std::string& mark, const std::string& expected
     if (value_of(expected, name).empty()) compare(name);
   }
   if (parts.empty()) return "the views stand or look elsewhere";
-  const size_t more = parts.size() - std::min(parts.size(), kMostSaid);
+  const size_t more = parts.size() - std::min(parts.size(), kMaxSaid);
   parts.resize(parts.size() - more);
   return fmt::format("{}{}", fmt::join(parts, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }

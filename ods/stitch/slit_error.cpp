@@ -153,14 +153,14 @@ SlitError largest_slit_error(const SlitRig& rig, float distance) {
 }
 
 // Wherever the rig stands: near the middle of the world numbers tell places apart best.
-static float pixels_off(CameraRig camera, Extent eye, const SlitOptions& options, float nearest) {
+static float pixels_off(StereoCamera camera, Extent eye, const SlitOptions& options, float nearest) {
   camera.position = vec3(0.0f);
   const SlitRig rig = make_slit_rig(camera, eye, {kRight}, options);
   const SlitError error = largest_slit_error(rig, nearest);
   return picture_pixels(rig, std::max(error.whole, error.step));
 }
 
-int slits_for(const CameraRig& camera, Extent eye, const SlitOptions& options, float nearest, float pixels) {
+int slits_for(const StereoCamera& camera, Extent eye, const SlitOptions& options, float nearest, float pixels) {
   const float allowed = options.depth == ViewDepth::kNone ? pixels : 10.0f * pixels;
   SlitOptions tried = options;
   const auto fits = [&](int slits) {

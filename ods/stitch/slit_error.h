@@ -46,6 +46,6 @@ float arc_minutes(float angle);
 // that have depth, a tenth of that: their surfaces are put where they belong, and ten times as much may be seen only
 // where one hides another.
 // Throws Error(kUsage): no number of slits does it, and what does.
-int slits_for(const CameraRig& camera, Extent eye, const SlitOptions& options, float nearest, float pixels);
+int slits_for(const StereoCamera& camera, Extent eye, const SlitOptions& options, float nearest, float pixels);
 
 }  // namespace ods

@@ -15,7 +15,7 @@
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 
 namespace ods {
 
@@ -42,7 +42,7 @@ Json conventions() {
           {"time", "all views are of one moment: same frame, same seeds"}};
 }
 
-float vertical_fov(const CameraRig& view) {
+float vertical_fov(const StereoCamera& view) {
   const double half = std::tan(glm::radians(0.5 * static_cast<double>(view.projection.fov)));
   return static_cast<float>(glm::degrees(2.0 * std::atan(half / static_cast<double>(view.projection.aspect))));
 }
@@ -62,7 +62,7 @@ std::vector<float> view_matrix(const SlitRig& rig, size_t view) {
 
 std::string write_slit_rig(const SlitRig& rig) {
   const SlitOptions& options = rig.options;
-  const CameraFile camera{rig.camera, rig.eye, default_layout(rig.camera.projection), rig.eyes};
+  const Sidecar camera{rig.camera, rig.eye, default_layout(rig.camera.projection), rig.eyes};
   Json json = {{"omnistereo_slits", kSlitFileVersion},
                {"made_by", "ods " ODS_VERSION},
                {"conventions", conventions()},
@@ -77,7 +77,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                 {{"width", rig.view.width},
                  {"height", rig.view.height},
                  {"fov", {decimal(rig.views[0].projection.fov), decimal(vertical_fov(rig.views[0]))}}}},
-               {"camera", Json::parse(write_camera(camera))}};
+               {"camera", Json::parse(write_sidecar(camera))}};
   std::string text = json.dump(2);
   text.resize(text.size() - 2);  // the closing bracket: one view a line
   text += ",\n  \"views\": [";
@@ -108,7 +108,7 @@ ViewDepth depth_of(JsonReader& in) {
 }
 
 // Attitude and place, if the matrix has no more than these.
-bool set_pose(const std::vector<float>& m, CameraRig& view) {
+bool set_pose(const std::vector<float>& m, StereoCamera& view) {
   const auto column = [&](size_t i) { return glm::dvec3(m[i], m[4 + i], m[8 + i]); };
   const glm::dvec3 right = column(0), up = column(1), back = column(2);
   constexpr double kNear = 1e-4;
@@ -160,16 +160,16 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   read_options(in, options);
   const Json* camera = in.find("camera");
   if (!camera || !camera->is_object()) in.fail("camera", "is an object {...}: the picture's camera");
-  const CameraFile file = read_camera(camera->dump(), name, warnings);
-  const std::string fault = slit_fault(file.rig, file.eye, options);
+  const Sidecar file = read_sidecar(camera->dump(), name, warnings);
+  const std::string fault = slit_fault(file.camera, file.eye, options);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);
-  SlitRig rig = make_slit_rig(file.rig, file.eye, file.eyes, options);
+  SlitRig rig = make_slit_rig(file.camera, file.eye, file.eyes, options);
   in.part("view", [&](JsonReader& view) {
     view.integer("width", rig.view.width, 1, kMaxSide);
     view.integer("height", rig.view.height, 1, kMaxSide);
     vec2 fov(0.0f);
     if (!view.vector("fov", fov, 0.001f, 170.0f)) view.fail("fov", "are two numbers");
-    for (CameraRig& each : rig.views) {
+    for (StereoCamera& each : rig.views) {
       each.projection.fov = fov.x;
       each.projection.aspect = std::tan(0.5f * glm::radians(fov.x)) / std::tan(0.5f * glm::radians(fov.y));
     }

@@ -25,7 +25,7 @@ std::vector<float> view_matrix(const SlitRig& rig, size_t view);
 // `name` stands for the text in messages. Where a view looks and stands is what its matrix says, and may be what people
 // have made of it; its number and place in the list may not. Keys that we do not know are named in `warnings`.
 // Throws Error(kInput): not JSON, no rig, a newer version, a value out of range, views that are missing, a matrix that
-// is no place and attitude.
+// is no place and orientation.
 SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vector<std::string>& warnings);
 SlitRig load_slit_rig(const std::string& path, std::vector<std::string>& warnings);
 

@@ -97,8 +97,8 @@ struct Window {
 };
 
 // `ray`: of the middle of what the view shows. `ahead`: where it looks; a cap, along the axis.
-CameraRig view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
-  CameraRig view;
+StereoCamera view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
+  StereoCamera view;
   view.ipd = 0.0f;
   view.position = ray.origin;
   const glm::dvec3 forward = normalize(glm::dvec3(ahead));
@@ -111,7 +111,7 @@ CameraRig view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
 }
 
 // Widens the window to what a view shows of its slit: the corners and edges of its part of the picture.
-void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitch, const CameraRig& view,
+void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitch, const StereoCamera& view,
            Window& window) {
   constexpr int kSteps = 8;
   const Camera own = make_camera(view);
@@ -130,7 +130,7 @@ void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitc
 }
 
 struct Views {
-  std::vector<CameraRig> views;
+  std::vector<StereoCamera> views;
   Window window;
 };
 
@@ -167,7 +167,7 @@ int pixels_for(float tangent, const SlitRig& rig) {
 
 }  // namespace
 
-std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& options) {
+std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions& options) {
   if (camera.projection.kind != kLatLong) {
     return fmt::format("slits make a lat-long picture, whole or a part; ods convert makes {} of it",
                        projection_name(camera.projection));
@@ -191,14 +191,15 @@ std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& o
   return "";
 }
 
-SlitRig make_slit_rig(const CameraRig& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options) {
+SlitRig make_slit_rig(const StereoCamera& camera, Extent eye, const std::vector<int>& eyes,
+                      const SlitOptions& options) {
   assert(slit_fault(camera, eye, options).empty());
   SlitRig rig{camera, eye, eyes, options, {}, {}, {}};
   Views all = place_views(rig);
   rig.views = std::move(all.views);
   rig.view = {pixels_for(all.window.x, rig), pixels_for(all.window.y, rig)};
   const double half = 0.5 * rig.view.width * static_cast<double>(pixel_of(rig));
-  for (CameraRig& view : rig.views) {
+  for (StereoCamera& view : rig.views) {
     view.projection.fov = static_cast<float>(glm::degrees(2.0 * std::atan(half)));
     view.projection.aspect = static_cast<float>(rig.view.width) / static_cast<float>(rig.view.height);
   }

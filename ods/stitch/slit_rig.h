@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
 #include "ods/camera/layout.h"
+#include "ods/camera/stereo_camera.h"
 
 namespace ods {
 
@@ -42,14 +42,14 @@ struct SlitOptions {
 };
 
 struct SlitRig {
-  CameraRig camera;  // of the picture that is put together: lat-long, whole or a part
-  Extent eye;        // of one of its eyes
+  StereoCamera camera;  // of the picture that is put together: lat-long, whole or a part
+  Extent eye;           // of one of its eyes
   std::vector<int> eyes{kLeft, kRight};
   SlitOptions options;
   Extent view;  // pixels of every view
   // One perspective picture each, without ipd; where it looks is its pose. Eye by eye; of each, slit by slit from the
   // left; of each, from the top.
-  std::vector<CameraRig> views;
+  std::vector<StereoCamera> views;
   // Of a rig that was read from a file: each view's matrix as it stands there, 16 numbers, row by row. `views` are the
   // same places and directions, but angles round them.
   std::vector<std::vector<float>> matrices;
@@ -58,11 +58,11 @@ struct SlitRig {
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);
 
 // Why there is no such rig, in words for a message; empty: there is one.
-std::string slit_fault(const CameraRig& camera, Extent eye, const SlitOptions& options);
+std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions& options);
 
 // The views are wide enough for the slit, its blend and the padding, and all of one size.
 // Precondition: no slit_fault().
-SlitRig make_slit_rig(const CameraRig& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options);
+SlitRig make_slit_rig(const StereoCamera& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options);
 
 // Radians. The longitude in the middle of a slit, and how wide it is; the latitude between a pitch and the one below it
 // (pitch -1: the top edge).

@@ -87,7 +87,7 @@ struct BatchMark {
 class Stitcher {
  public:
   Stitcher(const SlitRig& rig, const OpenView& open) : rig_(rig), open_(open) {}
-  void choose_form(const StitchOptions& options);
+  void choose_layers(const StitchOptions& options);
   void make_eye(size_t eye, const std::function<void(int slit)>& done);
   Stitched finish();
 
@@ -115,7 +115,7 @@ class Stitcher {
 
   const SlitRig& rig_;
   const OpenView& open_;
-  ViewForm form_;                        // what all views have
+  LayerSet layers_;                      // what all views have
   std::optional<StoredPicture> sample_;  // the view that told it
   size_t sample_index_ = 0;
   std::vector<std::vector<Batch>> batches_;  // of each eye
@@ -128,7 +128,7 @@ class Stitcher {
 };
 
 // Bytes of a picture that stays in memory as a whole: what returns to it costs a page fault.
-constexpr size_t kMostResident = size_t{256} << 20;
+constexpr size_t kMaxResident = size_t{256} << 20;
 
 // --- views ----------------------------------------------------------------------------------------------------------
 
@@ -137,7 +137,7 @@ bool is_views_fault(const Error& error) {
 }
 
 // The first view that can be read tells what all of them have.
-void Stitcher::choose_form(const StitchOptions& options) {
+void Stitcher::choose_layers(const StitchOptions& options) {
   std::string fault;
   for (size_t i = 0; i < rig_.views.size() && !sample_; i++) {
     try {
@@ -150,12 +150,12 @@ void Stitcher::choose_form(const StitchOptions& options) {
   }
   if (!sample_)
     throw Error(ErrorKind::kInput, fmt::format("none of the {} views can be read: {}", rig_.views.size(), fault));
-  form_ = form_of(*sample_);
+  layers_ = layers_of(*sample_);
   for (size_t eye = 0; eye < rig_.eyes.size(); eye++) batches_.push_back(batches_of(eye));
   const size_t batches = rig_.eyes.size() * batches_[0].size();
   pixels_from_ = (sizeof(JournalHead) + sizeof(BatchMark) * batches + 4095) / 4096 * 4096;
   const size_t pixels = rig_.eyes.size() * static_cast<size_t>(rig_.eye.width) * static_cast<size_t>(rig_.eye.height);
-  const size_t size = pixels_from_ + pixels * form_.channels * sizeof(float);
+  const size_t size = pixels_from_ + pixels * layers_.channels * sizeof(float);
   if (options.journal.empty()) {
     picture_ = std::make_shared<Scratch>(size, "", 0);
     return;
@@ -189,8 +189,8 @@ std::vector<Batch> Stitcher::batches_of(size_t eye) const {
 
 uint32_t Stitcher::checksum_of(const Batch& batch, int64_t done) const {
   const Strip& strip = batch.strip;
-  const std::span<const float> batch_pixels(pixels() + strip.pixel(0) * form_.channels,
-                                            (strip.pixel(rig_.eye.height) - strip.pixel(0)) * form_.channels);
+  const std::span<const float> batch_pixels(pixels() + strip.pixel(0) * layers_.channels,
+                                            (strip.pixel(rig_.eye.height) - strip.pixel(0)) * layers_.channels);
   const int64_t facts[] = {done, static_cast<int64_t>(head().key)};
   return crc32(std::as_bytes(batch_pixels), crc32(std::as_bytes(std::span(facts))));
 }
@@ -217,7 +217,8 @@ std::shared_ptr<const View> Stitcher::open_view(size_t index) {
       throw Error(ErrorKind::kInput, fmt::format("it is {}x{}, not {}x{}", picture.size.width, picture.size.height,
                                                  rig_.view.width, rig_.view.height));
     }
-    if (!same_layers(form_of(picture), form_)) throw Error(ErrorKind::kInput, "its layers are not those of the others");
+    if (!same_layers(layers_of(picture), layers_))
+      throw Error(ErrorKind::kInput, "its layers are not those of the others");
     return std::make_shared<const View>(std::move(picture), rig_.views[index], rig_.options.depth);
   } catch (const Error& error) {
     if (!is_views_fault(error)) throw;
@@ -252,7 +253,7 @@ std::map<int, Slit> Stitcher::open_slits(size_t eye, int first, int last, const 
 }
 
 int Stitcher::slits_at_once() const {
-  const size_t view = static_cast<size_t>(rig_.view.width) * static_cast<size_t>(rig_.view.height) * form_.channels;
+  const size_t view = static_cast<size_t>(rig_.view.width) * static_cast<size_t>(rig_.view.height) * layers_.channels;
   const size_t slit = view * sizeof(float) * static_cast<size_t>(rig_.options.pitches);
   return static_cast<int>(std::clamp<size_t>((size_t{64} << 20) / slit, 1, 16));
 }
@@ -301,7 +302,7 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
     if (!goes_round(rig_) && place == rig_.options.slits - 1) right = batch.strip.right;
     for (int x = part.left; x < right; x++) {
       part.weights.push_back(slit_weight(place, x));
-      for (const char nearest : form_.is_nearest) {
+      for (const char nearest : layers_.is_nearest) {
         part.channel_weights.push_back(nearest ? 0.0f : part.weights.back());
       }
     }
@@ -312,14 +313,14 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
 
 // What one view adds to a row of a batch.
 void Stitcher::add_part(const Part& part, const float* seen, float share, RowSums& row) const {
-  const size_t channels = form_.channels, from = static_cast<size_t>(part.left - row.left);
+  const size_t channels = layers_.channels, from = static_cast<size_t>(part.left - row.left);
   float *sums = &row.sums[from * channels], *whole = &row.whole[from], *most = &row.most[from];
   for (size_t i = 0; i < part.channel_weights.size(); i++) sums[i] += share * part.channel_weights[i] * seen[i];
   for (size_t i = 0; i < part.weights.size(); i++) whole[i] += share * part.weights[i];
-  if (form_.first_nearest == channels) return;
+  if (layers_.first_nearest == channels) return;
   for (const float in_slit : part.weights) {
-    for (size_t c = form_.first_nearest; c < channels; c++) {
-      if (form_.is_nearest[c] && share * in_slit > *most) sums[c] = seen[c];
+    for (size_t c = layers_.first_nearest; c < channels; c++) {
+      if (layers_.is_nearest[c] && share * in_slit > *most) sums[c] = seen[c];
     }
     *most = std::max(*most, share * in_slit), most++;
     seen += channels, sums += channels;
@@ -327,7 +328,7 @@ void Stitcher::add_part(const Part& part, const float* seen, float share, RowSum
 }
 
 void Stitcher::fill_row(const SlitRows& rows, const std::map<int, Slit>& slits, const Batch& batch, int y) {
-  const size_t channels = form_.channels;
+  const size_t channels = layers_.channels;
   thread_local RowSums row;
   thread_local std::vector<float> seen;
   row.start(batch.strip.left, batch.strip.right, channels);
@@ -349,7 +350,7 @@ void Stitcher::fill_row(const SlitRows& rows, const std::map<int, Slit>& slits, 
   float* pixel = pixels() + batch.strip.pixel(y) * channels;
   for (const float whole : row.whole) {
     const float scale = whole > 0.0f ? 1.0f / whole : 1.0f;
-    for (size_t c = 0; c < channels; c++) pixel[c] = sums[c] * (form_.is_nearest[c] ? 1.0f : scale);
+    for (size_t c = 0; c < channels; c++) pixel[c] = sums[c] * (layers_.is_nearest[c] ? 1.0f : scale);
     sums += channels, pixel += channels;
   }
 }
@@ -375,7 +376,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
     ahead.wait();
     set_done(batches[i]);
     slits = std::move(next);
-    if (picture_->size() > kMostResident) picture_->release();
+    if (picture_->size() > kMaxResident) picture_->release();
     if (done) done(batches[i].last);
   }
 }
@@ -384,12 +385,12 @@ Stitched Stitcher::finish() {
   Stitched made;
   made.rows.eye = rig_.eye;
   made.rows.eyes = rig_.eyes;
-  made.rows.layers = form_.layers;
+  made.rows.layers = layers_.layers;
   std::vector<std::vector<Strip>> strips(rig_.eyes.size());
   for (size_t eye = 0; eye < strips.size(); eye++) {
     for (const Batch& batch : batches_[eye]) strips[eye].push_back(batch.strip);
   }
-  made.rows.fill = [picture = picture_, pixels = pixels(), channels = form_.channels, width = rig_.eye.width, strips](
+  made.rows.fill = [picture = picture_, pixels = pixels(), channels = layers_.channels, width = rig_.eye.width, strips](
                        int index, int y, std::span<float> row) {
     for (const Strip& strip : strips[static_cast<size_t>(index)]) {
       const int column = strip.left % width, count = strip.right - strip.left;
@@ -411,7 +412,7 @@ Stitched Stitcher::finish() {
 Stitched stitch(const SlitRig& rig, const OpenView& open, const StitchOptions& options,
                 const std::function<void(double part)>& done) {
   Stitcher stitcher(rig, open);
-  stitcher.choose_form(options);
+  stitcher.choose_layers(options);
   const double all = static_cast<double>(rig.eyes.size()) * rig.options.slits;
   for (size_t eye = 0; eye < rig.eyes.size(); eye++) {
     stitcher.make_eye(eye, [&](int slit) {

@@ -9,34 +9,34 @@
 
 namespace ods {
 
-ViewForm form_of(const StoredPicture& picture) {
-  ViewForm form;
-  form.layers = row_layers(picture);
+LayerSet layers_of(const StoredPicture& picture) {
+  LayerSet layers;
+  layers.layers = row_layers(picture);
   const std::optional<size_t> depth = depth_layer(picture);
-  for (size_t i = 0; i < form.layers.size(); i++) {
-    const RowLayer& layer = form.layers[i];
-    if (depth == i) form.depth = static_cast<int>(form.channels);
-    form.channels += layer.channels.size();
-    form.is_nearest.resize(form.channels, layer.rule == LayerRule::kNearest);
+  for (size_t i = 0; i < layers.layers.size(); i++) {
+    const RowLayer& layer = layers.layers[i];
+    if (depth == i) layers.depth = static_cast<int>(layers.channels);
+    layers.channels += layer.channels.size();
+    layers.is_nearest.resize(layers.channels, layer.rule == LayerRule::kNearest);
   }
-  const auto first = std::find(form.is_nearest.begin(), form.is_nearest.end(), 1);
-  form.first_nearest = static_cast<size_t>(first - form.is_nearest.begin());
-  return form;
+  const auto first = std::find(layers.is_nearest.begin(), layers.is_nearest.end(), 1);
+  layers.first_nearest = static_cast<size_t>(first - layers.is_nearest.begin());
+  return layers;
 }
 
-bool same_layers(const ViewForm& a, const ViewForm& b) {
+bool same_layers(const LayerSet& a, const LayerSet& b) {
   const auto same = [](const RowLayer& x, const RowLayer& y) { return x.channels == y.channels && x.rule == y.rule; };
   return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(), same);
 }
 
-static StoredPicture posed(StoredPicture picture, const CameraRig& pose) {
-  picture.rig = pose;
+static StoredPicture posed(StoredPicture picture, const StereoCamera& pose) {
+  picture.camera = pose;
   return picture;
 }
 
-View::View(StoredPicture picture, const CameraRig& pose, ViewDepth depth)
+View::View(StoredPicture picture, const StereoCamera& pose, ViewDepth depth)
     : picture_(posed(std::move(picture), pose)),
-      form_(form_of(picture_)),
+      layers_(layers_of(picture_)),
       source_(make_source(picture_)),
       resampler_(source_),
       camera_(make_camera(pose)) {
@@ -61,7 +61,7 @@ void View::measure_along_rays(size_t index) {
       distances_.push_back(depth < 0.1f * kFarDepth ? depth * std::sqrt(1.0f + dot(slope, slope)) : kFarDepth);
     }
   }
-  layer.sample = Sample::kFloat;
+  layer.sample = SampleType::kFloat;
   layer.first = reinterpret_cast<const std::byte*>(distances_.data());
   layer.pixel_stride = sizeof(float);
   layer.row_stride = layer.pixel_stride * size.width;
@@ -76,7 +76,7 @@ static Cell all_of(const StoredPicture& picture) {
 void View::sum_points(const Footprint& footprint, const Place& place, float* out) const {
   thread_local std::vector<FilterPoint> points;
   filter_points(footprint, points);
-  std::fill(out, out + form_.channels, 0.0f);
+  std::fill(out, out + layers_.channels, 0.0f);
   for (const FilterPoint& point : points) {
     resampler_.add({0, place.at + point.texels, true}, all_of(picture_), point.weight, out);
   }
@@ -90,7 +90,7 @@ void View::add_pixels(PixelRun& run, const Footprint& footprint, std::span<const
     const Place place{0, at, true};
     if (!together && !run.add(tents, {&at, 1}, pixels)) sum_points(footprint, place, pixels);
     resampler_.finish(place, pixels);
-    pixels += form_.channels;
+    pixels += layers_.channels;
   }
 }
 
@@ -101,21 +101,21 @@ static Footprint footprint_in(const RowInView& row, float x, float way) {
 
 // Footprints change so slowly along a row that a few pixels share that of their middle.
 void View::fill_alike(const RowInView& row, float way, int left, std::span<float> out) const {
-  const size_t count = out.size() / form_.channels;
+  const size_t count = out.size() / layers_.channels;
   PixelRun run(resampler_, 0, all_of(picture_));
-  for (size_t i = 0; i < count; i += kMostAlike) {
-    const size_t alike = std::min(count - i, kMostAlike);
-    RayInView seen[kMostAlike];
-    vec2 places[kMostAlike];
+  for (size_t i = 0; i < count; i += kMaxAlike) {
+    const size_t alike = std::min(count - i, kMaxAlike);
+    RayInView seen[kMaxAlike];
+    vec2 places[kMaxAlike];
     const float first = static_cast<float>(left) + static_cast<float>(i) + 0.5f;
-    for (size_t k = 0; k < kMostAlike; k++) {
+    for (size_t k = 0; k < kMaxAlike; k++) {
       seen[k] = ray_along(row, first + static_cast<float>(k));
       places[k] = seen[k].at;
     }
-    float* pixels = &out[i * form_.channels];
+    float* pixels = &out[i * layers_.channels];
     add_pixels(run, footprint_in(row, first + 0.5f * static_cast<float>(alike - 1), way), {places, alike}, pixels);
-    for (size_t k = 0; k < alike && form_.depth >= 0; k++) {
-      float& depth = pixels[k * form_.channels + static_cast<size_t>(form_.depth)];
+    for (size_t k = 0; k < alike && layers_.depth >= 0; k++) {
+      float& depth = pixels[k * layers_.channels + static_cast<size_t>(layers_.depth)];
       if (depth < 0.1f * kFarDepth) depth += seen[k].nearer;
     }
   }
@@ -130,8 +130,8 @@ bool View::fill_pixel(const Ray& ray, const RayInView& seen, const Footprint& fo
   PixelRun run(resampler_, 0, all_of(picture_));
   add_pixels(run, footprint, {&place.at, 1}, out);
   run.fill();
-  if (form_.depth < 0) return met.place.seen || !surfaces_;
-  float& depth = out[form_.depth];
+  if (layers_.depth < 0) return met.place.seen || !surfaces_;
+  float& depth = out[layers_.depth];
   if (met.place.seen) {
     depth = met.depth;
   } else if (depth < 0.1f * kFarDepth) {
@@ -150,7 +150,7 @@ int View::fill(const PictureRays& rays, const RowInView& row, int y, int left, s
     fill_alike(row, way, left, out);
     return 0;
   }
-  const int count = static_cast<int>(out.size() / form_.channels);
+  const int count = static_cast<int>(out.size() / layers_.channels);
   int unseen = 0;
   for (int i = 0; i < count; i++) {
     const float px = static_cast<float>(left + i) + 0.5f;
@@ -159,7 +159,7 @@ int View::fill(const PictureRays& rays, const RowInView& row, int y, int left, s
     };
     const RayInView seen = find(px);
     const Footprint footprint{find(px + 1.0f).at - seen.at, (seen.beside - seen.at) * way};
-    unseen += fill_pixel(rays.at(px, py), seen, footprint, &out[static_cast<size_t>(i) * form_.channels]) ? 0 : 1;
+    unseen += fill_pixel(rays.at(px, py), seen, footprint, &out[static_cast<size_t>(i) * layers_.channels]) ? 0 : 1;
   }
   return unseen;
 }

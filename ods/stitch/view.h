@@ -15,20 +15,20 @@
 namespace ods {
 
 // What all views of a rig have: their layers, channel behind channel.
-struct ViewForm {
+struct LayerSet {
   std::vector<RowLayer> layers;
   size_t channels = 0;
   std::vector<char> is_nearest;  // of every channel: never averaged
   size_t first_nearest = 0;      // that channel; all, if none is
   int depth = -1;                // the channel of metres; below 0: there is none
 };
-ViewForm form_of(const StoredPicture& picture);
-bool same_layers(const ViewForm& a, const ViewForm& b);
+LayerSet layers_of(const StoredPicture& picture);
+bool same_layers(const LayerSet& a, const LayerSet& b);
 
 class View {
  public:
   // `pose`: where it stood and looked. Its depth, if it has any and the rig says which, becomes that along its rays.
-  View(StoredPicture picture, const CameraRig& pose, ViewDepth depth);
+  View(StoredPicture picture, const StereoCamera& pose, ViewDepth depth);
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
@@ -45,7 +45,7 @@ class View {
   bool fill_pixel(const Ray& ray, const RayInView& seen, const Footprint& footprint, float* out) const;
 
   StoredPicture picture_;
-  ViewForm form_;
+  LayerSet layers_;
   std::vector<float> distances_;  // in place of the depth that the file has
   Source source_;
   Resampler resampler_;

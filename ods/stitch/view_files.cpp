@@ -60,7 +60,8 @@ void call_depth_z(StoredPicture& picture) {
 
 // N.X, N.Y, N.Z; so end those of many layers, too.
 bool is_normal(const LayerPixels& layer) {
-  if (layer.channels.size() != 3 || (layer.sample != Sample::kHalf && layer.sample != Sample::kFloat)) return false;
+  if (layer.channels.size() != 3 || (layer.sample != SampleType::kHalf && layer.sample != SampleType::kFloat))
+    return false;
   const std::string name = layer.channels[0].substr(0, layer.channels[0].rfind('.'));
   if (layer.channels != std::vector<std::string>{name + ".X", name + ".Y", name + ".Z"}) return false;
   return name == "N" || name == "Normal" || name.ends_with(".N") || name.ends_with(".Normal");
@@ -78,7 +79,7 @@ void turn_normals(const StoredPicture& picture, const Camera& camera) {
         vec3 own;
         for (int c = 0; c < 3; c++) own[c] = sample_value(layer.sample, at + static_cast<size_t>(c) * size);
         const vec3 turned = camera.right * own.x + camera.up * own.y + camera.back * own.z;
-        if (layer.sample == Sample::kFloat) {
+        if (layer.sample == SampleType::kFloat) {
           std::memcpy(at, &turned.x, sizeof turned);
         } else {
           uint16_t halves[3];
@@ -91,10 +92,10 @@ void turn_normals(const StoredPicture& picture, const Camera& camera) {
 }
 
 // `mark`: of the rig that the file should be of.
-StoredPicture open_file(const std::string& path, const CameraRig& pose, const std::string& mark) {
+StoredPicture open_file(const std::string& path, const StereoCamera& pose, const std::string& mark) {
   OpenOptions options;
-  options.form.one_eye = true;
-  options.form.camera = pose;
+  options.format.one_eye = true;
+  options.format.camera = pose;
   StoredPicture picture = open_picture(path, options);
   if (!picture.rig_mark.empty()) check_rig_mark(picture.rig_mark, mark, path);
   call_depth_z(picture);
@@ -235,7 +236,7 @@ OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
 }
 
 // What is wrong with a file, in words; empty: nothing.
-static std::string fault_of(const std::string& path, const CameraRig& pose, Extent size, const std::string& mark,
+static std::string fault_of(const std::string& path, const StereoCamera& pose, Extent size, const std::string& mark,
                             bool thorough) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);

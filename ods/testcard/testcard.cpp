@@ -9,7 +9,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "ods/testcard/testcard_view.h"
+#include "ods/testcard/testcard_painter.h"
 
 namespace ods {
 
@@ -27,7 +27,7 @@ static void add_depths(CardView& view, float y, std::span<const float> distances
   float x = -4.0f * static_cast<float>(distances.size() - 1);
   for (float distance : distances) {
     const vec3 color = distance < nearest ? kNotSafe : distance < 1.5f * nearest ? kAmber : kSafe;
-    view.letter(fmt::format("{:.2g}", distance), x, y, 6.4f, 6.4f, color).nearness = 1.0f / distance;
+    view.letter(fmt::format("{:.2g}", distance), x, y, 6.4f, 6.4f, color).inverse_depth = 1.0f / distance;
     x += 8.0f;
   }
 }
@@ -77,12 +77,12 @@ static void add_degrees(std::vector<Card>& cards) {
   }
 }
 
-void set_reach(std::vector<Card>& cards, const CameraRig& rig, Extent eye) {
+void set_reach(std::vector<Card>& cards, const StereoCamera& stereo, Extent eye) {
   // A pixel more than the corner, and as much as the eye stands beside the middle.
   const float step = 2.0f * kPi / static_cast<float>(std::max(8, std::min(eye.width, eye.height)));
-  const float away = std::hypot(0.5f * rig.ipd, rig.neck);
+  const float away = std::hypot(0.5f * stereo.ipd, stereo.neck);
   for (Card& each : cards) {
-    const float angle = std::atan(length(each.half)) + std::asin(std::min(1.0f, away * each.nearness)) + step;
+    const float angle = std::atan(length(each.half)) + std::asin(std::min(1.0f, away * each.inverse_depth)) + step;
     each.reach = std::cos(std::min(angle, 1.5f));
   }
 }
@@ -92,10 +92,10 @@ double letter_height(const ProjectionSetting& projection, int width) {
   return angle * pixels_per_radian(projection, width);
 }
 
-Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::string>& lines) {
+Testcard make_testcard(const StereoCamera& stereo, Extent eye, const std::vector<std::string>& lines) {
   assert(eye.width > 0 && eye.height > 0);
   Testcard card;
-  CameraRig centred = rig;
+  StereoCamera centred = stereo;
   centred.position = vec3(0.0f);
   card.camera = make_camera(centred);
   card.eye = eye;
@@ -109,8 +109,8 @@ Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::
   CardView front(card.cards, 0.0f, 0.0f);
   float y = 31.0f;
   for (const std::string& line : lines) front.letter(line, 0.0f, y -= 2.6f, 44.0f, kSmallPlate);
-  set_reach(card.cards, rig, eye);
-  const auto nearer = [](const Card& a, const Card& b) { return a.nearness < b.nearness; };
+  set_reach(card.cards, stereo, eye);
+  const auto nearer = [](const Card& a, const Card& b) { return a.inverse_depth < b.inverse_depth; };
   std::stable_sort(card.cards.begin(), card.cards.end(), nearer);
   return card;
 }
@@ -235,7 +235,7 @@ static vec3 background(vec3 d, float pixel) {
 }
 
 bool is_on_card(const Card& card, vec3 direction, float margin) {
-  assert(card.nearness == 0.0f);
+  assert(card.inverse_depth == 0.0f);
   const float toward = dot(direction, card.middle);
   if (toward < card.reach) return false;
   const vec2 at = vec2(dot(direction, card.right), dot(direction, card.up)) / toward, beyond = abs(at) - card.half;
@@ -248,8 +248,8 @@ static vec3 testcard_color(const Testcard& testcard, const Ray& ray, int eye, fl
     const float toward = dot(ray.direction, card.middle);
     if (toward < card.reach) continue;
     // p dot middle = distance: everything is divided by the distance, which may be infinite.
-    const float t = (1.0f - card.nearness * dot(ray.origin, card.middle)) / toward;
-    const vec3 p = ray.origin * card.nearness + ray.direction * t;
+    const float t = (1.0f - card.inverse_depth * dot(ray.origin, card.middle)) / toward;
+    const vec3 p = ray.origin * card.inverse_depth + ray.direction * t;
     const Spot spot{vec2(dot(p, card.right), dot(p, card.up)), angle * t, x, y};
     if (t > 0.0f) paint(card, spot, eye, color);
   }

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
 #include "ods/camera/layout.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/image/stroke_font.h"
 
 namespace ods {
@@ -31,7 +31,7 @@ enum class CardPattern {
 struct Card {
   CardPattern pattern = CardPattern::kPlate;
   vec3 middle, right, up;
-  float nearness = 0.0f;  // 1 / metres; 0: at infinity
+  float inverse_depth = 0.0f;  // 1 / metres; 0: at infinity
   vec2 half{0.0f};
   float reach = -1.0f;  // cosine of the angle from its middle that no ray to it exceeds
   vec3 color{1.0f};
@@ -49,9 +49,9 @@ struct Testcard {
   std::vector<Card> cards;  // the nearest last
 };
 
-// The rig stands at the middle of the card's world, wherever its position is. `lines` are lettered above the middle.
+// The camera is at the centre of the card's world, whatever its position. `lines` are lettered above the middle.
 // Precondition: as of make_camera(); sides above 0.
-Testcard make_testcard(const CameraRig& rig, Extent eye, const std::vector<std::string>& lines);
+Testcard make_testcard(const StereoCamera& stereo, Extent eye, const std::vector<std::string>& lines);
 
 // How high the capitals of the small plates are in such a picture, pixels; below kLegible they cannot be read.
 double letter_height(const ProjectionSetting& projection, int width);
@@ -63,12 +63,12 @@ void fill_testcard_row(const Testcard& card, int eye, int y, std::span<float> ro
 // The pixels from column `first` on, as many as `row` has room for.
 void fill_testcard_pixels(const Testcard& card, int eye, int first, int y, std::span<float> row);
 
-// What moves on the card of a film: in four directions, half way down, the number of the frame for each eye (L 0123, R
+// What moves on the card of a video: in four directions, half way down, the number of the frame for each eye (L 0123, R
 // 0123), as many cells as there are frames a second (at most 60), of which the frame's is lit, a bar that crosses in a
 // second, and a flash with which every second begins. The cards stand in the same places in every frame.
-std::vector<Card> testcard_marks(const CameraRig& rig, Extent eye, int frame, double fps);
+std::vector<Card> testcard_marks(const StereoCamera& stereo, Extent eye, int frame, double fps);
 
-// The frame with which a second of the film begins, and for how many the flash is seen.
+// The frame with which a second of the video begins, and for how many the flash is seen.
 int first_frame_of(int second, double fps);
 int flash_frames(double fps);
 
@@ -76,6 +76,6 @@ int flash_frames(double fps);
 bool is_on_card(const Card& card, vec3 direction, float margin);
 
 // Fills in how far from their middles cards are seen.
-void set_reach(std::vector<Card>& cards, const CameraRig& rig, Extent eye);
+void set_reach(std::vector<Card>& cards, const StereoCamera& stereo, Extent eye);
 
 }  // namespace ods

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "ods/testcard/testcard_view.h"
+#include "ods/testcard/testcard_painter.h"
 
 namespace ods {
 
@@ -16,7 +16,7 @@ int flash_frames(double fps) {
   return std::max(1, static_cast<int>(std::lround(fps / 15.0)));
 }
 
-std::vector<Card> testcard_marks(const CameraRig& rig, Extent eye, int frame, double fps) {
+std::vector<Card> testcard_marks(const StereoCamera& camera, Extent eye, int frame, double fps) {
   const int second = static_cast<int>(std::floor(frame / fps + 1e-6)), since = frame - first_frame_of(second, fps);
   std::vector<Card> cards;
   for (const float yaw : {0.0f, 90.0f, 180.0f, -90.0f}) {
@@ -31,7 +31,7 @@ std::vector<Card> testcard_marks(const CameraRig& rig, Extent eye, int frame, do
     Card& sweep = view.add(CardPattern::kSweep, 0.0f, -9.0f, 42.0f, 3.2f);
     sweep.phase = static_cast<float>(frame / fps - std::floor(frame / fps));
   }
-  set_reach(cards, rig, eye);
+  set_reach(cards, camera, eye);
   return cards;
 }
 

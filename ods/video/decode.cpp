@@ -20,20 +20,21 @@ namespace ods {
 
 using av::checked, av::made, av::Owned;
 
-// --- what the film says ----------------------------------------------------------------------------------------------
+// --- what the video says
+// ----------------------------------------------------------------------------------------------
 
-static std::optional<FilmCodec> codec_of(AVCodecID id) {
+static std::optional<VideoCodec> codec_of(AVCodecID id) {
   switch (id) {
     case AV_CODEC_ID_H264:
-      return FilmCodec::kH264;
+      return VideoCodec::kH264;
     case AV_CODEC_ID_HEVC:
-      return FilmCodec::kHevc;
+      return VideoCodec::kHevc;
     case AV_CODEC_ID_AV1:
-      return FilmCodec::kAv1;
+      return VideoCodec::kAv1;
     case AV_CODEC_ID_VP9:
-      return FilmCodec::kVp9;
+      return VideoCodec::kVp9;
     case AV_CODEC_ID_PRORES:
-      return FilmCodec::kProRes;
+      return VideoCodec::kProRes;
     default:
       return std::nullopt;
   }
@@ -57,19 +58,19 @@ static bool is_turned(const AVStream& stream) {
 }
 
 // The form of its numbers. Empty words: it is one that we know.
-static std::string read_format(AVPixelFormat format, FilmStream& stream) {
-  const AVPixFmtDescriptor* form = av_pix_fmt_desc_get(format);
-  const std::string name = form == nullptr ? "unknown" : form->name;
+static std::string read_format(AVPixelFormat format, VideoStream& stream) {
+  const AVPixFmtDescriptor* metadata = av_pix_fmt_desc_get(format);
+  const std::string name = metadata == nullptr ? "unknown" : metadata->name;
   const uint64_t kUnfit = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_FLOAT |
                           AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL;
-  const bool fits = form != nullptr && (form->flags & AV_PIX_FMT_FLAG_PLANAR) != 0 && (form->flags & kUnfit) == 0 &&
-                    form->nb_components >= 3 && form->comp[1].plane == 1 && form->comp[2].plane == 2 &&
-                    form->comp[0].shift == 0 && form->comp[0].depth >= 8;
-  const int shape = fits ? form->log2_chroma_w * 2 + form->log2_chroma_h : -1;
+  const bool fits = metadata != nullptr && (metadata->flags & AV_PIX_FMT_FLAG_PLANAR) != 0 &&
+                    (metadata->flags & kUnfit) == 0 && metadata->nb_components >= 3 && metadata->comp[1].plane == 1 &&
+                    metadata->comp[2].plane == 2 && metadata->comp[0].shift == 0 && metadata->comp[0].depth >= 8;
+  const int shape = fits ? metadata->log2_chroma_w * 2 + metadata->log2_chroma_h : -1;
   if (shape != 3 && shape != 2 && shape != 0) return fmt::format("its pixels are {}, not planes of Y'CbCr", name);
   stream.chroma = shape == 3 ? Chroma::k420 : shape == 2 ? Chroma::k422 : Chroma::k444;
-  stream.bits = form->comp[0].depth;
-  stream.has_alpha = form->nb_components == 4;
+  stream.bits = metadata->comp[0].depth;
+  stream.has_alpha = metadata->nb_components == 4;
   return "";
 }
 
@@ -97,9 +98,9 @@ static AVRational rate_of(const AVStream& stream) {
 
 // --- decoding --------------------------------------------------------------------------------------------------------
 
-struct FilmDecoder::State {
+struct VideoDecoder::State {
   std::string what;  // for messages
-  FilmStream stream;
+  VideoStream stream;
   Owned<AVFormatContext> file;
   const AVStream* source = nullptr;
   Owned<AVCodecContext> decoder;
@@ -132,7 +133,7 @@ struct FilmDecoder::State {
     const AVRational rate = rate_of(*source);
     if (rate.num == 0) fail("it does not say how many pictures it has a second");
     stream.rate = {rate.num, rate.den};
-    if (is_turned(*source)) fail("its pictures lie turned; ffmpeg -i FILM -c:a copy UPRIGHT turns them");
+    if (is_turned(*source)) fail("its pictures lie turned; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them");
     std::string fault = read_format(static_cast<AVPixelFormat>(facts.format), stream);
     if (fault.empty()) fault = read_color(facts, stream.color);
     if (!fault.empty()) fail(fault);
@@ -188,7 +189,7 @@ struct FilmDecoder::State {
 
   void check(const AVFrame& frame) {
     const Extent size{frame.width, frame.height};
-    FilmStream own;
+    VideoStream own;
     const std::string fault = read_format(static_cast<AVPixelFormat>(frame.format), own);
     if (!fault.empty()) fail(fault);
     if (size.width != stream.size.width || size.height != stream.size.height || own.bits != stream.bits ||
@@ -202,13 +203,13 @@ struct FilmDecoder::State {
     const double due = stream.start + static_cast<double>(count) / stream.rate.value();
     if (std::abs(time - due) * stream.rate.value() < 0.75) return;
     fail(
-        fmt::format("its pictures come at uneven times: number {} at {:.3f} s, not {:.3f}; ffmpeg -i FILM -r {:.4g} "
+        fmt::format("its pictures come at uneven times: number {} at {:.3f} s, not {:.3f}; ffmpeg -i VIDEO -r {:.4g} "
                     "EVEN makes them even",
                     count, time, due, stream.rate.value()));
   }
 };
 
-FilmDecoder::FilmDecoder(const std::string& path, uint64_t track, int threads) : state_(std::make_unique<State>()) {
+VideoDecoder::VideoDecoder(const std::string& path, uint64_t track, int threads) : state_(std::make_unique<State>()) {
   State& state = *state_;
   state.what = fmt::format("cannot read '{}'", path);
   state.file = av::open_file(path, state.what);
@@ -217,13 +218,13 @@ FilmDecoder::FilmDecoder(const std::string& path, uint64_t track, int threads) :
   state.open_decoder(threads);
 }
 
-FilmDecoder::~FilmDecoder() = default;
+VideoDecoder::~VideoDecoder() = default;
 
-const FilmStream& FilmDecoder::stream() const {
+const VideoStream& VideoDecoder::stream() const {
   return state_->stream;
 }
 
-std::optional<DecodedFrame> FilmDecoder::next() {
+std::optional<DecodedFrame> VideoDecoder::next() {
   State& state = *state_;
   const std::shared_ptr<AVFrame> frame(made(av_frame_alloc()), av::Free());
   if (!state.receive(*frame)) return std::nullopt;

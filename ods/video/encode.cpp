@@ -40,11 +40,11 @@ static const EncoderFacts& choose_encoder(const EncodeOptions& options) {
     if (fits && is_there) return facts;
     if (fits) wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", facts.name);
     if (is_there) {
-      others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", film_codec_name(facts.codec), facts.name);
+      others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", video_codec_name(facts.codec), facts.name);
     }
   }
   throw Error(ErrorKind::kUsage,
-              fmt::format("this machine cannot encode {} {}{}: it has {}", film_codec_name(packing.codec),
+              fmt::format("this machine cannot encode {} {}{}: it has {}", video_codec_name(packing.codec),
                           chroma_name(packing.chroma), wanted.empty() ? "" : ", which takes " + wanted,
                           others.empty() ? "no encoder that ods knows" : others));
 }
@@ -59,7 +59,7 @@ static AVPixelFormat pixel_format(const Packing& packing) {
 // --- the frames ------------------------------------------------------------------------------------------------------
 
 // The same pixels as the library has them; they go when it is done with them.
-static Owned<AVFrame> wrapped(const std::shared_ptr<const FilmFrame>& frame, const AVCodecContext& context,
+static Owned<AVFrame> wrapped(const std::shared_ptr<const VideoFrame>& frame, const AVCodecContext& context,
                               int64_t number) {
   Owned<AVFrame> result(made(av_frame_alloc()));
   result->width = context.width;
@@ -76,7 +76,7 @@ static Owned<AVFrame> wrapped(const std::shared_ptr<const FilmFrame>& frame, con
     result->data[i] = reinterpret_cast<uint8_t*>(frame->planes().first[i]);
     result->linesize[i] = static_cast<int>(frame->planes().stride[i]);
   }
-  using Owner = std::shared_ptr<const FilmFrame>;
+  using Owner = std::shared_ptr<const VideoFrame>;
   const auto release = [](void* owner, uint8_t*) { delete static_cast<Owner*>(owner); };
   auto owner = std::make_unique<Owner>(frame);
   result->buf[0] = made(av_buffer_create(result->data[0], frame->bytes(), release, owner.get(), 0));
@@ -178,14 +178,15 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   return context;
 }
 
-// --- the film --------------------------------------------------------------------------------------------------------
+// --- the video
+// --------------------------------------------------------------------------------------------------------
 
-// Ends an encoder whose film is given up. SVT-AV1 waits for ever when it is closed before it has seen an end, and it
+// Ends an encoder whose video is given up. SVT-AV1 waits for ever when it is closed before it has seen an end, and it
 // sees none before a picture.
 static void abandon(AVCodecContext& encoder, const Packing& packing, bool is_new) {
   if (encoder.codec->name != std::string_view("libsvtav1")) return;
   const Extent size{encoder.width, encoder.height};
-  if (is_new) avcodec_send_frame(&encoder, wrapped(std::make_shared<FilmFrame>(size, packing), encoder, 0).get());
+  if (is_new) avcodec_send_frame(&encoder, wrapped(std::make_shared<VideoFrame>(size, packing), encoder, 0).get());
   avcodec_send_frame(&encoder, nullptr);
   const Owned<AVPacket> packet(made(av_packet_alloc()));
   while (avcodec_receive_packet(&encoder, packet.get()) >= 0) {
@@ -198,7 +199,7 @@ void check_encoder(Container container, const EncodeOptions& options) {
   open_sound(options, container);
 }
 
-struct FilmEncoder::State {
+struct VideoEncoder::State {
   std::string path;  // for messages
   EncodeOptions options;
   Owned<AVFormatContext> file;
@@ -248,7 +249,7 @@ struct FilmEncoder::State {
   }
 };
 
-FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size, const EncodeOptions& options)
+VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent size, const EncodeOptions& options)
     : state_(std::make_unique<State>()) {
   assert(can_hold(container, options.packing.codec));
   State& state = *state_;
@@ -263,7 +264,7 @@ FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size,
   AVStream& stream = state.add_stream(*state.pictures);
   stream.avg_frame_rate = state.pictures->framerate;
   stream.sample_aspect_ratio = {1, 1};
-  if (has_boxes(container) && options.packing.codec == FilmCodec::kHevc) {
+  if (has_boxes(container) && options.packing.codec == VideoCodec::kHevc) {
     stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // Apple plays no other
   }
   state.sound = open_sound(options, container);
@@ -273,16 +274,16 @@ FilmEncoder::FilmEncoder(const AtomicFile& to, Container container, Extent size,
   state.written(avformat_write_header(file, nullptr));
 }
 
-FilmEncoder::~FilmEncoder() = default;
+VideoEncoder::~VideoEncoder() = default;
 
-void FilmEncoder::add(std::shared_ptr<const FilmFrame> frame) {
+void VideoEncoder::add(std::shared_ptr<const VideoFrame> frame) {
   State& state = *state_;
   state.encode(wrapped(frame, *state.pictures, state.count).get());
   state.count++;
   state.add_sound(false);
 }
 
-void FilmEncoder::finish() {
+void VideoEncoder::finish() {
   State& state = *state_;
   state.encode(nullptr);
   state.finished = true;

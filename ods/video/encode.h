@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames and sound into a film file, by way of libavcodec and libavformat. Which encoders
+// Frames and sound into a video file, by way of libavcodec and libavformat. Which encoders
 // there are is the machine's affair; SVT-AV1 alone speaks to the console, unless SVT_LOG=0 is in the environment. The
-// film says that it is BT.709 of limited range; what it shows of the sphere, it does not say yet (film.h).
+// video says that it is BT.709 of limited range; what it shows of the sphere, it does not say yet (video.h).
 #pragma once
 #include <memory>
 #include <optional>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "ods/files/atomic_file.h"
-#include "ods/video/film_codec.h"
-#include "ods/video/film_frame.h"
+#include "ods/video/video_codec.h"
+#include "ods/video/video_frame.h"
 
 namespace ods {
 
@@ -25,7 +25,7 @@ struct FrameRate {
 
 // What of a file's sound is copied.
 struct SoundCut {
-  double start = 0.0;   // the second of the file with which the film begins
+  double start = 0.0;   // the second of the file with which the video begins
   bool is_cut = false;  // what begins before it, or after the pictures' end, is left out
 };
 
@@ -36,10 +36,10 @@ struct EncodeOptions {
   std::optional<double> bitrate;  // million bits a second, in place of packing.quality
   FrameRate rate;
   int threads = 0;            // 0: the encoder's own choice
-  std::string sound;          // a file that has sound in it; empty: a silent film
+  std::string sound;          // a file that has sound in it; empty: a silent video
   bool copies_sound = false;  // its packets as they are, in any number of channels; else it is packed anew
   SoundCut sound_cut;
-  bool for_apple = false;  // FilmForm
+  bool for_apple = false;  // SphericalMetadata
 };
 
 bool has_encoder(std::string_view name);
@@ -56,18 +56,18 @@ SoundInfo read_sound_info(const std::string& path);
 // nothing.
 void check_encoder(Container container, const EncodeOptions& options);
 
-// A film file in the making. Its header comes before its pictures, a key frame about every second. The same frames on
+// A video file in the making. Its header comes before its pictures, a key frame about every second. The same frames on
 // the same machine give the same bytes.
-class FilmEncoder {
+class VideoEncoder {
  public:
   // Throws Error(kUsage), Error(kInput), Error(kOutput). Precondition: can_hold(), can_have(), `size` of whole blocks.
-  FilmEncoder(const AtomicFile& file, Container container, Extent size, const EncodeOptions& options);
-  FilmEncoder(const FilmEncoder&) = delete;
-  FilmEncoder& operator=(const FilmEncoder&) = delete;
-  ~FilmEncoder();
+  VideoEncoder(const AtomicFile& file, Container container, Extent size, const EncodeOptions& options);
+  VideoEncoder(const VideoEncoder&) = delete;
+  VideoEncoder& operator=(const VideoEncoder&) = delete;
+  ~VideoEncoder();
 
-  // In the order of the film. Throws Error(kOutput), and Error(kInput) where the sound cannot be read on.
-  void add(std::shared_ptr<const FilmFrame> frame);
+  // In the order of the video. Throws Error(kOutput), and Error(kInput) where the sound cannot be read on.
+  void add(std::shared_ptr<const VideoFrame> frame);
 
   // The rest. Sound ends with the pictures at the latest. Throws as add().
   void finish();

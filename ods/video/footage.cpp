@@ -13,14 +13,14 @@ static bool exists(const std::string& path) {
   return std::filesystem::exists(names_eye(path) ? path_for_eye(path, kLeft) : path, ignored);
 }
 
-Footage::Footage(const std::string& path, const KnownForm& known)
+Footage::Footage(const std::string& path, const FormatHint& known)
     : path_(path), known_(known), names_(frame_names(path)) {
   if (names_) {
     kind_ = FootageKind::kFrames;
-  } else if (container_of_path(path) || (exists(path) && !names_eye(path) && is_film(path))) {
-    kind_ = FootageKind::kFilm;
-    film_ = open_film(path, known);
-    decoder_ = std::make_unique<FilmDecoder>(path, film_->track);
+  } else if (container_of_path(path) || (exists(path) && !names_eye(path) && is_video(path))) {
+    kind_ = FootageKind::kVideo;
+    video_ = open_video(path, known);
+    decoder_ = std::make_unique<VideoDecoder>(path, video_->track);
   }
 }
 
@@ -37,7 +37,7 @@ std::string Footage::path_of(int frame) const {
 }
 
 std::optional<DecodedFrame> Footage::decode(int frame) {
-  assert(kind_ == FootageKind::kFilm && frame >= next_);
+  assert(kind_ == FootageKind::kVideo && frame >= next_);
   std::optional<DecodedFrame> decoded;
   for (; next_ <= frame; next_++) {
     decoded = decoder_->next();
@@ -48,10 +48,10 @@ std::optional<DecodedFrame> Footage::decode(int frame) {
 
 std::optional<StoredPicture> Footage::picture(int frame) {
   OpenOptions options;
-  options.form = known_;
-  if (kind_ == FootageKind::kFilm) {
+  options.format = known_;
+  if (kind_ == FootageKind::kVideo) {
     const std::optional<DecodedFrame> decoded = decode(frame);
-    return decoded ? std::optional(picture_of(*film_, stream(), *decoded)) : std::nullopt;
+    return decoded ? std::optional(picture_of(*video_, stream(), *decoded)) : std::nullopt;
   }
   if (kind_ == FootageKind::kFrames) {
     const std::string path = names_->path(frame);

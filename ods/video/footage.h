@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a command takes as its pictures: one picture, a file for each frame, or a film.
+// What a command takes as its pictures: one picture, a file for each frame, or a video.
 #pragma once
 #include <memory>
 #include <optional>
@@ -9,47 +9,47 @@
 #include <vector>
 
 #include "ods/files/frames.h"
-#include "ods/video/film_input.h"
+#include "ods/video/video_input.h"
 
 namespace ods {
 
-enum class FootageKind { kPicture, kFrames, kFilm };
+enum class FootageKind { kPicture, kFrames, kVideo };
 
 class Footage {
  public:
-  // A pattern (shot.####.exr) is frames, what begins as films do or is called so is a film, all else a picture, which
-  // is read when it is asked for. Throws Error(kInput): a film that cannot be read.
-  Footage(const std::string& path, const KnownForm& known);
+  // A pattern (shot.####.exr) is frames, what begins as videos do or is called so is a video, all else a picture, which
+  // is read when it is asked for. Throws Error(kInput): a video that cannot be read.
+  Footage(const std::string& path, const FormatHint& known);
 
   FootageKind kind() const { return kind_; }
   const std::string& path() const { return path_; }
 
-  // The numbers of the frames that there are, rising; of a film they count from 0, going by what it says, which may be
+  // The numbers of the frames that there are, rising; of a video they count from 0, going by what it says, which may be
   // wrong; of a picture there are none. Throws Error(kInput).
   std::vector<int> frames() const;
 
-  // The file of a frame, for messages: of a film the film's.
+  // The file of a frame, for messages: of a video the video's.
   std::string path_of(int frame) const;
 
   // The picture of a frame; nothing where there is no such frame. A single picture is that of every frame, and read
-  // once. Frames of a film are asked for in rising order, those of files from any thread. Throws Error(kInput).
+  // once. Frames of a video are asked for in rising order, those of files from any thread. Throws Error(kInput).
   std::optional<StoredPicture> picture(int frame);
 
-  // Of a film.
-  const FilmInput& film() const { return *film_; }
-  const FilmStream& stream() const { return decoder_->stream(); }
+  // Of a video.
+  const VideoInput& video() const { return *video_; }
+  const VideoStream& stream() const { return decoder_->stream(); }
   // Its next picture as it is stored, when those before `frame` were left out.
   std::optional<DecodedFrame> decode(int frame);
 
  private:
   std::string path_;
-  KnownForm known_;
+  FormatHint known_;
   FootageKind kind_ = FootageKind::kPicture;
   std::optional<FrameNames> names_;
   std::optional<StoredPicture> still_;
-  std::optional<FilmInput> film_;
-  std::unique_ptr<FilmDecoder> decoder_;
-  int next_ = 0;  // frame of the film
+  std::optional<VideoInput> video_;
+  std::unique_ptr<VideoDecoder> decoder_;
+  int next_ = 0;  // frame of the video
 };
 
 }  // namespace ods

@@ -22,8 +22,8 @@ namespace ods {
 using av::checked, av::checked_small_input, av::made, av::Owned;
 
 constexpr int kSoundRate = 48000;
-constexpr int kLeastRate = 1000, kMostRate = 768000;  // that sound is recorded with
-constexpr int64_t kSoundBitRate = 128000;             // of a channel
+constexpr int kMinRate = 1000, kMaxRate = 768000;  // that sound is recorded with
+constexpr int64_t kSoundBitRate = 128000;          // of a channel
 
 namespace {
 
@@ -50,12 +50,12 @@ static SoundFile open_sound_file(const std::string& path) {
   checked_small_input(avcodec_open2(sound.decoder.get(), codec, nullptr), what);
   const int channels = sound.decoder->ch_layout.nb_channels;
   if (channels != 1 && channels != 2 && channels != 4) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: it has {} channels; films have 1, 2, or 4 of first-order "
+    throw Error(ErrorKind::kInput, fmt::format("{}: it has {} channels; videos have 1, 2, or 4 of first-order "
                                                "ambisonics",
                                                what, channels));
   }
   const int rate = sound.decoder->sample_rate;
-  if (rate < kLeastRate || rate > kMostRate) {
+  if (rate < kMinRate || rate > kMaxRate) {
     throw Error(ErrorKind::kInput, fmt::format("{}: it claims {} samples a second", what, rate));
   }
   return sound;
@@ -246,7 +246,7 @@ class CopiedSound final : public Sound {
  private:
   std::string what() const { return fmt::format("cannot read the sound of '{}'", path_); }
 
-  // Of the waiting packet, in seconds of the film.
+  // Of the waiting packet, in seconds of the video.
   double time() const {
     const int64_t ticks = waiting_->pts == AV_NOPTS_VALUE ? waiting_->dts : waiting_->pts;
     return ticks == AV_NOPTS_VALUE ? 0.0 : static_cast<double>(ticks) * av_q2d(source_->time_base) - cut_.start;

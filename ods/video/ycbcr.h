@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From what a display shows to the numbers of a film: Y'CbCr with the matrix of BT.709, of limited range (black is 16,
-// white 235 of 8 bits), rounded to the nearest. Source: ITU-R BT.709-6, 3.2 to 4.6. And the way back, of other films
+// From what a display shows to the numbers of a video: Y'CbCr with the matrix of BT.709, of limited range (black is 16,
+// white 235 of 8 bits), rounded to the nearest. Source: ITU-R BT.709-6, 3.2 to 4.6. And the way back, of other videos
 // too. Source of their matrix: ITU-R BT.601-7, 2.5.
 #pragma once
 #include <array>
@@ -40,7 +40,7 @@ using CodeRows = std::function<void(int y, std::span<float> row)>;
 // An image into its planes; colours are shared within it alone. Precondition: `size` is of whole blocks.
 void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes);
 
-// What the numbers of a film mean.
+// What the numbers of a video mean.
 struct ColorCode {
   bool is_601 = false;          // the matrix of BT.601, else that of BT.709
   bool has_full_range = false;  // black is 0, white the largest number

@@ -111,14 +111,14 @@ TEST_P(OutOfMemory, Rendering) {
   const Scene scene = load_scene("furnace");
   RenderOptions options;
   options.width = 16, options.samples = 1, options.threads = 2;
-  EXPECT_GT(survive([&] { render_cpu(scene, CameraRig(), options); }, GetParam()), 10);
+  EXPECT_GT(survive([&] { render_cpu(scene, StereoCamera(), options); }, GetParam()), 10);
 }
 
 TEST_P(OutOfMemory, SavingAndOpeningPictures) {
   const Scene scene = load_scene("furnace");
   RenderOptions options;
   options.width = 16, options.samples = 1;
-  const Picture picture = render_cpu(scene, CameraRig(), options);
+  const Picture picture = render_cpu(scene, StereoCamera(), options);
   for (const std::string name : {"a.png", "a.jpg", "a.exr", "a.tif", "a.hdr", "a.webp"}) {
     SCOPED_TRACE(name);
     const TemporaryFolder folder;
@@ -126,7 +126,7 @@ TEST_P(OutOfMemory, SavingAndOpeningPictures) {
     const auto save = [&] {
       std::filesystem::remove(path);
       try {
-        save_picture(picture, CameraRig(), {}, path);
+        save_picture(picture, StereoCamera(), {}, path);
       } catch (...) {
         allow_allocations();
         EXPECT_TRUE(folder.names().empty());

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "ods/camera/camera_move.h"
-#include "ods/camera/dialect.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/camera/camera_preset.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,25 +20,26 @@ namespace {
 
 // EXR attributes leave out what means nothing to a camera: the distance of parallel eyes, the range of a lens. Those
 // are as by default here.
-CameraRig without_meaningless_numbers(CameraRig rig) {
-  const CameraRig plain;
-  const ProjectionSetting own = rig.projection;
-  rig.projection = find_projection(projection_name(own))->setting;
-  if (has_range(own.kind)) rig.projection.longitude = own.longitude, rig.projection.latitude = own.latitude;
-  if (has_lens(own.kind)) rig.projection.fov = own.fov, rig.projection.pan = own.pan, rig.projection.tilt = own.tilt;
-  if (own.kind == kPerspective) rig.projection.aspect = own.aspect;
-  if (rig.convergence == kParallel) rig.convergence_distance = plain.convergence_distance;
-  for (PoleMergeSetting* merge : {&rig.top, &rig.bottom}) {
+StereoCamera without_meaningless_numbers(StereoCamera camera) {
+  const StereoCamera plain;
+  const ProjectionSetting own = camera.projection;
+  camera.projection = find_projection(projection_name(own))->setting;
+  if (has_range(own.kind)) camera.projection.longitude = own.longitude, camera.projection.latitude = own.latitude;
+  if (has_lens(own.kind))
+    camera.projection.fov = own.fov, camera.projection.pan = own.pan, camera.projection.tilt = own.tilt;
+  if (own.kind == kPerspective) camera.projection.aspect = own.aspect;
+  if (camera.convergence == kParallel) camera.convergence_distance = plain.convergence_distance;
+  for (PoleMergeSetting* merge : {&camera.top, &camera.bottom}) {
     if (merge->mode == kMergeNone) *merge = {};
   }
-  if (rig.lens_radius == 0.0f) rig.focus_distance = plain.focus_distance;
-  return rig;
+  if (camera.lens_radius == 0.0f) camera.focus_distance = plain.focus_distance;
+  return camera;
 }
 
 // As a header holds them; a real file keeps floats bit for bit (metadata_test).
-FileInfo header_of(const CameraRig& rig) {
+FileInfo header_of(const StereoCamera& camera) {
   std::vector<Attribute> attributes;
-  add_camera(attributes, rig);
+  add_camera(attributes, camera);
   FileInfo info;
   for (const Attribute& attribute : attributes) {
     if (const auto* word = std::get_if<std::string>(&attribute.value)) info.text[attribute.name] = *word;
@@ -50,40 +51,40 @@ FileInfo header_of(const CameraRig& rig) {
   return info;
 }
 
-void expect_round_trips(const CameraRig& rig) {
-  ASSERT_EQ(camera_fault(rig), "");
+void expect_round_trips(const StereoCamera& camera) {
+  ASSERT_EQ(camera_fault(camera), "");
   std::vector<std::string> warnings;
-  const auto from_exr = camera_of(header_of(rig), warnings);
+  const auto from_exr = camera_of(header_of(camera), warnings);
   ASSERT_TRUE(from_exr.has_value()) << warnings[0];
-  EXPECT_EQ(*from_exr, without_meaningless_numbers(rig));
-  CameraFile file;
-  file.rig = rig;
-  EXPECT_EQ(read_camera(write_camera(file), "a sidecar", warnings).rig, rig);
+  EXPECT_EQ(*from_exr, without_meaningless_numbers(camera));
+  Sidecar file;
+  file.camera = camera;
+  EXPECT_EQ(read_sidecar(write_sidecar(file), "a sidecar", warnings).camera, camera);
   EXPECT_TRUE(warnings.empty()) << warnings[0];
 }
 
-CameraRig full_rig(const ProjectionSetting& projection) {
-  CameraRig rig;
-  rig.projection = projection;
-  rig.top.mode = kMergeCosine, rig.bottom.mode = kMergeLinear;
-  rig.top.start = rig.bottom.start = 0.0f;
-  rig.top.end = 50.0f;
-  rig.convergence = kToeIn;
-  rig.lens_radius = 0.01f;
-  rig.axis = vec3(0.0f, 1.0f, 0.0f);
-  return rig;
+StereoCamera full_rig(const ProjectionSetting& projection) {
+  StereoCamera camera;
+  camera.projection = projection;
+  camera.top.mode = kMergeCosine, camera.bottom.mode = kMergeLinear;
+  camera.top.start = camera.bottom.start = 0.0f;
+  camera.top.end = 50.0f;
+  camera.convergence = kToeIn;
+  camera.lens_radius = 0.01f;
+  camera.axis = vec3(0.0f, 1.0f, 0.0f);
+  return camera;
 }
 
 TEST(CameraFields, EveryFieldHasANameARangeAndNumbers) {
   std::set<std::string_view> names;
-  CameraRig rig = full_rig({});
+  StereoCamera camera = full_rig({});
   for (const CameraField field : kCameraFields) {
     EXPECT_TRUE(names.insert(field_name(field)).second) << field_name(field);
     EXPECT_LT(range_of(field).least, range_of(field).most) << field_name(field);
-    EXPECT_FALSE(numbers_of(rig, field).empty()) << field_name(field);
-    for (const float* number : numbers_of(rig, field)) EXPECT_TRUE(range_of(field).contains(*number));
+    EXPECT_FALSE(numbers_of(camera, field).empty()) << field_name(field);
+    for (const float* number : numbers_of(camera, field)) EXPECT_TRUE(range_of(field).contains(*number));
     for (const float beyond : {range_of(field).least - 1.0f, range_of(field).most * 1.01f, std::nanf("")}) {
-      CameraRig bad = full_rig({});
+      StereoCamera bad = full_rig({});
       *numbers_of(bad, field)[0] = beyond;
       EXPECT_NE(camera_fault(bad).find(field_name(field)), std::string::npos) << camera_fault(bad);
     }
@@ -96,16 +97,17 @@ TEST(CameraFields, ExtremesComeBack) {
     int legal[2] = {0, 0};
     for (const NamedProjection& named : named_projections()) {
       for (const bool most : {false, true}) {
-        CameraRig rig = full_rig(named.setting);
+        StereoCamera camera = full_rig(named.setting);
         const FieldRange range = range_of(field);
-        *numbers_of(rig, field).back() = most ? range.most : range.least;
-        if (field == CameraField::kLongitude) rig.projection.longitude.x = rig.projection.longitude.y - 300.0f;
-        if (field == CameraField::kLongitude && !most) rig.projection.longitude += 300.0f;
-        if (field == CameraField::kLatitude && !most) std::swap(rig.projection.latitude.x, rig.projection.latitude.y);
-        if (!camera_fault(rig).empty()) continue;
+        *numbers_of(camera, field).back() = most ? range.most : range.least;
+        if (field == CameraField::kLongitude) camera.projection.longitude.x = camera.projection.longitude.y - 300.0f;
+        if (field == CameraField::kLongitude && !most) camera.projection.longitude += 300.0f;
+        if (field == CameraField::kLatitude && !most)
+          std::swap(camera.projection.latitude.x, camera.projection.latitude.y);
+        if (!camera_fault(camera).empty()) continue;
         SCOPED_TRACE(std::string(field_name(field)) + " " + std::string(named.name));
         legal[most ? 1 : 0]++;
-        expect_round_trips(rig);
+        expect_round_trips(camera);
       }
     }
     // A merge cannot start at the pole nor end at the horizon.
@@ -116,35 +118,35 @@ TEST(CameraFields, ExtremesComeBack) {
 
 // What our own reader refused: windows of less than a degree or wider than 100 to 1.
 TEST(CameraFields, NarrowWindowsComeBack) {
-  CameraRig rig;
-  rig.projection = find_projection("perspective")->setting;
-  rig.projection.fov = 0.5f;
-  expect_round_trips(rig);
-  rig.projection.aspect = 150.0f;
-  expect_round_trips(rig);
+  StereoCamera camera;
+  camera.projection = find_projection("perspective")->setting;
+  camera.projection.fov = 0.5f;
+  expect_round_trips(camera);
+  camera.projection.aspect = 150.0f;
+  expect_round_trips(camera);
 }
 
 TEST(CameraFields, RandomCamerasComeBack) {
   Dice dice(7);
   int legal = 0;
   for (size_t i = 0; i < 20000; i++) {
-    CameraRig rig = full_rig(named_projections()[i % named_projections().size()].setting);
-    if (dice.next() < 0.3f) rig.axis.reset();
+    StereoCamera camera = full_rig(named_projections()[i % named_projections().size()].setting);
+    if (dice.next() < 0.3f) camera.axis.reset();
     for (const CameraField field : kCameraFields) {
       const FieldRange range = range_of(field);
-      for (float* number : numbers_of(rig, field)) {
+      for (float* number : numbers_of(camera, field)) {
         if (dice.next() < 0.5f) continue;
         // Near either end as often as anywhere.
         const float share = dice.next(), power = dice.next() < 0.5f ? 1.0f : 6.0f;
         *number = range.least + (range.most - range.least) * std::pow(share, power);
       }
     }
-    rig.top.mode = static_cast<int>(dice.next() * 6.99f);  // but for maps, which only a sidecar holds
-    rig.convergence = kConvergences[i % 3];
-    rig.mirrored = i % 5 == 0;
-    if (!camera_fault(rig).empty()) continue;
+    camera.top.mode = static_cast<int>(dice.next() * 6.99f);  // but for maps, which only a sidecar holds
+    camera.convergence = kConvergences[i % 3];
+    camera.mirrored = i % 5 == 0;
+    if (!camera_fault(camera).empty()) continue;
     legal++;
-    expect_round_trips(rig);
+    expect_round_trips(camera);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(legal, 500);
@@ -152,17 +154,17 @@ TEST(CameraFields, RandomCamerasComeBack) {
 
 // Other systems' parameters at their ends make cameras that come back, or are refused.
 TEST(CameraFields, PresetsAreLegal) {
-  for (const Dialect& dialect : dialects()) {
-    for (const DialectParameter& parameter : dialect.parameters) {
+  for (const CameraPreset& preset : camera_presets()) {
+    for (const PresetParameter& parameter : preset.parameters) {
       for (const char* value : {"0", "1e-8", "0.0005", "1", "90", "100", "5000", "10000", "36000", "-36000", "1e6"}) {
-        CameraRig rig;
+        StereoCamera camera;
         try {
-          rig = rig_like(dialect, {{std::string(parameter.name), value}});
+          camera = camera_like(preset, {{std::string(parameter.name), value}});
         } catch (const std::invalid_argument&) {
           continue;
         }
-        SCOPED_TRACE(std::string(dialect.name) + " " + std::string(parameter.name) + "=" + value);
-        expect_round_trips(rig);
+        SCOPED_TRACE(std::string(preset.name) + " " + std::string(parameter.name) + "=" + value);
+        expect_round_trips(camera);
       }
     }
   }
@@ -171,11 +173,11 @@ TEST(CameraFields, PresetsAreLegal) {
 TEST(CameraFields, TurningStaysInRange) {
   EXPECT_EQ(angle_in_range(-36000.0), -36000.0f);
   EXPECT_EQ(angle_in_range(36090.0), 90.0f);
-  CameraRig rig;
-  rig.yaw = 36000.0f;
+  StereoCamera camera;
+  camera.yaw = 36000.0f;
   CameraMove move;
   move.turns = 1.0;
-  EXPECT_EQ(camera_fault(moved(rig, move, 0.25 * move.seconds)), "");
+  EXPECT_EQ(camera_fault(moved(camera, move, 0.25 * move.seconds)), "");
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 namespace ods {
 namespace {
 
-CameraRig at(vec3 position, float yaw = 0.0f) {
-  CameraRig rig;
-  rig.position = position;
-  rig.yaw = yaw;
-  return rig;
+StereoCamera at(vec3 position, float yaw = 0.0f) {
+  StereoCamera stereo;
+  stereo.position = position;
+  stereo.yaw = yaw;
+  return stereo;
 }
 
 void expect_near(vec3 actual, vec3 expected, float tolerance = 1e-5f) {
@@ -22,9 +22,9 @@ void expect_near(vec3 actual, vec3 expected, float tolerance = 1e-5f) {
 
 TEST(CameraMove, NoMoveIsNone) {
   EXPECT_FALSE(moves(CameraMove()));
-  const CameraRig rig = moved(at(vec3(1, 2, 3), 30.0f), CameraMove(), 4.0);
-  EXPECT_EQ(rig.position, vec3(1, 2, 3));
-  EXPECT_EQ(rig.yaw, 30.0f);
+  const StereoCamera stereo = moved(at(vec3(1, 2, 3), 30.0f), CameraMove(), 4.0);
+  EXPECT_EQ(stereo.position, vec3(1, 2, 3));
+  EXPECT_EQ(stereo.yaw, 30.0f);
 }
 
 TEST(CameraMove, TurnsOnTheSpotToTheRightAndComesRound) {
@@ -46,11 +46,11 @@ TEST(CameraMove, GoesAroundAPivotAndFacesIt) {
   move.seconds = 10.0;
   move.turns = 1.0;
   move.pivot = vec3(2.0f, 0.0f, -3.0f);
-  const CameraRig start = at(vec3(2.0f, 1.6f, 1.0f));
+  const StereoCamera start = at(vec3(2.0f, 1.6f, 1.0f));
   for (const double time : {0.0, 1.0, 2.5, 7.0}) {
-    const CameraRig rig = moved(start, move, time);
-    const Camera camera = make_camera(rig);
-    expect_near(rig.position - 4.0f * camera.back, vec3(2.0f, 1.6f, -3.0f));
+    const StereoCamera stereo = moved(start, move, time);
+    const Camera camera = make_camera(stereo);
+    expect_near(stereo.position - 4.0f * camera.back, vec3(2.0f, 1.6f, -3.0f));
   }
   expect_near(moved(start, move, 2.5).position, vec3(-2.0f, 1.6f, -3.0f));
 }
@@ -59,7 +59,7 @@ TEST(CameraMove, FliesThroughEveryPlaceAndStays) {
   CameraMove move;
   move.seconds = 10.0;
   move.fly_to = {vec3(4, 0, 0), vec3(4, 0, 4), vec3(4, 0, 4), vec3(0, 2, 4)};
-  const CameraRig start = at(vec3(0));
+  const StereoCamera start = at(vec3(0));
   expect_near(moved(start, move, -1.0).position, vec3(0));
   expect_near(moved(start, move, 0.0).position, vec3(0));
   expect_near(moved(start, move, 10.0).position, vec3(0, 2, 4));

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "ods/camera/video_level.h"
+#include "ods/camera/codec_level.h"
 
 namespace ods {
 namespace {
@@ -65,12 +65,12 @@ TEST(VideoLevel, EveryCodecHasItsOwnName) {
   EXPECT_FALSE(names.contains(""));
 }
 
-TEST(VideoLevel, KnownFilmsHaveTheirLevels) {
+TEST(VideoLevel, KnownVideosHaveTheirLevels) {
   struct {
     Extent size;
     double fps;
     std::string_view h264, hevc, av1, vp9;
-  } const films[] = {
+  } const videos[] = {
       {{1920, 1080}, 30, "4", "4", "4.0", "4"},
       {{3840, 2160}, 30, "5.1", "5", "5.0", "5"},
       {{3840, 2160}, 60, "5.2", "5.1", "5.1", "5.1"},
@@ -86,12 +86,12 @@ TEST(VideoLevel, KnownFilmsHaveTheirLevels) {
       {{2048, 16384}, 10, "6", "6", "", "6"},
       {{17008, 16}, 1, "", "", "", ""},
   };
-  for (const auto& film : films) {
-    SCOPED_TRACE(fmt::format("{}x{} at {}", film.size.width, film.size.height, film.fps));
-    EXPECT_EQ(smallest_level(Codec::kH264, film.size, film.fps), film.h264);
-    EXPECT_EQ(smallest_level(Codec::kHevc, film.size, film.fps), film.hevc);
-    EXPECT_EQ(smallest_level(Codec::kAv1, film.size, film.fps), film.av1);
-    EXPECT_EQ(smallest_level(Codec::kVp9, film.size, film.fps), film.vp9);
+  for (const auto& video : videos) {
+    SCOPED_TRACE(fmt::format("{}x{} at {}", video.size.width, video.size.height, video.fps));
+    EXPECT_EQ(smallest_level(Codec::kH264, video.size, video.fps), video.h264);
+    EXPECT_EQ(smallest_level(Codec::kHevc, video.size, video.fps), video.hevc);
+    EXPECT_EQ(smallest_level(Codec::kAv1, video.size, video.fps), video.av1);
+    EXPECT_EQ(smallest_level(Codec::kVp9, video.size, video.fps), video.vp9);
   }
 }
 

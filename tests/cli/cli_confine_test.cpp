@@ -93,7 +93,8 @@ TEST_F(Confine, TheSceneItselfAndTheSkyLieInsideToo) {
   EXPECT_EQ(run(render + inside + " --env " + folder.path("in/sky.hdr")), 0) << err;
   EXPECT_EQ(run("rig --scene " + outside + confine), 3);
   expect_refused("lies outside");
-  EXPECT_EQ(run("film -q --width 16 --samples 1 " + outside + confine + " --duration 1 -o " + folder.path("f.mp4")), 3);
+  EXPECT_EQ(run("video -q --width 16 --samples 1 " + outside + confine + " --duration 1 -o " + folder.path("f.mp4")),
+            3);
   expect_refused("lies outside");
 }
 
@@ -133,7 +134,7 @@ class Empty : public Confine {
     EXPECT_NE(err.find("nothing to render"), std::string::npos) << err;
     EXPECT_NE(err.find("scene.glb"), std::string::npos) << err;
     EXPECT_FALSE(fs::exists(folder.path("p.png")));
-    EXPECT_EQ(run("film --width 16 --samples 1 --duration 1 " + path + " -o " + folder.path("f.mp4")), 3);
+    EXPECT_EQ(run("video --width 16 --samples 1 --duration 1 " + path + " -o " + folder.path("f.mp4")), 3);
     EXPECT_NE(err.find("nothing to render"), std::string::npos) << err;
     EXPECT_FALSE(fs::exists(folder.path("f.mp4")));
   }

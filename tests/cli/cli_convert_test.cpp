@@ -11,11 +11,11 @@
 
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/image_file.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
 #include "tests/support/cli_runner.h"
-#include "tests/support/decoded_film.h"
+#include "tests/support/decoded_video.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ TEST_F(CliConvert, ToOtherProjectionsAndBack) {
   for (const std::string name : {"cube-3x2", "vr180", "fisheye"}) {
     ASSERT_EQ(convert(room, name + ".exr", "--to " + name), 0) << err;
     const ods::StoredPicture made = open(name + ".exr");
-    EXPECT_EQ(ods::projection_name(made.rig.projection), name);
+    EXPECT_EQ(ods::projection_name(made.camera.projection), name);
     EXPECT_EQ(made.eyes.size(), 2u);
     EXPECT_EQ(made.eyes[0].layers.size(), 4u) << name;  // light, Z, N, albedo
     EXPECT_EQ(convert(folder.path(name + ".exr"), "back.png", "-q --to lat-long --width 32"), 0) << err;
@@ -52,9 +52,9 @@ TEST_F(CliConvert, WhatIsNotGivenStays) {
   EXPECT_NE(out.find("cubes.camera.json"), std::string::npos) << out;
   const ods::StoredPicture made = open("cubes.exr");
   EXPECT_EQ(made.layout, ods::Layout::kBottomTop);
-  EXPECT_FLOAT_EQ(made.rig.yaw, 45.0f);
-  EXPECT_FLOAT_EQ(made.rig.ipd, 0.07f);
-  EXPECT_EQ(made.rig.top.mode, ods::kMergeCosine);
+  EXPECT_FLOAT_EQ(made.camera.yaw, 45.0f);
+  EXPECT_FLOAT_EQ(made.camera.ipd, 0.07f);
+  EXPECT_EQ(made.camera.top.mode, ods::kMergeCosine);
   EXPECT_EQ(made.size.width, 6 * 20);
   EXPECT_NE(err.find("cube-6x1 120x20"), std::string::npos) << err;
 }
@@ -71,19 +71,19 @@ TEST_F(CliConvert, Vr180LiesSideBySideUnlessTold) {
   const std::string sidecar = folder.path("a.camera.json");
   ASSERT_EQ(run("camera --for json --projection vr180 --width 64 -o " + sidecar), 0) << err;
   std::vector<std::string> warnings;
-  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kSideBySide);
+  EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
   ASSERT_EQ(run("camera --for json --from " + sidecar + " --yaw 20 -o " + sidecar), 0) << err;
-  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kSideBySide);
+  EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
   ASSERT_EQ(run("camera --for json --projection vr180 --layout top-bottom --width 64 -o " + sidecar), 0) << err;
-  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kTopBottom);
+  EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kTopBottom);
   folder.write("a.camera.json", R"({"omnistereo_camera": 1, "projection": {"name": "vr180"}})");
-  EXPECT_EQ(ods::load_camera(sidecar, warnings).layout, ods::Layout::kSideBySide);
+  EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
 }
 
 TEST_F(CliConvert, OptionsAreJudgedByThePicture) {
   const std::string window = make("window.exr", "--projection perspective --fov 90");
   EXPECT_EQ(convert(window, "narrow.exr", "--fov 60"), 0) << err;
-  EXPECT_EQ(open("narrow.exr").rig.projection.fov, 60.0f);
+  EXPECT_EQ(open("narrow.exr").camera.projection.fov, 60.0f);
   EXPECT_EQ(convert(window, "a.exr", "--range -10,10"), 2);
   EXPECT_EQ(convert(window, "a.xyz"), 2);
   EXPECT_EQ(convert(window, "new/folder/a.exr"), 0) << err;
@@ -110,7 +110,7 @@ TEST_F(CliConvert, ColourSpacesAreHonoured) {
     ods::AtomicFile file(folder.path("plain.png"));
     ods::FileHeader header;
     header.width = image.width, header.height = image.height;
-    for (const char* channel : {"R", "G", "B"}) header.channels.push_back({channel, ods::Sample::kUint16});
+    for (const char* channel : {"R", "G", "B"}) header.channels.push_back({channel, ods::SampleType::kUint16});
     write_image(file, header,
                 [&](int y, std::span<float> row) { std::copy_n(image.at(0, y), row.size(), row.data()); });
     file.commit();
@@ -142,7 +142,7 @@ TEST_F(CliConvert, GuessesAreSaid) {
   const std::string room = make("room_TB.png");
   ASSERT_EQ(convert(room, "a.png"), 0);
   EXPECT_NE(err.find("_TB"), std::string::npos) << err;
-  ASSERT_EQ(convert(room, "a.png", "--from lat-long --from-layout top-bottom"), 0);
+  ASSERT_EQ(convert(room, "a.png", "--from-projection lat-long --from-layout top-bottom"), 0);
   EXPECT_EQ(err.find("_TB"), std::string::npos) << err;
 }
 
@@ -152,7 +152,7 @@ TEST_F(CliConvert, EyesOfTheirOwn) {
   ASSERT_EQ(convert(room, "eye_%V.png"), 0) << err;
   EXPECT_TRUE(std::filesystem::exists(folder.path("eye_right.png")));
   ASSERT_EQ(convert(folder.path("eye_%V.png"), "both.png", "-q"), 0) << err;
-  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from perspective"), 2);
+  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from-projection perspective"), 2);
   EXPECT_NE(err.find("depth"), std::string::npos) << err;
 }
 
@@ -160,7 +160,7 @@ TEST_F(CliConvert, MovesTheEyes) {
   const std::string room = make("room.exr", "--ipd 0.5");
   ASSERT_EQ(convert(room, "moved.exr", "--ipd 0.05 --merge linear,40,80"), 0) << err;
   EXPECT_NE(err.find("% of the pixels are empty"), std::string::npos) << err;
-  EXPECT_FLOAT_EQ(open("moved.exr").rig.ipd, 0.05f);
+  EXPECT_FLOAT_EQ(open("moved.exr").camera.ipd, 0.05f);
 }
 
 TEST_F(CliConvert, WarnsOfNamesThatMislead) {
@@ -187,7 +187,8 @@ TEST_F(CliConvert, OverwritesNothingItReads) {
 TEST_F(CliConvert, TitlesGoOverFrames) {
   for (const char* number : {"1", "2", "3"}) make("shot_TB." + std::string(number) + ".png");
   const std::string titles = folder.path("title.#.exr");
-  ASSERT_EQ(run("title End --at 0,0,2 --height 1 --width 64 --frames 1-2 --fps 2 --fade-in 1 -o " + titles), 0) << err;
+  ASSERT_EQ(run("title End --at 0,0,2 --text-height 1 --width 64 --frames 1-2 --fps 2 --fade-in 1 -o " + titles), 0)
+      << err;
   const std::string shots = folder.path("shot_TB.#.png"), made = folder.path("made_TB.#.png");
   ASSERT_EQ(run("over " + titles + " " + shots + " -q -o " + made), 0) << err;
   const auto differs = [&](const std::string& number) {
@@ -245,7 +246,7 @@ TEST_F(CliConvert, OurCubesAreThoseOfV360InItsWords) {
       }
     }
   }
-  save_picture(sphere, ods::CameraRig(), ods::SaveOptions(), folder.path("sphere_360.png"));
+  save_picture(sphere, ods::StereoCamera(), ods::SaveOptions(), folder.path("sphere_360.png"));
   const auto worst = [&](const std::string& one, const std::string& other) {
     const std::string raw = " -f rawvideo -pix_fmt rgb24 -";
     const std::string a = ods::output_of("ffmpeg -v error -i " + folder.path(one) + raw);

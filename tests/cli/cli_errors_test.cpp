@@ -83,14 +83,14 @@ TEST_F(CliErrors, OfOptionsThatTheSceneJudges) {
           {"render furnace -o @a.####.png --frames 1-3 --time 1", kUsage, "--time"},
           {"render furnace -o @a.png --camera nope", kUsage, "--camera"},
           {"render furnace -o @a.png --animation nope", kUsage, "--animation"},
-          {"render furnace -o @a.png --transparent --catch nope", kUsage, "--catch"},
-          {"render furnace -o @a.png --catch floor", kUsage, "--catch"},
+          {"render furnace -o @a.png --transparent --shadow-catcher nope", kUsage, "--shadow-catcher"},
+          {"render furnace -o @a.png --shadow-catcher floor", kUsage, "--shadow-catcher"},
           {"render furnace -o @a.png --env 1,2", kUsage, "--env"},
           {"render furnace -o @a.png --env @absent.hdr", kInput, "absent.hdr"},
           {"render furnace -o @a.png --env @broken.png", kInput, "broken.png"},
           {"render furnace -o @a.png --merge map", kUsage, "--merge-map"},
           {"render furnace -o @a.png --merge map --merge-map @absent.png", kInput, "absent.png"},
-          {"render furnace -o @a.png --like cycles:cheese=1", kUsage, "--like"},
+          {"render furnace -o @a.png --camera-preset cycles:cheese=1", kUsage, "--camera-preset"},
           {"render @absent.glb -o @a.png", kInput, "absent.glb"},
           {"render @broken.glb -o @a.png", kInput, "broken.glb"},
           {"info @absent.glb", kInput, "absent.glb"},
@@ -140,7 +140,7 @@ TEST_F(CliErrors, OfPicturesThatAreRead) {
           {"inject @p_TB.png --projection nope", kUsage, "--projection"},
           {"over @p_TB.png @p_TB.png -o @a.png", kUsage, "alpha"},
           {"over @absent.png @p_TB.png -o @a.png", kInput, "absent.png"},
-          {"over @p.exr @p.exr -o @a.mp4", kUsage, "a film is made over a film"},
+          {"over @p.exr @p.exr -o @a.mp4", kUsage, "a video is made over a video"},
           {"camera --from @absent.json", kInput, "absent.json"},
           {"camera --from @empty.json", kInput, "empty.json"},
           {"camera --from @broken.json", kInput, "broken.json"}});
@@ -159,7 +159,7 @@ TEST_F(CliErrors, OfTitles) {
           {"title \xff -o @a.png", kUsage, "text"}});
 }
 
-TEST_F(CliErrors, OfFilms) {
+TEST_F(CliErrors, OfVideos) {
   const std::string encode = "encode @f.####.png -o @a.mp4 ";
   expect({{"encode @f.####.png", kUsage, "-o"},
           {"encode @f.####.png -o @a.avi", kUsage, "a.avi"},
@@ -178,19 +178,19 @@ TEST_F(CliErrors, OfFilms) {
           {encode + "--audio @absent.wav", kInput, "absent.wav"},
           {encode + "--audio @broken.png", kInput, "broken.png"},
           {"encode @f.####.png -o /proc/a.mp4", kOutput, "/proc/a.mp4"},
-          {"film furnace", kUsage, "-o"},
-          {"film furnace -o @a.mp4", kUsage, "--duration"},
-          {"film furnace --duration 1 -o @a.avi", kUsage, "a.avi"},
-          {"film furnace --time 1 -o @a.mp4", kUsage, "--time"},
-          {"film furnace --duration 1 --preset nope -o @a.mp4", kUsage, "'nope'"},
-          {"film furnace --duration 1 --target nope -o @a.mp4", kUsage, "--target"},
-          {"film furnace --duration 1e6 --width 16 -o @a.mp4", kUsage, "--frames"},
-          {"film furnace --rig @rig.json -o @a.mp4", kUsage, "--frames"},
-          {"film @absent.glb --duration 1 -o @a.mp4", kInput, "absent.glb"},
+          {"video furnace", kUsage, "-o"},
+          {"video furnace -o @a.mp4", kUsage, "--duration"},
+          {"video furnace --duration 1 -o @a.avi", kUsage, "a.avi"},
+          {"video furnace --time 1 -o @a.mp4", kUsage, "--time"},
+          {"video furnace --duration 1 --preset nope -o @a.mp4", kUsage, "'nope'"},
+          {"video furnace --duration 1 --target nope -o @a.mp4", kUsage, "--target"},
+          {"video furnace --duration 1e6 --width 16 -o @a.mp4", kUsage, "--frames"},
+          {"video furnace --rig @rig.json -o @a.mp4", kUsage, "--frames"},
+          {"video @absent.glb --duration 1 -o @a.mp4", kInput, "absent.glb"},
           {"testcard --sidecar -o @a.mp4", kUsage, "--sidecar"}});
 }
 
-TEST_F(CliErrors, OfFilmsThatAreRead) {
+TEST_F(CliErrors, OfVideosThatAreRead) {
   expect({{"probe @absent.mp4", kInput, "absent.mp4"},
           {"probe @broken.mp4", kInput, "broken.mp4"},
           {"inject @absent.mp4", kInput, "absent.mp4"},

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Films frame by frame, as a farm runs them.
+// Videos frame by frame, as a farm runs them.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -28,7 +28,7 @@ class CliFrames : public Cli {
   }
 
   // ods render of it, tiny.
-  std::string film(const std::string& words, const std::string& name = "shot.####.png") const {
+  std::string video(const std::string& words, const std::string& name = "shot.####.png") const {
     return "render " + scene + " --position 0,0,0 --width 32 --samples 1 --fps 10 -o " + folder.path(name) + " " +
            words;
   }
@@ -45,8 +45,8 @@ class CliFrames : public Cli {
 TEST_F(CliFrames, AFrameAloneIsTheFrameOfTheRun) {
   for (const std::string noise : {"fixed", "changing"}) {
     const std::string words = "--turntable 1 --shutter 180 --noise " + noise;
-    ASSERT_EQ(run(film("--frames 5-9x2 " + words)), 0) << err;
-    ASSERT_EQ(run(film("--frames 7 " + words, "alone.%04d.png")), 0) << err;
+    ASSERT_EQ(run(video("--frames 5-9x2 " + words)), 0) << err;
+    ASSERT_EQ(run(video("--frames 7 " + words, "alone.%04d.png")), 0) << err;
     EXPECT_EQ(out, folder.path("alone.0007.png") + "\n");
     EXPECT_GT(bytes("alone.0007.png").size(), 100u);
     EXPECT_TRUE(bytes("shot.0007.png") == bytes("alone.0007.png"));
@@ -64,34 +64,34 @@ TEST_F(CliFrames, NoiseIsFixedOrChanges) {
 }
 
 TEST_F(CliFrames, WhatIsThereIsSkipped) {
-  ASSERT_EQ(run(film("--frames 1-3")), 0) << err;
+  ASSERT_EQ(run(video("--frames 1-3")), 0) << err;
   const std::string second = bytes("shot.0002.png");
   std::ofstream(folder.path("shot.0002.png"), std::ios::trunc) << "mine";
   std::filesystem::remove(folder.path("shot.0003.png"));
   std::ofstream(folder.path("shot.0004.png"), std::ios::trunc).close();  // some farms reserve names so
-  ASSERT_EQ(run(film("--frames 1-4 --skip-existing")), 0) << err;
+  ASSERT_EQ(run(video("--frames 1-4 --skip-existing")), 0) << err;
   EXPECT_EQ(out, folder.path("shot.0003.png") + "\n" + folder.path("shot.0004.png") + "\n");
   EXPECT_NE(err.find("2 of 4 frames are there already"), std::string::npos) << err;
   EXPECT_EQ(bytes("shot.0002.png"), "mine");
-  ASSERT_EQ(run(film("--frames 2")), 0) << err;
+  ASSERT_EQ(run(video("--frames 2")), 0) << err;
   EXPECT_TRUE(bytes("shot.0002.png") == second) << "without --skip-existing it is made again";
-  ASSERT_EQ(run(film("--frames 1-4 --skip-existing")), 0) << err;
+  ASSERT_EQ(run(video("--frames 1-4 --skip-existing")), 0) << err;
   EXPECT_EQ(out, "") << "nothing is left to do";
 }
 
 TEST_F(CliFrames, EyesInTheirOwnFilesCountTogether) {
   const std::string name = "shot_%V.##.png";
-  ASSERT_EQ(run(film("--frames 1-2", name)), 0) << err;
+  ASSERT_EQ(run(video("--frames 1-2", name)), 0) << err;
   for (const char* file : {"shot_left.01.png", "shot_left.02.png", "shot_right.01.png", "shot_right.02.png"}) {
     EXPECT_GT(bytes(file).size(), 0u) << file;
   }
   std::filesystem::remove(folder.path("shot_right.02.png"));
-  ASSERT_EQ(run(film("--frames 1-2 --skip-existing", name)), 0) << err;
+  ASSERT_EQ(run(video("--frames 1-2 --skip-existing", name)), 0) << err;
   EXPECT_EQ(files(), 4u);
 }
 
 TEST_F(CliFrames, KilledAndResumedItIsTheSame) {
-  ASSERT_EQ(run(film("--frames 0-5 --samples 256", "whole.#.png")), 0) << err;
+  ASSERT_EQ(run(video("--frames 0-5 --samples 256", "whole.#.png")), 0) << err;
   for (const char* line : {"camera at", "\"progress\":0.2", "\"progress\":0.5"}) {
     Ods command({"render", scene, "--position", "0,0,0", "--width", "32", "--samples", "256", "--fps", "10", "--frames",
                  "0-5", "-o", folder.path("cut.#.png"), "--skip-existing", "--progress", "json"});
@@ -99,7 +99,7 @@ TEST_F(CliFrames, KilledAndResumedItIsTheSame) {
     command.kill(SIGKILL);
     EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
   }
-  ASSERT_EQ(run(film("--frames 0-5 --samples 256 --skip-existing", "cut.#.png")), 0) << err;
+  ASSERT_EQ(run(video("--frames 0-5 --samples 256 --skip-existing", "cut.#.png")), 0) << err;
   EXPECT_NE(err.find(" of 6 frames are there already"), std::string::npos) << err;
   for (const char* frame : {"0", "1", "2", "3", "4", "5"}) {
     EXPECT_TRUE(bytes(std::string("cut.") + frame + ".png") == bytes(std::string("whole.") + frame + ".png")) << frame;
@@ -165,22 +165,22 @@ TEST_F(SharedFrames, OfAnotherMachineAreWaitedFor) {
   EXPECT_EQ(sharing.finish(), 0) << sharing.err;
   EXPECT_EQ(sharing.out.find("shot.2.png"), std::string::npos) << sharing.out;
   // Without --skip-existing every frame is rendered, whoever else may be at it.
-  EXPECT_EQ(run(film("--frames 2", "shot.#.png")), 0) << err;
+  EXPECT_EQ(run(video("--frames 2", "shot.#.png")), 0) << err;
   // Silent for longer than a minute it is nobody's.
   std::filesystem::remove(folder.path("shot.2.png"));
   std::filesystem::last_write_time(folder.path(".shot.2.png.claim"),
                                    std::filesystem::file_time_type::clock::now() - std::chrono::seconds(70));
-  EXPECT_EQ(run(film("--frames 1-3 --skip-existing", "shot.#.png")), 0) << err;
+  EXPECT_EQ(run(video("--frames 1-3 --skip-existing", "shot.#.png")), 0) << err;
   EXPECT_EQ(out, folder.path("shot.2.png") + "\n");
 }
 
 TEST_F(CliFrames, ATimeIsAPicture) {
-  ASSERT_EQ(run(film("--time 0.5", "time.png")), 0) << err;
-  ASSERT_EQ(run(film("--frames 5", "frame.#.png")), 0) << err;
+  ASSERT_EQ(run(video("--time 0.5", "time.png")), 0) << err;
+  ASSERT_EQ(run(video("--frames 5", "frame.#.png")), 0) << err;
   EXPECT_TRUE(bytes("time.png") == bytes("frame.5.png"));
-  ASSERT_EQ(run(film("", "rest#.png")), 0) << err;
+  ASSERT_EQ(run(video("", "rest#.png")), 0) << err;
   EXPECT_NE(err.find("--time SECONDS"), std::string::npos) << err;
-  EXPECT_GT(bytes("rest#.png").size(), 0u) << "no film is asked for: the name is as it stands";
+  EXPECT_GT(bytes("rest#.png").size(), 0u) << "no video is asked for: the name is as it stands";
 }
 
 TEST_F(CliFrames, TheDurationMakesTheFrames) {
@@ -189,7 +189,7 @@ TEST_F(CliFrames, TheDurationMakesTheFrames) {
             0)
       << err;
   EXPECT_EQ(files(), 4u);
-  ASSERT_EQ(run(film("--frames all --duration 0.2")), 0) << err;
+  ASSERT_EQ(run(video("--frames all --duration 0.2")), 0) << err;
   EXPECT_EQ(files(), 6u);
   ASSERT_EQ(run("render " + scene + " --position 0,0,0 --width 8 --samples 1 --frames all --fps 2 -o " +
                 folder.path("all.%d.png")),
@@ -208,11 +208,11 @@ TEST_F(CliFrames, MistakesAreExplained) {
       {"--noise grainy", "--noise is one of"},
   };
   for (const auto& [words, what] : mistakes) {
-    EXPECT_EQ(run(film(words, "plain.png")), 2) << words;
+    EXPECT_EQ(run(video(words, "plain.png")), 2) << words;
     EXPECT_NE(err.find(what), std::string::npos) << err;
     EXPECT_EQ(files(), 0u);
   }
-  EXPECT_EQ(run(film("--frames 1-b")), 2);
+  EXPECT_EQ(run(video("--frames 1-b")), 2);
   expect_one_error();
 }
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "ods/camera/camera_fields.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
 
 namespace {
@@ -36,7 +36,7 @@ struct Quiet {
 // Every command takes -q: it writes nothing to stderr, and nothing to stdout but a result that is text.
 TEST_F(Cli, QuietIsQuietInEveryCommand) {
   const auto at = [&](const std::string& name) { return folder.path(name); };
-  const std::string tiny = " --width 32 --samples 1 ", png = at("p_TB.png"), film = at("f_360_TB.mp4");
+  const std::string tiny = " --width 32 --samples 1 ", png = at("p_TB.png"), video = at("f_360_TB.mp4");
   const std::vector<Quiet> commands = {
       {"render furnace" + tiny + "-o " + png},
       {"render furnace --sidecar" + tiny + "-o " + at("eye_%V.png")},
@@ -45,25 +45,25 @@ TEST_F(Cli, QuietIsQuietInEveryCommand) {
       {"render furnace" + tiny + "--eyes mono -o " + at("back.exr")},
       {"render axis --width 512 --samples 1 --filter box -o " + at("axis_TB.png")},
       {"convert " + png + " -o " + at("c.png")},
-      {"encode " + at("f.####.png") + " -o " + film},
-      {"film furnace --duration 0.1" + tiny + "-o " + at("film.mp4")},
-      {"title X --width 64 --height 3 -o " + at("title.exr")},
+      {"encode " + at("f.####.png") + " -o " + video},
+      {"video furnace --duration 0.1" + tiny + "-o " + at("video.mp4")},
+      {"title X --width 64 --text-height 3 -o " + at("title.exr")},
       {"over " + at("front.exr") + " " + at("back.exr") + " -o " + at("over.png")},
       {"rig --nearest 1 --width 64 -o " + at("rig.json") + " --for blender"},
       {"rig --nearest 1 --width 64", true},
       {"render furnace --samples 1 --rig " + at("rig.json") + " -o " + at("v.####.exr")},
       {"stitch " + at("rig.json") + " " + at("v.####.exr") + " -o " + at("s.png")},
       {"stitch " + at("rig.json") + " " + at("w.####.exr") + " --list-missing", true},
-      {"inject " + film},
+      {"inject " + video},
       {"inject " + at("back.exr")},
       {"testcard --width 64 -o " + at("card.png")},
       {"testcard --width 64 --duration 0.1 -o " + at("card.mp4")},
-      {"camera --for unity --neck 0.1 -o " + at("camera.txt")},
-      {"camera --for unity --neck 0.1", true},
+      {"camera --for unity --eye-to-neck 0.1 -o " + at("camera.txt")},
+      {"camera --for unity --eye-to-neck 0.1", true},
       {"project 0,0,-1", true},
       {"compare " + png + " " + at("c.png"), true},
       {"lint " + at("axis_TB.png"), true},
-      {"probe " + film, true},
+      {"probe " + video, true},
       {"info furnace", true},
       {"scenes", true},
       {"sizes", true},
@@ -91,8 +91,8 @@ TEST_F(Cli, BadCamerasAreUsageErrors) {
                             "--convergence toe-in,0",
                             "--axis 0,0,0",
                             "--lens 1",
-                            "--like cycles:cheese=1",
-                            "--like cheese",
+                            "--camera-preset cycles:cheese=1",
+                            "--camera-preset cheese",
                             "--merge map",
                             "--projection cube-3x2 --width 100",
                             "--fov 200 --projection perspective",
@@ -125,44 +125,45 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
   const std::string sidecar = folder.path("a.camera.json");
   for (const bool most : {false, true}) {
     for (const std::string projection : {"lat-long", "fisheye", "perspective"}) {
-      ods::CameraRig rig;
-      rig.projection = ods::find_projection(projection)->setting;
-      rig.top.mode = rig.bottom.mode = ods::kMergeCosine, rig.convergence = ods::kToeIn;
+      ods::StereoCamera camera;
+      camera.projection = ods::find_projection(projection)->setting;
+      camera.top.mode = camera.bottom.mode = ods::kMergeCosine, camera.convergence = ods::kToeIn;
       std::string words;
       for (const ods::CameraField field : ods::kCameraFields) {
         const ods::FieldRange range = range_of(field);
         const bool derived = field == ods::CameraField::kAspect || field == ods::CameraField::kLongitude ||
                              field == ods::CameraField::kLatitude || field == ods::CameraField::kMergeStart ||
                              field == ods::CameraField::kMergeEnd || field == ods::CameraField::kFov;
-        for (float* number : numbers_of(rig, field)) *number = derived ? *number : most ? range.most : range.least;
+        for (float* number : numbers_of(camera, field)) *number = derived ? *number : most ? range.most : range.least;
       }
       const bool lens = projection != "lat-long";
-      if (lens) rig.projection.fov = projection == "fisheye" ? (most ? 360.0f : 1.0f) : most ? 170.0f : 0.001f;
-      if (!lens) rig.projection.pan = rig.projection.tilt = 0.0f;
-      if (!lens) rig.projection.longitude = most ? ods::vec2(35640, 36000) : ods::vec2(-36000, -35999);
-      words = fmt::format("--position {0},{0},{0} --yaw {1} --pitch {1} --roll {1} --ipd {2} --neck {3}",
-                          rig.position.x, rig.yaw, rig.ipd, rig.neck);
-      words += fmt::format(" --merge cosine,60,90,{} --convergence toe-in,{} --lens {},{}", rig.top.exponent,
-                           rig.convergence_distance, rig.lens_radius, rig.focus_distance);
-      words += lens ? fmt::format(" --fov {} --look {},{}", rig.projection.fov, rig.projection.pan, rig.projection.tilt)
-                    : fmt::format(" --range {},{}", rig.projection.longitude.x, rig.projection.longitude.y);
+      if (lens) camera.projection.fov = projection == "fisheye" ? (most ? 360.0f : 1.0f) : most ? 170.0f : 0.001f;
+      if (!lens) camera.projection.pan = camera.projection.tilt = 0.0f;
+      if (!lens) camera.projection.longitude = most ? ods::vec2(35640, 36000) : ods::vec2(-36000, -35999);
+      words = fmt::format("--position {0},{0},{0} --yaw {1} --pitch {1} --roll {1} --ipd {2} --eye-to-neck {3}",
+                          camera.position.x, camera.yaw, camera.ipd, camera.neck);
+      words += fmt::format(" --merge cosine,60,90,{} --convergence toe-in,{} --lens {},{}", camera.top.exponent,
+                           camera.convergence_distance, camera.lens_radius, camera.focus_distance);
+      words += lens ? fmt::format(" --fov {} --lens-direction {},{}", camera.projection.fov, camera.projection.pan,
+                                  camera.projection.tilt)
+                    : fmt::format(" --range {},{}", camera.projection.longitude.x, camera.projection.longitude.y);
       ASSERT_EQ(run("camera --for json --width 64 --projection " + projection + " " + words + " -o " + sidecar), 0)
           << words << "\n"
           << err;
       std::vector<std::string> warnings;
-      const ods::CameraFile back = ods::load_camera(sidecar, warnings);
-      rig.projection.aspect = back.rig.projection.aspect;
-      EXPECT_EQ(back.rig, rig) << words;
+      const ods::Sidecar back = ods::load_sidecar(sidecar, warnings);
+      camera.projection.aspect = back.camera.projection.aspect;
+      EXPECT_EQ(back.camera, camera) << words;
       ASSERT_EQ(run("camera --for json --from " + sidecar + " -o " + sidecar), 0) << err;
     }
   }
 }
 
 TEST_F(Cli, CamerasBeyondTheirRangesAreUsageErrors) {
-  for (const char* words :
-       {"--yaw 36001", "--ipd 10001", "--neck 1001", "--merge cosine,60,90,1e-7", "--lens 10.1,1",
-        "--convergence toe-in,0.0009", "--range 36000,36010", "--projection perspective --fov 0.0009",
-        "--projection fisheye --look 0,36001", "--position 1000001,0,0", "--like arnold:eye_to_neck=1001"}) {
+  for (const char* words : {"--yaw 36001", "--ipd 10001", "--eye-to-neck 1001", "--merge cosine,60,90,1e-7",
+                            "--lens 10.1,1", "--convergence toe-in,0.0009", "--range 36000,36010",
+                            "--projection perspective --fov 0.0009", "--projection fisheye --lens-direction 0,36001",
+                            "--position 1000001,0,0", "--camera-preset arnold:eye_to_neck=1001"}) {
     EXPECT_EQ(run(std::string("camera --width 64 ") + words), 2) << words;
     expect_one_error();
   }

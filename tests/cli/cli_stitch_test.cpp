@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "ods/picture/load_eyes.h"
-#include "ods/video/container/film.h"
+#include "ods/video/container/video_file.h"
 #include "tests/support/cli_runner.h"
 
 namespace {
@@ -39,7 +39,7 @@ TEST_F(CliStitch, ARigBecomesAPicture) {
   const ods::StoredPicture made = ods::open_picture(folder.path("picture.exr"));
   EXPECT_EQ(made.size.width, 64);
   EXPECT_EQ(made.eyes.size(), 2u);
-  EXPECT_FLOAT_EQ(made.rig.position.y, 1.6f);
+  EXPECT_FLOAT_EQ(made.camera.position.y, 1.6f);
   EXPECT_FALSE(std::filesystem::exists(folder.path("picture.exr.stitching")));
 }
 
@@ -135,7 +135,7 @@ TEST_F(CliStitch, AViewOfAnotherRigIsAtFault) {
   EXPECT_NE(err.find("1 of 48 views cannot be used: render 5 again"), std::string::npos) << err;
 }
 
-TEST_F(CliStitch, FramesBecomeAFilm) {
+TEST_F(CliStitch, FramesBecomeAVideo) {
   ASSERT_EQ(plan("--slits 6 --width 64"), 0) << err;
   for (const char* frame : {"1", "2"}) {
     const std::string to = folder.path(std::string("views.") + frame + "/####.png");
@@ -144,12 +144,12 @@ TEST_F(CliStitch, FramesBecomeAFilm) {
   const std::string of = folder.path("views.#/####.png") + " ";
   ASSERT_EQ(run("stitch " + rig + " " + of + "--frames 1-2 --progress none -o " + folder.path("shot.#.png")), 0) << err;
   EXPECT_EQ(out, folder.path("shot.1.png") + "\n" + folder.path("shot.2.png") + "\n");
-  ASSERT_EQ(run("film " + of + "--rig " + rig + " --frames 1-2 -q -o " + folder.path("film_360_TB.mkv")), 0) << err;
-  const ods::FilmInfo film = ods::read_film(folder.path("film_360_TB.mkv"));
-  ASSERT_EQ(film.video.size(), 1u);
-  EXPECT_EQ(film.video[0].size.height, 64);
-  EXPECT_EQ(form_text(*film.video[0].v2), "top-bottom, lat-long");
-  EXPECT_EQ(run("film " + of + "--rig " + rig + " -q -o " + folder.path("b.mkv")), 2);
+  ASSERT_EQ(run("video " + of + "--rig " + rig + " --frames 1-2 -q -o " + folder.path("video_360_TB.mkv")), 0) << err;
+  const ods::VideoFile video = ods::read_video_file(folder.path("video_360_TB.mkv"));
+  ASSERT_EQ(video.tracks.size(), 1u);
+  EXPECT_EQ(video.tracks[0].size.height, 64);
+  EXPECT_EQ(metadata_text(*video.tracks[0].v2), "top-bottom, lat-long");
+  EXPECT_EQ(run("video " + of + "--rig " + rig + " -q -o " + folder.path("b.mkv")), 2);
 }
 
 // The journal is opened for writing: nothing else may be.

@@ -45,7 +45,7 @@ TEST_F(Cli, HelpStartsWithExamples) {
                             "sizes --help",
                             "scenes --help",
                             "testcard --help",
-                            "film --help",
+                            "video --help",
                             "encode --help",
                             "rig --help",
                             "stitch --help",
@@ -83,7 +83,7 @@ TEST_F(Cli, VersionNamesTheLibraries) {
 }
 
 // ods inject starts fast because it loads neither; the names of needed libraries stand in the file as they are.
-TEST_F(Cli, InjectLoadsNoImageOrFilmLibrary) {
+TEST_F(Cli, InjectLoadsNoImageOrVideoLibrary) {
   std::ifstream file(std::filesystem::path(ODS_COMMAND).parent_path() / "ods_inject.so", std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   ASSERT_NE(bytes.find("libstdc++.so"), std::string::npos);
@@ -375,7 +375,7 @@ TEST_F(Cli, CamerasAreExportedOrRefusedInALine) {
   EXPECT_EQ(run("camera --for povray -o " + folder.path("camera.inc")), 0) << err;
   EXPECT_NE(folder.read("camera.inc").find("user_defined"), std::string::npos);
   EXPECT_EQ(out, folder.path("camera.inc") + "\n");
-  EXPECT_EQ(run("camera --for unity --neck 0.1"), 0);
+  EXPECT_EQ(run("camera --for unity --eye-to-neck 0.1"), 0);
   EXPECT_NE(err.find("not as asked"), std::string::npos) << err;
   EXPECT_NE(out.find("// Not as asked: Unity has no eye-to-neck"), std::string::npos) << out;
   folder.write("new.json", "{\"omnistereo_camera\": 7}");
@@ -425,7 +425,7 @@ TEST_F(Cli, ATitleThatIsTooWideIsWarnedOf) {
   const std::string title = "title The_Long_Way_Home --width 64 -o " + folder.path("a.exr");
   EXPECT_EQ(run(title), 0);
   EXPECT_EQ(err, "");
-  EXPECT_EQ(run(title + " --height 0.4"), 0);
+  EXPECT_EQ(run(title + " --text-height 0.4"), 0);
   EXPECT_NE(err.find("degrees wide"), std::string::npos) << err;
   EXPECT_NE(err.find("--height 0.2"), std::string::npos) << err;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "ods/video/container/film.h"
+#include "ods/video/container/video_file.h"
 #include "ods/video/encode.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/made_frames.h"
@@ -26,37 +26,37 @@ class EncodeCommand : public Cli {
   }
 };
 
-TEST_F(EncodeCommand, FramesBecomeAFilm) {
+TEST_F(EncodeCommand, FramesBecomeAVideo) {
   ods::made::write_frames(pattern(), {1, 2, 3});
-  const std::string film = folder.path("film_360_TB.mp4");
-  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --fps 29.97 -o " + film), 0) << err;
-  EXPECT_EQ(out, film + "\n");
+  const std::string video = folder.path("video_360_TB.mp4");
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --fps 29.97 -o " + video), 0) << err;
+  EXPECT_EQ(out, video + "\n");
   EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 3 frames at 29.97 a second"), std::string::npos) << err;
   EXPECT_NE(err.find("top-bottom: it has the shape of two eyes"), std::string::npos) << err;
   EXPECT_EQ(err.find("warning"), std::string::npos) << err;
 }
 
-TEST_F(EncodeCommand, SoundOfAFilmThatIsThereCanBeSaidToBeAmbisonics) {
+TEST_F(EncodeCommand, SoundOfAVideoThatIsThereCanBeSaidToBeAmbisonics) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   folder.write("sound.wav", ods::made::wav(4, 0.2));
-  const std::string film = folder.path("film.mov"), encode = "encode -q " + pattern() + " --codec h264 -o ";
-  ASSERT_EQ(run(encode + film + " --audio " + folder.path("sound.wav")), 0) << err;
-  const std::string said = folder.read("film.mov");
+  const std::string video = folder.path("video.mov"), encode = "encode -q " + pattern() + " --codec h264 -o ";
+  ASSERT_EQ(run(encode + video + " --audio " + folder.path("sound.wav")), 0) << err;
+  const std::string said = folder.read("video.mov");
   std::string unsaid = said;
   unsaid.replace(unsaid.find("SA3D"), 4, "free");
-  folder.write("film.mov", unsaid);
-  EXPECT_FALSE(ods::read_film(film).sound.at(0).ambisonics);
-  ASSERT_EQ(run("inject --ambisonics --layout top-bottom --projection lat-long " + film), 0) << err;
-  EXPECT_TRUE(ods::read_film(film).sound.at(0).ambisonics);
-  ASSERT_EQ(run(encode + film), 0) << err;
-  EXPECT_EQ(run("inject --ambisonics " + film), 2);
+  folder.write("video.mov", unsaid);
+  EXPECT_FALSE(ods::read_video_file(video).sound.at(0).ambisonics);
+  ASSERT_EQ(run("inject --ambisonics --layout top-bottom --projection lat-long " + video), 0) << err;
+  EXPECT_TRUE(ods::read_video_file(video).sound.at(0).ambisonics);
+  ASSERT_EQ(run(encode + video), 0) << err;
+  EXPECT_EQ(run("inject --ambisonics " + video), 2);
   expect_one_line("has 0 tracks of sound");
 }
 
 TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   const std::string words =
-      "encode " + pattern() + " --codec h264 -o " + folder.path("film.mp4") + " --audio " + folder.path("sound.wav");
+      "encode " + pattern() + " --codec h264 -o " + folder.path("video.mp4") + " --audio " + folder.path("sound.wav");
   folder.write("sound.wav", ods::made::wav(2, 1.0));
   ASSERT_EQ(run(words), 0) << err;
   EXPECT_NE(err.find("the sound, 1.0 s, is cut where the pictures end, at 0.2 s"), std::string::npos) << err;
@@ -72,7 +72,7 @@ TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
 TEST_F(EncodeCommand, BrokenSoundIsOneCleanLine) {
   ods::made::write_frames(pattern(), {1, 2, 3});
   const std::string words = "encode -q " + pattern() + " --codec h264 --preset ultrafast -o " +
-                            folder.path("film.mp4") + " --audio " + folder.path("sound.wav");
+                            folder.path("video.mp4") + " --audio " + folder.path("sound.wav");
   const std::string whole = ods::made::wav(2, 0.2);
   const auto expect_clean = [&] {
     EXPECT_EQ(err.find(" @ 0x"), std::string::npos) << err;
@@ -91,7 +91,7 @@ TEST_F(EncodeCommand, BrokenSoundIsOneCleanLine) {
     folder.write("sound.wav", bad);
     const int code = run(words);
     if (code == 0) {
-      std::filesystem::remove(folder.path("film.mp4"));
+      std::filesystem::remove(folder.path("video.mp4"));
       continue;
     }
     EXPECT_EQ(code, 3) << at;
@@ -104,26 +104,26 @@ TEST_F(EncodeCommand, BrokenSoundIsOneCleanLine) {
 TEST_F(EncodeCommand, ExitCodesSayWhatWasWrong) {
   ods::made::write_frames(pattern(), {1, 2, 4});
   const size_t before = files();
-  const std::string film = folder.path("film.mp4"), all = "encode " + pattern() + " --frames 1-2 ";
+  const std::string video = folder.path("video.mp4"), all = "encode " + pattern() + " --frames 1-2 ";
   const std::tuple<std::string, int, const char*> kCases[] = {
-      {"encode " + pattern() + " -o " + film, 3, "frames are missing: 3 of"},
-      {all, 2, "-o film.mp4"},
-      {all + "-o " + folder.path("film.avi"), 2, "ends in .mp4, .mov, .mkv or .webm"},
-      {all + "-o " + folder.path("film.webm") + " --codec h264", 2,
+      {"encode " + pattern() + " -o " + video, 3, "frames are missing: 3 of"},
+      {all, 2, "-o video.mp4"},
+      {all + "-o " + folder.path("video.avi"), 2, "ends in .mp4, .mov, .mkv or .webm"},
+      {all + "-o " + folder.path("video.webm") + " --codec h264", 2,
        "webm holds av1, vp9, not h264, which goes into mp4, mov, mkv"},
-      {all + "-o " + film + " --target master", 2, "not prores, which goes into mov, mkv"},
-      {all + "-o " + film + " --codec mpeg1", 2, "--codec is one of h264, hevc, av1, vp9, prores, not 'mpeg1'"},
-      {all + "-o " + film + " --encoder h263", 2, "--encoder is one of"},
-      {all + "-o " + film + " --encoder libx265 --codec h264", 2, "libx265 does not encode h264"},
-      {all + "-o " + film + " --bits 9", 2, "there is no h264 of 9 bits"},
-      {all + "-o " + film + " --crf 60", 2, "from 0, the best, to 51"},
-      {all + "-o " + film + " --fps 0", 2, "--fps is a number or a fraction"},
-      {all + "-o " + film + " --fps 30/0", 2, "--fps is a number or a fraction"},
-      {all + "-o " + film + " --fps nan", 2, "--fps is a number or a fraction"},
-      {all + "-o " + film + " --layout anaglyph", 2, "top-bottom or side-by-side"},
-      {all + "-o " + folder.path("a.1.png/film.mp4"), 4, "film.mp4"},
-      {"encode " + pattern() + " --frames 1-x -o " + film, 2, "frames '1-x'"},
-      {"encode " + folder.path("b.#.png") + " -o " + film, 3, "there is no file like"},
+      {all + "-o " + video + " --target master", 2, "not prores, which goes into mov, mkv"},
+      {all + "-o " + video + " --codec mpeg1", 2, "--codec is one of h264, hevc, av1, vp9, prores, not 'mpeg1'"},
+      {all + "-o " + video + " --encoder h263", 2, "--encoder is one of"},
+      {all + "-o " + video + " --encoder libx265 --codec h264", 2, "libx265 does not encode h264"},
+      {all + "-o " + video + " --bits 9", 2, "there is no h264 of 9 bits"},
+      {all + "-o " + video + " --crf 60", 2, "from 0, the best, to 51"},
+      {all + "-o " + video + " --fps 0", 2, "--fps is a number or a fraction"},
+      {all + "-o " + video + " --fps 30/0", 2, "--fps is a number or a fraction"},
+      {all + "-o " + video + " --fps nan", 2, "--fps is a number or a fraction"},
+      {all + "-o " + video + " --layout anaglyph", 2, "top-bottom or side-by-side"},
+      {all + "-o " + folder.path("a.1.png/video.mp4"), 4, "video.mp4"},
+      {"encode " + pattern() + " --frames 1-x -o " + video, 2, "frames '1-x'"},
+      {"encode " + folder.path("b.#.png") + " -o " + video, 3, "there is no file like"},
   };
   for (const auto& [words, code, why] : kCases) {
     EXPECT_EQ(run(words), code) << words << err;
@@ -137,7 +137,7 @@ TEST_F(EncodeCommand, AFullDiskLeavesNothing) {
   if (!disk.mounted()) GTEST_SKIP() << "skipped: this machine lets nobody mount a disk";
   ods::made::write_frames(pattern(), {1, 2, 3});
   disk.fill();
-  for (const char* name : {"film.mp4", "film.mkv"}) {
+  for (const char* name : {"video.mp4", "video.mkv"}) {
     EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + disk.folder().path(name)), 4);
     expect_one_line("cannot write");
   }
@@ -147,7 +147,7 @@ TEST_F(EncodeCommand, AFullDiskLeavesNothing) {
 TEST_F(EncodeCommand, ALimitOnFilesLeavesNothing) {
   ods::made::write_frames(pattern(), {1, 2, 3});
   const size_t before = files();
-  EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + folder.path("film.mp4"), 200), 4);
+  EXPECT_EQ(run("encode " + pattern() + " -q --codec h264 -o " + folder.path("video.mp4"), 200), 4);
   expect_one_line("cannot write");
   EXPECT_EQ(files(), before);
 }
@@ -159,13 +159,13 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
   const size_t before = files();
   for (const char* encoder : {"libx264", "libsvtav1"}) {
     if (!ods::has_encoder(encoder)) continue;
-    Ods command({"encode", pattern(), "-o", folder.path("film.mp4"), "--encoder", encoder, "--progress", "json"});
+    Ods command({"encode", pattern(), "-o", folder.path("video.mp4"), "--encoder", encoder, "--progress", "json"});
     command.wait_for("\"progress\"");
     command.kill(SIGINT);
     EXPECT_EQ(command.finish(), 130);
-    if (std::filesystem::exists(folder.path("film.mp4"))) {  // it came when the film was there: all of it
-      EXPECT_EQ(ods::read_film(folder.path("film.mp4")).video.size(), 1u);
-      std::filesystem::remove(folder.path("film.mp4"));
+    if (std::filesystem::exists(folder.path("video.mp4"))) {  // it came when the video was there: all of it
+      EXPECT_EQ(ods::read_video_file(folder.path("video.mp4")).tracks.size(), 1u);
+      std::filesystem::remove(folder.path("video.mp4"));
     }
     EXPECT_EQ(files(), before);
   }
@@ -173,8 +173,9 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
 
 TEST_F(EncodeCommand, SizesThatNoLevelHoldsAreSaidWithTheLargest) {
   ods::made::write_frames(pattern(), {1}, Layout::kTopBottom, {4096, 544});
-  const std::string words = "encode " + pattern() + " --from-layout top-bottom --from lat-long --codec h264 " +
-                            "--preset ultrafast -o " + folder.path("film.mp4");
+  const std::string words = "encode " + pattern() +
+                            " --from-layout top-bottom --from-projection lat-long --codec h264 " +
+                            "--preset ultrafast -o " + folder.path("video.mp4");
   ASSERT_EQ(run(words + " --fps 900"), 0) << err;
   EXPECT_EQ(err.find("no level"), std::string::npos) << err;
   ASSERT_EQ(run(words + " --fps 1000"), 0) << err;
@@ -184,31 +185,31 @@ TEST_F(EncodeCommand, SizesThatNoLevelHoldsAreSaidWithTheLargest) {
 
 TEST_F(EncodeCommand, NamesThatPlayersGoByAreSuggested) {
   ods::made::write_frames(pattern(), {1});
-  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("film.mp4")), 0) << err;
-  EXPECT_NE(err.find("would know it as film_360_TB.mp4"), std::string::npos) << err;
-  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("film_360_LR.mp4")), 0) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("video.mp4")), 0) << err;
+  EXPECT_NE(err.find("would know it as video_360_TB.mp4"), std::string::npos) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("video_360_LR.mp4")), 0) << err;
   EXPECT_NE(err.find("its name says side-by-side"), std::string::npos) << err;
-  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --bits 10 -o " + folder.path("film_360_TB.mp4")), 0) << err;
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --bits 10 -o " + folder.path("video_360_TB.mp4")), 0) << err;
   EXPECT_NE(err.find("few players take h264 of 10 bits"), std::string::npos) << err;
   EXPECT_EQ(err.find("its name says"), std::string::npos) << err;
 }
 
-TEST_F(EncodeCommand, ATitleGoesOverAFilm) {
+TEST_F(EncodeCommand, ATitleGoesOverAVideo) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   folder.write("sound.wav", ods::made::wav(2, 0.2));
-  const std::string film = folder.path("film_360_TB.mp4"), made = folder.path("made_360_TB.mp4");
-  const std::string title = folder.path("title.exr"), over = "over " + title + " " + film + " --progress none -o ";
-  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --audio " + folder.path("sound.wav") + " -q -o " + film), 0);
-  ASSERT_EQ(run("title End --at 0,0,2 --height 1 --width 64 -o " + title), 0) << err;
-  ASSERT_EQ(run("over " + title + " " + film + " -o " + made), 0) << err;
+  const std::string video = folder.path("video_360_TB.mp4"), made = folder.path("made_360_TB.mp4");
+  const std::string title = folder.path("title.exr"), over = "over " + title + " " + video + " --progress none -o ";
+  ASSERT_EQ(run("encode " + pattern() + " --codec h264 --audio " + folder.path("sound.wav") + " -q -o " + video), 0);
+  ASSERT_EQ(run("title End --at 0,0,2 --text-height 1 --width 64 -o " + title), 0) << err;
+  ASSERT_EQ(run("over " + title + " " + video + " -o " + made), 0) << err;
   EXPECT_EQ(out, made + "\n");
   EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 6 frames at 30 a second"), std::string::npos) << err;
-  EXPECT_EQ(ods::read_film(made).sound.size(), 1u);
+  EXPECT_EQ(ods::read_video_file(made).sound.size(), 1u);
   ASSERT_EQ(run(over + folder.path("x.#.png") + " --frames 2-4x2"), 0) << err;
   EXPECT_EQ(out, folder.path("x.2.png") + "\n" + folder.path("x.4.png") + "\n");
   const std::pair<std::string, const char*> kWrong[] = {{made + " --frames 1-5x2", "follow each other"},
                                                         {made + " --frames 3-1", "rise"},
-                                                        {film, "overwritten"},
+                                                        {video, "overwritten"},
                                                         {folder.path("x.png"), "place for the number"}};
   for (const auto& [words, fault] : kWrong) {
     EXPECT_EQ(run(over + words), 2) << words;
@@ -216,15 +217,15 @@ TEST_F(EncodeCommand, ATitleGoesOverAFilm) {
   }
 }
 
-TEST_F(EncodeCommand, TheTestCardIsAFilm) {
-  const std::string film = folder.path("card_360_TB.mp4");
-  ASSERT_EQ(run("testcard --film --width 128 --duration 0.2 -o " + film), 0) << err;
-  EXPECT_EQ(out, film + "\n");
+TEST_F(EncodeCommand, TheTestCardIsAVideo) {
+  const std::string video = folder.path("card_360_TB.mp4");
+  ASSERT_EQ(run("testcard --video --width 128 --duration 0.2 -o " + video), 0) << err;
+  EXPECT_EQ(out, video + "\n");
   EXPECT_NE(err.find("128x128, 6 frames at 30 a second"), std::string::npos) << err;
-  EXPECT_EQ(run("testcard --film --layout anaglyph -o " + film), 2);
-  expect_one_line("a film's layout is");
-  EXPECT_EQ(run("testcard --film -o " + folder.path("card.png")), 2);
-  expect_one_line("no name of a film");
+  EXPECT_EQ(run("testcard --video --layout anaglyph -o " + video), 2);
+  expect_one_line("a video's layout is");
+  EXPECT_EQ(run("testcard --video -o " + folder.path("card.png")), 2);
+  expect_one_line("no name of a video");
 }
 
 }  // namespace

@@ -1,39 +1,39 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods inject on films that say something already, whoever wrote it: what is asked for changes, and nothing else does.
+// ods inject on videos that say something already, whoever wrote it: what is asked for changes, and nothing else does.
 #include <cmath>
 
 #include "ods/lint/players.h"
 #include "ods/video/container/apple.h"
 #include "tests/support/cli_runner.h"
-#include "tests/support/tagged_films.h"
+#include "tests/support/tagged_videos.h"
 
 namespace {
 
 using namespace ods::made;
-using ods::FilmForm, ods::FilmProjection, ods::FilmStereo;
+using ods::SphericalMetadata, ods::VideoProjection, ods::VideoStereo;
 
 // --- the table -------------------------------------------------------------------------------------------------------
 
 class Inject : public Cli {
  protected:
   std::vector<Tagged> cases() const {
-    std::vector<Tagged> all = films_of_boxes();
-    for (const std::vector<Tagged>& more : {films_of_elements(), films_of_ours(folder), films_of_ffmpeg(folder)}) {
+    std::vector<Tagged> all = videos_of_boxes();
+    for (const std::vector<Tagged>& more : {videos_of_elements(), videos_of_ours(folder), videos_of_ffmpeg(folder)}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
   }
 
-  static const ods::VideoTrack& largest(const ods::FilmInfo& film) { return choose_track(film, {}, "the film"); }
+  static const ods::VideoTrack& largest(const ods::VideoFile& video) { return choose_track(video, {}, "the video"); }
 
-  // Tags the film and returns what it says then; nothing, and the same film, where that was refused.
-  std::optional<ods::FilmInfo> inject(const Tagged& film, const std::string& options) {
-    folder.write(film.name, film.film);
-    code = run("inject " + folder.path(film.name) + " " + options);
-    if (code == 0) return ods::read_film(folder.path(film.name));
-    EXPECT_EQ(folder.read(film.name), film.film) << "refused is untouched";
+  // Tags the video and returns what it says then; nothing, and the same video, where that was refused.
+  std::optional<ods::VideoFile> inject(const Tagged& video, const std::string& options) {
+    folder.write(video.name, video.video);
+    code = run("inject " + folder.path(video.name) + " " + options);
+    if (code == 0) return ods::read_video_file(folder.path(video.name));
+    EXPECT_EQ(folder.read(video.name), video.video) << "refused is untouched";
     EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
     return std::nullopt;
   }
@@ -42,68 +42,71 @@ class Inject : public Cli {
 };
 
 // A place says the form, as far as it can.
-void expect_says(const std::optional<FilmForm>& place, const FilmForm& form, bool has_angles) {
+void expect_says(const std::optional<SphericalMetadata>& place, const SphericalMetadata& metadata, bool has_angles) {
   if (!place) return;
-  EXPECT_TRUE(same_stereo(*place, form)) << form_text(*place);
-  EXPECT_TRUE(same_sphere(*place, form)) << form_text(*place);
+  EXPECT_TRUE(same_stereo(*place, metadata)) << metadata_text(*place);
+  EXPECT_TRUE(same_sphere(*place, metadata)) << metadata_text(*place);
   if (!has_angles) return;
-  EXPECT_LT(std::abs(std::remainder(place->yaw - form.yaw, 360.0)), 1.0) << form_text(*place);
-  EXPECT_LT(std::abs(place->pitch - form.pitch), 1.0) << form_text(*place);
-  EXPECT_LT(std::abs(place->roll - form.roll), 1.0) << form_text(*place);
+  EXPECT_LT(std::abs(std::remainder(place->yaw - metadata.yaw, 360.0)), 1.0) << metadata_text(*place);
+  EXPECT_LT(std::abs(place->pitch - metadata.pitch), 1.0) << metadata_text(*place);
+  EXPECT_LT(std::abs(place->roll - metadata.roll), 1.0) << metadata_text(*place);
 }
 
 // All places, field by field.
-void expect_form(const ods::VideoTrack& before, const ods::VideoTrack& after, const FilmForm& form) {
+void expect_metadata(const ods::VideoTrack& before, const ods::VideoTrack& after, const SphericalMetadata& metadata) {
   ASSERT_TRUE(after.v2) << "V1 or vexu alone get V2, too";
-  FilmForm said = *said_form(after);
-  EXPECT_EQ(said.stereo, form.stereo);
-  EXPECT_EQ(said.projection, form.projection);
-  if (before.v2 && same_sphere(*before.v2, form)) {
-    EXPECT_EQ(said.bounds, form.bounds);
+  SphericalMetadata said = *said_metadata(after);
+  EXPECT_EQ(said.stereo, metadata.stereo);
+  EXPECT_EQ(said.projection, metadata.projection);
+  if (before.v2 && same_sphere(*before.v2, metadata)) {
+    EXPECT_EQ(said.bounds, metadata.bounds);
   }
-  EXPECT_EQ(said.yaw, form.yaw);
-  EXPECT_EQ(said.pitch, form.pitch);
-  EXPECT_EQ(said.roll, form.roll);
-  EXPECT_EQ(said.ipd, form.ipd);
-  expect_says(after.v2, form, true);
-  expect_says(after.v1, form, true);
-  expect_says(after.vexu, form, false);
+  EXPECT_EQ(said.yaw, metadata.yaw);
+  EXPECT_EQ(said.pitch, metadata.pitch);
+  EXPECT_EQ(said.roll, metadata.roll);
+  EXPECT_EQ(said.ipd, metadata.ipd);
+  expect_says(after.v2, metadata, true);
+  expect_says(after.v1, metadata, true);
+  expect_says(after.vexu, metadata, false);
   if (before.v1 && after.v1) {
     EXPECT_EQ(after.v1->source, before.v1->source);
   }
-  if (before.v2 && before.v2->projection && same_sphere(*before.v2, form)) {
+  if (before.v2 && before.v2->projection && same_sphere(*before.v2, metadata)) {
     EXPECT_EQ(after.v2->source, before.v2->source);
   }
 }
 
 TEST_F(Inject, WhatIsNotAskedForStays) {
-  const std::tuple<const char*, void (*)(FilmForm&)> kOptions[] = {
-      {"", [](FilmForm&) {}},
-      {"--apple", [](FilmForm&) {}},
-      {"--ambisonics", [](FilmForm&) {}},
-      {"--track 1", [](FilmForm&) {}},
-      {"--yaw 30", [](FilmForm& form) { form.yaw = 30.0; }},
-      {"--pitch -10", [](FilmForm& form) { form.pitch = -10.0; }},
-      {"--roll 4.5", [](FilmForm& form) { form.roll = 4.5; }},
-      {"--yaw 0 --pitch 0 --roll 0", [](FilmForm& form) { form.yaw = form.pitch = form.roll = 0.0; }},
-      {"--layout side-by-side", [](FilmForm& form) { form.stereo = FilmStereo::kSideBySide; }},
-      {"--projection cubemap", [](FilmForm& form) { form.projection = FilmProjection::kCubemap, form.bounds = {}; }},
-      {"--projection lat-long", [](FilmForm& form) { form.projection = FilmProjection::kEquirect, form.bounds = {}; }},
+  const std::tuple<const char*, void (*)(SphericalMetadata&)> kOptions[] = {
+      {"", [](SphericalMetadata&) {}},
+      {"--apple", [](SphericalMetadata&) {}},
+      {"--ambisonics", [](SphericalMetadata&) {}},
+      {"--track 1", [](SphericalMetadata&) {}},
+      {"--yaw 30", [](SphericalMetadata& metadata) { metadata.yaw = 30.0; }},
+      {"--pitch -10", [](SphericalMetadata& metadata) { metadata.pitch = -10.0; }},
+      {"--roll 4.5", [](SphericalMetadata& metadata) { metadata.roll = 4.5; }},
+      {"--yaw 0 --pitch 0 --roll 0",
+       [](SphericalMetadata& metadata) { metadata.yaw = metadata.pitch = metadata.roll = 0.0; }},
+      {"--layout side-by-side", [](SphericalMetadata& metadata) { metadata.stereo = VideoStereo::kSideBySide; }},
+      {"--projection cubemap",
+       [](SphericalMetadata& metadata) { metadata.projection = VideoProjection::kCubemap, metadata.bounds = {}; }},
+      {"--projection lat-long",
+       [](SphericalMetadata& metadata) { metadata.projection = VideoProjection::kEquirect, metadata.bounds = {}; }},
   };
   for (const Tagged& each : cases()) {
-    folder.write(each.name, each.film);
-    const ods::FilmInfo before = ods::read_film(folder.path(each.name));
-    const FilmForm said = *said_form(largest(before));
+    folder.write(each.name, each.video);
+    const ods::VideoFile before = ods::read_video_file(folder.path(each.name));
+    const SphericalMetadata said = *said_metadata(largest(before));
     int done = 0;
     for (const auto& [words, ask] : kOptions) {
       SCOPED_TRACE(each.title + " (" + each.name + "): inject " + words);
-      const std::optional<ods::FilmInfo> after = inject(each, words);
-      FilmForm wished = said;
+      const std::optional<ods::VideoFile> after = inject(each, words);
+      SphericalMetadata wished = said;
       ask(wished);
       const std::string option = words;
-      const bool is_flat_turn = said.projection == FilmProjection::kFlat && option.starts_with("--yaw") |
-                                                                                option.starts_with("--pitch") |
-                                                                                option.starts_with("--roll");
+      const bool is_flat_turn = said.projection == VideoProjection::kFlat && option.starts_with("--yaw") |
+                                                                                 option.starts_with("--pitch") |
+                                                                                 option.starts_with("--roll");
       const bool has_boxes = ods::has_boxes(before.container);
       const bool cannot = (option == "--apple" && (!has_boxes || !ods::fits_vexu(said))) || is_flat_turn ||
                           (option == "--ambisonics" && (before.sound.empty() || !has_boxes));
@@ -112,7 +115,7 @@ TEST_F(Inject, WhatIsNotAskedForStays) {
       done++;
       const ods::VideoTrack &old = largest(before), &now = largest(*after);
       if (!now.vexu) wished.ipd = 0.0;  // it has no other place
-      expect_form(old, now, wished);
+      expect_metadata(old, now, wished);
       EXPECT_EQ(now.vexu.has_value(), (old.vexu && ods::fits_vexu(wished)) || option == "--apple");
       const bool is_reformed = !same_stereo(wished, said) || !same_sphere(wished, said);
       EXPECT_TRUE(now.v1 || !old.v1 || is_reformed);
@@ -124,7 +127,7 @@ TEST_F(Inject, WhatIsNotAskedForStays) {
                   option != "--ambisonics");
       }
       if (has_boxes && each.name != "ffmpeg.mp4") {
-        EXPECT_EQ(ods::made::words(bytes), ods::made::words(each.film));
+        EXPECT_EQ(ods::made::words(bytes), ods::made::words(each.video));
       }
     }
     EXPECT_GE(done, 4) << each.title;
@@ -132,10 +135,10 @@ TEST_F(Inject, WhatIsNotAskedForStays) {
 }
 
 // What our own commands write is complete: there is nothing to add.
-TEST_F(Inject, AFilmThatSaysAllIsTheSameBytesAfterwards) {
-  for (const Tagged& each : films_of_ours(folder)) {
+TEST_F(Inject, AVideoThatSaysAllIsTheSameBytesAfterwards) {
+  for (const Tagged& each : videos_of_ours(folder)) {
     ASSERT_TRUE(inject(each, "")) << err;
-    EXPECT_TRUE(folder.read(each.name) == each.film) << each.title;
+    EXPECT_TRUE(folder.read(each.name) == each.video) << each.title;
   }
 }
 
@@ -143,48 +146,48 @@ TEST_F(Inject, ATrackThatIsNotMeantStays) {
   ods::made::Mp4Options options;
   options.entry_boxes = st3d(2) + sv3d("x", kHalf);
   options.widths = {256, 512};
-  const Tagged film{"", "film.mp4", ods::made::mp4(options), {}};
-  ASSERT_TRUE(inject(film, "--yaw 5 --layout mono --projection lat-long")) << err;
-  const ods::FilmInfo after = ods::read_film(folder.path("film.mp4"));
-  EXPECT_EQ(form_text(*after.video.at(0).v2), "side-by-side, lat-long 180x180");
-  EXPECT_EQ(form_text(*after.video.at(1).v2), "mono, lat-long, turned by 5,0,0");
+  const Tagged video{"", "video.mp4", ods::made::mp4(options), {}};
+  ASSERT_TRUE(inject(video, "--yaw 5 --layout mono --projection lat-long")) << err;
+  const ods::VideoFile after = ods::read_video_file(folder.path("video.mp4"));
+  EXPECT_EQ(metadata_text(*after.tracks.at(0).v2), "side-by-side, lat-long 180x180");
+  EXPECT_EQ(metadata_text(*after.tracks.at(1).v2), "mono, lat-long, turned by 5,0,0");
 }
 
 TEST_F(Inject, VexuKeepsWhatIsNoneOfOurBusiness) {
-  const Tagged film = boxes("", 512, 256, st3d(2) + sv3d("x", kHalf) + vexu(3, "hequ", "side"));
-  ASSERT_TRUE(inject(film, "--layout cross-eyed")) << err;
+  const Tagged video = boxes("", 512, 256, st3d(2) + sv3d("x", kHalf) + vexu(3, "hequ", "side"));
+  ASSERT_TRUE(inject(video, "--layout cross-eyed")) << err;
   EXPECT_NE(err.find("its vexu says side-by-side"), std::string::npos) << err;
-  const std::string bytes = folder.read("film.mp4");
+  const std::string bytes = folder.read("video.mp4");
   EXPECT_NE(bytes.find(box("hero", std::string("\0\0\0\0\2", 5))), std::string::npos);
   EXPECT_NE(bytes.find("dadj"), std::string::npos);
-  EXPECT_EQ(ods::read_film(folder.path("film.mp4")).video.at(0).vexu->ipd, 0.0635);
+  EXPECT_EQ(ods::read_video_file(folder.path("video.mp4")).tracks.at(0).vexu->ipd, 0.0635);
 }
 
 TEST_F(Inject, AV1InTheTagsOfMatroskaIsTurnedOrTakenOut) {
-  const std::string video = element(0x53b8, number(3, 1)) + element(0x7670, element(0x7671, number(1, 1)));
+  const std::string turned = element(0x53b8, number(3, 1)) + element(0x7670, element(0x7671, number(1, 1)));
   ods::made::MatroskaOptions options;
-  options.video = video;
+  options.video = turned;
   const std::string targets = element(0x63c0, element(0x63c5, number(7, 1)));
   const std::string words = element(0x45a3, "SPHERICAL-VIDEO") + element(0x4487, v1("top-bottom"), 2);
   std::string bytes = ods::made::matroska(options);
   const ods::made::Piece segment = ods::made::pieces(bytes, {0x18538067}).at(0);
   bytes += element(0x1254c367, element(0x7373, targets + element(0x67c8, words, 2), 2), 2);
   bytes.replace(segment.begin - 8, 8, number((uint64_t{1} << 56) | (bytes.size() - segment.begin), 8));
-  const Tagged film{"", "film.mkv", bytes, {}};
+  const Tagged video{"", "video.mkv", bytes, {}};
   for (const auto& [option, yaw] : {std::pair<const char*, double>{"", 0.0}, {"--yaw 40", 40.0}}) {
-    const std::optional<ods::FilmInfo> after = inject(film, option);
-    ASSERT_TRUE(after && after->video.at(0).v1) << err;
-    EXPECT_EQ(after->video[0].v1->yaw, yaw);
-    EXPECT_EQ(after->video[0].v1->source, "Spherical Metadata Tool");
+    const std::optional<ods::VideoFile> after = inject(video, option);
+    ASSERT_TRUE(after && after->tracks.at(0).v1) << err;
+    EXPECT_EQ(after->tracks[0].v1->yaw, yaw);
+    EXPECT_EQ(after->tracks[0].v1->source, "Spherical Metadata Tool");
   }
-  const std::optional<ods::FilmInfo> after = inject(film, "--layout mono");
+  const std::optional<ods::VideoFile> after = inject(video, "--layout mono");
   ASSERT_TRUE(after);
-  EXPECT_FALSE(after->video.at(0).v1);
+  EXPECT_FALSE(after->tracks.at(0).v1);
 }
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-TEST_F(Inject, WhatContradictsTheFilmNeedsAWord) {
+TEST_F(Inject, WhatContradictsTheVideoNeedsAWord) {
   struct Contradiction {
     const char* name;
     int width, height;
@@ -206,59 +209,59 @@ TEST_F(Inject, WhatContradictsTheFilmNeedsAWord) {
        "--layout mono or --layout top-bottom"},
   };
   for (const auto& [name, width, height, entry, track, words, options] : kCases) {
-    Tagged film = boxes("", width, height, entry, track);
-    film.name = name;
-    EXPECT_FALSE(inject(film, ""));
+    Tagged video = boxes("", width, height, entry, track);
+    video.name = name;
+    EXPECT_FALSE(inject(video, ""));
     EXPECT_EQ(code, 3);
     EXPECT_NE(err.find(words), std::string::npos) << err;
     EXPECT_NE(err.find(options), std::string::npos) << err;
     const std::string text = options;  // each of them settles it
     const size_t middle = text.find(" or ");
-    EXPECT_TRUE(inject(film, text.substr(0, middle))) << err;
-    EXPECT_TRUE(inject(film, text.substr(middle + 4))) << err;
+    EXPECT_TRUE(inject(video, text.substr(0, middle))) << err;
+    EXPECT_TRUE(inject(video, text.substr(middle + 4))) << err;
     EXPECT_EQ(run("probe " + folder.path(name)), 0);
   }
 }
 
 // Where nothing is written anew that is in doubt, it is only said.
 TEST_F(Inject, ContradictionsThatDoNotMatterAreSaid) {
-  Tagged film = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole), v1_box("top-bottom"));
-  film.name = "a_360_LR.mp4";
+  Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole), v1_box("top-bottom"));
+  video.name = "a_360_LR.mp4";
   for (const char* option : {"--yaw 30", "--ambisonics"}) {
-    EXPECT_TRUE(inject(film, option)) << err;
+    EXPECT_TRUE(inject(video, option)) << err;
     EXPECT_NE(err.find("warning: it says top-bottom, but its name ends in _LR"), std::string::npos) << err;
   }
-  EXPECT_FALSE(inject(film, "--apple")) << "which says the layout once more";
+  EXPECT_FALSE(inject(video, "--apple")) << "which says the layout once more";
 }
 
 TEST_F(Inject, WhatAPlaceCannotHoldIsSaid) {
-  const Tagged film = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole) + vexu(3, "equi", "over"), v1_box("top-bottom"));
-  ASSERT_TRUE(inject(film, "--projection cubemap"));
+  const Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole) + vexu(3, "equi", "over"), v1_box("top-bottom"));
+  ASSERT_TRUE(inject(video, "--projection cubemap"));
   EXPECT_NE(err.find("its V1 says top-bottom, lat-long: taken out"), std::string::npos) << err;
   EXPECT_NE(err.find("vexu has no words for top-bottom, cubemap, and is taken out"), std::string::npos) << err;
-  ASSERT_TRUE(inject(film, "--yaw 10.5"));
+  ASSERT_TRUE(inject(video, "--yaw 10.5"));
   EXPECT_NE(err.find("V1 holds whole degrees"), std::string::npos) << err;
   EXPECT_NE(err.find("vexu has no place for angles"), std::string::npos) << err;
-  EXPECT_FALSE(inject(film, "--layout bottom-top"));
+  EXPECT_FALSE(inject(video, "--layout bottom-top"));
   EXPECT_NE(err.find("mp4 has no words for bottom-top"), std::string::npos) << err;
 }
 
 // Whatever ods probe advises, ods inject takes, and afterwards there is nothing to advise.
 TEST_F(Inject, ProbeAdvisesWhatInjectDoes) {
   int advised = 0;
-  for (const char* name : {"film", "film_360_TB", "film_180_LR", "film_fisheye"}) {
+  for (const char* name : {"video", "video_360_TB", "video_180_LR", "video_fisheye"}) {
     for (Tagged each : cases()) {
       each.name = name + each.name.substr(each.name.find('.'));
-      folder.write(each.name, each.film);
+      folder.write(each.name, each.video);
       SCOPED_TRACE(each.title + " " + each.name);
-      const auto warnings = [&](const ods::FilmInfo& film) {
+      const auto warnings = [&](const ods::VideoFile& video) {
         std::string text;
-        for (const std::string& each_one : film_warnings(film, largest(film), folder.path(each.name))) {
+        for (const std::string& each_one : video_warnings(video, largest(video), folder.path(each.name))) {
           text += each_one + "\n";
         }
         return text;
       };
-      const std::string text = warnings(ods::read_film(folder.path(each.name)));
+      const std::string text = warnings(ods::read_video_file(folder.path(each.name)));
       const size_t advice = text.find("(ods inject ");
       if (advice == std::string::npos) continue;
       advised++;
@@ -271,7 +274,7 @@ TEST_F(Inject, ProbeAdvisesWhatInjectDoes) {
         if (options.find(" or ") != std::string::npos) options.resize(options.find(" or "));
       }
       if (options.empty() && text.find("another name", advice) != std::string::npos) continue;
-      const std::optional<ods::FilmInfo> after = inject(each, options);
+      const std::optional<ods::VideoFile> after = inject(each, options);
       ASSERT_TRUE(after) << text << err;
       EXPECT_EQ(warnings(*after).find("(ods inject adds"), std::string::npos) << warnings(*after);
     }

@@ -59,8 +59,8 @@ TEST(Progress, JsonIsALineForEveryHundredth) {
   EXPECT_NE(text.find("{\"progress\":0.2500,\"seconds\":25.0,\"seconds_left\":75.0}\n"), std::string::npos) << text;
 }
 
-// A film of 300 frames that takes ten hours, of which five minutes are over.
-std::string film_shown(ProgressMode mode) {
+// A video of 300 frames that takes ten hours, of which five minutes are over.
+std::string video_shown(ProgressMode mode) {
   std::ostringstream out;
   ProgressLines lines(mode, out);
   for (int i = 0; i <= 600; ++i) {
@@ -71,21 +71,21 @@ std::string film_shown(ProgressMode mode) {
   return out.str();
 }
 
-TEST(Progress, ALongFilmIsReportedByTime) {
-  const std::string text = film_shown(ProgressMode::kPlain);
+TEST(Progress, ALongVideoIsReportedByTime) {
+  const std::string text = video_shown(ProgressMode::kPlain);
   EXPECT_TRUE(text.starts_with("ods: 0 %, frame 1 of 300, 9:59:59 h left\nods: 0 %, frame 1 of 300, ")) << text;
   EXPECT_NE(text.find("\nods: 0.1 %, frame 1 of 300, "), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("\nods: 0.8 %, frame 3 of 300, 9:55:00 h left\n")) << text;
   EXPECT_EQ(count(text, "\n"), 12u) << text;  // 1, 10, 30, 60, 90 ... 300 seconds
-  EXPECT_EQ(count(film_shown(ProgressMode::kJson), "\n"), 13u);
-  EXPECT_NE(film_shown(ProgressMode::kBar).find("] 0.8 %, frame 3 of 300, 9:55:00 h left"), std::string::npos);
+  EXPECT_EQ(count(video_shown(ProgressMode::kJson), "\n"), 13u);
+  EXPECT_NE(video_shown(ProgressMode::kBar).find("] 0.8 %, frame 3 of 300, 9:55:00 h left"), std::string::npos);
   for (ProgressMode mode : {ProgressMode::kDeadline, ProgressMode::kTractor, ProgressMode::kOpenJd}) {
-    EXPECT_EQ(count(film_shown(mode), "\n"), 1u) << "farms expect whole percents";
+    EXPECT_EQ(count(video_shown(mode), "\n"), 1u) << "farms expect whole percents";
   }
 }
 
 TEST(Progress, JsonNamesTheFrameAndTheFile) {
-  const std::string text = film_shown(ProgressMode::kJson);
+  const std::string text = video_shown(ProgressMode::kJson);
   const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
   const nlohmann::json object = nlohmann::json::parse(last, nullptr, false);
   ASSERT_TRUE(object.is_object()) << last;
@@ -96,10 +96,10 @@ TEST(Progress, JsonNamesTheFrameAndTheFile) {
   EXPECT_NEAR(object["progress"].get<double>(), 300.0 / 36000.0, 1e-4);
 }
 
-TEST(Progress, AShareOfAFilmIsAFrame) {
-  EXPECT_EQ(film_step("encode", 0.0, 10, "a.mp4").frame, 1);
-  EXPECT_EQ(film_step("encode", 0.55, 10, "a.mp4").frame, 6);
-  EXPECT_EQ(film_step("encode", 1.0, 10, "a.mp4").frame, 10);
+TEST(Progress, AShareOfAVideoIsAFrame) {
+  EXPECT_EQ(video_step("encode", 0.0, 10, "a.mp4").frame, 1);
+  EXPECT_EQ(video_step("encode", 0.55, 10, "a.mp4").frame, 6);
+  EXPECT_EQ(video_step("encode", 1.0, 10, "a.mp4").frame, 10);
 }
 
 TEST(Progress, FarmsGetTheirOwnLines) {

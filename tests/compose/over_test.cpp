@@ -17,27 +17,27 @@ const std::vector<int> kBoth{kLeft, kRight};
 constexpr Extent kSize{32, 16};
 
 // The left half of a picture is at 2 metres and half covered, the right one at 4 and not.
-MadePicture front_picture(const CameraRig& rig, Extent size = kSize) {
-  MadePicture made = make_picture(rig, size, kBoth);
-  add_layer<float>(made, {"R", "G", "B", "A"}, LayerRule::kLight, Sample::kFloat, [](int eye, vec2 uv, float* out) {
+MadePicture front_picture(const StereoCamera& camera, Extent size = kSize) {
+  MadePicture made = make_picture(camera, size, kBoth);
+  add_layer<float>(made, {"R", "G", "B", "A"}, LayerRule::kLight, SampleType::kFloat, [](int eye, vec2 uv, float* out) {
     const float alpha = uv.x < 0.5f ? 0.5f : 1.0f;
     out[0] = alpha * 0.2f, out[1] = alpha * static_cast<float>(eye), out[2] = alpha, out[3] = alpha;
   });
-  add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat,
+  add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat,
                    [](int, vec2 uv, float* out) { *out = uv.x < 0.5f ? 2.0f : 4.0f; });
   return made;
 }
 
-MadePicture back_picture(const CameraRig& rig, bool has_depth = true) {
-  MadePicture made = make_picture(rig, kSize, kBoth);
+MadePicture back_picture(const StereoCamera& camera, bool has_depth = true) {
+  MadePicture made = make_picture(camera, kSize, kBoth);
   add_colour(made, [](int, vec2 uv, float* out) { out[0] = uv.y, out[1] = 0.0f, out[2] = 0.5f; });
   if (has_depth)
-    add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat, [](int, vec2, float* out) { *out = 3.0f; });
+    add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat, [](int, vec2, float* out) { *out = 3.0f; });
   return made;
 }
 
 TEST(Over, IsPorterAndDuffsOver) {
-  const MadePicture front = front_picture(CameraRig()), back = back_picture(CameraRig());
+  const MadePicture front = front_picture(StereoCamera()), back = back_picture(StereoCamera());
   OverOptions options;
   options.opacity = 0.5f;
   ASSERT_EQ(over_fault(front.picture, back.picture, options), "");
@@ -57,7 +57,7 @@ TEST(Over, IsPorterAndDuffsOver) {
 }
 
 TEST(Over, ByDepthTheNearerIsSeen) {
-  const MadePicture front = front_picture(CameraRig()), back = back_picture(CameraRig());
+  const MadePicture front = front_picture(StereoCamera()), back = back_picture(StereoCamera());
   OverOptions options;
   options.by_depth = true;
   const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, options).rows);
@@ -67,9 +67,9 @@ TEST(Over, ByDepthTheNearerIsSeen) {
 }
 
 TEST(Over, TheForegroundTakesTheBackgroundsForm) {
-  CameraRig half;
+  StereoCamera half;
   half.projection = projection_named("vr180");
-  const MadePicture front = front_picture(half, {64, 64}), back = back_picture(CameraRig());
+  const MadePicture front = front_picture(half, {64, 64}), back = back_picture(StereoCamera());
   ASSERT_EQ(over_fault(front.picture, back.picture, {}), "");
   const std::vector<Image> images = images_of(lay_over(front.picture, back.picture, {}).rows);
   EXPECT_EQ(images[0].width, kSize.width);
@@ -79,21 +79,21 @@ TEST(Over, TheForegroundTakesTheBackgroundsForm) {
 }
 
 TEST(Over, WarnsOfOtherEyes) {
-  CameraRig narrow, merged;
+  StereoCamera narrow, merged;
   narrow.ipd = 0.05f;
   merged.top.mode = kMergeCosine;
-  const MadePicture back = back_picture(CameraRig(), false);
-  const auto said = [&](const CameraRig& rig) {
-    return ::testing::PrintToString(over_warnings(front_picture(rig).picture, back.picture));
+  const MadePicture back = back_picture(StereoCamera(), false);
+  const auto said = [&](const StereoCamera& camera) {
+    return ::testing::PrintToString(over_warnings(front_picture(camera).picture, back.picture));
   };
   EXPECT_NE(said(narrow).find("50 mm"), std::string::npos) << said(narrow);
   EXPECT_NE(said(merged).find("merged"), std::string::npos) << said(merged);
-  EXPECT_EQ(over_warnings(front_picture(CameraRig()).picture, back.picture).size(), 0u);
+  EXPECT_EQ(over_warnings(front_picture(StereoCamera()).picture, back.picture).size(), 0u);
   EXPECT_EQ(over_fault(front_picture(narrow).picture, back.picture, {}), "");  // taken as it is
 }
 
 TEST(Over, WarnsOfWhatStandsBehindWhatItCovers) {
-  const MadePicture front = front_picture(CameraRig()), back = back_picture(CameraRig());
+  const MadePicture front = front_picture(StereoCamera()), back = back_picture(StereoCamera());
   const Overlay overlay = lay_over(front.picture, back.picture, {});
   EXPECT_EQ(behind_warning(overlay), "");
   images_of(overlay.rows);
@@ -102,12 +102,12 @@ TEST(Over, WarnsOfWhatStandsBehindWhatItCovers) {
 }
 
 TEST(Over, RefusalsSayWhy) {
-  const MadePicture front = front_picture(CameraRig()), back = back_picture(CameraRig(), false);
+  const MadePicture front = front_picture(StereoCamera()), back = back_picture(StereoCamera(), false);
   OverOptions by_depth;
   by_depth.by_depth = true;
   EXPECT_NE(over_fault(front.picture, back.picture, by_depth).find("depth"), std::string::npos);
   EXPECT_NE(over_fault(back.picture, back.picture, {}).find("alpha"), std::string::npos);
-  MadePicture one = make_picture(CameraRig(), kSize, {kMono});
+  MadePicture one = make_picture(StereoCamera(), kSize, {kMono});
   add_colour(one, [](int, vec2, float* out) { out[0] = out[1] = out[2] = 0.0f; });
   EXPECT_NE(over_fault(front.picture, one.picture, {}).find("two eyes"), std::string::npos);
 }

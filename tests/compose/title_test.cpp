@@ -25,8 +25,8 @@ struct Pixels {
   const float* at(int x, int y) const { return &rows[static_cast<size_t>(5 * (y * kEye.width + x))]; }
 };
 
-Pixels draw(const CameraRig& rig, const TitleSetting& setting, int eye, const std::string& text = "O") {
-  const Title title = make_title(rig, kEye, setting, draw_lettering(text, lettering_em(rig, kEye, setting)));
+Pixels draw(const StereoCamera& camera, const TitleSetting& setting, int eye, const std::string& text = "O") {
+  const Title title = make_title(camera, kEye, setting, draw_lettering(text, lettering_em(camera, kEye, setting)));
   Pixels pixels;
   pixels.rows.resize(static_cast<size_t>(5 * kEye.width * kEye.height));
   const size_t row = static_cast<size_t>(5 * kEye.width);
@@ -85,15 +85,15 @@ TEST(Title, HasTheParallaxOfItsDistance) {
   const double pixel = 2.0 * std::numbers::pi / kEye.width;
   for (const bool curved : {true, false}) {
     for (const float distance : {0.7f, 2.0f, 20.0f}) {
-      CameraRig rig;
-      rig.ipd = 0.065f;
+      StereoCamera camera;
+      camera.ipd = 0.065f;
       TitleSetting setting;
       setting.yaw = 40.0f;
       setting.distance = distance;
       setting.height = 0.2f * distance;
       setting.curved = curved;
-      const Seen left = look_at(draw(rig, setting, kLeft)), right = look_at(draw(rig, setting, kRight));
-      const Lettering lettering = draw_lettering("O", lettering_em(rig, kEye, setting));
+      const Seen left = look_at(draw(camera, setting, kLeft)), right = look_at(draw(camera, setting, kRight));
+      const Lettering lettering = draw_lettering("O", lettering_em(camera, kEye, setting));
       const glm::dvec2 off = middle_of(lettering, static_cast<double>(setting.height)) / static_cast<double>(distance);
       const double half = std::asin(0.0325 / static_cast<double>(distance));
       const double middle = 40.0 / 180.0 * std::numbers::pi + off.x;
@@ -105,31 +105,31 @@ TEST(Title, HasTheParallaxOfItsDistance) {
 }
 
 TEST(Title, CoversWhatItsLettersCover) {
-  CameraRig rig;
-  rig.ipd = 0.0f;
+  StereoCamera camera;
+  camera.ipd = 0.0f;
   TitleSetting setting;
   setting.distance = 5.0f;
   setting.height = 0.5f;
   for (const float height : {0.5f, 0.05f}) {  // the smaller one is a few pixels high
     setting.height = height;
-    const Lettering lettering = draw_lettering("O", lettering_em(rig, kEye, setting));
+    const Lettering lettering = draw_lettering("O", lettering_em(camera, kEye, setting));
     double sum = 0.0;
     for (const float value : lettering.coverage.pixels) sum += static_cast<double>(value);
     const double area = sum * std::pow(static_cast<double>(height / lettering.em), 2);
-    EXPECT_NEAR(look_at(draw(rig, setting, kLeft)).solid_angle, area / 25.0, 0.02 * area / 25.0) << height;
+    EXPECT_NEAR(look_at(draw(camera, setting, kLeft)).solid_angle, area / 25.0, 0.02 * area / 25.0) << height;
   }
 }
 
 // At the horizon: a curved card is equally far from an eye beside its axis.
 TEST(Title, DepthIsAlongTheRay) {
-  CameraRig rig;
-  rig.ipd = 0.2f;
+  StereoCamera camera;
+  camera.ipd = 0.2f;
   TitleSetting setting;
   setting.distance = 2.0f;
   setting.height = 0.4f;
-  const Pixels curved = draw(rig, setting, kLeft, "OOOO");
+  const Pixels curved = draw(camera, setting, kLeft, "OOOO");
   setting.curved = false;
-  const Pixels flat = draw(rig, setting, kLeft, "OOOO");
+  const Pixels flat = draw(camera, setting, kLeft, "OOOO");
   const double beside = std::sqrt(4.0 - 0.01);  // from the circle to the cylinder
   int seen = 0;
   for (int y = 0; y < kEye.height; y++) {
@@ -156,14 +156,14 @@ TEST(Title, ItsWidthIsAnAngle) {
   setting.distance = 2.0f, setting.height = 0.5f;
   const Lettering lettering = draw_lettering("HHHHHHHH", 64.0f);
   const float metres = static_cast<float>(lettering.coverage.width) / lettering.em * 0.5f;
-  EXPECT_NEAR(title_width(make_title(CameraRig(), kEye, setting, lettering)), glm::degrees(metres / 2.0f), 1e-3f);
+  EXPECT_NEAR(title_width(make_title(StereoCamera(), kEye, setting, lettering)), glm::degrees(metres / 2.0f), 1e-3f);
   for (const bool curved : {true, false}) {
     setting.curved = curved;
     setting.height = 0.5f;
-    const Title wide = make_title(CameraRig(), kEye, setting, lettering);
+    const Title wide = make_title(StereoCamera(), kEye, setting, lettering);
     EXPECT_GT(title_width(wide), kComfortableWidth);
     setting.height = comfortable_height(wide);
-    const Title narrow = make_title(CameraRig(), kEye, setting, lettering);
+    const Title narrow = make_title(StereoCamera(), kEye, setting, lettering);
     EXPECT_NEAR(title_width(narrow), kComfortableWidth, 1e-3f);
     EXPECT_NEAR(comfortable_height(narrow), setting.height, 1e-6f);
   }
@@ -179,7 +179,7 @@ double cpu_seconds() {
 TEST(Title, ALongLineCostsWhatItCovers) {
   const auto seconds = [](const std::string& text) {
     const double start = cpu_seconds();
-    draw(CameraRig(), {}, kLeft, text);
+    draw(StereoCamera(), {}, kLeft, text);
     return cpu_seconds() - start;
   };
   seconds("W");  // fonts
@@ -188,12 +188,12 @@ TEST(Title, ALongLineCostsWhatItCovers) {
 
 // There a pixel's neighbours are so far off that the card seems to lie between them.
 TEST(Title, NothingIsSeenAtGrazingAngles) {
-  CameraRig rig;
-  rig.neck = 0.2f;
+  StereoCamera camera;
+  camera.neck = 0.2f;
   TitleSetting setting;
   setting.yaw = 20.0f, setting.pitch = 10.0f, setting.distance = 1.0f, setting.height = 2.0f, setting.curved = false;
-  const Lettering lettering = draw_lettering(std::string(100, 'W'), lettering_em(rig, kEye, setting));
-  const Title title = make_title(rig, kEye, setting, lettering);
+  const Lettering lettering = draw_lettering(std::string(100, 'W'), lettering_em(camera, kEye, setting));
+  const Title title = make_title(camera, kEye, setting, lettering);
   std::vector<float> row(static_cast<size_t>(5 * kEye.width));
   for (int y = 0; y < kEye.height; y++) {
     if (std::abs(phi_of(y + 0.5)) < glm::radians(70.0)) continue;  // the card ends at 45, and leans by 10
@@ -206,7 +206,7 @@ TEST(Title, IsMultipliedByItsAlpha) {
   TitleSetting setting;
   setting.color = vec3(0.5f, 1.0f, 2.0f);
   setting.opacity = 0.25f;
-  const Pixels pixels = draw(CameraRig(), setting, kLeft);
+  const Pixels pixels = draw(StereoCamera(), setting, kLeft);
   float most = 0.0f;
   for (size_t i = 0; i < pixels.rows.size(); i += 5) {
     const float* pixel = &pixels.rows[i];
@@ -218,14 +218,14 @@ TEST(Title, IsMultipliedByItsAlpha) {
 }
 
 TEST(Title, ComfortGoesWithTheEyes) {
-  CameraRig rig;
-  rig.ipd = 0.065f;
-  EXPECT_FLOAT_EQ(nearest_comfortable(rig, 0.0f), 0.6f);
-  EXPECT_FLOAT_EQ(nearest_comfortable(rig, -89.0f), 3.5f);
-  rig.ipd = 0.0325f;
-  EXPECT_FLOAT_EQ(nearest_comfortable(rig, 89.0f), 1.75f);
-  rig.top.mode = kMergeCosine;
-  EXPECT_NEAR(nearest_comfortable(rig, 90.0f), 0.0f, 1e-3f);
+  StereoCamera camera;
+  camera.ipd = 0.065f;
+  EXPECT_FLOAT_EQ(nearest_comfortable(camera, 0.0f), 0.6f);
+  EXPECT_FLOAT_EQ(nearest_comfortable(camera, -89.0f), 3.5f);
+  camera.ipd = 0.0325f;
+  EXPECT_FLOAT_EQ(nearest_comfortable(camera, 89.0f), 1.75f);
+  camera.top.mode = kMergeCosine;
+  EXPECT_NEAR(nearest_comfortable(camera, 90.0f), 0.0f, 1e-3f);
 }
 
 TEST(Lettering, LaysOutLinesAndScripts) {

@@ -41,7 +41,7 @@ Scene glowing_scene() {
   return scene;
 }
 
-std::vector<Image> rendered(const CameraRig& rig, Extent size) {
+std::vector<Image> rendered(const StereoCamera& camera, Extent size) {
   RenderOptions options;
   options.width = size.width;
   options.height = size.height;
@@ -49,13 +49,13 @@ std::vector<Image> rendered(const CameraRig& rig, Extent size) {
   options.bounces = 0;
   options.layers = false;
   std::vector<Image> images;
-  for (EyeImage& eye : render_cpu(glowing_scene(), rig, options, {}).eyes) images.push_back(std::move(eye.radiance));
+  for (EyeImage& eye : render_cpu(glowing_scene(), camera, options, {}).eyes) images.push_back(std::move(eye.radiance));
   return images;
 }
 
-MadePicture stored(const CameraRig& rig, Extent size) {
-  MadePicture made = make_picture(rig, size, kBoth);
-  const std::vector<Image> images = rendered(rig, size);
+MadePicture stored(const StereoCamera& camera, Extent size) {
+  MadePicture made = make_picture(camera, size, kBoth);
+  const std::vector<Image> images = rendered(camera, size);
   add_colour(made, [&](int eye, vec2 uv, float* out) {
     const int x = static_cast<int>(uv.x * static_cast<float>(size.width));
     const int y = static_cast<int>(uv.y * static_cast<float>(size.height));
@@ -103,7 +103,7 @@ TEST(ConvertRender, IsAsRendered) {
   const Case cases[] = {{"lat-long", "cube-3x2", 50.0}, {"lat-long", "eac", 50.0},      {"lat-long", "vr180", 50.0},
                         {"lat-long", "fisheye", 50.0},  {"cube-3x2", "lat-long", 50.0}, {"eac", "lat-long", 50.0}};
   for (const Case& one : cases) {
-    CameraRig from, to;
+    StereoCamera from, to;
     from.projection = projection_named(one.from);
     to.projection = projection_named(one.to);
     const int width = static_cast<int>(std::lround(60.0 / pixels_per_radian(from.projection, 1.0) / 12.0)) * 12;
@@ -120,13 +120,13 @@ TEST(ConvertRender, IsAsRendered) {
 
 TEST(ConvertRender, NoSeamsShow) {
   for (const char* from : {"cube-3x2", "cube-6x1", "eac"}) {
-    CameraRig rig;
-    rig.projection = projection_named(from);
-    const int width = 64 * width_step(rig.projection);
-    const MadePicture made = stored(rig, {width, natural_height(rig.projection, width)});
+    StereoCamera camera;
+    camera.projection = projection_named(from);
+    const int width = 64 * width_step(camera.projection);
+    const MadePicture made = stored(camera, {width, natural_height(camera.projection, width)});
     ConvertTarget target = target_of(made, projection_named("lat-long"), {256, 128});
     const std::vector<Image> converted = images_of(convert(made.picture, target).rows);
-    const std::vector<Image> direct = rendered(target.rig, target.eye);
+    const std::vector<Image> direct = rendered(target.camera, target.eye);
     // The turn's ends and the borders of faces.
     for (const int column : {255, 31, 95, 159, 223}) {
       EXPECT_LT(seam(converted[0], column), 0.1 + 1.3 * seam(direct[0], column)) << from << " at " << column;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "ods/convert/source.h"
+#include "ods/convert/panorama.h"
 #include "ods/image/tone.h"
 #include "tests/support/stored_pictures.h"
 
@@ -16,10 +16,10 @@ namespace {
 
 const std::vector<int> kBoth{kLeft, kRight};
 
-CameraRig rig_of(const std::string& projection) {
-  CameraRig rig;
-  rig.projection = projection_named(projection);
-  return rig;
+StereoCamera camera_of(const std::string& projection) {
+  StereoCamera stereo;
+  stereo.projection = projection_named(projection);
+  return stereo;
 }
 
 Extent extent_of(const ProjectionSetting& projection, int face) {
@@ -54,9 +54,9 @@ PixelFunction seen_by(const Camera& camera) {
   };
 }
 
-MadePicture smooth_picture(const CameraRig& rig, Extent size, const std::vector<int>& eyes = kBoth) {
-  MadePicture made = make_picture(rig, size, eyes);
-  add_colour(made, seen_by(make_camera(rig)));
+MadePicture smooth_picture(const StereoCamera& stereo, Extent size, const std::vector<int>& eyes = kBoth) {
+  MadePicture made = make_picture(stereo, size, eyes);
+  add_colour(made, seen_by(make_camera(stereo)));
   return made;
 }
 
@@ -67,9 +67,9 @@ PixelFunction noise(int seed) {
   };
 }
 
-MadePicture noise_picture(const CameraRig& rig, Extent size, const std::vector<int>& eyes = kBoth) {
-  MadePicture made = make_picture(rig, size, eyes);
-  add_layer<uint8_t>(made, {"R", "G", "B"}, LayerRule::kLight, Sample::kUint8, noise(1));
+MadePicture noise_picture(const StereoCamera& stereo, Extent size, const std::vector<int>& eyes = kBoth) {
+  MadePicture made = make_picture(stereo, size, eyes);
+  add_layer<uint8_t>(made, {"R", "G", "B"}, LayerRule::kLight, SampleType::kUint8, noise(1));
   return made;
 }
 
@@ -81,10 +81,10 @@ float code_at(const MadePicture& made, size_t eye, int x, int y, int c) {
 
 TEST(Convert, ToItselfIsTheSamePictureBitForBit) {
   for (const NamedProjection& named : named_projections()) {
-    const CameraRig rig = rig_of(std::string(named.name));
+    const StereoCamera stereo = camera_of(std::string(named.name));
     for (const int face : {20, 37}) {
-      const MadePicture made = noise_picture(rig, extent_of(rig.projection, face));
-      const ConvertTarget target = target_of(made, rig.projection, made.picture.size);
+      const MadePicture made = noise_picture(stereo, extent_of(stereo.projection, face));
+      const ConvertTarget target = target_of(made, stereo.projection, made.picture.size);
       ASSERT_EQ(conversion_fault(made.picture, target), "");
       const Conversion conversion = convert(made.picture, target);
       const std::vector<Image> images = images_of(conversion.rows);
@@ -95,7 +95,7 @@ TEST(Convert, ToItselfIsTheSamePictureBitForBit) {
           for (int x = 0; x < target.eye.width; x++) {
             const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(target.eye.width),
                           (static_cast<float>(y) + 0.5f) / static_cast<float>(target.eye.height));
-            const bool seen = look_of(make_projection(rig.projection), uv, uv).seen;
+            const bool seen = look_of(make_projection(stereo.projection), uv, uv).seen;
             for (int c = 0; c < 3; c++) {
               differences += images[eye].at(x, y)[c] != (seen ? code_at(made, eye, x, y, c) : 0.0f);
             }
@@ -108,12 +108,12 @@ TEST(Convert, ToItselfIsTheSamePictureBitForBit) {
 }
 
 TEST(Convert, TurnsByWholePixelsBitForBit) {
-  CameraRig rig = rig_of("lat-long");
-  rig.yaw = 30.0f;
-  const MadePicture made = noise_picture(rig, {720, 360});
-  ConvertTarget target = target_of(made, rig.projection, made.picture.size);
+  StereoCamera stereo = camera_of("lat-long");
+  stereo.yaw = 30.0f;
+  const MadePicture made = noise_picture(stereo, {720, 360});
+  ConvertTarget target = target_of(made, stereo.projection, made.picture.size);
   for (const int pixels : {1, 100, 719, -60}) {
-    target.rig.yaw = 30.0f + 0.5f * static_cast<float>(pixels);
+    target.camera.yaw = 30.0f + 0.5f * static_cast<float>(pixels);
     const std::vector<Image> images = images_of(convert(made.picture, target).rows);
     int differences = 0;
     for (size_t eye = 0; eye < 2; eye++) {
@@ -165,15 +165,15 @@ Distance distance(const std::vector<Image>& images, const ConvertTarget& target,
 // not in the picture.
 TEST(Convert, AnyProjectionToAnyOther) {
   for (const NamedProjection& from : named_projections()) {
-    CameraRig rig = rig_of(std::string(from.name));
-    rig.top.mode = rig.bottom.mode = kMergeCosine;
-    const MadePicture made = smooth_picture(rig, even_extent(rig.projection, 20.0));
-    const bool has_edge = rig.projection.kind < kCube3x2 && from.name != "lat-long";
+    StereoCamera stereo = camera_of(std::string(from.name));
+    stereo.top.mode = stereo.bottom.mode = kMergeCosine;
+    const MadePicture made = smooth_picture(stereo, even_extent(stereo.projection, 20.0));
+    const bool has_edge = stereo.projection.kind < kCube3x2 && from.name != "lat-long";
     for (const NamedProjection& to : named_projections()) {
       ConvertTarget target = target_of(made, to.setting, even_extent(to.setting, 15.0));
-      target.rig.yaw = 20.0f;
+      target.camera.yaw = 20.0f;
       const std::vector<Image> images = images_of(convert(made.picture, target).rows);
-      const Distance error = distance(images, target, seen_by(make_camera(target.rig)));
+      const Distance error = distance(images, target, seen_by(make_camera(target.camera)));
       EXPECT_LT(error.largest, has_edge ? 0.15f : 0.03f) << from.name << " to " << to.name;
       EXPECT_GT(error.psnr(), has_edge ? 42.0 : 45.0) << from.name << " to " << to.name;
       EXPECT_GT(error.count, 100) << from.name << " to " << to.name;
@@ -183,33 +183,33 @@ TEST(Convert, AnyProjectionToAnyOther) {
 
 // Wide enough for the stretches of fill().
 TEST(Convert, LargePicturesAreAsExact) {
-  CameraRig rig = rig_of("lat-long");
-  rig.top.mode = rig.bottom.mode = kMergeCosine;
-  const MadePicture made = smooth_picture(rig, {1024, 512});
+  StereoCamera stereo = camera_of("lat-long");
+  stereo.top.mode = stereo.bottom.mode = kMergeCosine;
+  const MadePicture made = smooth_picture(stereo, {1024, 512});
   for (const char* name : {"cube-3x2", "eac", "fisheye", "lat-long"}) {
     const ProjectionSetting to = projection_named(name);
     ConvertTarget target = target_of(made, to, fitting_extent(made.picture, to));
-    target.rig.yaw = -33.3f;
+    target.camera.yaw = -33.3f;
     const Distance error =
-        distance(images_of(convert(made.picture, target).rows), target, seen_by(make_camera(target.rig)));
+        distance(images_of(convert(made.picture, target).rows), target, seen_by(make_camera(target.camera)));
     EXPECT_LT(error.largest, 0.001f) << name;
     EXPECT_GT(error.psnr(), 85.0) << name;
   }
 }
 
 TEST(Convert, MonoTiltsAnyWay) {
-  const CameraRig rig = rig_of("lat-long");
-  const MadePicture made = smooth_picture(rig, {512, 256}, {kMono});
+  const StereoCamera stereo = camera_of("lat-long");
+  const MadePicture made = smooth_picture(stereo, {512, 256}, {kMono});
   ConvertTarget target = target_of(made, projection_named("eac"), {192, 128});
-  target.rig.yaw = 100.0f, target.rig.pitch = 50.0f, target.rig.roll = -30.0f;
+  target.camera.yaw = 100.0f, target.camera.pitch = 50.0f, target.camera.roll = -30.0f;
   const Distance error =
-      distance(images_of(convert(made.picture, target).rows), target, seen_by(make_camera(target.rig)));
+      distance(images_of(convert(made.picture, target).rows), target, seen_by(make_camera(target.camera)));
   EXPECT_LT(error.largest, 0.004f);
 }
 
 TEST(Convert, OneEyeOfTwo) {
-  const MadePicture made = smooth_picture(rig_of("lat-long"), {128, 64});
-  ConvertTarget target = target_of(made, made.picture.rig.projection, {128, 64});
+  const MadePicture made = smooth_picture(camera_of("lat-long"), {128, 64});
+  ConvertTarget target = target_of(made, made.picture.camera.projection, {128, 64});
   for (const int eye : kBoth) {
     target.eyes = {eye};
     const Image single = images_of(convert(made.picture, target).rows)[0];
@@ -217,7 +217,7 @@ TEST(Convert, OneEyeOfTwo) {
     target.mono_from = eye;
     const Image mono = images_of(convert(made.picture, target).rows)[0];
     float expected[3];
-    seen_by(make_camera(made.picture.rig))(eye, home_of({128, 64}, 40, 30), expected);
+    seen_by(make_camera(made.picture.camera))(eye, home_of({128, 64}, 40, 30), expected);
     EXPECT_EQ(single.at(40, 30)[0], expected[0]);
     EXPECT_EQ(mono.at(40, 30)[0], expected[0]);
   }
@@ -226,14 +226,14 @@ TEST(Convert, OneEyeOfTwo) {
 // Rings of all frequencies up to one texel: those that the small picture cannot hold become grey.
 TEST(Convert, ReducingEightfoldDoesNotAlias) {
   const MadePicture made = [] {
-    MadePicture zone = make_picture(rig_of("perspective"), {512, 512}, {kMono});
+    MadePicture zone = make_picture(camera_of("perspective"), {512, 512}, {kMono});
     add_colour(zone, [](int, vec2 uv, float* out) {
       const vec2 p = (uv - 0.5f) * 512.0f;
       out[0] = out[1] = out[2] = 0.5f + 0.5f * std::cos(kPi / 512.0f * dot(p, p));
     });
     return zone;
   }();
-  const ConvertTarget target = target_of(made, made.picture.rig.projection, {64, 64});
+  const ConvertTarget target = target_of(made, made.picture.camera.projection, {64, 64});
   const Image small = images_of(convert(made.picture, target).rows)[0];
   float worst = 0.0f, middle = 0.0f;
   for (int y = 0; y < 64; y++) {
@@ -250,9 +250,9 @@ TEST(Convert, ReducingEightfoldDoesNotAlias) {
 
 TEST(Convert, EyesDoNotBleed) {
   for (const NamedProjection& from : named_projections()) {
-    CameraRig rig = rig_of(std::string(from.name));
-    rig.top.mode = rig.bottom.mode = kMergeLinear;
-    MadePicture made = make_picture(rig, even_extent(rig.projection, 20.0), kBoth);
+    StereoCamera stereo = camera_of(std::string(from.name));
+    stereo.top.mode = stereo.bottom.mode = kMergeLinear;
+    MadePicture made = make_picture(stereo, even_extent(stereo.projection, 20.0), kBoth);
     add_colour(made, [](int eye, vec2, float* out) { out[0] = eye == kLeft, out[1] = eye == kRight, out[2] = 1.0f; });
     for (const char* to : {"lat-long", "cube-3x2", "fisheye"}) {
       const ConvertTarget target = target_of(made, projection_named(to), even_extent(projection_named(to), 9.0));
@@ -269,10 +269,10 @@ TEST(Convert, EyesDoNotBleed) {
 // The opposite face never shows, wherever the file has it.
 TEST(Convert, FacesDoNotBleed) {
   for (const char* name : {"cube-3x2", "cube-6x1", "cube-1x6", "eac"}) {
-    const CameraRig rig = rig_of(name);
-    const Camera camera = make_camera(rig), all = make_camera(rig_of("lat-long"));
+    const StereoCamera stereo = camera_of(name);
+    const Camera camera = make_camera(stereo), all = make_camera(camera_of("lat-long"));
     for (const vec3 face : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, -1)}) {
-      MadePicture made = make_picture(rig, even_extent(rig.projection, 20.0), {kMono});
+      MadePicture made = make_picture(stereo, even_extent(stereo.projection, 20.0), {kMono});
       add_colour(made, [&](int eye, vec2 uv, float* out) {
         const vec3 d = camera_ray(camera, eye, uv).direction;
         const vec3 a = abs(d);
@@ -294,8 +294,8 @@ TEST(Convert, FacesDoNotBleed) {
 }
 
 // A ball of stripes around the camera, seen from where the ray starts.
-PixelFunction ball_seen_by(const CameraRig& rig) {
-  const Camera camera = make_camera(rig);
+PixelFunction ball_seen_by(const StereoCamera& stereo) {
+  const Camera camera = make_camera(stereo);
   return [camera](int eye, vec2 uv, float* out) {
     const Ray ray = camera_ray(camera, eye, uv);
     const float b = dot(ray.origin, ray.direction), kRadius = 2.0f;
@@ -310,29 +310,29 @@ PixelFunction ball_seen_by(const CameraRig& rig) {
 // Over a pole that is not merged the other eye's picture goes on (a line of sight that passed the pole is the other
 // eye's, half a turn away).
 TEST(Convert, CrossesThePoleIntoTheOtherEye) {
-  CameraRig rig = rig_of("lat-long");
-  rig.ipd = 0.6f;
-  MadePicture made = make_picture(rig, {256, 128}, kBoth);
-  add_colour(made, ball_seen_by(rig));
-  ConvertTarget target = target_of(made, rig.projection, {200, 100});
-  target.rig.yaw = 12.0f;
-  const Distance error = distance(images_of(convert(made.picture, target).rows), target, ball_seen_by(target.rig));
+  StereoCamera stereo = camera_of("lat-long");
+  stereo.ipd = 0.6f;
+  MadePicture made = make_picture(stereo, {256, 128}, kBoth);
+  add_colour(made, ball_seen_by(stereo));
+  ConvertTarget target = target_of(made, stereo.projection, {200, 100});
+  target.camera.yaw = 12.0f;
+  const Distance error = distance(images_of(convert(made.picture, target).rows), target, ball_seen_by(target.camera));
   EXPECT_LT(error.largest, 0.01f);
   // One eye alone has nothing to read there but itself, and that is not it.
   made.picture.eyes.pop_back();
   target.eyes = {kLeft};
-  const Distance alone = distance(images_of(convert(made.picture, target).rows), target, ball_seen_by(target.rig));
+  const Distance alone = distance(images_of(convert(made.picture, target).rows), target, ball_seen_by(target.camera));
   EXPECT_GT(alone.largest, 2.0f * error.largest);
 }
 
 TEST(Convert, DepthAndIdsAreNeverMixed) {
-  MadePicture made = smooth_picture(rig_of("lat-long"), {64, 32});
+  MadePicture made = smooth_picture(camera_of("lat-long"), {64, 32});
   const PixelFunction ids = [](int eye, vec2 uv, float* out) {
     out[0] = std::floor(uv.x * 64.0f) + 64.0f * std::floor(uv.y * 32.0f) + 4096.0f * static_cast<float>(eye);
   };
-  add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat, ids);
+  add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat, ids);
   const PixelFunction normals = [](int, vec2 uv, float* out) { out[0] = uv.x, out[1] = uv.y, out[2] = -1.0f; };
-  add_layer<float>(made, {"N.X", "N.Y", "N.Z"}, LayerRule::kMean, Sample::kFloat, normals);
+  add_layer<float>(made, {"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kFloat, normals);
   ConvertTarget target = target_of(made, projection_named("cube-3x2"), {33, 22});
   const Conversion conversion = convert(made.picture, target);
   ASSERT_EQ(channels_of(conversion.rows), 7);
@@ -343,7 +343,7 @@ TEST(Convert, DepthAndIdsAreNeverMixed) {
   for (int eye = 0; eye < 2; eye++) {
     for (int i = 0; i < 33 * 22; i++) {
       const vec2 uv = home_of(target.eye, i % 33, i / 33);
-      const Place place = place_of_line(source, eye, camera_ray(make_camera(target.rig), eye, uv).direction);
+      const Place place = place_of_line(source, eye, camera_ray(make_camera(target.camera), eye, uv).direction);
       float expected;
       ids(eye, min(place.at / vec2(64.0f, 32.0f), vec2(0.999f)), &expected);
       const float* pixel = images[static_cast<size_t>(eye)].at(i % 33, i / 33);
@@ -356,23 +356,23 @@ TEST(Convert, DepthAndIdsAreNeverMixed) {
 // A world at infinity, where a line's direction is all.
 TEST(Convert, ConvergenceAfterTheFact) {
   for (const int from : kConvergences) {
-    CameraRig rig = rig_of("lat-long");
-    rig.ipd = 0.2f;
-    rig.top.mode = rig.bottom.mode = kMergeCosine;
-    rig.convergence = from;
-    const auto sky = [](const CameraRig& camera) {
+    StereoCamera stereo = camera_of("lat-long");
+    stereo.ipd = 0.2f;
+    stereo.top.mode = stereo.bottom.mode = kMergeCosine;
+    stereo.convergence = from;
+    const auto sky = [](const StereoCamera& camera) {
       return [camera = make_camera(camera)](int eye, vec2 uv, float* out) {
         smooth_world(kMono, camera_ray(camera, eye, uv).direction, out);
       };
     };
-    MadePicture made = make_picture(rig, {360, 180}, kBoth);
-    add_colour(made, sky(rig));
+    MadePicture made = make_picture(stereo, {360, 180}, kBoth);
+    add_colour(made, sky(stereo));
     for (const int to : kConvergences) {
-      ConvertTarget target = target_of(made, rig.projection, {300, 150});
-      target.rig.convergence = to;
-      target.rig.convergence_distance = 1.5f;
+      ConvertTarget target = target_of(made, stereo.projection, {300, 150});
+      target.camera.convergence = to;
+      target.camera.convergence_distance = 1.5f;
       ASSERT_EQ(conversion_fault(made.picture, target), "");
-      const Distance error = distance(images_of(convert(made.picture, target).rows), target, sky(target.rig));
+      const Distance error = distance(images_of(convert(made.picture, target).rows), target, sky(target.camera));
       EXPECT_LT(error.largest, 0.004f) << convergence_name(from) << " to " << convergence_name(to);
     }
   }
@@ -380,13 +380,13 @@ TEST(Convert, ConvergenceAfterTheFact) {
 
 // On the ball at the distance of convergence the eyes' pictures fall together, at the horizon.
 TEST(Convert, ToeInAndShiftTakeTheParallaxAway) {
-  CameraRig rig = rig_of("lat-long");
-  MadePicture made = make_picture(rig, {512, 256}, kBoth);
-  add_colour(made, ball_seen_by(rig));
+  StereoCamera stereo = camera_of("lat-long");
+  MadePicture made = make_picture(stereo, {512, 256}, kBoth);
+  add_colour(made, ball_seen_by(stereo));
   for (const int to : kConvergences) {
-    ConvertTarget target = target_of(made, rig.projection, {512, 256});
-    target.rig.convergence = to;
-    target.rig.convergence_distance = 2.0f;
+    ConvertTarget target = target_of(made, stereo.projection, {512, 256});
+    target.camera.convergence = to;
+    target.camera.convergence_distance = 2.0f;
     const std::vector<Image> images = images_of(convert(made.picture, target).rows);
     float parallax = 0.0f;
     for (int x = 0; x < 512; x++)
@@ -396,7 +396,7 @@ TEST(Convert, ToeInAndShiftTakeTheParallaxAway) {
 }
 
 TEST(Convert, WhereThePictureEndsIsNothing) {
-  const MadePicture made = smooth_picture(rig_of("fisheye"), {64, 64});
+  const MadePicture made = smooth_picture(camera_of("fisheye"), {64, 64});
   const ConvertTarget target = target_of(made, projection_named("lat-long"), {64, 32});
   const Conversion conversion = convert(made.picture, target);
   ASSERT_EQ(conversion.rows.layers[0].channels, (std::vector<std::string>{"R", "G", "B", "A"}));
@@ -406,19 +406,20 @@ TEST(Convert, WhereThePictureEndsIsNothing) {
   for (int c = 0; c < 4; c++) EXPECT_EQ(left.at(2, 16)[c], 0.0f);
   EXPECT_NEAR(static_cast<double>(*conversion.empty), 64.0 * 32.0, 64.0);  // half of either eye
   // What the target leaves empty itself is not missing.
-  const Conversion same = convert(made.picture, target_of(made, made.picture.rig.projection, {40, 40}));
+  const Conversion same = convert(made.picture, target_of(made, made.picture.camera.projection, {40, 40}));
   EXPECT_EQ(same.rows.layers[0].channels.size(), 3u);
   images_of(same.rows);
   EXPECT_EQ(*same.empty, 0);
 }
 
 TEST(Convert, ColoursAreMixedByTheirAlpha) {
-  MadePicture made = make_picture(rig_of("lat-long"), {64, 32}, {kMono});
-  add_layer<uint8_t>(made, {"R", "G", "B", "A"}, LayerRule::kLight, Sample::kUint8, [](int, vec2 uv, float* out) {
+  MadePicture made = make_picture(camera_of("lat-long"), {64, 32}, {kMono});
+  add_layer<uint8_t>(made, {"R", "G", "B", "A"}, LayerRule::kLight, SampleType::kUint8, [](int, vec2 uv, float* out) {
     const bool clear = static_cast<int>(uv.x * 64.0f) % 2 == 0;
     out[0] = 255.0f, out[1] = clear ? 255.0f : 0.0f, out[2] = 0.0f, out[3] = clear ? 0.0f : 255.0f;
   });
-  const Image image = images_of(convert(made.picture, target_of(made, made.picture.rig.projection, {16, 8})).rows)[0];
+  const Image image =
+      images_of(convert(made.picture, target_of(made, made.picture.camera.projection, {16, 8})).rows)[0];
   EXPECT_NEAR(image.at(5, 4)[3], 0.5f, 0.01f);
   EXPECT_NEAR(image.at(5, 4)[0], image.at(5, 4)[3], 1e-5f);
   EXPECT_EQ(image.at(5, 4)[1], 0.0f);  // what is clear has no colour
@@ -426,16 +427,16 @@ TEST(Convert, ColoursAreMixedByTheirAlpha) {
 
 // Squeezed eyes are eyes whose pixels are not square.
 TEST(Convert, SqueezedEyesNeedNoSpecialCase) {
-  const MadePicture made = smooth_picture(rig_of("lat-long"), {360, 90});
+  const MadePicture made = smooth_picture(camera_of("lat-long"), {360, 90});
   const ConvertTarget target = target_of(made, projection_named("cube-3x2"), {120, 80});
   const Distance error =
-      distance(images_of(convert(made.picture, target).rows), target, seen_by(make_camera(target.rig)));
+      distance(images_of(convert(made.picture, target).rows), target, seen_by(make_camera(target.camera)));
   EXPECT_GT(error.psnr(), 50.0);
   EXPECT_EQ(fitting_extent(made.picture, projection_named("lat-long")).width, 360);
 }
 
 TEST(Convert, SizesAreAsSharp) {
-  const MadePicture made = make_picture(rig_of("lat-long"), {4096, 2048}, kBoth);
+  const MadePicture made = make_picture(camera_of("lat-long"), {4096, 2048}, kBoth);
   const auto fitting = [&](const char* name) { return fitting_extent(made.picture, projection_named(name)); };
   EXPECT_EQ(fitting("lat-long").width, 4096);
   EXPECT_EQ(fitting("lat-long").height, 2048);
@@ -449,33 +450,34 @@ TEST(Convert, SizesAreAsSharp) {
 }
 
 TEST(Convert, SaysWhatItCannotDo) {
-  const MadePicture stereo = make_picture(rig_of("lat-long"), {64, 32}, kBoth);
-  const MadePicture mono = make_picture(rig_of("lat-long"), {64, 32}, {kMono});
+  const MadePicture stereo = make_picture(camera_of("lat-long"), {64, 32}, kBoth);
+  const MadePicture mono = make_picture(camera_of("lat-long"), {64, 32}, {kMono});
   const auto fault = [](const MadePicture& made, const std::vector<int>& eyes, const auto& change) {
-    ConvertTarget target = target_of(made, made.picture.rig.projection, {64, 32});
+    ConvertTarget target = target_of(made, made.picture.camera.projection, {64, 32});
     target.eyes = eyes;
-    change(target.rig);
+    change(target.camera);
     return conversion_fault(made.picture, target);
   };
-  const auto nothing = [](CameraRig&) {};
+  const auto nothing = [](StereoCamera&) {};
   EXPECT_EQ(fault(stereo, kBoth, nothing), "");
-  EXPECT_EQ(fault(stereo, kBoth, [](CameraRig& rig) { rig.yaw = 77.0f; }), "");
-  EXPECT_NE(fault(stereo, kBoth, [](CameraRig& rig) { rig.pitch = 5.0f; }).find("yaw"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](CameraRig& rig) { rig.roll = 5.0f; }).find("yaw"), std::string::npos);
-  EXPECT_EQ(fault(stereo, {kMono}, [](CameraRig& rig) { rig.roll = 5.0f; }), "");
-  EXPECT_EQ(fault(mono, {kMono}, [](CameraRig& rig) { rig.pitch = 5.0f; }), "");
+  EXPECT_EQ(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.yaw = 77.0f; }), "");
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.pitch = 5.0f; }).find("yaw"), std::string::npos);
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.roll = 5.0f; }).find("yaw"), std::string::npos);
+  EXPECT_EQ(fault(stereo, {kMono}, [](StereoCamera& stereo) { stereo.roll = 5.0f; }), "");
+  EXPECT_EQ(fault(mono, {kMono}, [](StereoCamera& stereo) { stereo.pitch = 5.0f; }), "");
   EXPECT_NE(fault(mono, kBoth, nothing).find("depth"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](CameraRig& rig) { rig.ipd = 0.1f; }).find(".exr"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](CameraRig& rig) { rig.top.mode = kMergeLinear; }).find("depth"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](CameraRig& rig) { rig.neck = 0.1f; }).find("depth"), std::string::npos);
-  EXPECT_NE(fault(stereo, {kMono}, [](CameraRig& rig) { rig.mirrored = true; }), "");
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.ipd = 0.1f; }).find(".exr"), std::string::npos);
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.top.mode = kMergeLinear; }).find("depth"),
+            std::string::npos);
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.neck = 0.1f; }).find("depth"), std::string::npos);
+  EXPECT_NE(fault(stereo, {kMono}, [](StereoCamera& stereo) { stereo.mirrored = true; }), "");
 }
 
 // Numbers that no picture should have, and pictures of a single pixel.
 TEST(Convert, BadInput) {
   const float bad[] = {std::nanf(""), INFINITY, -INFINITY, 3e38f};
   for (const NamedProjection& from : named_projections()) {
-    MadePicture made = make_picture(rig_of(std::string(from.name)), {6, 6}, kBoth);
+    MadePicture made = make_picture(camera_of(std::string(from.name)), {6, 6}, kBoth);
     add_colour(made, [&](int, vec2 uv, float* out) { std::fill(out, out + 3, bad[static_cast<int>(uv.x * 4.0f)]); });
     for (const NamedProjection& to : named_projections()) {
       const ConvertTarget target = target_of(made, to.setting, extent_of(to.setting, 3));
@@ -484,7 +486,7 @@ TEST(Convert, BadInput) {
       }
     }
   }
-  const MadePicture pixel = smooth_picture(rig_of("lat-long"), {1, 1});
+  const MadePicture pixel = smooth_picture(camera_of("lat-long"), {1, 1});
   for (const Image& image : images_of(convert(pixel.picture, target_of(pixel, projection_named("eac"), {6, 4})).rows)) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
   }

@@ -42,14 +42,14 @@ Seen look_at_world(const Ray& ray) {
   return {depth, ball, color};
 }
 
-MadePicture picture_of_world(const CameraRig& rig, Extent size, const std::vector<int>& eyes) {
-  MadePicture made = make_picture(rig, size, eyes);
-  const Camera camera = make_camera(rig);
+MadePicture picture_of_world(const StereoCamera& stereo, Extent size, const std::vector<int>& eyes) {
+  MadePicture made = make_picture(stereo, size, eyes);
+  const Camera camera = make_camera(stereo);
   add_colour(made, [&](int eye, vec2 uv, float* out) {
     const vec3 color = look_at_world(camera_ray(camera, eye, uv)).color;
     std::copy(&color[0], &color[0] + 3, out);
   });
-  add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat,
+  add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat,
                    [&](int eye, vec2 uv, float* out) { *out = look_at_world(camera_ray(camera, eye, uv)).depth; });
   return made;
 }
@@ -63,7 +63,7 @@ struct Result {
 
 // Whether the picture saw the point that the ray meets.
 bool was_seen(const MadePicture& made, const Ray& ray, float depth) {
-  const Camera camera = make_camera(made.picture.rig);
+  const Camera camera = make_camera(made.picture.camera);
   const vec3 point = ray.origin + ray.direction * depth;
   for (const StoredEye& eye : made.picture.eyes) {
     const ImagePosition at = project_point(camera, eye.eye, point);
@@ -78,7 +78,7 @@ Result convert_and_measure(const MadePicture& made, const ConvertTarget& target)
   const Conversion conversion = convert(made.picture, target);
   EXPECT_TRUE(conversion.sees_around);
   const std::vector<Image> images = images_of(conversion.rows);
-  const Camera camera = make_camera(target.rig);
+  const Camera camera = make_camera(target.camera);
   double squares = 0.0;
   int64_t filled = 0, holes = 0, off = 0, needless = 0;
   for (size_t eye = 0; eye < images.size(); eye++) {
@@ -106,11 +106,11 @@ Result convert_and_measure(const MadePicture& made, const ConvertTarget& target)
 }
 
 TEST(Reproject, NewDistanceBetweenTheEyes) {
-  CameraRig rig;
-  const MadePicture made = picture_of_world(rig, {512, 256}, kBoth);
+  StereoCamera stereo;
+  const MadePicture made = picture_of_world(stereo, {512, 256}, kBoth);
   for (const float ipd : {0.03f, 0.05f, 0.1f}) {
-    ConvertTarget target = target_of(made, rig.projection, made.picture.size);
-    target.rig.ipd = ipd;
+    ConvertTarget target = target_of(made, stereo.projection, made.picture.size);
+    target.camera.ipd = ipd;
     const Result result = convert_and_measure(made, target);
     EXPECT_GT(result.psnr, 40.0) << ipd;
     EXPECT_LT(result.depth_off, 0.002) << ipd;
@@ -120,11 +120,11 @@ TEST(Reproject, NewDistanceBetweenTheEyes) {
 }
 
 TEST(Reproject, NewMerge) {
-  CameraRig rig;
-  const MadePicture made = picture_of_world(rig, {512, 256}, kBoth);
+  StereoCamera stereo;
+  const MadePicture made = picture_of_world(stereo, {512, 256}, kBoth);
   ConvertTarget target = target_of(made, projection_named("cube-3x2"), {384, 256});
-  target.rig.top.mode = kMergeCosine;
-  target.rig.bottom = {kMergeSmoothstep, 30.0f, 80.0f, 1.0f};
+  target.camera.top.mode = kMergeCosine;
+  target.camera.bottom = {kMergeSmoothstep, 30.0f, 80.0f, 1.0f};
   const Result result = convert_and_measure(made, target);
   EXPECT_GT(result.psnr, 40.0);
   EXPECT_LT(result.needless, 0.001);
@@ -132,7 +132,7 @@ TEST(Reproject, NewMerge) {
 
 // Moved by nothing, everything is where it was.
 TEST(Reproject, MeetsWhatThePictureShows) {
-  const MadePicture made = picture_of_world(CameraRig(), {256, 128}, kBoth);
+  const MadePicture made = picture_of_world(StereoCamera(), {256, 128}, kBoth);
   const Source source = make_source(made.picture);
   const Reprojection reprojection = make_reprojection(source);
   for (int i = 0; i < 256 * 128; i++) {
@@ -149,12 +149,12 @@ TEST(Reproject, MeetsWhatThePictureShows) {
 // Depths as others write them: nothing there, or nonsense.
 TEST(Reproject, BadDepths) {
   const float bad[] = {0.0f, -1.0f, std::nanf(""), INFINITY, 1e-30f, 1e10f};
-  MadePicture made = make_picture(CameraRig(), {24, 12}, kBoth);
+  MadePicture made = make_picture(StereoCamera(), {24, 12}, kBoth);
   add_colour(made, [](int, vec2, float* out) { out[0] = out[1] = out[2] = 0.5f; });
-  add_layer<float>(made, {"Z"}, LayerRule::kNearest, Sample::kFloat,
+  add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat,
                    [&](int, vec2 uv, float* out) { *out = bad[static_cast<int>(uv.x * 6.0f)]; });
   ConvertTarget target = target_of(made, projection_named("eac"), {24, 16});
-  target.rig.ipd = 0.2f;
+  target.camera.ipd = 0.2f;
   const Conversion conversion = convert(made.picture, target);
   EXPECT_EQ(conversion.no_depth, 2 * 12 * 12);  // both eyes; 0, -1 and NaN are half of each
   for (const Image& image : images_of(conversion.rows)) {
@@ -163,9 +163,9 @@ TEST(Reproject, BadDepths) {
 }
 
 TEST(Reproject, TwoEyesFromOne) {
-  CameraRig rig;
-  const MadePicture made = picture_of_world(rig, {512, 256}, {kMono});
-  ConvertTarget target = target_of(made, rig.projection, made.picture.size);
+  StereoCamera stereo;
+  const MadePicture made = picture_of_world(stereo, {512, 256}, {kMono});
+  ConvertTarget target = target_of(made, stereo.projection, made.picture.size);
   target.eyes = kBoth;
   const Result result = convert_and_measure(made, target);
   EXPECT_GT(result.psnr, 40.0);

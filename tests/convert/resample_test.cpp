@@ -9,7 +9,7 @@
 #include <glm/gtc/packing.hpp>
 #include <random>
 
-#include "ods/image/format/sample.h"
+#include "ods/image/format/sample_type.h"
 #include "tests/support/stored_pictures.h"
 
 namespace ods {
@@ -50,7 +50,7 @@ TEST(Halves, NoneIsNanOrInfinity) {
 }
 
 TEST(Halves, LieBesideFloats) {
-  const std::vector<Sample> channels{Sample::kHalf, Sample::kFloat, Sample::kHalf};
+  const std::vector<SampleType> channels{SampleType::kHalf, SampleType::kFloat, SampleType::kHalf};
   const std::vector<float> pixels{1.0f, 1e6f, -2.0f, 0.5f, 1e-30f, 65504.0f};
   std::vector<std::byte> packed(2 * 8);
   pack_floats(channels, pixels, packed.data());
@@ -91,12 +91,12 @@ MadePicture noisy_picture() {
       for (int c = 0; c < count; c++) out[c] = static_cast<float>(engine() >> 24);
     };
   };
-  CameraRig rig;
-  MadePicture made = make_picture(rig, {64, 32}, {kMono});
-  add_layer<uint8_t>(made, {"R", "G", "B", "A"}, LayerRule::kLight, Sample::kUint8, codes(4));
-  add_layer<uint16_t>(made, {"a", "b", "c", "d", "e", "f", "g"}, LayerRule::kMean, Sample::kHalf, codes(7));
-  add_layer<float>(made, {"h"}, LayerRule::kMean, Sample::kFloat, codes(1));
-  add_layer<uint16_t>(made, {"i", "j"}, LayerRule::kMean, Sample::kUint16, codes(2));
+  StereoCamera camera;
+  MadePicture made = make_picture(camera, {64, 32}, {kMono});
+  add_layer<uint8_t>(made, {"R", "G", "B", "A"}, LayerRule::kLight, SampleType::kUint8, codes(4));
+  add_layer<uint16_t>(made, {"a", "b", "c", "d", "e", "f", "g"}, LayerRule::kMean, SampleType::kHalf, codes(7));
+  add_layer<float>(made, {"h"}, LayerRule::kMean, SampleType::kFloat, codes(1));
+  add_layer<uint16_t>(made, {"i", "j"}, LayerRule::kMean, SampleType::kUint16, codes(2));
   return made;
 }
 
@@ -128,8 +128,8 @@ TEST(Filter, PixelsOfARowAreWhatTheyAreAlone) {
 
 // Each point of a pixel's filter for itself, and all at once. Of a ramp, in which nothing is cut.
 TEST(Filter, ColumnsAndRowsAreThePointsTogether) {
-  MadePicture made = make_picture(CameraRig(), {64, 32}, {kMono});
-  add_layer<float>(made, {"R", "G", "B"}, LayerRule::kLight, Sample::kFloat,
+  MadePicture made = make_picture(StereoCamera(), {64, 32}, {kMono});
+  add_layer<float>(made, {"R", "G", "B"}, LayerRule::kLight, SampleType::kFloat,
                    [](int, vec2 uv, float* out) { out[0] = uv.x, out[1] = uv.y, out[2] = 3.0f * uv.x - uv.y; });
   const Source source = make_source(made.picture);
   const Resampler resampler(source);

@@ -31,22 +31,22 @@ PoleMergeSetting cosine(float start, float end, float exponent) {
 }
 
 // Cameras that together have everything.
-std::vector<CameraFile> many_cameras() {
-  std::vector<CameraFile> files;
+std::vector<Sidecar> many_cameras() {
+  std::vector<Sidecar> files;
   for (const NamedProjection& named : named_projections()) {
     for (const int mode :
          {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep, kMergeGaussian, kMergePower, kMergeTiltBrush}) {
-      CameraFile file;
+      Sidecar file;
       file.eye = {200, 100};
       file.layout = files.size() % 2 == 0 ? Layout::kTopBottom : Layout::kCrossEyed;
-      file.rig.projection = named.setting;
-      file.rig.top.mode = mode, file.rig.top.exponent = 1.5f;
-      file.rig.bottom = cosine(0.0f, 90.0f, 0.2f);
-      file.rig.convergence = kConvergences[files.size() % 3];
-      file.rig.yaw = 20.0f, file.rig.pitch = static_cast<float>(files.size() % 4) * 10.0f;
-      if (files.size() % 5 == 0) file.rig.axis = vec3(0.0f, 1.0f, 0.0f);
-      file.rig.neck = 0.05f;
-      file.rig.mirrored = files.size() % 7 == 0;
+      file.camera.projection = named.setting;
+      file.camera.top.mode = mode, file.camera.top.exponent = 1.5f;
+      file.camera.bottom = cosine(0.0f, 90.0f, 0.2f);
+      file.camera.convergence = kConvergences[files.size() % 3];
+      file.camera.yaw = 20.0f, file.camera.pitch = static_cast<float>(files.size() % 4) * 10.0f;
+      if (files.size() % 5 == 0) file.camera.axis = vec3(0.0f, 1.0f, 0.0f);
+      file.camera.neck = 0.05f;
+      file.camera.mirrored = files.size() % 7 == 0;
       files.push_back(file);
     }
   }
@@ -57,7 +57,7 @@ TEST(CameraExport, EveryTargetHasANameAndAText) {
   std::set<std::string_view> names;
   for (const CameraTarget target : kCameraTargets) {
     EXPECT_TRUE(names.insert(camera_target_name(target)).second);
-    const CameraExport result = export_camera(CameraFile(), target);
+    const CameraExport result = export_camera(Sidecar(), target);
     EXPECT_EQ(result.refusal, "") << camera_target_name(target);
     EXPECT_TRUE(has(result.text, "0.065") || has(result.text, "6.5")) << camera_target_name(target) << result.text;
     EXPECT_TRUE(result.text.ends_with("\n"));
@@ -67,7 +67,7 @@ TEST(CameraExport, EveryTargetHasANameAndAText) {
 
 TEST(CameraExport, WhatATargetLacksStandsInItsText) {
   size_t said = 0;
-  for (const CameraFile& file : many_cameras()) {
+  for (const Sidecar& file : many_cameras()) {
     for (const CameraTarget target : kCameraTargets) {
       const CameraExport result = export_camera(file, target);
       EXPECT_EQ(result.refusal.empty(), !result.text.empty()) << camera_target_name(target);
@@ -83,17 +83,17 @@ TEST(CameraExport, WhatATargetLacksStandsInItsText) {
 
 // Each of these is something that some system has not: it is said for every system that is not told formulas.
 TEST(CameraExport, NothingIsDroppedSilently) {
-  std::vector<CameraFile> odd(5);
-  odd[0].rig.convergence = kShift;
-  odd[1].rig.lens_radius = 0.01f;
-  odd[2].rig.axis = vec3(0.0f, 0.0f, 1.0f);
-  odd[3].rig.top = {kMergePower, 10.0f, 80.0f, 3.0f};
-  odd[4].rig.projection = find_projection("fisheye-equisolid")->setting;
+  std::vector<Sidecar> odd(5);
+  odd[0].camera.convergence = kShift;
+  odd[1].camera.lens_radius = 0.01f;
+  odd[2].camera.axis = vec3(0.0f, 0.0f, 1.0f);
+  odd[3].camera.top = {kMergePower, 10.0f, 80.0f, 3.0f};
+  odd[4].camera.projection = find_projection("fisheye-equisolid")->setting;
   for (const CameraTarget target :
        {CameraTarget::kPovrayFork, CameraTarget::kBlender, CameraTarget::kOspray, CameraTarget::kArnold,
         CameraTarget::kMtoa, CameraTarget::kUnity, CameraTarget::kUnreal}) {
     for (size_t i = 0; i < odd.size(); i++) {
-      const CameraExport plain = export_camera(CameraFile(), target), result = export_camera(odd[i], target);
+      const CameraExport plain = export_camera(Sidecar(), target), result = export_camera(odd[i], target);
       EXPECT_TRUE(!result.refusal.empty() || result.warnings.size() > plain.warnings.size() ||
                   (i == 3 && target == CameraTarget::kOspray))
           << camera_target_name(target) << ' ' << i;
@@ -102,10 +102,10 @@ TEST(CameraExport, NothingIsDroppedSilently) {
 }
 
 TEST(CameraExport, TheForkHasItsKeywords) {
-  CameraFile file;
-  file.rig.top = file.rig.bottom = cosine(0.0f, 90.0f, 0.2f);
-  file.rig.position = vec3(1.0f, 2.0f, 3.0f);
-  file.rig.yaw = 45.0f;
+  Sidecar file;
+  file.camera.top = file.camera.bottom = cosine(0.0f, 90.0f, 0.2f);
+  file.camera.position = vec3(1.0f, 2.0f, 3.0f);
+  file.camera.yaw = 45.0f;
   const CameraExport result = export_camera(file, CameraTarget::kPovrayFork);
   for (const char* line : {"ods 4\n", "ipd 0.065\n", "ods_angle 45\n", "ods_modulation 0.2\n", "ods_handedness -1\n",
                            "location <1, 2, -3>\n"}) {
@@ -113,33 +113,33 @@ TEST(CameraExport, TheForkHasItsKeywords) {
   }
   file.layout = Layout::kSideBySide;
   EXPECT_TRUE(has(export_camera(file, CameraTarget::kPovrayFork).text, "ods 3\n"));
-  file.rig.pitch = 10.0f, file.rig.neck = 0.1f;
+  file.camera.pitch = 10.0f, file.camera.neck = 0.1f;
   const std::string refusal = export_camera(file, CameraTarget::kPovrayFork).refusal;
   EXPECT_TRUE(has(refusal, "pitch") && has(refusal, "eye-to-neck")) << refusal;
 }
 
 TEST(CameraExport, OsprayIsJson) {
-  CameraFile file;
-  file.rig.yaw = 90.0f;
-  file.rig.top = file.rig.bottom = cosine(0.0f, 90.0f, 1.0f);
+  Sidecar file;
+  file.camera.yaw = 90.0f;
+  file.camera.top = file.camera.bottom = cosine(0.0f, 90.0f, 1.0f);
   CameraExport result = export_camera(file, CameraTarget::kOspray);
   EXPECT_TRUE(result.warnings.empty());
   const auto json = nlohmann::json::parse(result.text);
   EXPECT_EQ(json["ospray"]["type"], "panoramic");
   EXPECT_EQ(json["ospray"]["stereoMode"], "topBottom");
   EXPECT_EQ(json["anari"]["direction"], (nlohmann::json{1.0, 0.0, 0.0}));
-  for (const CameraFile& each : many_cameras()) {
+  for (const Sidecar& each : many_cameras()) {
     EXPECT_TRUE(nlohmann::json::accept(export_camera(each, CameraTarget::kOspray).text));
   }
-  file.rig.projection = find_projection("vr180")->setting;
+  file.camera.projection = find_projection("vr180")->setting;
   const auto part = nlohmann::json::parse(export_camera(file, CameraTarget::kOspray).text);
   EXPECT_EQ(part["ospray"]["imageStart"], (nlohmann::json{0.25, 0.0}));
 }
 
 TEST(CameraExport, ArnoldsAnglesStartAtThePole) {
-  CameraFile file;
-  file.rig.top = cosine(60.0f, 90.0f, 1.0f);
-  file.rig.neck = 0.1f;
+  Sidecar file;
+  file.camera.top = cosine(60.0f, 90.0f, 1.0f);
+  file.camera.neck = 0.1f;
   const CameraExport result = export_camera(file, CameraTarget::kArnold);
   EXPECT_TRUE(result.warnings.empty());
   EXPECT_TRUE(has(result.text, "top_merge_mode \"cosine\"\n top_merge_angle 30\n bottom_merge_mode \"none\"\n"));
@@ -160,7 +160,7 @@ TEST(CameraExport, GlslCompilesForWebGl) {
   const TemporaryFolder folder;
   std::string all = std::string(ODS_GLSLANG);
   int i = 0;
-  for (const CameraFile& file : many_cameras()) {
+  for (const Sidecar& file : many_cameras()) {
     const std::string name = std::to_string(i++) + ".frag";
     folder.write(name, with_main(export_camera(file, CameraTarget::kGlsl).text, false));
     all = std::string(ODS_GLSLANG) + " " + folder.path(name);
@@ -173,7 +173,7 @@ TEST(CameraExport, GlslCompilesForWebGl) {
 TEST(CameraExport, HlslCompiles) {
   const TemporaryFolder folder;
   const std::string compile = std::string(ODS_GLSLANG) + " -D -V -S frag -e main -o /dev/null ";
-  for (const CameraFile& file : many_cameras()) {
+  for (const Sidecar& file : many_cameras()) {
     folder.write("x.hlsl", with_main(export_camera(file, CameraTarget::kHlsl).text, true));
     ASSERT_TRUE(runs(compile + folder.path("x.hlsl"))) << folder.read("x.hlsl");
   }
@@ -184,7 +184,7 @@ TEST(CameraExport, OslCompiles) {
   const TemporaryFolder folder;
   // What Blender's own header adds to the language.
   folder.write("stdcycles.h", "#include \"stdosl.h\"\npoint camera_shader_raster_position() { return P; }\n");
-  for (const CameraFile& file : many_cameras()) {
+  for (const Sidecar& file : many_cameras()) {
     folder.write("x.osl", export_camera(file, CameraTarget::kOsl).text);
     ASSERT_TRUE(runs("cd " + folder.path("") + " && oslc -I. x.osl")) << folder.read("x.osl");
   }
@@ -195,17 +195,17 @@ TEST(CameraExport, PythonIsTheCamera) {
   if (!runs("python3 -c pass")) GTEST_SKIP() << "skipped: python3 is not installed";
   const TemporaryFolder folder;
   for (const NamedProjection& named : named_projections()) {
-    CameraFile file;
-    file.rig.projection = named.setting;
-    file.rig.position = vec3(0.5f, 1.0f, -0.25f);
-    file.rig.yaw = 40.0f, file.rig.pitch = 20.0f, file.rig.neck = 0.1f;
-    file.rig.top = cosine(20.0f, 80.0f, 2.0f);
+    Sidecar file;
+    file.camera.projection = named.setting;
+    file.camera.position = vec3(0.5f, 1.0f, -0.25f);
+    file.camera.yaw = 40.0f, file.camera.pitch = 20.0f, file.camera.neck = 0.1f;
+    file.camera.top = cosine(20.0f, 80.0f, 2.0f);
     folder.write("x.py", export_camera(file, CameraTarget::kPython).text +
                              "for i in range(20):\n    x, y = (0.413 + i * 0.0061, 0.212 + i * 0.0131)\n"
                              "    o, d = ods_camera_ray(x, y)\n    print(x, y, *o, *d)\n");
     ASSERT_EQ(std::system(("python3 " + folder.path("x.py") + " > " + folder.path("out.txt")).c_str()), 0);
     std::istringstream lines(folder.read("out.txt"));
-    const Camera camera = make_camera(file.rig);
+    const Camera camera = make_camera(file.camera);
     double x = 0, y = 0;
     glm::dvec3 o, d;
     int count = 0;
@@ -225,7 +225,7 @@ TEST(CameraExport, BlendersScriptIsPython) {
   const TemporaryFolder folder;
   std::string all;
   int i = 0;
-  for (const CameraFile& file : many_cameras()) {
+  for (const Sidecar& file : many_cameras()) {
     const std::string name = std::to_string(i++) + ".py";
     folder.write(name, export_camera(file, CameraTarget::kBlender).text);
     all += ' ';

@@ -23,7 +23,7 @@ struct EyePlace {
   vec2 uv;
 };
 
-EyePlace eye_place(const CameraFile& file, vec2 uv) {
+EyePlace eye_place(const Sidecar& file, vec2 uv) {
   if (file.eyes.size() == 1) return {file.eyes[0], uv};
   const bool second =
       file.layout == Layout::kTopBottom || file.layout == Layout::kBottomTop || file.layout == Layout::kTopBottomHalf
@@ -59,37 +59,37 @@ using Triple = std::array<double, 3>;
 // Whose coordinates a text has: of the image, and of the world.
 enum class Words { kPovray, kGlsl, kHlsl, kOsl };
 
-dvec3 ours(Words words, const CameraRig& rig, const Triple& v) {
+dvec3 ours(Words words, const StereoCamera& stereo, const Triple& v) {
   if (words == Words::kGlsl) return {v[0], v[1], v[2]};
   if (words != Words::kOsl) return {v[0], v[1], -v[2]};
-  CameraRig plain = rig;
+  StereoCamera plain = stereo;
   plain.mirrored = false;
   const Camera camera = make_camera(plain);
   return v[0] * dvec3(camera.right) + v[1] * dvec3(camera.up) - v[2] * dvec3(camera.back);
 }
 
 // The worst disagreement of a text with the camera, metres or shares of a unit direction.
-double disagreement(const CameraFile& file, const TextCamera& text, Words words, Dice& dice, int count) {
-  const Camera camera = make_camera(file.rig);
+double disagreement(const Sidecar& file, const TextCamera& text, Words words, Dice& dice, int count) {
+  const Camera camera = make_camera(file.camera);
   const dvec3 place = words == Words::kOsl ? dvec3(camera.center) : dvec3(0.0);
   double worst = 0.0;
   for (int i = 0; i < count; i++) {
     const vec2 uv = dice.pair();
     const EyePlace at = eye_place(file, uv);
-    if (on_an_edge(file.rig.projection, at.uv) || std::abs(uv.x - 0.5f) < 1e-6f || std::abs(uv.y - 0.5f) < 1e-6f) {
+    if (on_an_edge(file.camera.projection, at.uv) || std::abs(uv.x - 0.5f) < 1e-6f || std::abs(uv.y - 0.5f) < 1e-6f) {
       continue;
     }
     // A root of the cosine is so steep at the poles that the kernel's floats are 2e-6 off.
-    if (file.rig.top.exponent < 1.0f && std::abs(at.uv.y - 0.5f) > 0.495f) continue;
+    if (file.camera.top.exponent < 1.0f && std::abs(at.uv.y - 0.5f) > 0.495f) continue;
     const Ray ray = camera_ray(camera, at.eye, at.uv);
     const double x = words == Words::kPovray ? double{uv.x} - 0.5 : double{uv.x};
     const double y = words == Words::kPovray ? 0.5 - double{uv.y}
                      : words == Words::kOsl  ? 1.0 - double{uv.y}
                                              : double{uv.y};
-    const dvec3 direction = ours(words, file.rig, text.direction(x, y));
+    const dvec3 direction = ours(words, file.camera, text.direction(x, y));
     worst = std::max(worst, length(direction - dvec3(ray.direction)));
     if (ray.direction == vec3(0.0f)) continue;
-    worst = std::max(worst, length(place + ours(words, file.rig, text.location(x, y)) - dvec3(ray.origin)));
+    worst = std::max(worst, length(place + ours(words, file.camera, text.location(x, y)) - dvec3(ray.origin)));
   }
   return worst;
 }
@@ -97,17 +97,17 @@ double disagreement(const CameraFile& file, const TextCamera& text, Words words,
 enum class Pose { kLevel, kFree, kAxis, kMirrored, kMirroredFree };
 constexpr Pose kPoses[] = {Pose::kLevel, Pose::kFree, Pose::kAxis, Pose::kMirrored, Pose::kMirroredFree};
 
-CameraRig posed(Dice& dice, Pose pose) {
-  CameraRig rig;
-  rig.position = vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
-  rig.yaw = dice.between(-90, 90);
-  rig.ipd = dice.between(0.05f, 0.08f);
-  rig.mirrored = pose == Pose::kMirrored || pose == Pose::kMirroredFree;
-  if (pose == Pose::kLevel || pose == Pose::kMirrored) return rig;
-  rig.pitch = dice.between(-80, 80);
-  rig.roll = dice.between(-80, 80);
-  if (pose == Pose::kAxis) rig.axis = normalize(vec3(dice.between(-1, 1), 1.0f, dice.between(-1, 1)));
-  return rig;
+StereoCamera posed(Dice& dice, Pose pose) {
+  StereoCamera stereo;
+  stereo.position = vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
+  stereo.yaw = dice.between(-90, 90);
+  stereo.ipd = dice.between(0.05f, 0.08f);
+  stereo.mirrored = pose == Pose::kMirrored || pose == Pose::kMirroredFree;
+  if (pose == Pose::kLevel || pose == Pose::kMirrored) return stereo;
+  stereo.pitch = dice.between(-80, 80);
+  stereo.roll = dice.between(-80, 80);
+  if (pose == Pose::kAxis) stereo.axis = normalize(vec3(dice.between(-1, 1), 1.0f, dice.between(-1, 1)));
+  return stereo;
 }
 
 PoleMergeSetting merge_of_mode(Dice& dice, int mode) {
@@ -157,13 +157,13 @@ void for_every_camera(Dice& dice, const Check& check) {
         for (const Pose pose : kPoses) {
           for (const int mode : kClosedMerges) {
             const Packing& packing = kPackings[turn++ % std::size(kPackings)];
-            CameraFile file;
+            Sidecar file;
             file.layout = packing.layout, file.eyes = packing.eyes;
-            file.rig = posed(dice, pose);
-            file.rig.projection = named.setting;
-            file.rig.convergence = convergence, file.rig.neck = neck;
-            file.rig.top = merge_of_mode(dice, mode);
-            file.rig.bottom = dice.next() < 0.5f ? file.rig.top : merge_of_mode(dice, kClosedMerges[turn % 7]);
+            file.camera = posed(dice, pose);
+            file.camera.projection = named.setting;
+            file.camera.convergence = convergence, file.camera.neck = neck;
+            file.camera.top = merge_of_mode(dice, mode);
+            file.camera.bottom = dice.next() < 0.5f ? file.camera.top : merge_of_mode(dice, kClosedMerges[turn % 7]);
             check(file, name_of(named, convergence, neck, pose, mode, packing));
           }
         }
@@ -174,7 +174,7 @@ void for_every_camera(Dice& dice, const Check& check) {
 
 TEST(CameraFormula, PovrayTextIsTheCamera) {
   Dice dice(1);
-  for_every_camera(dice, [&](const CameraFile& file, const std::string& name) {
+  for_every_camera(dice, [&](const Sidecar& file, const std::string& name) {
     const CameraExport povray = export_camera(file, CameraTarget::kPovray);
     ASSERT_EQ(povray.refusal, "");
     const TextCamera text = TextCamera::from_povray(povray.text);
@@ -186,7 +186,7 @@ TEST(CameraFormula, ShaderTextsAreTheCamera) {
   Dice dice(2);
   const std::pair<CameraTarget, Words> shaders[] = {
       {CameraTarget::kGlsl, Words::kGlsl}, {CameraTarget::kHlsl, Words::kHlsl}, {CameraTarget::kOsl, Words::kOsl}};
-  for_every_camera(dice, [&](const CameraFile& file, const std::string& name) {
+  for_every_camera(dice, [&](const Sidecar& file, const std::string& name) {
     for (const auto& [target, words] : shaders) {
       const CameraExport shader = export_camera(file, target);
       const TextCamera text = TextCamera::from_shader(shader.text);
@@ -199,11 +199,11 @@ TEST(CameraFormula, ShaderTextsAreTheCamera) {
 TEST(CameraFormula, PagesCameraAtManyPositions) {
   Dice dice(3);
   for (const Packing& packing : kPackings) {
-    CameraFile file;
+    Sidecar file;
     file.layout = packing.layout, file.eyes = packing.eyes;
-    file.rig.yaw = 33.0f;
-    file.rig.top.mode = kMergeCosine, file.rig.top.start = 0.0f, file.rig.top.exponent = 0.2f;
-    file.rig.bottom = file.rig.top;
+    file.camera.yaw = 33.0f;
+    file.camera.top.mode = kMergeCosine, file.camera.top.start = 0.0f, file.camera.top.exponent = 0.2f;
+    file.camera.bottom = file.camera.top;
     const TextCamera text = TextCamera::from_povray(export_camera(file, CameraTarget::kPovray).text);
     EXPECT_LT(disagreement(file, text, Words::kPovray, dice, 10000), kTolerance) << layout_name(packing.layout);
   }
@@ -211,7 +211,7 @@ TEST(CameraFormula, PagesCameraAtManyPositions) {
 
 TEST(CameraFormula, EyesThatShareNoPictureAreANumberAway) {
   Dice dice(4);
-  CameraFile file;
+  Sidecar file;
   file.layout = Layout::kSeparate;
   TextCamera text = TextCamera::from_povray(export_camera(file, CameraTarget::kPovray).text);
   for (const int eye : {kLeft, kRight}) {
@@ -225,10 +225,10 @@ TEST(CameraFormula, EyesThatShareNoPictureAreANumberAway) {
 TEST(CameraFormula, PovrayComputesEveryStepOnce) {
   for (const auto& [projection, most] :
        {std::pair("fisheye", 250), std::pair("lat-long", 80), std::pair("cube-3x2", 300)}) {
-    CameraFile file;
+    Sidecar file;
     file.layout = Layout::kSideBySide;
-    file.rig.projection = find_projection(projection)->setting;
-    file.rig.top.mode = file.rig.bottom.mode = kMergeCosine;
+    file.camera.projection = find_projection(projection)->setting;
+    file.camera.top.mode = file.camera.bottom.mode = kMergeCosine;
     const TextCamera text = TextCamera::from_povray(export_camera(file, CameraTarget::kPovray).text);
     EXPECT_LT(text.operations(0.1, 0.2), most) << projection;
     EXPECT_GT(text.operations(0.1, 0.2), 40) << projection;
@@ -236,10 +236,10 @@ TEST(CameraFormula, PovrayComputesEveryStepOnce) {
 }
 
 TEST(CameraFormula, WhatIsNoFormulaIsRefused) {
-  CameraFile file;
-  file.rig.top.mode = kMergeMap;
+  Sidecar file;
+  file.camera.top.mode = kMergeMap;
   EXPECT_NE(export_camera(file, CameraTarget::kPovray).refusal, "");
-  file.rig.top.mode = kMergeNone;
+  file.camera.top.mode = kMergeNone;
   for (const Layout layout :
        {Layout::kRowInterleaved, Layout::kAnaglyph, Layout::kAnaglyphHalf, Layout::kAnaglyphDubois}) {
     file.layout = layout;

@@ -25,7 +25,7 @@ namespace {
 
 // 8 slits of two views for both eyes, none of them upright.
 SlitRig make_rig(ViewDepth depth = ViewDepth::kNone) {
-  CameraRig camera;
+  StereoCamera camera;
   camera.position = vec3(1.5f, -0.25f, 3.0f);
   camera.yaw = 25.0f, camera.pitch = 15.0f, camera.roll = -10.0f;
   SlitOptions options;
@@ -209,7 +209,7 @@ TEST(RigExport, GltfsCameraMovesFromViewToView) {
   scene.animation.playing = {0};
   expect_views(rig, "gltf", [&](size_t i) {
     set_time(scene, static_cast<double>(i + 1) / 24.0);
-    CameraRig seen;
+    StereoCamera seen;
     seen.position = scene.view_points[0].position;
     seen.yaw = scene.view_points[0].yaw, seen.pitch = scene.view_points[0].pitch;
     seen.roll = scene.view_points[0].roll;

@@ -60,7 +60,7 @@ pid_t claim_elsewhere(const std::string& path) {
 
 TEST(Claim, OneProcessHoldsItAndOthersAreToldWho) {
   const TemporaryFolder folder;
-  const std::string path = folder.path("new/film.mp4");
+  const std::string path = folder.path("new/video.mp4");
   const pid_t other = claim_elsewhere(path);
   ASSERT_GT(other, 0);
   std::string holder;

@@ -45,7 +45,7 @@ std::string plain_file(const std::string& extension, bool grey = false) {
   header.width = kWidth;
   header.height = kHeight;
   for (const char* name : {"R", "G", "B"}) {
-    if (!grey || header.channels.empty()) header.channels.push_back({grey ? "Y" : name, Sample::kUint8});
+    if (!grey || header.channels.empty()) header.channels.push_back({grey ? "Y" : name, SampleType::kUint8});
   }
   if (header.format == FileFormat::kTiff) header.attributes.push_back({"compression", std::string("zip")});
   const int count = static_cast<int>(header.channels.size());
@@ -206,11 +206,11 @@ TEST(ColorSpace, WhatMeansSrgbStaysAsItIs) {
   for (const std::string& chunks : {gama(0.45455), gama(0.45455) + chrm(rounded), gama(0.44), gama(0.47),
                                     png_chunk("sRGB", std::string(1, '\1')) + gama(0.45455)}) {
     const StoredPicture picture = open_picture(write(folder, "a.png", png_with(chunks)));
-    EXPECT_EQ(picture.eyes[0].layers[0].sample, Sample::kUint8);
+    EXPECT_EQ(picture.eyes[0].layers[0].sample, SampleType::kUint8);
     EXPECT_EQ(picture.color_fault, "");
     EXPECT_EQ(read_image(folder.path("a.png")).pixels, read_image(plain).pixels);
   }
-  EXPECT_EQ(open_picture(write(folder, "a.png", png_with(gama(0.7)))).eyes[0].layers[0].sample, Sample::kUint16);
+  EXPECT_EQ(open_picture(write(folder, "a.png", png_with(gama(0.7)))).eyes[0].layers[0].sample, SampleType::kUint16);
 }
 
 TEST(ColorSpace, ProfilesOfJpegTiffAndWebpAreHonoured) {
@@ -294,7 +294,7 @@ TEST(ColorSpace, WhatCannotBeHonouredIsTold) {
     const StoredPicture picture = open_picture(path);
     EXPECT_EQ(picture.color_fault, fault);
     EXPECT_EQ(picture.guesses.back(), fault);
-    EXPECT_EQ(picture.eyes[0].layers[0].sample, Sample::kUint8);
+    EXPECT_EQ(picture.eyes[0].layers[0].sample, SampleType::kUint8);
   }
 }
 
@@ -306,7 +306,7 @@ TEST(ColorSpace, ExrPrimariesAreHonouredInColoursAndNothingElse) {
   header.format = FileFormat::kExr;
   header.width = kWidth, header.height = kHeight;
   for (const char* name : kNames) {
-    header.channels.push_back({name, std::string(name).starts_with("albedo") ? Sample::kHalf : Sample::kFloat});
+    header.channels.push_back({name, std::string(name).starts_with("albedo") ? SampleType::kHalf : SampleType::kFloat});
   }
   header.attributes.push_back(
       {"chromaticities", std::vector<float>{0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.3127f, 0.3290f}});

@@ -39,7 +39,7 @@ const char* extension_of(FileFormat format) {
 }
 
 // A file of `channels` (of R, G, B, A) whose code values are value(x, y, c), as bytes.
-std::string make_file(FileFormat format, int width, int height, const std::string& channels, Sample sample,
+std::string make_file(FileFormat format, int width, int height, const std::string& channels, SampleType sample,
                       const std::function<float(int x, int y, int c)>& value) {
   const TemporaryFolder folder;
   AtomicFile file(folder.path("file"));
@@ -60,7 +60,7 @@ std::string make_file(FileFormat format, int width, int height, const std::strin
 
 std::string small_file(FileFormat format) {
   const bool floats = is_scene_referred(format);
-  return make_file(format, 24, 12, "RGB", floats ? Sample::kFloat : Sample::kUint8,
+  return make_file(format, 24, 12, "RGB", floats ? SampleType::kFloat : SampleType::kUint8,
                    [](int x, int y, int c) { return static_cast<float>((x * 7 + y * 11 + c * 50) % 256) / 255.0f; });
 }
 
@@ -82,7 +82,7 @@ std::string refusal(const std::string& file) {
 TEST(DecodeImage, GivesTheCodesOfEveryChannelCount) {
   const auto value = [](int x, int y, int c) { return static_cast<float>(40 * x + 10 * y + c + 1) / 255.0f; };
   const auto code = [](int x, int y, int c) { return static_cast<uint32_t>(40 * x + 10 * y + c + 1); };
-  for (Sample sample : {Sample::kUint8, Sample::kUint16}) {
+  for (SampleType sample : {SampleType::kUint8, SampleType::kUint16}) {
     for (const char* channels : {"Y", "YA", "RGB", "RGBA"}) {
       const CodeImage image =
           decode_image(bytes_of(make_file(FileFormat::kPng, 3, 2, channels, sample, value)), "a file");
@@ -105,7 +105,7 @@ TEST(ReadImage, IsLinear) {
   const TemporaryFolder folder;
   const auto value = [](int x, int, int c) { return static_cast<float>(x + c) / 255.0f; };
   for (const char* channels : {"Y", "RGB"}) {
-    folder.write("a.bin", make_file(FileFormat::kPng, 200, 1, channels, Sample::kUint8, value));
+    folder.write("a.bin", make_file(FileFormat::kPng, 200, 1, channels, SampleType::kUint8, value));
     const Image image = read_image(folder.path("a.bin"));
     ASSERT_EQ(image.channels, 3);
     for (int x = 0; x < 200; x++) {
@@ -119,7 +119,7 @@ TEST(ReadImage, IsLinear) {
     return std::exp2(static_cast<float>(x + y - 6)) * static_cast<float>(c);
   };
   for (FileFormat format : {FileFormat::kExr, FileFormat::kHdr}) {
-    folder.write("a.bin", make_file(format, 16, 2, "RGB", Sample::kFloat, light));
+    folder.write("a.bin", make_file(format, 16, 2, "RGB", SampleType::kFloat, light));
     const Image image = read_image(folder.path("a.bin"));
     for (int c = 0; c < 3; c++) EXPECT_NEAR(image.at(15, 1)[c], light(15, 1, c), light(15, 1, 2) / 256.0f);
   }

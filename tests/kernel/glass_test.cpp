@@ -77,7 +77,7 @@ void expect_layers(const Scene& scene, const std::vector<Layer>& layers, const c
   const int width = 32, samples = 512;
   RenderOptions options = small_render(width, samples);
   options.bounces = 24;
-  const Picture picture = render_cpu(scene, CameraRig{}, options);
+  const Picture picture = render_cpu(scene, StereoCamera{}, options);
   for (int y = 10; y < width / 2; y++) {
     double row = 0.0;
     for (int x = 0; x < width; x++) row += double{*picture.eyes[0].radiance.at(x, y)} / width;
@@ -135,7 +135,7 @@ TEST(Slab, CameraUnderWater) {
   const int width = 32, samples = 512;
   RenderOptions options = small_render(width, samples);
   options.bounces = 40;
-  const Picture picture = render_cpu(scene, CameraRig{}, options);
+  const Picture picture = render_cpu(scene, StereoCamera{}, options);
   // Straight down: the first reflection's share goes up and down for ever.
   const double r = fresnel(1.33, 1.0, 0.0), down = std::exp(-0.5), whole = std::exp(-1.5);
   const double expected = down * ((1.0 - r) * 3.0 + r * whole * ((1.0 - r) * 1.0 + r * whole * (1.0 - r) * 3.0));
@@ -152,7 +152,7 @@ TEST(Slab, ThinSheet) {
   sheet.roughness = 0.0f;
   add_rectangle(scene, vec3(-500, -1, 500), vec3(1000, 0, 0), vec3(0, 0, -1000), add_material(scene, sheet));
   RenderOptions options = small_render(32, 512);
-  const Picture picture = render_cpu(scene, CameraRig{}, options);
+  const Picture picture = render_cpu(scene, StereoCamera{}, options);
   for (int y = 10; y < 16; y++) {
     double row = 0.0;
     for (int x = 0; x < 32; x++) row += double{*picture.eyes[0].radiance.at(x, y)} / 32.0;

@@ -97,9 +97,9 @@ TEST(Path, WallsKeepLightOutFarFromTheOrigin) {
     options.width = 64;
     options.samples = 32;
     options.bounces = 3;
-    CameraRig rig;
-    rig.position = away;
-    const Picture picture = render_cpu(scene, rig, options);
+    StereoCamera camera;
+    camera.position = away;
+    const Picture picture = render_cpu(scene, camera, options);
     for (const float value : picture.eyes[0].radiance.pixels) {
       ASSERT_EQ(value, 0.0f) << away.x << ' ' << away.y << ' ' << away.z << ", walls of " << wall;
     }

@@ -20,7 +20,7 @@ void expect_same_light(const Scene& scene, int samples = 64, int bounces = 3) {
   for (LightSampling sampling : {LightSampling::kBoth, LightSampling::kLightsOnly, LightSampling::kBsdfOnly}) {
     options.light_sampling = sampling;
     options.seed++;
-    images.push_back(render_cpu(scene, CameraRig{}, options).eyes[0].radiance);
+    images.push_back(render_cpu(scene, StereoCamera{}, options).eyes[0].radiance);
   }
   const double level = mean_of(images[0]).value();
   EXPECT_GT(level, 0.001);

@@ -15,7 +15,7 @@
 
 #include "ods/base/error.h"
 #include "ods/image/image_file.h"
-#include "ods/picture/metadata/camera_file.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
@@ -37,11 +37,11 @@ struct Pair {
 struct Studio {
   std::string name;
   Scene scene;
-  CameraRig rig;
+  StereoCamera camera;
   RenderOptions options;
 
   explicit Studio(const char* its_name) : name(its_name), scene(find_builtin(its_name)->make()) {
-    rig.position = default_view(scene).position;
+    camera.position = default_view(scene).position;
     options.width = kWidth;
     options.samples = 4;
     options.bounces = 1;
@@ -50,13 +50,13 @@ struct Studio {
   }
 
   Pair both() const {
-    Picture picture = render_cpu(scene, rig, options);
+    Picture picture = render_cpu(scene, camera, options);
     return {std::move(picture.eyes[0].radiance), std::move(picture.eyes[1].radiance)};
   }
 
   Image mono_at(vec3 offset, uint32_t seed = 0) const {
-    CameraRig moved = rig;
-    moved.position = rig.position + offset;
+    StereoCamera moved = camera;
+    moved.position = camera.position + offset;
     RenderOptions one = options;
     one.eyes = Eyes::kMonoEye;
     one.seed = seed;
@@ -70,9 +70,9 @@ struct Studio {
     for (int i = 0; i < count; i++) {
       const float middle = 360.0f * (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 180.0f;
       Studio slit = *this;
-      slit.rig.projection.longitude = vec2(middle) + vec2(-180.0f, 180.0f) / static_cast<float>(count);
+      slit.camera.projection.longitude = vec2(middle) + vec2(-180.0f, 180.0f) / static_cast<float>(count);
       slit.options.width = width;
-      const Image strip = slit.mono_at(0.5f * rig.ipd * side * place(glm::radians(middle)));
+      const Image strip = slit.mono_at(0.5f * camera.ipd * side * place(glm::radians(middle)));
       for (int y = 0; y < eye.height; y++) std::copy_n(strip.at(0, y), 3 * width, eye.at(i * width, y));
     }
     return eye;
@@ -188,7 +188,7 @@ TEST_P(LintScene, FindsWhatIsWrongWithTheEyes) {
   expect_only(Fault::kEyesSwapped, save_as(pair, Layout::kSideBySide, "swapped_RL.png"));
   expect_only(Fault::kEyesSwapped, save_as(swapped, Layout::kMultiview, "swapped.exr"));
   expect_only(Fault::kOneEyeTwice, save(Pair{pair.left, pair.left}, "twice.png"));
-  const vec3 aside(0.5f * studio.rig.ipd, 0.0f, 0.0f);
+  const vec3 aside(0.5f * studio.camera.ipd, 0.0f, 0.0f);
   const Image left = studio.mono_at(-aside), right = studio.mono_at(aside, 7);
   expect_only(Fault::kTwoCameras, save(Pair{left, right}, "two_cameras.png"));
 }
@@ -227,13 +227,13 @@ TEST_P(LintScene, FindsWordsThatDoNotFit) {
   const std::vector<Image> halves = unpack(Layout::kTopBottom, beside);
   expect_only(Fault::kMetadata, save(Pair{halves[0], halves[1]}, "says_stacked.exr"));
   const std::string stacked = save_as(pair, Layout::kTopBottom, "sidecar.png");
-  save_camera({studio.rig, {kWidth, kWidth / 2}, Layout::kSideBySide, {kLeft, kRight}}, sidecar_path(stacked));
+  save_sidecar({studio.camera, {kWidth, kWidth / 2}, Layout::kSideBySide, {kLeft, kRight}}, sidecar_path(stacked));
   expect_only(Fault::kMetadata, stacked);
   // Stereo that is saved as one eye carries GPano.
   SaveOptions options;
   options.tone = ToneCurve::kLinear;
   const Image packed = read_image(save_as(pair, Layout::kTopBottom, "stacked.png"));
-  save_picture(picture_of(packed), studio.rig, options, folder.path("gpano_TB.png"));
+  save_picture(picture_of(packed), studio.camera, options, folder.path("gpano_TB.png"));
   expect_only(Fault::kMetadata, folder.path("gpano_TB.png"), {{}, ProjectionSetting{}});
 }
 
@@ -279,20 +279,20 @@ TEST_P(LintScene, IsSilentAboutOtherCameras) {
   Studio studio(GetParam());
   for (const char* name : {"vr180", "cube-3x2", "fisheye"}) {
     Studio other = studio;
-    other.rig.projection = find_projection(name)->setting;
+    other.camera.projection = find_projection(name)->setting;
     other.options.width = name == std::string("cube-3x2") ? 384 : 256;
     const std::string path = folder.path(std::string(name) + ".exr");
-    save_picture(render_cpu(other.scene, other.rig, other.options), other.rig, {}, path);
+    save_picture(render_cpu(other.scene, other.camera, other.options), other.camera, {}, path);
     expect_silence(path);
   }
-  studio.rig.convergence = kToeIn;
-  studio.rig.convergence_distance = 1.0f;
-  const Picture toed_in = render_cpu(studio.scene, studio.rig, studio.options);
+  studio.camera.convergence = kToeIn;
+  studio.camera.convergence_distance = 1.0f;
+  const Picture toed_in = render_cpu(studio.scene, studio.camera, studio.options);
   SaveOptions options;
-  save_picture(toed_in, studio.rig, options, folder.path("unsaid.png"));
+  save_picture(toed_in, studio.camera, options, folder.path("unsaid.png"));
   expect_silence(folder.path("unsaid.png"));
   options.sidecar = true;
-  save_picture(toed_in, studio.rig, options, folder.path("said.png"));
+  save_picture(toed_in, studio.camera, options, folder.path("said.png"));
   expect_silence(folder.path("said.png"));
 }
 
@@ -300,11 +300,11 @@ TEST_P(LintScene, FindsStereoAtThePoles) {
   // Where there is something to see: so few samples leave noise of the fractals overhead.
   const std::string name = GetParam();
   Studio studio(name == "fractal" ? "wineglass" : name.c_str());
-  if (name == "mirrors") studio.rig.position = vec3(1.5f, 1.2f, 1.0f);
+  if (name == "mirrors") studio.camera.position = vec3(1.5f, 1.2f, 1.0f);
   studio.options.samples = 8;
   const Told apart = told(lint(save(studio.both(), "apart.png")));
   EXPECT_EQ(apart.warnings, std::set<std::string>{"no-pole-merge"}) << apart.text;
-  studio.rig.top.mode = studio.rig.bottom.mode = kMergeCosine;
+  studio.camera.top.mode = studio.camera.bottom.mode = kMergeCosine;
   const Told merged = told(lint(save(studio.both(), "merged.png")));
   EXPECT_TRUE(merged.warnings.empty()) << merged.text;
   EXPECT_TRUE(merged.faults.empty()) << merged.text;
@@ -344,24 +344,24 @@ TEST_F(Lint, ListsWhatItJudgedAndWhatNot) {
   EXPECT_EQ(names.size(), std::size(kChecks));
 
   // It is too small to say whether one eye was rendered twice, and its poles are smooth.
-  const std::set<Check> made{Check::kLayout, Check::kEyeOrder, Check::kCircle,    Check::kSeam,
-                             Check::kShape,  Check::kMetadata, Check::kFilmLevels};
+  const std::set<Check> made{Check::kLayout, Check::kEyeOrder, Check::kCircle,     Check::kSeam,
+                             Check::kShape,  Check::kMetadata, Check::kVideoLevels};
   Pair pair = plain_pair(Studio("room"));
   EXPECT_EQ(judged(lint(save(pair, "good.png"))), made);
   for (float& value : pair.right.pixels) value *= 0.5f;
   std::rotate(pair.right.pixels.begin(), pair.right.pixels.begin() + 4 * 3 * pair.right.width, pair.right.pixels.end());
   EXPECT_FALSE(judged(lint(save(pair, "dark_and_higher.png"))).contains(Check::kBetweenEyes));
 
-  const std::set<Check> words{Check::kShape, Check::kMetadata, Check::kFilmLevels};
+  const std::set<Check> words{Check::kShape, Check::kMetadata, Check::kVideoLevels};
   EXPECT_EQ(judged(lint(save(Image(64, 32, 3), "small.png"), {Layout::kSeparate, {}})), words);
   const LintReport mono = lint(save(pair.left, "mono.png"), {Layout::kSeparate, {}});
   EXPECT_EQ(judged(mono),
-            (std::set<Check>{Check::kLayout, Check::kSeam, Check::kShape, Check::kMetadata, Check::kFilmLevels}));
+            (std::set<Check>{Check::kLayout, Check::kSeam, Check::kShape, Check::kMetadata, Check::kVideoLevels}));
   EXPECT_EQ(mono.not_judged[0].reason, "there is only one eye");
   Image grey(256, 128, 3);
   std::fill(grey.pixels.begin(), grey.pixels.end(), 0.5f);
   EXPECT_EQ(judged(lint(save(Pair{grey, grey}, "grey.png"))),
-            (std::set<Check>{Check::kSeam, Check::kShape, Check::kMetadata, Check::kFilmLevels}));
+            (std::set<Check>{Check::kSeam, Check::kShape, Check::kMetadata, Check::kVideoLevels}));
 }
 
 TEST_F(Lint, SaysThatThereIsNothingToSee) {
@@ -372,10 +372,10 @@ TEST_F(Lint, SaysThatThereIsNothingToSee) {
   EXPECT_FALSE(report.not_judged.empty());
 }
 
-TEST_F(Lint, KnowsWhatFilmsAreTooLarge) {
+TEST_F(Lint, KnowsWhatVideosAreTooLarge) {
   const std::string tall = save(Image(256, 20000, 3), "tall.png");
-  const LintReport film = lint(tall, {Layout::kSeparate, {}});
-  EXPECT_TRUE(has_finding(film, Severity::kInformation, 1.0)) << told(film).text;
+  const LintReport video = lint(tall, {Layout::kSeparate, {}});
+  EXPECT_TRUE(has_finding(video, Severity::kInformation, 1.0)) << told(video).text;
 }
 
 TEST_F(Lint, SurvivesBadInput) {
@@ -393,7 +393,7 @@ TEST_F(Lint, SurvivesBadInput) {
 // Most of it is far away, and little of it moves.
 TEST_F(Lint, IsSilentAboutTestCardsOfEverySize) {
   for (const int width : {128, 256, 512}) {
-    const Testcard card = make_testcard(CameraRig(), {width, width / 2}, {});
+    const Testcard card = make_testcard(StereoCamera(), {width, width / 2}, {});
     Pair pair{Image(width, width / 2, 3), Image(width, width / 2, 3)};
     for (int y = 0; y < width / 2; y++) {
       fill_testcard_row(card, kLeft, y, {pair.left.at(0, y), static_cast<size_t>(3 * width)});
@@ -407,7 +407,7 @@ TEST_F(Lint, IsSilentAboutTestCardsOfEverySize) {
 TEST_F(Lint, LooksPastPixelsThatAreNoNumbers) {
   const Pair& pair = plain_pair(Studio("axis"));
   FileHeader header{FileFormat::kExr, kWidth, kWidth, {}, {}};
-  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, Sample::kFloat});
+  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, SampleType::kFloat});
   AtomicFile file(folder.path("holes.exr"));
   write_image(file, header, [&](int y, std::span<float> row) {
     std::copy_n((y < kWidth / 2 ? pair.left : pair.right).at(0, y % (kWidth / 2)), row.size(), row.begin());

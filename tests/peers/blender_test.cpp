@@ -33,8 +33,8 @@ bool hits(const Box& box, const Ray& ray) {
 }
 
 // The share of the pixels in either silhouette that are in both: ours of one eye, and what Blender rendered.
-double overlap(const CameraFile& file, int eye, const Image& theirs) {
-  const Camera camera = make_camera(file.rig);
+double overlap(const Sidecar& file, int eye, const Image& theirs) {
+  const Camera camera = make_camera(file.camera);
   int either = 0, both = 0;
   for (int y = 0; y < theirs.height; y++) {
     for (int x = 0; x < theirs.width; x++) {
@@ -71,12 +71,12 @@ std::string scene_script() {
 TEST(Blender, SeesWhatTheCameraSees) {
   if (std::system("blender --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "skipped: Blender is not installed";
   const TemporaryFolder folder;
-  CameraFile file;
+  Sidecar file;
   file.eye = {512, 256};
   file.layout = Layout::kSeparate;
-  file.rig.yaw = 25.0f, file.rig.pitch = 15.0f, file.rig.roll = -10.0f;
-  file.rig.position = vec3(0.02f, 0.03f, -0.01f);
-  file.rig.top = file.rig.bottom = {kMergeCosine, 60.0f, 75.0f, 1.0f};
+  file.camera.yaw = 25.0f, file.camera.pitch = 15.0f, file.camera.roll = -10.0f;
+  file.camera.position = vec3(0.02f, 0.03f, -0.01f);
+  file.camera.top = file.camera.bottom = {kMergeCosine, 60.0f, 75.0f, 1.0f};
   const CameraExport blender = export_camera(file, CameraTarget::kBlender);
   ASSERT_TRUE(blender.warnings.empty()) << blender.warnings[0];
   folder.write("render.py", scene_script() + blender.text +
@@ -98,8 +98,8 @@ TEST(Blender, SeesWhatTheCameraSees) {
 
 // The same boxes by the camera alone: were the eyes crossed, the test above would see it.
 TEST(Blender, CrossedEyesWouldBeSeen) {
-  CameraFile file;
-  const Camera camera = make_camera(file.rig);
+  Sidecar file;
+  const Camera camera = make_camera(file.camera);
   Image right(512, 256, 1);
   for (int y = 0; y < 256; y++) {
     for (int x = 0; x < 512; x++) {

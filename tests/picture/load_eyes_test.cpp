@@ -118,7 +118,7 @@ TEST(GuessLayout, TheNameGoesBeforeTheShape) {
   EXPECT_EQ(guess(64, 32, "a_top-bottom-half.png").layout, Layout::kTopBottomHalf);
   EXPECT_EQ(guess(64, 32, "a_LR_360.0001.png").layout, Layout::kSideBySide);
   EXPECT_EQ(guess(64, 32, "a_LR_180x180.png").layout, Layout::kSideBySide);
-  EXPECT_EQ(guess(64, 32, "a_LR.png").because, "its name ends in _LR");
+  EXPECT_EQ(guess(64, 32, "a_LR.png").reason, "its name ends in _LR");
   for (const char* name : {"a.png", "tb.png", "a_tbx.png", "tb_scene.png", "a_anaglyph.png", "_.png", ""}) {
     EXPECT_EQ(guess(64, 32, name).layout, std::nullopt) << name;
   }
@@ -129,7 +129,7 @@ TEST(GuessLayout, TheShapeIsTheLastResort) {
   EXPECT_EQ(guess(128, 32, "a.png").layout, Layout::kSideBySide);
   EXPECT_EQ(guess(64, 32, "a.png").layout, std::nullopt);
   EXPECT_EQ(guess(64, 48, "a.png").layout, std::nullopt);
-  EXPECT_EQ(guess(64, 48, "a.png").because, "nothing says otherwise");
+  EXPECT_EQ(guess(64, 48, "a.png").reason, "nothing says otherwise");
 }
 
 TEST(LoadEyes, WhatTheFileSaysGoesBeforeItsName) {
@@ -147,7 +147,7 @@ void write_exr(const std::string& path, const std::vector<std::string>& channels
   header.format = FileFormat::kExr;
   header.width = 4;
   header.height = 2;
-  for (const std::string& channel : channels) header.channels.push_back({channel, Sample::kFloat});
+  for (const std::string& channel : channels) header.channels.push_back({channel, SampleType::kFloat});
   write_image(file, header, [&](int y, std::span<float> row) {
     for (size_t i = 0; i < row.size(); i++) row[i] = static_cast<float>(10 * y + static_cast<int>(i % channels.size()));
   });

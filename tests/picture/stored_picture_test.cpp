@@ -34,11 +34,11 @@ PictureRows picture_rows(const std::vector<int>& eyes, bool alpha, bool layers) 
   PictureRows rows;
   rows.eye = {kWidth, kHeight};
   rows.eyes = eyes;
-  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}};
+  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}};
   if (alpha) rows.layers[0].channels.push_back("A");
   if (layers) {
-    rows.layers.push_back({{"Z"}, LayerRule::kNearest, Sample::kFloat});
-    rows.layers.push_back({{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, Sample::kHalf});
+    rows.layers.push_back({{"Z"}, LayerRule::kNearest, SampleType::kFloat});
+    rows.layers.push_back({{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kHalf});
   }
   rows.fill = [=](int index, int y, std::span<float> row) {
     const int eye = eyes[static_cast<size_t>(index)];
@@ -67,7 +67,7 @@ float light_at(const StoredPicture& picture, const StoredEye& eye, int x, int y,
 
 OpenOptions as(std::optional<Layout> layout) {
   OpenOptions options;
-  options.form.layout = layout;
+  options.format.layout = layout;
   return options;
 }
 
@@ -128,7 +128,7 @@ TEST(OpenPicture, LayersHaveTheirRulesAndKindsOfNumber) {
       EXPECT_EQ(eye.layers[0].rule, LayerRule::kLight);
       EXPECT_EQ(eye.layers[1].rule, LayerRule::kMean);
       EXPECT_EQ(eye.layers[2].rule, LayerRule::kNearest);
-      EXPECT_EQ(eye.layers[2].sample, Sample::kFloat);
+      EXPECT_EQ(eye.layers[2].sample, SampleType::kFloat);
       for (int y = 0; y < kHeight; y++) {
         EXPECT_EQ(value_at(eye.layers[2], 5, y, 0), 100.0f + light(eye.eye, 5, y, 0));
         EXPECT_NEAR(value_at(eye.layers[1], 7, y, 2), light(eye.eye, 7, y, 2) - 0.5f, 0.0005f);
@@ -137,7 +137,7 @@ TEST(OpenPicture, LayersHaveTheirRulesAndKindsOfNumber) {
       EXPECT_NEAR(value_at(eye.layers[0], 0, 3, 1), 0.5f * light(eye.eye, 0, 3, 1), 0.0005f) << "multiplied";
     }
     OpenOptions light_only;
-    light_only.only_light = true;
+    light_only.color_only = true;
     EXPECT_EQ(open_picture(folder.path("a.exr"), light_only).eyes[1].layers.size(), 1u);
   }
 }
@@ -167,7 +167,7 @@ PictureRows same_rows(const StoredPicture& picture) {
   PictureRows rows;
   rows.eye = picture.size;
   for (const StoredEye& eye : picture.eyes) rows.eyes.push_back(eye.eye);
-  rows.layers = {{picture.eyes[0].layers[0].channels, LayerRule::kLight, Sample::kHalf}};
+  rows.layers = {{picture.eyes[0].layers[0].channels, LayerRule::kLight, SampleType::kHalf}};
   rows.fill = [&picture](int index, int y, std::span<float> row) {
     const StoredEye& eye = picture.eyes[static_cast<size_t>(index)];
     const size_t channels = eye.layers[0].channels.size();
@@ -209,7 +209,7 @@ TEST(SaveRows, EveryCodeValueComesBack) {
       const std::string copy = folder.path(std::string("b_mono.") + extension);
       save_picture(same_rows(first), nullptr, options_for(Layout::kTopBottom), copy);
       const StoredPicture second = open_picture(copy);
-      ASSERT_EQ(second.eyes[0].layers[0].sample, Sample::kUint8);
+      ASSERT_EQ(second.eyes[0].layers[0].sample, SampleType::kUint8);
       const size_t count = codes.size();
       for (size_t i = 0; i < count; i++) {
         ASSERT_EQ(static_cast<uint8_t>(first.eyes[0].layers[0].first[i]), codes[i]) << i;
@@ -231,7 +231,7 @@ TEST(OpenPicture, ReadsWhatOthersWrite) {
   };
   const auto plain = [](OIIO::ImageSpec&) {};
   const auto tiled = [](OIIO::ImageSpec& spec) { spec.tile_width = spec.tile_height = 16; };
-  const auto expect = [&](const StoredPicture& picture, Sample sample, int channels, float tolerable) {
+  const auto expect = [&](const StoredPicture& picture, SampleType sample, int channels, float tolerable) {
     const LayerPixels& layer = picture.eyes[0].layers[0];
     EXPECT_EQ(layer.sample, sample);
     for (int y : {0, 15, 16, 49}) {
@@ -239,13 +239,13 @@ TEST(OpenPicture, ReadsWhatOthersWrite) {
       EXPECT_NEAR(value_at(layer, 99, y, 2), values[static_cast<size_t>(at + (channels < 3 ? 0 : 2))], tolerable) << y;
     }
   };
-  expect(write("16.png", OIIO::TypeDesc::UINT16, 3, plain), Sample::kUint16, 3, 1e-4f);
-  expect(write("grey.png", OIIO::TypeDesc::UINT8, 1, plain), Sample::kUint8, 1, 0.003f);
-  expect(write("tiles.tif", OIIO::TypeDesc::UINT8, 3, tiled), Sample::kUint8, 3, 0.003f);
-  expect(write("tiles.exr", OIIO::TypeDesc::HALF, 3, tiled), Sample::kHalf, 3, 0.001f);
-  expect(write("double.tif", OIIO::TypeDesc::DOUBLE, 3, plain), Sample::kFloat, 3, 0.0f);
-  expect(write("32.tif", OIIO::TypeDesc::UINT32, 3, plain), Sample::kUint16, 3, 1e-4f);
-  expect(write("grey.exr", OIIO::TypeDesc::FLOAT, 1, plain), Sample::kFloat, 1, 0.0f);
+  expect(write("16.png", OIIO::TypeDesc::UINT16, 3, plain), SampleType::kUint16, 3, 1e-4f);
+  expect(write("grey.png", OIIO::TypeDesc::UINT8, 1, plain), SampleType::kUint8, 1, 0.003f);
+  expect(write("tiles.tif", OIIO::TypeDesc::UINT8, 3, tiled), SampleType::kUint8, 3, 0.003f);
+  expect(write("tiles.exr", OIIO::TypeDesc::HALF, 3, tiled), SampleType::kHalf, 3, 0.001f);
+  expect(write("double.tif", OIIO::TypeDesc::DOUBLE, 3, plain), SampleType::kFloat, 3, 0.0f);
+  expect(write("32.tif", OIIO::TypeDesc::UINT32, 3, plain), SampleType::kUint16, 3, 1e-4f);
+  expect(write("grey.exr", OIIO::TypeDesc::FLOAT, 1, plain), SampleType::kFloat, 1, 0.0f);
   const StoredPicture combined = write("layers.exr", OIIO::TypeDesc::FLOAT, 4, [](OIIO::ImageSpec& spec) {
     spec.channelnames = {"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Depth.Z"};
   });
@@ -299,7 +299,7 @@ TEST(OpenPicture, IdsAreExactOrLeftOut) {
   const std::string said = ::testing::PrintToString(without.guesses);
   EXPECT_NE(said.find("objects has the number 16777217"), std::string::npos) << said;
   OpenOptions light_only;
-  light_only.only_light = true;
+  light_only.color_only = true;
   EXPECT_NO_THROW(open_picture(folder.path("b.exr"), light_only));
 }
 
@@ -310,7 +310,7 @@ std::string write_exr(const TemporaryFolder& folder, const std::string& name,
   header.format = FileFormat::kExr;
   header.width = 4;
   header.height = 2;
-  for (const std::string& channel : channels) header.channels.push_back({channel, Sample::kFloat});
+  for (const std::string& channel : channels) header.channels.push_back({channel, SampleType::kFloat});
   write_image(file, header, [&](int y, std::span<float> row) {
     for (size_t i = 0; i < row.size(); i++) row[i] = static_cast<float>(10 * y + static_cast<int>(i % channels.size()));
   });
@@ -379,7 +379,7 @@ TEST(OpenPicture, BadFilesAreOneLine) {
     OpenOptions options;
   };
   OpenOptions cube = as(Layout::kSeparate);
-  cube.form.projection = find_projection("cube-3x2")->setting;
+  cube.format.projection = find_projection("cube-3x2")->setting;
   const Case cases[] = {{"absent.png", {}},    {"cut.whole.exr", {}},
                         {"cut.whole.png", {}}, {"nothing.exr", {}},
                         {"%v.tif", {}},        {"whole.png", as(Layout::kMultiview)},
@@ -402,7 +402,7 @@ TEST(OpenPicture, OneRowAndNoNumbersAreNoTrouble) {
     PictureRows rows;
     rows.eye = {16, 1};
     rows.eyes = {kLeft, kRight};
-    rows.layers = {{{"R", "G", "B", "A"}, LayerRule::kLight, Sample::kFloat}};
+    rows.layers = {{{"R", "G", "B", "A"}, LayerRule::kLight, SampleType::kFloat}};
     rows.fill = [](int, int, std::span<float> row) {
       std::fill(row.begin(), row.end(), std::numeric_limits<float>::quiet_NaN());
     };
@@ -446,7 +446,7 @@ TEST(OpenPicture, ALargePictureIsNeverInMemory) {
   PictureRows rows;
   rows.eye = {side, side / 2};
   rows.eyes = {kLeft, kRight};
-  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf}};
+  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}};
   rows.fill = [](int, int y, std::span<float> row) {
     std::fill(row.begin(), row.end(), static_cast<float>(y) / static_cast<float>(side));
   };

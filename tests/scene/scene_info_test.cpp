@@ -96,14 +96,14 @@ TEST(SceneInfo, WhatIsLight) {
   Scene scene = make_square();
   Material& material = scene.materials[0];
   material.emission = vec3(1.0f);
-  EXPECT_TRUE(glows(material));
+  EXPECT_TRUE(is_emissive(material));
   EXPECT_FALSE(has_light(scene));  // nothing that glows stands in it
   add_instance(scene, 0, moved(vec3(0)));
   EXPECT_TRUE(has_light(scene));
   material.emission_slot.texture = 0;
   EXPECT_FALSE(has_light(scene));
   material.unlit = 1;
-  EXPECT_FALSE(glows(material));
+  EXPECT_FALSE(is_emissive(material));
   EXPECT_TRUE(has_light(scene));
   EXPECT_EQ(describe(scene, vec3(0.0f)).emissive_triangles, 0u);
   material.unlit = 0;

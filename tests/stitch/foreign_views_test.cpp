@@ -71,7 +71,7 @@ SlitRig unreal_rig(const UnrealCapture& unreal, Extent eye, float yaw, float sca
   SlitOptions options;
   options.slits = unreal.steps, options.pitches = 3, options.caps = true;
   options.blend = 0.0f, options.padding = 0, options.scale = scale;
-  CameraRig camera;
+  StereoCamera camera;
   camera.ipd = unreal.separation, camera.yaw = yaw;
   EXPECT_EQ(slit_fault(camera, eye, options), "");
   return make_slit_rig(camera, eye, {kLeft, kRight}, options);
@@ -128,14 +128,14 @@ TEST(ForeignViews, NormalsOfViewsBecomeTheWorlds) {
   const TemporaryFolder folder;
   SlitOptions options;
   options.slits = 8;
-  const SlitRig rig = make_slit_rig(CameraRig(), {64, 32}, {kLeft, kRight}, options);
+  const SlitRig rig = make_slit_rig(StereoCamera(), {64, 32}, {kLeft, kRight}, options);
   ViewFiles files{folder.path("##.exr")};
   const vec3 normal(0.6f, 0.0f, -0.8f);
-  for (const Sample sample : {Sample::kHalf, Sample::kFloat}) {
+  for (const SampleType sample : {SampleType::kHalf, SampleType::kFloat}) {
     for (size_t i = 0; i < rig.views.size(); i++) {
       PictureRows rows;
       rows.eye = rig.view, rows.eyes = {kMono};
-      rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, Sample::kHalf},
+      rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf},
                      {{"wall.Normal.X", "wall.Normal.Y", "wall.Normal.Z"}, LayerRule::kMean, sample}};
       const Camera view = make_camera(rig.views[i]);
       const float pixel[] = {0.5f, 0.5f, 0.5f, dot(normal, view.right), dot(normal, view.up), dot(normal, view.back)};

@@ -30,7 +30,7 @@ SlitRig read(const std::string& text) {
 }
 
 TEST(SlitFile, ComesBack) {
-  CameraRig camera;
+  StereoCamera camera;
   camera.position = {1.0f, 2.0f, 3.0f};
   camera.yaw = 30.0f, camera.ipd = 0.07f;
   SlitOptions options;
@@ -51,12 +51,12 @@ TEST(SlitFile, ComesBack) {
 
 // --- marks -----------------------------------------------------------------------------------------------------------
 
-SlitRig any_rig(const SlitOptions& options, const CameraRig& camera) {
+SlitRig any_rig(const SlitOptions& options, const StereoCamera& camera) {
   return make_slit_rig(camera, {64, 32}, kBoth, options);
 }
 
-CameraRig turned_camera() {
-  CameraRig camera;
+StereoCamera turned_camera() {
+  StereoCamera camera;
   camera.position = {1.5f, -0.3f, 2.0f};
   camera.yaw = 30.1f, camera.pitch = 7.7f, camera.roll = -3.3f;
   return camera;
@@ -82,7 +82,7 @@ TEST(RigMark, SaysWhichSettingIsAnother) {
   options.slits = 12;
   const std::string mark = rig_mark(any_rig(options, {}));
   EXPECT_EQ(mark_difference(mark, mark), "");
-  const auto difference = [&](const SlitOptions& changed, const CameraRig& camera = {}) {
+  const auto difference = [&](const SlitOptions& changed, const StereoCamera& camera = {}) {
     return mark_difference(rig_mark(any_rig(changed, camera)), mark);
   };
   SlitOptions other = options;
@@ -92,7 +92,7 @@ TEST(RigMark, SaysWhichSettingIsAnother) {
   EXPECT_EQ(difference(other), "depth is plane, not none");
   other = options, other.slits = 14;
   EXPECT_TRUE(difference(other).starts_with("slits is 14, not 12; ")) << difference(other);
-  CameraRig camera;
+  StereoCamera camera;
   camera.ipd = 0.07f;
   EXPECT_EQ(difference(options, camera), "ipd is 0.07, not 0.065");
   camera = {}, camera.top = {kMergeCosine, 0.0f, 90.0f, 1.0f};

@@ -23,7 +23,7 @@ namespace {
 
 const std::vector<int> kBoth = {kLeft, kRight};
 
-SlitRig make_rig(int slits, Extent eye = {512, 256}, CameraRig camera = {}) {
+SlitRig make_rig(int slits, Extent eye = {512, 256}, StereoCamera camera = {}) {
   SlitOptions options;
   options.slits = slits;
   EXPECT_EQ(slit_fault(camera, eye, options), "");
@@ -67,9 +67,9 @@ Off off_at(const SlitRig& rig, size_t eye, vec3 point) {
 }
 
 TEST(SlitError, NoPointIsOffByMoreAndSomeAreByHalf) {
-  CameraRig merged;
+  StereoCamera merged;
   merged.top = merged.bottom = {kMergeCosine, 30.0f, 90.0f, 1.0f};
-  for (const auto& [camera, caps] : {std::pair(CameraRig(), false), {merged, false}, {CameraRig(), true}}) {
+  for (const auto& [camera, caps] : {std::pair(StereoCamera(), false), {merged, false}, {StereoCamera(), true}}) {
     SlitOptions options;
     options.slits = 24, options.pitches = caps ? 3 : 2, options.caps = caps;
     const SlitRig rig = make_slit_rig(camera, {1024, 512}, kBoth, options);
@@ -115,10 +115,10 @@ TEST(SlitError, ASlitForEveryColumnIsTheExactPicture) {
 TEST(SlitError, PlansTheFewestSlitsThatAreEnough) {
   const Extent eye{4096, 2048};
   SlitOptions options;
-  options.slits = slits_for(CameraRig(), eye, options, 1.0f, 0.5f);
+  options.slits = slits_for(StereoCamera(), eye, options, 1.0f, 0.5f);
   EXPECT_NEAR(options.slits, 266, 3);  // science.md: r W / (p d)
   const auto pixels = [&] {
-    const SlitRig rig = make_slit_rig(CameraRig(), eye, {kRight}, options);
+    const SlitRig rig = make_slit_rig(StereoCamera(), eye, {kRight}, options);
     const SlitError error = largest_slit_error(rig, 1.0f);
     return picture_pixels(rig, std::max(error.whole, error.step));
   };
@@ -126,8 +126,8 @@ TEST(SlitError, PlansTheFewestSlitsThatAreEnough) {
   options.slits--;
   EXPECT_GT(pixels(), 0.5f);
   options.depth = ViewDepth::kRay;
-  EXPECT_NEAR(slits_for(CameraRig(), eye, options, 1.0f, 0.5f), 27, 1);
-  CameraRig merged;
+  EXPECT_NEAR(slits_for(StereoCamera(), eye, options, 1.0f, 0.5f), 27, 1);
+  StereoCamera merged;
   merged.top.mode = kMergeCosine;
   EXPECT_THROW(slits_for(merged, eye, SlitOptions(), 1.0f, 0.25f), Error);
 }
@@ -168,7 +168,7 @@ Met meet(const Ray& ray, bool with_ball) {
   return {0.5f + 0.4f * vec3(std::sin(7.0f * p.x + 3.0f * p.y), std::sin(8.0f * p.y), std::sin(6.0f * p.z)), t};
 }
 
-PixelFunction colours(const CameraRig& rig, bool with_ball) {
+PixelFunction colours(const StereoCamera& rig, bool with_ball) {
   return [camera = make_camera(rig), with_ball](int eye, vec2 uv, float* out) {
     const vec3 colour = meet(camera_ray(camera, eye, uv), with_ball).colour;
     for (int c = 0; c < 3; c++) out[c] = colour[c];
@@ -176,7 +176,7 @@ PixelFunction colours(const CameraRig& rig, bool with_ball) {
 }
 
 // kPlane: what a depth buffer would hold.
-PixelFunction depths(const CameraRig& rig, bool with_ball, ViewDepth depth) {
+PixelFunction depths(const StereoCamera& rig, bool with_ball, ViewDepth depth) {
   return [camera = make_camera(rig), with_ball, depth](int eye, vec2 uv, float* out) {
     const Ray ray = camera_ray(camera, eye, uv);
     *out = meet(ray, with_ball).distance * (depth == ViewDepth::kPlane ? -dot(ray.direction, camera.back) : 1.0f);
@@ -188,12 +188,12 @@ struct Views {
   OpenView open = [this](size_t i) { return made[i].picture; };
 };
 void make_views(const SlitRig& rig, bool with_ball, Views& views) {
-  for (const CameraRig& view : rig.views) {
+  for (const StereoCamera& view : rig.views) {
     views.made.push_back(make_picture(view, rig.view, {kMono}));
     views.made.back().memory.reserve(2);
     add_colour(views.made.back(), colours(view, with_ball));
     if (rig.options.depth == ViewDepth::kNone) continue;
-    add_layer<float>(views.made.back(), {"Z"}, LayerRule::kNearest, Sample::kFloat,
+    add_layer<float>(views.made.back(), {"Z"}, LayerRule::kNearest, SampleType::kFloat,
                      depths(view, with_ball, rig.options.depth));
   }
 }
@@ -237,14 +237,14 @@ Judged stitched_psnr(const SlitRig& rig, bool with_ball = false) {
 
 TEST(Stitch, IsTheDirectPicture) {
   EXPECT_GT(stitched_psnr(make_rig(64, {256, 128})).psnr, 60.0);
-  CameraRig camera;  // elsewhere, turned and tilted
+  StereoCamera camera;  // elsewhere, turned and tilted
   camera.position = {0.1f, -0.2f, 0.05f};
   camera.yaw = 77.0f, camera.pitch = 20.0f, camera.roll = -10.0f, camera.ipd = 0.1f;
   EXPECT_GT(stitched_psnr(make_rig(64, {256, 128}, camera)).psnr, 60.0);
 }
 
 TEST(Stitch, ConvergesWithMoreSlits) {
-  CameraRig camera;
+  StereoCamera camera;
   camera.ipd = 0.4f;  // so that it shows
   const double few = stitched_psnr(make_rig(16, {256, 128}, camera)).psnr;
   const double more = stitched_psnr(make_rig(64, {256, 128}, camera)).psnr;
@@ -271,7 +271,7 @@ double psnr_near_the_pole(int slits, float scale) {
     return sum / (kSamples * kSamples);
   };
   std::vector<MadePicture> made;
-  for (const CameraRig& view : rig.views) {
+  for (const StereoCamera& view : rig.views) {
     made.push_back(make_picture(view, rig.view, {kMono}));
     made.back().memory.reserve(1);
     add_colour(made.back(), [&, camera = make_camera(view)](int, vec2 uv, float* out) {
@@ -297,7 +297,7 @@ TEST(Stitch, NearThePolesFinerViewsAreSharperAndMoreSlitsAreNot) {
 }
 
 TEST(Stitch, PartsOfThePicture) {
-  CameraRig camera;
+  StereoCamera camera;
   camera.projection.longitude = {-90.0f, 90.0f};
   camera.projection.latitude = {-60.0f, 80.0f};
   EXPECT_GT(stitched_psnr(make_rig(40, {160, 124}, camera)).psnr, 55.0);
@@ -328,7 +328,7 @@ TEST(Stitch, NothingIsLostOnSharpBorders) {
 }
 
 TEST(Stitch, OtherCameras) {
-  CameraRig neck, toed, shifted;
+  StereoCamera neck, toed, shifted;
   neck.neck = 0.1f;
   toed.convergence = kToeIn, toed.convergence_distance = 3.0f;
   toed.projection.latitude = {-60.0f, 60.0f};
@@ -339,7 +339,7 @@ TEST(Stitch, OtherCameras) {
 }
 
 TEST(Stitch, DepthPutsSurfacesWhereTheyBelong) {
-  CameraRig camera;
+  StereoCamera camera;
   camera.ipd = 0.3f;
   for (const ViewDepth depth : {ViewDepth::kRay, ViewDepth::kPlane}) {
     SlitRig rig = make_rig(12, {256, 128}, camera);
@@ -355,7 +355,7 @@ TEST(Stitch, DepthPutsSurfacesWhereTheyBelong) {
 }
 
 TEST(Stitch, CountsWhatIsHidden) {
-  CameraRig camera;
+  StereoCamera camera;
   camera.ipd = 0.3f;
   SlitOptions options;
   options.slits = 12;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 
 namespace ods {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames for tests of films: the left eye red, the right eye blue, every frame a little brighter; and sound.
+// Frames for tests of videos: the left eye red, the right eye blue, every frame a little brighter; and sound.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -27,17 +27,17 @@ inline std::vector<StoredEye> empty_eyes(const std::vector<int>& eyes) {
   return all;
 }
 
-inline MadePicture make_picture(const CameraRig& rig, Extent size, const std::vector<int>& eyes) {
+inline MadePicture make_picture(const StereoCamera& camera, Extent size, const std::vector<int>& eyes) {
   MadePicture made;
   made.picture.size = size;
-  made.picture.rig = rig;
+  made.picture.camera = camera;
   made.picture.eyes = empty_eyes(eyes);
   return made;
 }
 
 // A layer of floats, or of codes: then the function returns what a code stands for as it is, 0..255.
 template <class T>
-void add_layer(MadePicture& made, const std::vector<std::string>& channels, LayerRule rule, Sample sample,
+void add_layer(MadePicture& made, const std::vector<std::string>& channels, LayerRule rule, SampleType sample,
                const PixelFunction& value) {
   const Extent size = made.picture.size;
   const size_t count = channels.size(), width = static_cast<size_t>(size.width);
@@ -63,7 +63,7 @@ void add_layer(MadePicture& made, const std::vector<std::string>& channels, Laye
 }
 
 inline void add_colour(MadePicture& made, const PixelFunction& value) {
-  add_layer<float>(made, {"R", "G", "B"}, LayerRule::kLight, Sample::kFloat, value);
+  add_layer<float>(made, {"R", "G", "B"}, LayerRule::kLight, SampleType::kFloat, value);
 }
 
 inline int channels_of(const PictureRows& rows) {
@@ -83,8 +83,8 @@ inline std::vector<Image> images_of(const PictureRows& rows) {
 
 // The same eyes with another projection and size.
 inline ConvertTarget target_of(const MadePicture& made, const ProjectionSetting& projection, Extent size) {
-  ConvertTarget target = own_form(made.picture);
-  target.rig.projection = projection;
+  ConvertTarget target = same_format(made.picture);
+  target.camera.projection = projection;
   target.eye = size;
   return target;
 }

@@ -37,7 +37,7 @@ bool is_plate(vec3 color) {
 TEST(Testcard, KnowsHowHighItsLettersAre) {
   const int width = 4096;
   float capital = 1.0f;  // tangents: of the smallest letters
-  for (const Card& card : make_testcard(CameraRig(), {width, width / 2}, {"A LINE"}).cards) {
+  for (const Card& card : make_testcard(StereoCamera(), {width, width / 2}, {"A LINE"}).cards) {
     if (card.strokes.empty()) continue;
     float low = 1.0f, high = -1.0f;
     for (const Stroke& stroke : card.strokes) {
@@ -53,10 +53,10 @@ TEST(Testcard, KnowsHowHighItsLettersAre) {
 
 TEST(Testcard, HoldsLightInEveryProjection) {
   for (const NamedProjection& named : named_projections()) {
-    CameraRig rig;
-    rig.projection = named.setting;
+    StereoCamera stereo;
+    stereo.projection = named.setting;
     const int width = 120;
-    const Testcard card = make_testcard(rig, {width, natural_height(named.setting, width)}, {"A LINE"});
+    const Testcard card = make_testcard(stereo, {width, natural_height(named.setting, width)}, {"A LINE"});
     const Image image = draw(card, kRight);
     float least = 1.0f, most = 0.0f;
     for (float value : image.pixels) {
@@ -91,31 +91,32 @@ TEST(Testcard, EachEyeReadsItsOwnNameAlone) {
 
 // Each plate lies in each eye where the camera's inverse puts its corners.
 TEST(Testcard, PlatesStandAtTheirDistance) {
-  CameraRig rig;
-  rig.yaw = 20.0f;
-  rig.top.mode = rig.bottom.mode = kMergeCosine;
-  const Testcard testcard = make_testcard(rig, {2048, 1024}, {});
+  StereoCamera stereo;
+  stereo.yaw = 20.0f;
+  stereo.top.mode = stereo.bottom.mode = kMergeCosine;
+  const Testcard testcard = make_testcard(stereo, {2048, 1024}, {});
   int plates = 0;
   for (int eye : {kLeft, kRight}) {
     const Image image = draw(testcard, eye);
     for (const Card& card : testcard.cards) {
-      if (card.nearness == 0.0f || card.nearness == 2.5f) continue;  // the plate at 0.4 m covers its neighbour
+      if (card.inverse_depth == 0.0f || card.inverse_depth == 2.5f)
+        continue;  // the plate at 0.4 m covers its neighbour
       const auto color_at = [&](float x, float y) {
         const vec3 p = card.middle + card.right * (x * card.half.x) + card.up * (y * card.half.y);
-        const ImagePosition found = project_point(testcard.camera, eye, p / card.nearness);
+        const ImagePosition found = project_point(testcard.camera, eye, p / card.inverse_depth);
         EXPECT_TRUE(found.seen);
         return pixel_at(image, found.uv);
       };
-      const bool free = card.nearness < 1.0f;  // of neighbours that stand nearer
+      const bool free = card.inverse_depth < 1.0f;  // of neighbours that stand nearer
       int outside = 0;
       for (float place : {-0.8f, -0.4f, 0.0f, 0.4f, 0.8f}) {  // a line of the grid may stand behind one of them
-        EXPECT_TRUE(is_plate(color_at(place, 0.93f))) << 1.0f / card.nearness;
+        EXPECT_TRUE(is_plate(color_at(place, 0.93f))) << 1.0f / card.inverse_depth;
         outside += !is_plate(color_at(place, 1.08f));
       }
-      EXPECT_GE(outside, 4) << 1.0f / card.nearness;
+      EXPECT_GE(outside, 4) << 1.0f / card.inverse_depth;
       for (float side : {-1.0f, 1.0f}) {
-        EXPECT_TRUE(is_plate(color_at(0.93f * side, 0.0f))) << 1.0f / card.nearness;
-        EXPECT_FALSE(free && is_plate(color_at(1.06f * side, 0.5f))) << 1.0f / card.nearness;
+        EXPECT_TRUE(is_plate(color_at(0.93f * side, 0.0f))) << 1.0f / card.inverse_depth;
+        EXPECT_FALSE(free && is_plate(color_at(1.06f * side, 0.5f))) << 1.0f / card.inverse_depth;
       }
       plates++;
     }

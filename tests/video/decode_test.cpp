@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Films that come back as pictures.
+// Videos that come back as pictures.
 #include "ods/video/decode.h"
 
 #include <fmt/format.h>
@@ -11,23 +11,23 @@
 
 #include "ods/base/error.h"
 #include "ods/video/footage.h"
-#include "ods/video/make_film.h"
-#include "tests/support/decoded_film.h"
+#include "ods/video/make_video.h"
+#include "tests/support/decoded_video.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
 namespace {
 
-bool can_encode(FilmCodec codec, Chroma chroma) {
+bool can_encode(VideoCodec codec, Chroma chroma) {
   for (const EncoderFacts& facts : known_encoders()) {
     if (facts.codec == codec && (chroma == Chroma::k420 || !facts.only_420) && has_encoder(facts.name)) return true;
   }
   return false;
 }
 
-Packing usual(FilmCodec codec) {
-  if (codec == FilmCodec::kProRes) return {codec, 10, Chroma::k422, {}};
+Packing usual(VideoCodec codec) {
+  if (codec == VideoCodec::kProRes) return {codec, 10, Chroma::k422, {}};
   return {codec, 8, Chroma::k420, {}};
 }
 
@@ -44,15 +44,15 @@ class Decode : public ::testing::Test {
     const FrameFiles files = find_frames(folder.path("a.#.png"));
     EncodeOptions options;
     options.packing = packing;
-    make_film(files, plan_film(files, {}, layout), {0.0f, ToneCurve::kLinear}, options, folder.path(name));
+    make_video(files, plan_video(files, {}, layout), {0.0f, ToneCurve::kLinear}, options, folder.path(name));
     return folder.path(name);
   }
 
   // What opening and reading it says; empty: all is well.
   std::string error_of(const std::string& path) const {
     try {
-      Footage film(path, {});
-      for (int i = 0; film.picture(i); i++) {
+      Footage video(path, {});
+      for (int i = 0; video.picture(i); i++) {
       }
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
@@ -67,20 +67,20 @@ class Decode : public ::testing::Test {
 TEST_F(Decode, EveryContainerCodecAndLayoutComesBack) {
   made::write_frames(folder.path("a.#.png"), {1, 2, 3});
   for (Container container : kContainers) {
-    for (FilmCodec codec : kFilmCodecs) {
+    for (VideoCodec codec : kVideoCodecs) {
       if (!can_hold(container, codec) || !can_encode(codec, usual(codec).chroma)) continue;
       for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
-        SCOPED_TRACE(fmt::format("{} {} {}", film_codec_name(codec), container_name(container), layout_name(layout)));
-        Footage film(make(fmt::format("film.{}", container_name(container)), usual(codec), layout), {});
-        ASSERT_EQ(film.kind(), FootageKind::kFilm);
-        EXPECT_EQ(film.stream().codec, codec);
-        EXPECT_EQ(film.stream().bits, usual(codec).bits);
-        EXPECT_EQ(film.stream().chroma, usual(codec).chroma);
-        EXPECT_NEAR(film.stream().rate.value(), 30.0, 1e-6);
-        EXPECT_EQ(film.frames(), (std::vector<int>{0, 1, 2}));
-        EXPECT_EQ(film.film().like.layout, layout);
+        SCOPED_TRACE(fmt::format("{} {} {}", video_codec_name(codec), container_name(container), layout_name(layout)));
+        Footage video(make(fmt::format("video.{}", container_name(container)), usual(codec), layout), {});
+        ASSERT_EQ(video.kind(), FootageKind::kVideo);
+        EXPECT_EQ(video.stream().codec, codec);
+        EXPECT_EQ(video.stream().bits, usual(codec).bits);
+        EXPECT_EQ(video.stream().chroma, usual(codec).chroma);
+        EXPECT_NEAR(video.stream().rate.value(), 30.0, 1e-6);
+        EXPECT_EQ(video.frames(), (std::vector<int>{0, 1, 2}));
+        EXPECT_EQ(video.video().like.layout, layout);
         for (int frame = 0; frame < 3; frame++) {
-          const std::optional<StoredPicture> picture = film.picture(frame);
+          const std::optional<StoredPicture> picture = video.picture(frame);
           ASSERT_TRUE(picture);
           ASSERT_EQ(picture->eyes.size(), 2u);
           EXPECT_EQ(picture->size.width, 128);
@@ -91,7 +91,7 @@ TEST_F(Decode, EveryContainerCodecAndLayoutComesBack) {
             }
           }
         }
-        EXPECT_FALSE(film.picture(3));
+        EXPECT_FALSE(video.picture(3));
       }
     }
   }
@@ -118,9 +118,9 @@ TEST_F(Decode, ARampComesBack) {
     for (int bits : {8, 10}) {
       for (Chroma chroma : kChromas) {
         SCOPED_TRACE(fmt::format("{} bits, {}, {}", bits, chroma_name(chroma), colored ? "colours" : "greys"));
-        if (!can_encode(FilmCodec::kH264, chroma)) continue;
-        Footage film(make("ramp.mkv", {FilmCodec::kH264, bits, chroma, 4}), {});
-        const std::optional<StoredPicture> back = film.picture(0);
+        if (!can_encode(VideoCodec::kH264, chroma)) continue;
+        Footage video(make("ramp.mkv", {VideoCodec::kH264, bits, chroma, 4}), {});
+        const std::optional<StoredPicture> back = video.picture(0);
         ASSERT_TRUE(back);
         const double most = colored && bits == 8 ? 2.5 : 1.5;  // 8 bits of blue are 2.1 codes apart
         for (int field = 0; field < 32; field++) {
@@ -146,7 +146,7 @@ TEST(GetCodes, IsTheWayBackOfPutYcbcr) {
   };
   for (int bits : {8, 10}) {
     for (Chroma chroma : kChromas) {
-      const FilmFrame frame(size, {FilmCodec::kHevc, bits, chroma, {}});
+      const VideoFrame frame(size, {VideoCodec::kHevc, bits, chroma, {}});
       const auto rows = [&](int y, std::span<float> row) {
         for (int x = 0; x < 64; x++) {
           for (int c = 0; c < 3; c++) row[static_cast<size_t>(64 * c + x)] = value(x, y, c);
@@ -203,8 +203,8 @@ void expect_refused(const std::string& error, const std::string& words) {
 
 TEST_F(Decode, TurnedPicturesAreRefused) {
   made::write_frames(folder.path("a.#.png"), {1, 2});
-  make("film.mp4", usual(FilmCodec::kH264));
-  std::string bytes = folder.read("film.mp4");
+  make("video.mp4", usual(VideoCodec::kH264));
+  std::string bytes = folder.read("video.mp4");
   const auto put = [&](size_t at, uint32_t value) {
     for (size_t i = 0; i < 4; i++) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
   };
@@ -215,10 +215,10 @@ TEST_F(Decode, TurnedPicturesAreRefused) {
   expect_refused(error_of(folder.path("turned.mp4")), "lie turned");
 }
 
-TEST_F(Decode, DamagedFilmsAreOneLine) {
+TEST_F(Decode, DamagedVideosAreOneLine) {
   made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4});
-  for (const char* name : {"film.mp4", "film.mkv"}) {
-    const std::string path = make(name, usual(FilmCodec::kH264));
+  for (const char* name : {"video.mp4", "video.mkv"}) {
+    const std::string path = make(name, usual(VideoCodec::kH264));
     const std::string whole = folder.read(name);
     folder.write(name, whole.substr(0, whole.size() / 2));
     expect_refused(error_of(path), name);
@@ -231,31 +231,31 @@ TEST_F(Decode, DamagedFilmsAreOneLine) {
     const std::string error = error_of(path);  // what the decoder mends need not be said
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
-  folder.write("film.mp4", "no film at all");
-  EXPECT_NE(error_of(folder.path("film.mp4")), "");
+  folder.write("video.mp4", "no video at all");
+  EXPECT_NE(error_of(folder.path("video.mp4")), "");
 }
 
 TEST_F(Decode, UnevenTimesAreRefused) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
   made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4, 5, 6});
-  const std::string film = make("film.mp4", usual(FilmCodec::kH264)), uneven = folder.path("uneven_360_TB.mp4");
-  const std::string command =
-      "ffmpeg -v error -i " + film + " -vf 'setpts=PTS+gte(N\\,3)*4/30/TB' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
-  if (!output_of(command).empty()) GTEST_SKIP() << "skipped: this ffmpeg makes no uneven film";
+  const std::string video = make("video.mp4", usual(VideoCodec::kH264)), uneven = folder.path("uneven_360_TB.mp4");
+  const std::string command = "ffmpeg -v error -i " + video +
+                              " -vf 'setpts=PTS+gte(N\\,3)*4/30/TB' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
+  if (!output_of(command).empty()) GTEST_SKIP() << "skipped: this ffmpeg makes no uneven video";
   expect_refused(error_of(uneven), "uneven times");
 }
 
 // Their numbers mean other light than BT.709's: shown or laid over as they are they would be wrong.
 TEST_F(Decode, HdrIsRefused) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
-  if (!can_encode(FilmCodec::kHevc, Chroma::k420)) GTEST_SKIP() << "skipped: this machine encodes no HEVC";
+  if (!can_encode(VideoCodec::kHevc, Chroma::k420)) GTEST_SKIP() << "skipped: this machine encodes no HEVC";
   made::write_frames(folder.path("a.#.png"), {1, 2});
-  const std::string film = make("film.mkv", usual(FilmCodec::kHevc)), hdr = folder.path("hdr.mkv");
-  EXPECT_EQ(error_of(film), "");
+  const std::string video = make("video.mkv", usual(VideoCodec::kHevc)), hdr = folder.path("hdr.mkv");
+  EXPECT_EQ(error_of(video), "");
   const char* const kCurves[][2] = {{"16", "smpte2084"}, {"18", "arib-std-b67"}};  // PQ and HLG
   for (const auto& [number, name] : kCurves) {
     const std::string command =
-        "ffmpeg -y -v error -i " + film + " -c copy -bsf:v hevc_metadata=transfer_characteristics=";
+        "ffmpeg -y -v error -i " + video + " -c copy -bsf:v hevc_metadata=transfer_characteristics=";
     ASSERT_EQ(output_of(command + number + " " + hdr + " 2>&1"), "");
     EXPECT_EQ(error_of(hdr), fmt::format("cannot read '{}': it is HDR ({}); ods knows BT.709", hdr, name));
   }

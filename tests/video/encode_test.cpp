@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Films of every kind as other programs see them.
+// Videos of every kind as other programs see them.
 #include "ods/video/encode.h"
 
 #include <fmt/format.h>
@@ -9,15 +9,15 @@
 
 #include <cmath>
 
-#include "ods/video/make_film.h"
-#include "tests/support/decoded_film.h"
+#include "ods/video/make_video.h"
+#include "tests/support/decoded_video.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
 namespace {
 
-std::string usable_encoder(FilmCodec codec, Chroma chroma) {
+std::string usable_encoder(VideoCodec codec, Chroma chroma) {
   for (const EncoderFacts& facts : known_encoders()) {
     const bool fits = facts.codec == codec && (chroma == Chroma::k420 || !facts.only_420);
     if (fits && has_encoder(facts.name)) return std::string(facts.name);
@@ -35,21 +35,21 @@ class Encode : public ::testing::Test {
     const FrameFiles files = find_frames(frames);
     EncodeOptions options = other;
     options.packing = packing;
-    make_film(files, plan_film(files, {}, layout), {0.0f, ToneCurve::kLinear}, options, folder.path(name));
+    make_video(files, plan_video(files, {}, layout), {0.0f, ToneCurve::kLinear}, options, folder.path(name));
     return folder.path(name);
   }
 
   TemporaryFolder folder;
 };
 
-// The left eye is red: where the film says that it is, a decoder finds it.
-void expect_left_is_red(const DecodedFilm& film, bool beside, int first_frame) {
-  const int width = film.size.width, height = film.size.height;
-  for (size_t frame = 0; frame < film.frames(); frame++) {
+// The left eye is red: where the video says that it is, a decoder finds it.
+void expect_left_is_red(const DecodedVideo& video, bool beside, int first_frame) {
+  const int width = video.size.width, height = video.size.height;
+  for (size_t frame = 0; frame < video.frames(); frame++) {
     const double strong = made::code_of(first_frame + static_cast<int>(frame));
-    const auto left = film.codes(frame, width / 4, height / 4);
+    const auto left = video.codes(frame, width / 4, height / 4);
     const auto right =
-        beside ? film.codes(frame, 3 * width / 4, height / 4) : film.codes(frame, width / 4, 3 * height / 4);
+        beside ? video.codes(frame, 3 * width / 4, height / 4) : video.codes(frame, width / 4, 3 * height / 4);
     for (size_t c = 0; c < 3; c++) {
       EXPECT_NEAR(left[c], c == 0 ? strong : 20.0, 4.0) << "left " << c << ", frame " << frame;
       EXPECT_NEAR(right[c], c == 2 ? strong : 20.0, 4.0) << "right " << c << ", frame " << frame;
@@ -57,8 +57,8 @@ void expect_left_is_red(const DecodedFilm& film, bool beside, int first_frame) {
   }
 }
 
-Packing usual(FilmCodec codec) {
-  if (codec == FilmCodec::kProRes) return {codec, 10, Chroma::k422, {}};
+Packing usual(VideoCodec codec) {
+  if (codec == VideoCodec::kProRes) return {codec, 10, Chroma::k422, {}};
   return {codec, 8, Chroma::k420, {}};
 }
 
@@ -66,22 +66,22 @@ TEST_F(Encode, EveryContainerCodecAndLayoutIsWhatItSays) {
   made::write_frames(pattern(), {1, 2, 3});
   const bool decodes = is_installed("ffmpeg") && is_installed("ffprobe");
   for (Container container : kContainers) {
-    for (FilmCodec codec : kFilmCodecs) {
+    for (VideoCodec codec : kVideoCodecs) {
       if (!can_hold(container, codec) || usable_encoder(codec, Chroma::k420).empty()) continue;
       for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
         SCOPED_TRACE(
-            fmt::format("{} in {}, {}", film_codec_name(codec), container_name(container), layout_name(layout)));
-        const std::string name = fmt::format("film.{}", container_name(container));
+            fmt::format("{} in {}, {}", video_codec_name(codec), container_name(container), layout_name(layout)));
+        const std::string name = fmt::format("video.{}", container_name(container));
         const std::string path = make(pattern(), name, usual(codec), layout);
-        const FilmInfo film = read_film(path);
-        EXPECT_EQ(film.container, container);
-        ASSERT_EQ(film.video.size(), 1u);
-        ASSERT_TRUE(film.video[0].v2);
-        EXPECT_EQ(form_text(*film.video[0].v2), fmt::format("{}, lat-long", layout_name(layout)));
+        const VideoFile video = read_video_file(path);
+        EXPECT_EQ(video.container, container);
+        ASSERT_EQ(video.tracks.size(), 1u);
+        ASSERT_TRUE(video.tracks[0].v2);
+        EXPECT_EQ(metadata_text(*video.tracks[0].v2), fmt::format("{}, lat-long", layout_name(layout)));
         const bool has_boxes = container == Container::kMp4 || container == Container::kMov;
-        EXPECT_EQ(film.video[0].v1.has_value(), has_boxes);
+        EXPECT_EQ(video.tracks[0].v1.has_value(), has_boxes);
         if (!decodes) continue;
-        const DecodedFilm decoded = decode_film(path);
+        const DecodedVideo decoded = decode_video(path);
         EXPECT_EQ(decoded.frames(), 3u);
         expect_left_is_red(decoded, layout == Layout::kSideBySide, 1);
       }
@@ -99,7 +99,7 @@ TEST_F(Encode, FramesOfEveryLayoutBecomeLeftOnTop) {
   for (const auto& [name, layout] : kCases) {
     SCOPED_TRACE(name);
     made::write_frames(pattern(name), {4, 5}, layout);
-    expect_left_is_red(decode_film(make(pattern(name), "film.mp4", {})), layout == Layout::kCrossEyed, 4);
+    expect_left_is_red(decode_video(make(pattern(name), "video.mp4", {})), layout == Layout::kCrossEyed, 4);
   }
 }
 
@@ -121,11 +121,11 @@ void write_ramp(const std::string& path, const std::function<vec3(int field)>& c
   save_picture(picture, options, path);
 }
 
-// How far a film of the ramp is off, of 255.
-double worst_of_ramp(const DecodedFilm& film, const std::function<vec3(int field)>& code) {
+// How far a video of the ramp is off, of 255.
+double worst_of_ramp(const DecodedVideo& video, const std::function<vec3(int field)>& code) {
   double worst = 0.0;
   for (int field = 0; field < 32; field++) {
-    const auto codes = film.codes(0, field % 8 * 16 + 8, field / 8 * 16 + 8);
+    const auto codes = video.codes(0, field % 8 * 16 + 8, field / 8 * 16 + 8);
     for (int c = 0; c < 3; c++)
       worst = std::max(worst, std::abs(codes[static_cast<size_t>(c)] - double{code(field)[c]}));
   }
@@ -139,12 +139,12 @@ TEST_F(Encode, AGreyRampComesBackInEveryCodec) {
   for (const EncoderFacts& facts : known_encoders()) {
     for (int bits : {8, 10}) {
       Packing packing = usual(facts.codec);
-      if (!has_encoder(facts.name) || (facts.codec == FilmCodec::kProRes && bits == 8)) continue;
+      if (!has_encoder(facts.name) || (facts.codec == VideoCodec::kProRes && bits == 8)) continue;
       packing.bits = bits;
       EncodeOptions options;
       options.encoder = facts.name;
-      const DecodedFilm film = decode_film(make(pattern("ramp.#.png"), "ramp.mkv", packing, {}, options));
-      EXPECT_LE(worst_of_ramp(film, grey), 1.5) << facts.name << ", " << bits << " bits";
+      const DecodedVideo video = decode_video(make(pattern("ramp.#.png"), "ramp.mkv", packing, {}, options));
+      EXPECT_LE(worst_of_ramp(video, grey), 1.5) << facts.name << ", " << bits << " bits";
     }
   }
 }
@@ -153,22 +153,22 @@ TEST_F(Encode, ColoursComeBackWhereNoneIsShared) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
   const auto color = [](int i) { return vec3(i % 4, i / 4 % 4, i / 16 * 2 + 1) * 80.0f; };
   write_ramp(pattern("ramp.1.png"), color);
-  for (FilmCodec codec : {FilmCodec::kH264, FilmCodec::kHevc, FilmCodec::kVp9, FilmCodec::kProRes}) {
+  for (VideoCodec codec : {VideoCodec::kH264, VideoCodec::kHevc, VideoCodec::kVp9, VideoCodec::kProRes}) {
     if (usable_encoder(codec, Chroma::k444).empty()) continue;
     Packing packing{codec, 10, Chroma::k444, 4};
-    if (codec == FilmCodec::kProRes) packing.quality.reset();
-    const DecodedFilm film = decode_film(make(pattern("ramp.#.png"), "ramp.mkv", packing));
-    EXPECT_LE(worst_of_ramp(film, color), 1.5) << film_codec_name(codec);
+    if (codec == VideoCodec::kProRes) packing.quality.reset();
+    const DecodedVideo video = decode_video(make(pattern("ramp.#.png"), "ramp.mkv", packing));
+    EXPECT_LE(worst_of_ramp(video, color), 1.5) << video_codec_name(codec);
   }
 }
 
 // --- readers
 // -----------------------------------------------------------------------------------------------------------
 
-TEST_F(Encode, TheFilmSaysThatItIsBt709) {
+TEST_F(Encode, TheVideoSaysThatItIsBt709) {
   if (!is_installed("ffprobe")) GTEST_SKIP() << "skipped: ffprobe is not installed";
   made::write_frames(pattern(), {1});
-  for (const char* name : {"film.mp4", "film.mov", "film.mkv"}) {
+  for (const char* name : {"video.mp4", "video.mov", "video.mkv"}) {
     const std::string text = output_of("ffprobe -v quiet -show_streams " + make(pattern(), name, {}));
     for (const char* line : {"color_range=tv", "color_space=bt709", "color_transfer=bt709", "color_primaries=bt709",
                              "chroma_location=left", "type=top and bottom", "projection=equirectangular"}) {
@@ -183,8 +183,8 @@ TEST_F(Encode, OtherReadersAgree) {
   }
   if (!has_encoder("libx265")) GTEST_SKIP() << "skipped: this machine has no libx265";
   made::write_frames(pattern(), {1, 2});
-  const Packing hevc{FilmCodec::kHevc, 8, Chroma::k420, {}};
-  const std::string mkv = make(pattern(), "film.mkv", hevc), mp4 = make(pattern(), "film.mp4", hevc);
+  const Packing hevc{VideoCodec::kHevc, 8, Chroma::k420, {}};
+  const std::string mkv = make(pattern(), "video.mkv", hevc), mp4 = make(pattern(), "video.mp4", hevc);
   const std::string elements = output_of("mkvinfo " + mkv);
   // "Stereo mode", of later ones "Video stereo mode".
   for (const char* line : {"tereo mode: 3", "Projection type: 1", "Color matrix coefficients: 1", "Color range: 1"}) {
@@ -207,15 +207,15 @@ TEST_F(Encode, EverySecondBeginsAnew) {
   made::write_frames(pattern(), frames, Layout::kTopBottom, {64, 32});
   EncodeOptions options;
   options.rate = {10, 1};
-  for (FilmCodec codec : {FilmCodec::kH264, FilmCodec::kHevc, FilmCodec::kAv1, FilmCodec::kVp9}) {
+  for (VideoCodec codec : {VideoCodec::kH264, VideoCodec::kHevc, VideoCodec::kAv1, VideoCodec::kVp9}) {
     if (usable_encoder(codec, Chroma::k420).empty()) continue;
-    const std::string film = make(pattern(), "film.mp4", usual(codec), {}, options);
+    const std::string video = make(pattern(), "video.mp4", usual(codec), {}, options);
     std::istringstream flags(
-        output_of("ffprobe -v error -select_streams v -show_entries packet=flags -of csv=p=0 " + film));
+        output_of("ffprobe -v error -select_streams v -show_entries packet=flags -of csv=p=0 " + video));
     int frame = 0, key = -10;
     for (std::string each; flags >> each; frame++) {
       if (each.starts_with("K")) key = frame;
-      EXPECT_LT(frame - key, 10) << film_codec_name(codec);
+      EXPECT_LT(frame - key, 10) << video_codec_name(codec);
     }
     EXPECT_EQ(frame, 25);
   }
@@ -231,13 +231,13 @@ TEST_F(Encode, SoundIsMuxed) {
   for (int channels : {1, 2, 4}) {
     folder.write("sound.wav", made::wav(channels, 0.2));
     for (Container container : {Container::kMp4, Container::kMov, Container::kMatroska}) {
-      const std::string film = make(pattern(), fmt::format("film.{}", container_name(container)), {}, {}, options);
-      const FilmInfo info = read_film(film);
+      const std::string video = make(pattern(), fmt::format("video.{}", container_name(container)), {}, {}, options);
+      const VideoFile info = read_video_file(video);
       ASSERT_EQ(info.sound.size(), 1u);
       const bool has_boxes = container != Container::kMatroska;
-      ASSERT_EQ(info.sound[0].ambisonics.has_value(), channels == 4 && has_boxes) << film;
+      ASSERT_EQ(info.sound[0].ambisonics.has_value(), channels == 4 && has_boxes) << video;
       if (!is_installed("ffprobe")) continue;
-      const std::string text = output_of("ffprobe -v quiet -select_streams a -show_streams " + film);
+      const std::string text = output_of("ffprobe -v quiet -select_streams a -show_streams " + video);
       EXPECT_NE(text.find(fmt::format("channels={}\n", channels)), std::string::npos) << text;
       const bool says_so = text.find("channel_layout=ambisonic 1") != std::string::npos;
       EXPECT_EQ(says_so, channels == 4 && container != Container::kMp4) << text;
@@ -252,9 +252,9 @@ TEST_F(Encode, SoundComesBackInItsChannels) {
   folder.write("sound.wav", made::wav(4, 0.25));
   EncodeOptions options;
   options.sound = folder.path("sound.wav");
-  for (const char* name : {"film.mp4", "film.mov", "film.mkv"}) {
-    const std::string film = make(pattern(), name, {}, {}, options);
-    const std::string bytes = output_of("ffmpeg -v error -i " + film + " -map 0:a -f s16le -");
+  for (const char* name : {"video.mp4", "video.mov", "video.mkv"}) {
+    const std::string video = make(pattern(), name, {}, {}, options);
+    const std::string bytes = output_of("ffmpeg -v error -i " + video + " -map 0:a -f s16le -");
     EXPECT_NEAR(static_cast<double>(bytes.size() / 8), 0.2 * 48000, 1024.0) << name;
     double off[4] = {}, loud[4] = {};
     for (size_t i = 0; i < std::min<size_t>(bytes.size() / 8, 9000); i++) {

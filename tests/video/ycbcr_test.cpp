@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "ods/video/film_frame.h"
+#include "ods/video/video_frame.h"
 
 namespace ods {
 namespace {
@@ -21,15 +21,15 @@ std::array<double, 3> exact(double red, double green, double blue, int bits) {
           (224.0 * (red - luma) / 1.5748 + 128.0) * unit};
 }
 
-int value_at(const FilmFrame& frame, size_t plane, int x, int y) {
+int value_at(const VideoFrame& frame, size_t plane, int x, int y) {
   const Planes& planes = frame.planes();
   const std::byte* row = planes.first[plane] + static_cast<size_t>(y) * planes.stride[plane];
   if (planes.bits == 8) return static_cast<int>(row[x]);
   return reinterpret_cast<const uint16_t*>(row)[x];
 }
 
-FilmFrame frame_of(Extent size, int bits, Chroma chroma, const std::function<vec3(int x, int y)>& code) {
-  FilmFrame frame(size, {FilmCodec::kH264, bits, chroma, {}});
+VideoFrame frame_of(Extent size, int bits, Chroma chroma, const std::function<vec3(int x, int y)>& code) {
+  VideoFrame frame(size, {VideoCodec::kH264, bits, chroma, {}});
   put_ycbcr(
       [&](int y, std::span<float> row) {
         for (int x = 0; x < size.width; x++) {
@@ -52,7 +52,7 @@ TEST(Ycbcr, NamesAndBlocks) {
 TEST(Ycbcr, BlackAndWhiteAreTheLimits) {
   for (int bits : {8, 10}) {
     for (Chroma chroma : kChromas) {
-      const FilmFrame frame = frame_of({4, 2}, bits, chroma, [](int x, int) { return vec3(x < 2 ? 0.0f : 1.0f); });
+      const VideoFrame frame = frame_of({4, 2}, bits, chroma, [](int x, int) { return vec3(x < 2 ? 0.0f : 1.0f); });
       EXPECT_EQ(value_at(frame, 0, 0, 0), 16 << (bits - 8));
       EXPECT_EQ(value_at(frame, 0, 3, 1), 235 << (bits - 8));
       EXPECT_EQ(value_at(frame, 1, 0, 0), 128 << (bits - 8));
@@ -63,7 +63,7 @@ TEST(Ycbcr, BlackAndWhiteAreTheLimits) {
 
 TEST(Ycbcr, EveryGreyIsRoundedToTheNearestAndHasNoColour) {
   for (int bits : {8, 10}) {
-    const FilmFrame frame =
+    const VideoFrame frame =
         frame_of({256, 1}, bits, Chroma::k444, [](int x, int) { return vec3(static_cast<float>(x) / 255.0f); });
     for (int x = 0; x < 256; x++) {
       EXPECT_EQ(value_at(frame, 0, x, 0), std::lround(exact(x / 255.0, x / 255.0, x / 255.0, bits)[0])) << x;
@@ -80,7 +80,7 @@ TEST(Ycbcr, ColoursFollowTheStandard) {
   while (colors.size() < 500) colors.push_back({unit(random), unit(random), unit(random)});
   const Extent size{static_cast<int>(colors.size()), 1};
   for (int bits : {8, 10}) {
-    const FilmFrame frame =
+    const VideoFrame frame =
         frame_of(size, bits, Chroma::k444, [&](int x, int) { return colors[static_cast<size_t>(x)]; });
     for (int x = 0; x < size.width; x++) {
       const vec3 color = colors[static_cast<size_t>(x)];
@@ -99,7 +99,7 @@ TEST(Ycbcr, SharedColoursLieOnTheLeftPixels) {
   for (vec3& color : colors) color = {unit(random), unit(random), unit(random)};
   const auto color_at = [&](int x, int y) { return colors[static_cast<size_t>(std::max(x, 0) + y * size.width)]; };
   for (Chroma chroma : {Chroma::k420, Chroma::k422}) {
-    const FilmFrame frame = frame_of(size, 10, chroma, color_at);
+    const VideoFrame frame = frame_of(size, 10, chroma, color_at);
     const int rows = chroma_block(chroma).height;
     for (int y = 0; y < size.height / rows; y++) {
       for (int x = 0; x < size.width / 2; x++) {
@@ -120,10 +120,10 @@ TEST(Ycbcr, SharedColoursLieOnTheLeftPixels) {
 // --- pictures
 // ----------------------------------------------------------------------------------------------------------
 
-StoredPicture picture_of(std::vector<float>& memory, Extent size, size_t channels, Sample sample) {
+StoredPicture picture_of(std::vector<float>& memory, Extent size, size_t channels, SampleType sample) {
   StoredPicture picture;
   picture.size = size;
-  picture.is_float = sample == Sample::kFloat;
+  picture.is_float = sample == SampleType::kFloat;
   LayerPixels layer;
   layer.channels.assign(channels, "");
   layer.sample = sample;
@@ -134,15 +134,15 @@ StoredPicture picture_of(std::vector<float>& memory, Extent size, size_t channel
   return picture;
 }
 
-TEST(FilmFrame, LightIsDevelopedAsPicturesAre) {
+TEST(VideoFrame, LightIsDevelopedAsPicturesAre) {
   std::vector<float> light;
   for (int i = 0; i < 400; i++)
     light.push_back(std::exp2(static_cast<float>(i % 100) / 5.0f - 16.0f) * (1.0f + 0.3f * static_cast<float>(i % 3)));
   light.insert(light.end(), {NAN, INFINITY, -1.0f, 0.0f, 1e-30f});
   const Extent size{135, 1};
-  for (const Development& development : {Development{}, Development{2.0f, ToneCurve::kLinear}}) {
-    const StoredPicture picture = picture_of(light, size, 3, Sample::kFloat);
-    FilmFrame frame(size, {FilmCodec::kH264, 10, Chroma::k444, {}});
+  for (const DisplayTransform& development : {DisplayTransform{}, DisplayTransform{2.0f, ToneCurve::kLinear}}) {
+    const StoredPicture picture = picture_of(light, size, 3, SampleType::kFloat);
+    VideoFrame frame(size, {VideoCodec::kH264, 10, Chroma::k444, {}});
     fill_frame(picture, Layout::kTopBottom, development, frame);
     for (int x = 0; x < size.width; x++) {
       const float* at = &light[static_cast<size_t>(3 * x)];
@@ -154,12 +154,12 @@ TEST(FilmFrame, LightIsDevelopedAsPicturesAre) {
   }
 }
 
-TEST(FilmFrame, AlphaIsBeforeBlack) {
+TEST(VideoFrame, AlphaIsBeforeBlack) {
   std::vector<float> memory(2);
   auto* bytes = reinterpret_cast<uint8_t*>(memory.data());
   for (int code : {200, 200, 200, 255, 200, 200, 200, 128}) *bytes++ = static_cast<uint8_t>(code);
-  const StoredPicture picture = picture_of(memory, {2, 1}, 4, Sample::kUint8);
-  FilmFrame frame({2, 1}, {FilmCodec::kH264, 8, Chroma::k444, {}});
+  const StoredPicture picture = picture_of(memory, {2, 1}, 4, SampleType::kUint8);
+  VideoFrame frame({2, 1}, {VideoCodec::kH264, 8, Chroma::k444, {}});
   fill_frame(picture, Layout::kTopBottom, {}, frame);
   EXPECT_EQ(value_at(frame, 0, 0, 0), std::lround(16.0 + 219.0 * 200.0 / 255.0));
   const double half = double{srgb_encode(srgb_decode(200.0f / 255.0f) * (128.0f / 255.0f))};
@@ -167,14 +167,14 @@ TEST(FilmFrame, AlphaIsBeforeBlack) {
 }
 
 // One eye red, one blue: nothing of one in the other, however they lie.
-TEST(FilmFrame, EyesDoNotBleed) {
+TEST(VideoFrame, EyesDoNotBleed) {
   std::vector<float> red, blue;
   for (int i = 0; i < 16; i++) red.insert(red.end(), {1.0f, 0.0f, 0.0f}), blue.insert(blue.end(), {0.0f, 0.0f, 1.0f});
-  StoredPicture picture = picture_of(red, {4, 4}, 3, Sample::kFloat);
-  picture.eyes.push_back(picture_of(blue, {4, 4}, 3, Sample::kFloat).eyes[0]);
+  StoredPicture picture = picture_of(red, {4, 4}, 3, SampleType::kFloat);
+  picture.eyes.push_back(picture_of(blue, {4, 4}, 3, SampleType::kFloat).eyes[0]);
   for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
     const Extent size = packed_size(layout, picture.size, 2);
-    FilmFrame frame(size, {FilmCodec::kH264, 8, Chroma::k420, {}});
+    VideoFrame frame(size, {VideoCodec::kH264, 8, Chroma::k420, {}});
     fill_frame(picture, layout, {0.0f, ToneCurve::kLinear}, frame);
     for (int y = 0; y < size.height / 2; y++) {
       for (int x = 0; x < size.width / 2; x++) {
@@ -185,7 +185,7 @@ TEST(FilmFrame, EyesDoNotBleed) {
   }
 }
 
-TEST(FilmFrame, LayoutsThatFilmsHave) {
+TEST(VideoFrame, LayoutsThatVideosHave) {
   const std::pair<Layout, Layout> kCases[] = {
       {Layout::kTopBottom, Layout::kTopBottom},         {Layout::kBottomTop, Layout::kTopBottom},
       {Layout::kSideBySide, Layout::kSideBySide},       {Layout::kCrossEyed, Layout::kSideBySide},
@@ -195,11 +195,11 @@ TEST(FilmFrame, LayoutsThatFilmsHave) {
   StoredPicture picture;
   for (const auto& [from, to] : kCases) {
     picture.layout = from;
-    EXPECT_EQ(film_layout(picture), to) << layout_name(from);
+    EXPECT_EQ(video_layout(picture), to) << layout_name(from);
   }
   picture.layout = Layout::kMultiview;
-  picture.rig.projection = find_projection("vr180")->setting;
-  EXPECT_EQ(film_layout(picture), Layout::kSideBySide);
+  picture.camera.projection = find_projection("vr180")->setting;
+  EXPECT_EQ(video_layout(picture), Layout::kSideBySide);
 }
 
 }  // namespace

@@ -2,100 +2,155 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/image/format/exr_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdint>
+#include <cassert>
 #include <cstring>
-#include <optional>
-#include <string>
+
+#include "ods/base/error.h"
 
 namespace ods {
 
-namespace {
+constexpr uint64_t kStart = 8;               // bytes of magic number and version
+constexpr uint64_t kLongest = 64ull << 20u;  // of a header
+constexpr size_t kOffset = 8;                // bytes of the offset of a chunk
 
-constexpr size_t kLongestName = 255;
-constexpr int64_t kMostRowsOfAChunk = 256;  // of DWAB
-constexpr size_t kOffset = 8;               // bytes
-
-struct Box {
-  int32_t left, top, right, bottom;
-};
-
-class HeaderReader {
- public:
-  HeaderReader(size_t size, const ByteReader& read) : size_(size), read_(read) {}
-
-  size_t at = 0;
-
-  template <class T>
-  std::optional<T> number(size_t where) const {  // little endian, as all machines that this runs on
-    T value;
-    if (where > size_ || size_ - where < sizeof value || !read_(where, &value, sizeof value)) return std::nullopt;
-    return value;
-  }
-
-  // Up to the next zero, which is skipped.
-  std::optional<std::string> word() {
-    char bytes[kLongestName + 1] = {};
-    const size_t count = std::min(sizeof bytes, size_ - std::min(at, size_));
-    if (count == 0 || !read_(at, bytes, count)) return std::nullopt;
-    const char* end = static_cast<const char*>(std::memchr(bytes, 0, count));
-    if (!end) return std::nullopt;
-    at += static_cast<size_t>(end - bytes) + 1;
-    return std::string(static_cast<const char*>(bytes), end);
-  }
-
-  bool skip(size_t count) {
-    if (at > size_ || count > size_ - at) return false;
-    at += count;
-    return true;
-  }
-
-  bool has_room(int64_t offsets) const { return offsets <= static_cast<int64_t>(size_ / kOffset); }
-
- private:
-  size_t size_;
-  const ByteReader& read_;
-};
-
-// Attributes up to the empty name that ends them.
-bool skip_attributes(HeaderReader& in) {
-  Box box{};
-  int64_t columns = 0, rows = kMostRowsOfAChunk;  // of a chunk; no columns: those of the picture
-  for (;;) {
-    const std::optional<std::string> name = in.word();
-    if (!name) return false;
-    if (name->empty()) break;
-    const std::optional<std::string> type = in.word();
-    const std::optional<int32_t> size = in.number<int32_t>(in.at);
-    if (!type || !size || *size < 0 || !in.skip(sizeof *size)) return false;
-    if (*name == "dataWindow") box = in.number<Box>(in.at).value_or(Box{});
-    if (*name == "tiles") {
-      columns = in.number<uint32_t>(in.at).value_or(0);
-      rows = in.number<uint32_t>(in.at + 4).value_or(0);
-    }
-    if (!in.skip(static_cast<size_t>(*size))) return false;
-  }
-  const int64_t width = int64_t{box.right} - box.left + 1, height = int64_t{box.bottom} - box.top + 1;
-  if (width < 1 || height < 1 || rows < 1) return true;  // wrong, but not large
-  const int64_t across = columns > 0 ? (width + columns - 1) / columns : 1, down = (height + rows - 1) / rows;
-  return in.has_room(across) && in.has_room(down) && in.has_room(across * down);
+static Error unusable(const FileInput& file, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", file.path(), why));
 }
 
-}  // namespace
+template <class T>
+static T number_at(std::string_view bytes, size_t at) {  // little endian, as all machines that this runs on
+  T value{};
+  if (at <= bytes.size() && sizeof value <= bytes.size() - at) std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
 
-bool has_room_for_header(size_t file_size, const ByteReader& read) {
-  const uint32_t kSeveralParts = 1u << 12u;
-  HeaderReader in(file_size, read);
-  const std::optional<uint32_t> version = in.number<uint32_t>(4);
-  if (!version) return false;
-  in.at = 8;
-  do {
-    if (!skip_attributes(in)) return false;
-    const std::optional<char> next = in.number<char>(in.at);
-    if (!next) return false;
-    if (*next == 0) break;
-  } while (*version & kSeveralParts);
-  return true;
+template <class T>
+static std::string bytes_of(const T* values, size_t count) {
+  return {reinterpret_cast<const char*>(values), count * sizeof(T)};
+}
+
+ExrHeader read_exr_header(const FileInput& file) {
+  constexpr uint32_t kSeveralParts = 1u << 12u;
+  const Error damaged = unusable(file, "the EXR is cut short or damaged");
+  const std::string bytes = file.read(0, std::min(file.size(), kLongest));
+  if (bytes.size() < kStart || !bytes.starts_with("\x76\x2f\x31\x01")) throw damaged;
+  if ((number_at<uint32_t>(bytes, 4) & kSeveralParts) != 0) throw unusable(file, "it is an EXR of several parts");
+  ExrHeader header;
+  size_t at = kStart;
+  const auto word = [&] {
+    const size_t end = bytes.find('\0', at);
+    if (end == std::string::npos) throw damaged;
+    const std::string text = bytes.substr(at, end - at);
+    at = end + 1;
+    return text;
+  };
+  for (std::string name = word(); !name.empty(); name = word()) {
+    const std::string type = word();
+    const int32_t size = number_at<int32_t>(bytes, at);
+    if (size < 0 || at + 4 > bytes.size() || static_cast<size_t>(size) > bytes.size() - at - 4) throw damaged;
+    header.attributes.push_back({name, type, bytes.substr(at + 4, static_cast<size_t>(size))});
+    at += 4 + static_cast<size_t>(size);
+  }
+  header.end = at;
+  return header;
+}
+
+// --- what it says ----------------------------------------------------------------------------------------------------
+
+// Each: its name, a zero, 16 bytes.
+static std::vector<std::string> channel_names(const std::string& list) {
+  std::vector<std::string> names;
+  for (size_t at = 0; at < list.size() && list[at] != 0;) {
+    const size_t end = list.find('\0', at);
+    if (end == std::string::npos) break;
+    names.push_back(list.substr(at, end - at));
+    at = end + 1 + 16;
+  }
+  return names;
+}
+
+static void add_numbers(FileInfo& info, const ExrAttribute& attribute, size_t count) {
+  std::vector<float>& numbers = info.numbers[attribute.name];
+  for (size_t i = 0; i < count; i++) numbers.push_back(number_at<float>(attribute.value, 4 * i));
+}
+
+FileInfo exr_info(const ExrHeader& header) {
+  FileInfo info;
+  info.is_float = true;
+  for (const ExrAttribute& each : header.attributes) {
+    if (each.name == "channels") info.channels = channel_names(each.value);
+    if (each.name == "dataWindow" && each.value.size() == 16) {
+      const auto side = [&](size_t low, size_t high) {
+        const int64_t pixels = int64_t{number_at<int32_t>(each.value, high)} - number_at<int32_t>(each.value, low) + 1;
+        return static_cast<int>(std::clamp<int64_t>(pixels, 0, kMaxSide));
+      };
+      info.width = side(0, 8);
+      info.height = side(4, 12);
+    }
+    if (each.type == "string") info.text[each.name] = each.value;
+    if (each.type == "float") add_numbers(info, each, 1);
+    if (each.type == "v2f") add_numbers(info, each, 2);
+    if (each.type == "v3f") add_numbers(info, each, 3);
+    if (each.type == "int") info.numbers[each.name] = {static_cast<float>(number_at<int32_t>(each.value, 0))};
+    if (each.type == "envmap" && each.value == std::string(1, '\0')) info.text["textureformat"] = "LatLong Environment";
+  }
+  return info;
+}
+
+// --- written ---------------------------------------------------------------------------------------------------------
+
+static std::string sized(const std::string& bytes) {
+  const int32_t size = static_cast<int32_t>(bytes.size());
+  return bytes_of(&size, 1) + bytes;
+}
+
+ExrAttribute exr_attribute(const Attribute& attribute) {
+  if (const int* i = std::get_if<int>(&attribute.value)) return {attribute.name, "int", bytes_of(i, 1)};
+  if (const float* f = std::get_if<float>(&attribute.value)) return {attribute.name, "float", bytes_of(f, 1)};
+  if (const std::string* s = std::get_if<std::string>(&attribute.value)) return {attribute.name, "string", *s};
+  if (const auto* floats = std::get_if<std::vector<float>>(&attribute.value)) {
+    assert(floats->size() == 2 || floats->size() == 3);
+    return {attribute.name, floats->size() == 2 ? "v2f" : "v3f", bytes_of(floats->data(), floats->size())};
+  }
+  std::string words;
+  for (const std::string& word : std::get<std::vector<std::string>>(attribute.value)) words += sized(word);
+  return {attribute.name, "stringvector", words};
+}
+
+// Where the chunks begin: the offsets end where the first chunk lies, which need not be the first one's of the list.
+static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
+  constexpr uint64_t kPiece = 8192;  // offsets
+  const Error damaged = unusable(file, "the offsets in the EXR are damaged, as in one that was never finished");
+  std::vector<uint64_t> offsets;
+  uint64_t first = file.size();
+  for (; at + kOffset * offsets.size() < first;) {
+    const uint64_t from = at + kOffset * offsets.size();
+    const std::string bytes = file.read(from, std::min(kPiece, (first - from) / kOffset) * kOffset);
+    if (bytes.empty()) throw damaged;
+    for (size_t i = 0; i < bytes.size() && at + kOffset * offsets.size() < first; i += kOffset) {
+      offsets.push_back(number_at<uint64_t>(bytes, i));
+      if (offsets.back() < at + kOffset * offsets.size() || offsets.back() >= file.size()) throw damaged;
+      first = std::min(first, offsets.back());
+    }
+  }
+  if (offsets.empty() || at + kOffset * offsets.size() != first) throw damaged;
+  return offsets;
+}
+
+void write_exr_header(const FileInput& file, AtomicFile& to, const ExrHeader& header) {
+  std::vector<uint64_t> offsets = read_offsets(file, header.end);
+  const uint64_t chunks = header.end + kOffset * offsets.size();
+  std::string bytes = file.read(0, kStart);
+  for (const ExrAttribute& each : header.attributes) {
+    bytes += each.name + '\0' + each.type + '\0' + sized(each.value);
+  }
+  bytes += '\0';
+  for (uint64_t& offset : offsets) offset = offset - header.end + bytes.size();
+  append(to, bytes + bytes_of(offsets.data(), offsets.size()));
+  file.copy(chunks, file.size() - chunks, to);
 }
 
 }  // namespace ods

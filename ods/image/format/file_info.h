@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/image/format/sample.h"
+#include "ods/image/format/sample_type.h"
 
 namespace ods {
 
@@ -17,7 +17,7 @@ struct FileInfo {
   int height = 0;
   bool is_float = false;                              // light as it is; else code values of a display
   std::vector<std::string> channels;                  // R, G, B, A first
-  std::vector<Sample> samples;                        // of every channel, as RowReader gives them
+  std::vector<SampleType> samples;                    // of every channel, as RowReader gives them
   std::map<std::string, std::string> text;            // attributes that are words, by OpenImageIO's names
   std::map<std::string, std::vector<float>> numbers;  // and those that are numbers
   std::string color;                                  // the name of its colour space; empty: it does not say

@@ -90,13 +90,13 @@ bool is_whole_jpeg(size_t file_size, const ByteReader& read) {
 }
 
 std::vector<JpegSegment> read_jpeg_headers(const FileInput& file) {
-  constexpr size_t kMost = 1000000;
+  constexpr size_t kMax = 1000000;
   const auto damaged = [&] {
     return Error(ErrorKind::kInput, fmt::format("cannot use '{}': the JPEG is cut short or damaged", file.path()));
   };
   const auto byte = [](const std::string& bytes, size_t at) { return static_cast<unsigned char>(bytes[at]); };
   std::vector<JpegSegment> segments;
-  for (uint64_t at = 2; segments.size() < kMost;) {
+  for (uint64_t at = 2; segments.size() < kMax;) {
     if (at + 4 > file.size()) throw damaged();
     const std::string start = file.read(at, 4);
     if (byte(start, 0) != 0xFF) throw damaged();

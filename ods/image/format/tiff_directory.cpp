@@ -41,7 +41,7 @@ static size_t first_offset(const TiffDirectory& directory) {
 }
 
 TiffDirectory read_tiff_directory(const FileInput& file) {
-  constexpr uint64_t kMost = 65535;
+  constexpr uint64_t kMax = 65535;
   if (file.size() < 16) throw damaged(file);
   const std::string start = file.read(0, 16);
   TiffDirectory directory;
@@ -52,7 +52,7 @@ TiffDirectory read_tiff_directory(const FileInput& file) {
   const uint64_t at = number(std::string_view(start).substr(first_offset(directory), size));
   if (at < first_offset(directory) + size || at > file.size() || count_size > file.size() - at) throw damaged(file);
   const uint64_t count = number(file.read(at, count_size));
-  if (count > kMost || count * entry_size + size > file.size() - at - count_size) throw damaged(file);
+  if (count > kMax || count * entry_size + size > file.size() - at - count_size) throw damaged(file);
   const std::string bytes = file.read(at + count_size, count * entry_size + size);
   const std::string_view view = bytes;
   for (size_t i = 0; i < count; i++) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Eye and image position -> ray: the omni-directional stereo camera, a pure function.
-// Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. As CameraRig's defaults
-// have it, it is that model exactly; the rest is what other systems add to it:
+// Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. As StereoCamera's
+// defaults have it, it is that model exactly; the rest is what other systems add to it:
 //
 //   a ray of heading F, with R at its right hand, starts at   E + merge * neck * F   with E = merge * side * ipd/2 * R
 //   and looks along the projection's direction d, or, toed in on a distance C, along   C * d - E.
@@ -99,7 +99,7 @@ inline float shift_angle(Camera camera, int eye) {
 }
 
 // A look's heading and elevation belong to the frame's up; these to the camera's axis.
-inline Look look_about_axis(Camera camera, Look look) {
+inline ViewDirection look_about_axis(Camera camera, ViewDirection look) {
   if (camera.axis.y == 1.0f) return look;
   float height = clamp(dot(look.direction, camera.axis), -1.0f, 1.0f);
   vec3 level = look.direction - camera.axis * height;
@@ -112,7 +112,7 @@ inline Look look_about_axis(Camera camera, Look look) {
 // home: the middle of the pixel to which the position uv belongs. lens: uniform in the unit square, chooses the ray's
 // place on the lens; at x = 0 it is the middle.
 inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
-  Look look = look_of(camera.projection, home, uv);
+  ViewDirection look = look_of(camera.projection, home, uv);
   Ray ray;
   ray.origin = camera.center;
   ray.direction = vec3(0.0f);

@@ -122,7 +122,7 @@ inline ImagePosition project_point(Camera camera, int eye, vec3 point) {
     direction = heading * cos(phi) + camera.axis * sin(phi);
   }
   if (camera.convergence == kShift) direction = turn_about(direction, camera.axis, -shift_angle(camera, eye));
-  ImagePlace place = place_of(camera.projection, direction);
+  ImagePoint place = place_of(camera.projection, direction);
   ImagePosition position;
   position.uv = place.uv;
   position.depth = meeting.depth;

@@ -61,20 +61,20 @@ struct Projection {
 };
 
 // Where an image position looks.
-struct Look {
+struct ViewDirection {
   vec3 direction;   // unit length
   vec3 heading;     // (sin theta, 0, -cos theta)
   float elevation;  // phi; beyond +-pi/2 where a lat-long picture goes on over its pole
   bool seen;        // false: the picture is empty there
 };
 
-struct ImagePlace {
+struct ImagePoint {
   vec2 uv;
   bool seen;  // false: the direction is not in the picture
 };
 
-inline Look look_along(vec3 direction) {
-  Look look;
+inline ViewDirection look_along(vec3 direction) {
+  ViewDirection look;
   float level = sqrt(direction.x * direction.x + direction.z * direction.z);
   float size = length(direction);
   look.direction = direction * (1.0f / size);
@@ -85,8 +85,8 @@ inline Look look_along(vec3 direction) {
   return look;
 }
 
-inline Look look_at_angles(float theta, float phi) {
-  Look look;
+inline ViewDirection look_at_angles(float theta, float phi) {
+  ViewDirection look;
   look.heading = vec3(sin(theta), 0.0f, -cos(theta));
   look.direction = look.heading * cos(phi) + vec3(0.0f, sin(phi), 0.0f);
   look.elevation = phi;
@@ -111,28 +111,28 @@ inline bool inside_picture(vec2 uv) {
   return uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f;
 }
 
-inline Look lat_long_look(Projection projection, vec2 uv) {
+inline ViewDirection lat_long_look(Projection projection, vec2 uv) {
   return look_at_angles(projection.center.x + (uv.x - 0.5f) * projection.span.x,
                         projection.center.y + (0.5f - uv.y) * projection.span.y);
 }
 
-inline ImagePlace lat_long_place(Projection projection, vec3 direction) {
+inline ImagePoint lat_long_place(Projection projection, vec3 direction) {
   float phi = atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z));
-  ImagePlace place;
+  ImagePoint place;
   place.uv = vec2(place_heading(projection, direction), 0.5f - (phi - projection.center.y) / projection.span.y);
   place.seen = inside_picture(place.uv);
   return place;
 }
 
-inline Look cylinder_look(Projection projection, vec2 uv) {
+inline ViewDirection cylinder_look(Projection projection, vec2 uv) {
   return look_at_angles(projection.center.x + (uv.x - 0.5f) * projection.span.x,
                         atan(projection.center.y + (0.5f - uv.y) * projection.span.y));
 }
 
-inline ImagePlace cylinder_place(Projection projection, vec3 direction) {
+inline ImagePoint cylinder_place(Projection projection, vec3 direction) {
   float level = sqrt(direction.x * direction.x + direction.z * direction.z);
   float slope = direction.y / max(level, 1e-30f);
-  ImagePlace place;
+  ImagePoint place;
   place.uv = vec2(place_heading(projection, direction), 0.5f - (slope - projection.center.y) / projection.span.y);
   place.seen = inside_picture(place.uv);
   return place;
@@ -147,39 +147,39 @@ inline vec3 to_lens(Projection projection, vec3 d) {
 }
 
 // The image circle touches the picture's edges. home decides what is inside, as in look_of().
-inline Look fisheye_look(Projection projection, vec2 home, vec2 uv) {
+inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
   vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
   float r = length(p);
   float angle = 0.5f * projection.angle * r;
   if (projection.kind == kFisheyeEquisolid) angle = 2.0f * asin(min(sin(0.25f * projection.angle) * r, 1.0f));
   float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
-  Look look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
+  ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
   look.seen = length(vec2(2.0f * home.x - 1.0f, 1.0f - 2.0f * home.y)) <= 1.0f;
   return look;
 }
 
-inline ImagePlace fisheye_place(Projection projection, vec3 direction) {
+inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
   float angle = atan(out_of_axis, -p.z);
   float r = 2.0f * angle / projection.angle;
   if (projection.kind == kFisheyeEquisolid) r = sin(0.5f * angle) / sin(0.25f * projection.angle);
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
-  ImagePlace place;
+  ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
   place.seen = r <= 1.0f;
   return place;
 }
 
-inline Look perspective_look(Projection projection, vec2 uv) {
+inline ViewDirection perspective_look(Projection projection, vec2 uv) {
   vec2 p = vec2((2.0f * uv.x - 1.0f) * projection.half_size.x, (1.0f - 2.0f * uv.y) * projection.half_size.y);
   return look_along(from_lens(projection, vec3(p.x, p.y, -1.0f)));
 }
 
-inline ImagePlace perspective_place(Projection projection, vec3 direction) {
+inline ImagePoint perspective_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float ahead = max(-p.z, 1e-30f);
-  ImagePlace place;
+  ImagePoint place;
   place.uv =
       vec2(0.5f + 0.5f * p.x / (ahead * projection.half_size.x), 0.5f - 0.5f * p.y / (ahead * projection.half_size.y));
   place.seen = p.z < 0.0f && inside_picture(place.uv);
@@ -235,7 +235,7 @@ inline CubeFace cube_cell(int kind, int cell) {
 }
 
 // Beyond the edge of its home cell a face goes on as the plane it is.
-inline Look cube_look(int kind, vec2 home, vec2 uv) {
+inline ViewDirection cube_look(int kind, vec2 home, vec2 uv) {
   int columns = cube_columns(kind);
   int rows = 6 / columns;
   int column = clamp(int(floor(home.x * float(columns))), 0, columns - 1);
@@ -259,7 +259,7 @@ inline int cube_cell_toward(int kind, vec3 direction) {
   return best;
 }
 
-inline ImagePlace cube_place(int kind, vec3 direction) {
+inline ImagePoint cube_place(int kind, vec3 direction) {
   int columns = cube_columns(kind);
   int best = cube_cell_toward(kind, direction);
   CubeFace face = cube_cell(kind, best);
@@ -270,7 +270,7 @@ inline ImagePlace cube_place(int kind, vec3 direction) {
     s = atan(s) * (4.0f / kPi);
     t = atan(t) * (4.0f / kPi);
   }
-  ImagePlace place;
+  ImagePoint place;
   place.uv = vec2((float(best % columns) + 0.5f + 0.5f * s) / float(columns),
                   (float(best / columns) + 0.5f - 0.5f * t) / float(6 / columns));
   place.seen = true;
@@ -279,25 +279,25 @@ inline ImagePlace cube_place(int kind, vec3 direction) {
 
 // Where an image position looks. home: the middle of the pixel it belongs to, which decides about faces and edges; a
 // pixel filter may reach beyond them, and sees the face or the sphere go on there.
-inline Look look_of(Projection projection, vec2 home, vec2 uv) {
+inline ViewDirection look_of(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kLatLong) return lat_long_look(projection, uv);
   if (projection.kind == kCylinder) return cylinder_look(projection, uv);
   if (projection.kind == kPerspective) return perspective_look(projection, uv);
   if (is_fisheye(projection.kind)) return fisheye_look(projection, home, uv);
   if (is_cube(projection.kind)) return cube_look(projection.kind, home, uv);
-  Look nothing = lat_long_look(projection, uv);  // no projection
+  ViewDirection nothing = lat_long_look(projection, uv);  // no projection
   nothing.seen = false;
   return nothing;
 }
 
 // Where a direction (any length but 0) lies in the picture.
-inline ImagePlace place_of(Projection projection, vec3 direction) {
+inline ImagePoint place_of(Projection projection, vec3 direction) {
   if (projection.kind == kLatLong) return lat_long_place(projection, direction);
   if (projection.kind == kCylinder) return cylinder_place(projection, direction);
   if (projection.kind == kPerspective) return perspective_place(projection, direction);
   if (is_fisheye(projection.kind)) return fisheye_place(projection, direction);
   if (is_cube(projection.kind)) return cube_place(projection.kind, direction);
-  ImagePlace nothing = lat_long_place(projection, direction);
+  ImagePoint nothing = lat_long_place(projection, direction);
   nothing.seen = false;
   return nothing;
 }

@@ -38,30 +38,31 @@ static void add_projection(std::vector<Attribute>& attributes, const ProjectionS
 }
 
 // What few cameras have is named only where it is.
-static void add_extras(std::vector<Attribute>& attributes, const CameraRig& rig) {
-  if (rig.convergence != kParallel) {
-    attributes.push_back({"ods:convergence", std::string(convergence_name(rig.convergence))});
-    attributes.push_back({"ods:convergenceDistance", rig.convergence_distance});
+static void add_extras(std::vector<Attribute>& attributes, const StereoCamera& camera) {
+  if (camera.convergence != kParallel) {
+    attributes.push_back({"ods:convergence", std::string(convergence_name(camera.convergence))});
+    attributes.push_back({"ods:convergenceDistance", camera.convergence_distance});
   }
-  if (rig.neck != 0.0f) attributes.push_back({"ods:neck", rig.neck});
-  if (rig.axis) attributes.push_back({"ods:axis", std::vector<float>{rig.axis->x, rig.axis->y, rig.axis->z}});
-  if (rig.lens_radius > 0.0f) {
-    attributes.push_back({"ods:lens", std::vector<float>{rig.lens_radius, rig.focus_distance}});
+  if (camera.neck != 0.0f) attributes.push_back({"ods:neck", camera.neck});
+  if (camera.axis)
+    attributes.push_back({"ods:axis", std::vector<float>{camera.axis->x, camera.axis->y, camera.axis->z}});
+  if (camera.lens_radius > 0.0f) {
+    attributes.push_back({"ods:lens", std::vector<float>{camera.lens_radius, camera.focus_distance}});
   }
-  if (rig.mirrored) attributes.push_back({"ods:mirrored", 1});
+  if (camera.mirrored) attributes.push_back({"ods:mirrored", 1});
 }
 
-void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig) {
-  add_projection(attributes, rig.projection);
+void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera) {
+  add_projection(attributes, camera.projection);
   attributes.push_back({"ods:depthType", std::string("ray")});
-  attributes.push_back({"ods:ipd", rig.ipd});
-  attributes.push_back({"ods:position", std::vector<float>{rig.position.x, rig.position.y, rig.position.z}});
-  attributes.push_back({"ods:yaw", rig.yaw});
-  attributes.push_back({"ods:pitch", rig.pitch});
-  attributes.push_back({"ods:roll", rig.roll});
-  add_merge(attributes, "ods:poleMergeTop", rig.top);
-  add_merge(attributes, "ods:poleMergeBottom", rig.bottom);
-  add_extras(attributes, rig);
+  attributes.push_back({"ods:ipd", camera.ipd});
+  attributes.push_back({"ods:position", std::vector<float>{camera.position.x, camera.position.y, camera.position.z}});
+  attributes.push_back({"ods:yaw", camera.yaw});
+  attributes.push_back({"ods:pitch", camera.pitch});
+  attributes.push_back({"ods:roll", camera.roll});
+  add_merge(attributes, "ods:poleMergeTop", camera.top);
+  add_merge(attributes, "ods:poleMergeBottom", camera.bottom);
+  add_extras(attributes, camera);
 }
 
 namespace {
@@ -135,45 +136,45 @@ static void read_projection(AttributeReader& in, const std::string& name, Projec
   if (!projection_fault(setting).empty()) in.refuse("ods:projection");
 }
 
-static void read_extras(AttributeReader& in, CameraRig& rig) {
+static void read_extras(AttributeReader& in, StereoCamera& camera) {
   if (const auto word = in.word("ods:convergence")) {
     bool known = false;
     for (int convergence : kConvergences) {
-      if (*word == convergence_name(convergence)) rig.convergence = convergence, known = true;
+      if (*word == convergence_name(convergence)) camera.convergence = convergence, known = true;
     }
     if (!known) in.refuse("ods:convergence");
   }
-  in.number("ods:convergenceDistance", rig.convergence_distance, CameraField::kConvergenceDistance);
-  in.number("ods:neck", rig.neck, CameraField::kNeck);
+  in.number("ods:convergenceDistance", camera.convergence_distance, CameraField::kConvergenceDistance);
+  in.number("ods:neck", camera.neck, CameraField::kNeck);
   if (in.has("ods:axis")) {
     vec3 axis(0.0f);
     in.numbers("ods:axis",
                {{&axis.x, CameraField::kAxis}, {&axis.y, CameraField::kAxis}, {&axis.z, CameraField::kAxis}});
-    if (length(axis) > 1e-6f) rig.axis = axis;
-    if (!rig.axis) in.refuse("ods:axis");
+    if (length(axis) > 1e-6f) camera.axis = axis;
+    if (!camera.axis) in.refuse("ods:axis");
   }
   in.numbers("ods:lens",
-             {{&rig.lens_radius, CameraField::kLensRadius}, {&rig.focus_distance, CameraField::kFocusDistance}});
-  rig.mirrored = in.has("ods:mirrored");
+             {{&camera.lens_radius, CameraField::kLensRadius}, {&camera.focus_distance, CameraField::kFocusDistance}});
+  camera.mirrored = in.has("ods:mirrored");
 }
 
-std::optional<CameraRig> camera_of(const FileInfo& info, std::vector<std::string>& warnings) {
+std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings) {
   AttributeReader in(info);
   const std::optional<std::string> projection = in.word("ods:projection");
   if (!projection) return std::nullopt;
-  CameraRig rig;
-  read_projection(in, *projection, rig.projection);
-  in.number("ods:ipd", rig.ipd, CameraField::kIpd);
-  in.numbers("ods:position", {{&rig.position.x, CameraField::kPosition},
-                              {&rig.position.y, CameraField::kPosition},
-                              {&rig.position.z, CameraField::kPosition}});
-  in.number("ods:yaw", rig.yaw, CameraField::kYaw);
-  in.number("ods:pitch", rig.pitch, CameraField::kPitch);
-  in.number("ods:roll", rig.roll, CameraField::kRoll);
-  read_merge(in, "ods:poleMergeTop", rig.top, warnings);
-  read_merge(in, "ods:poleMergeBottom", rig.bottom, warnings);
-  read_extras(in, rig);
-  if (in.bad().empty()) return rig;
+  StereoCamera camera;
+  read_projection(in, *projection, camera.projection);
+  in.number("ods:ipd", camera.ipd, CameraField::kIpd);
+  in.numbers("ods:position", {{&camera.position.x, CameraField::kPosition},
+                              {&camera.position.y, CameraField::kPosition},
+                              {&camera.position.z, CameraField::kPosition}});
+  in.number("ods:yaw", camera.yaw, CameraField::kYaw);
+  in.number("ods:pitch", camera.pitch, CameraField::kPitch);
+  in.number("ods:roll", camera.roll, CameraField::kRoll);
+  read_merge(in, "ods:poleMergeTop", camera.top, warnings);
+  read_merge(in, "ods:poleMergeBottom", camera.bottom, warnings);
+  read_extras(in, camera);
+  if (in.bad().empty()) return camera;
   warnings.push_back(fmt::format("its {} makes no sense: all that it says of its camera is left aside", in.bad()));
   return std::nullopt;
 }
@@ -181,8 +182,8 @@ std::optional<CameraRig> camera_of(const FileInfo& info, std::vector<std::string
 // --- GPano -----------------------------------------------------------------------------------------------------------
 
 // Heading 0..360, pitch -90..90, roll -180..180; our -Z is its north.
-void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent size) {
-  float yaw = rig.yaw, pitch = std::remainder(rig.pitch, 360.0f), roll = rig.roll;
+void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, Extent size) {
+  float yaw = camera.yaw, pitch = std::remainder(camera.pitch, 360.0f), roll = camera.roll;
   if (std::abs(pitch) > 90.0f) {  // looking over the pole: the same pose from the other side
     pitch = std::copysign(180.0f, pitch) - pitch;
     yaw += 180.0f;
@@ -191,7 +192,7 @@ void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent 
   const float heading = std::remainder(yaw, 360.0f);
   attributes.push_back({"GPano:ProjectionType", std::string("equirectangular")});
   attributes.push_back({"GPano:UsePanoramaViewer", std::string("True")});
-  const vec2 longitude = rig.projection.longitude, latitude = rig.projection.latitude;
+  const vec2 longitude = camera.projection.longitude, latitude = camera.projection.latitude;
   const float per_degree_x = static_cast<float>(size.width) / (longitude.y - longitude.x);
   const float per_degree_y = static_cast<float>(size.height) / (latitude.y - latitude.x);
   const auto pixels = [](float count) { return static_cast<int>(std::lround(count)); };
@@ -222,26 +223,26 @@ static std::optional<double> gpano_number(const std::string& xmp, const std::str
   return error == std::errc() && std::abs(value) <= 1e6 ? std::optional(value) : std::nullopt;
 }
 
-std::optional<CameraRig> gpano_camera(const std::string& xmp) {
+std::optional<StereoCamera> gpano_camera(const std::string& xmp) {
   if (gpano_property(xmp, "ProjectionType") != "equirectangular") return std::nullopt;
-  CameraRig rig;
+  StereoCamera camera;
   const auto number = [&](const char* name) { return gpano_number(xmp, name); };
   // Where a part of the sphere begins and ends, in pixels of the whole; all of it where nothing is said.
   const auto width = number("FullPanoWidthPixels"), height = number("FullPanoHeightPixels");
   const auto left = number("CroppedAreaLeftPixels"), across = number("CroppedAreaImageWidthPixels");
   const auto top = number("CroppedAreaTopPixels"), down = number("CroppedAreaImageHeightPixels");
   if (width && left && across && *width > 0.0) {
-    rig.projection.longitude = glm::dvec2(*left, *left + *across) * 360.0 / *width - 180.0;
+    camera.projection.longitude = glm::dvec2(*left, *left + *across) * 360.0 / *width - 180.0;
   }
   if (height && top && down && *height > 0.0) {
-    rig.projection.latitude = 90.0 - glm::dvec2(*top + *down, *top) * 180.0 / *height;
+    camera.projection.latitude = 90.0 - glm::dvec2(*top + *down, *top) * 180.0 / *height;
   }
-  if (!projection_fault(rig.projection).empty()) return std::nullopt;
+  if (!projection_fault(camera.projection).empty()) return std::nullopt;
   const auto angle = [&](const char* name) { return static_cast<float>(number(name).value_or(0.0)); };
-  rig.yaw = angle("PoseHeadingDegrees");
-  rig.pitch = angle("PosePitchDegrees");
-  rig.roll = angle("PoseRollDegrees");
-  return rig;
+  camera.yaw = angle("PoseHeadingDegrees");
+  camera.pitch = angle("PosePitchDegrees");
+  camera.roll = angle("PoseRollDegrees");
+  return camera;
 }
 
 }  // namespace ods

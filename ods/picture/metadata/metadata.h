@@ -14,26 +14,26 @@
 #include <string>
 #include <vector>
 
-#include "ods/camera/camera_rig.h"
 #include "ods/camera/layout.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/image/format/attribute.h"
 #include "ods/image/image_file.h"
 
 namespace ods {
 
-void add_camera(std::vector<Attribute>& attributes, const CameraRig& rig);
+void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera);
 
 // The camera that the attributes of a file describe; nothing where there is none. What is wrong with them, in words for
 // people, goes into `warnings`, and the rest of them are left aside.
-std::optional<CameraRig> camera_of(const FileInfo& info, std::vector<std::string>& warnings);
+std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings);
 
 // GPano knows lat-long, whole or a part that does not cross the seam, and no stereo.
 bool fits_gpano(const ProjectionSetting& projection);
 
 // Of a picture of one eye, `size` large. Precondition: fits_gpano().
-void add_gpano(std::vector<Attribute>& attributes, const CameraRig& rig, Extent size);
+void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, Extent size);
 
-// The projection and attitude of a packet of XMP that has GPano in it, as attributes or as elements.
-std::optional<CameraRig> gpano_camera(const std::string& xmp);
+// The projection and orientation of a packet of XMP that has GPano in it, as attributes or as elements.
+std::optional<StereoCamera> gpano_camera(const std::string& xmp);
 
 }  // namespace ods

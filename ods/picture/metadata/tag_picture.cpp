@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "ods/base/error.h"
-#include "ods/image/format/exr_attributes.h"
+#include "ods/image/format/exr_header.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/tiff_directory.h"
@@ -25,7 +25,7 @@ static FileFormat format_of(const FileInput& file) {
   const std::optional<FileFormat> format = format_of_file(file);
   if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
     throw unusable(file.path(),
-                   "it is neither a film (mp4, mov, mkv, webm) nor a picture that can say what it is "
+                   "it is neither a video (mp4, mov, mkv, webm) nor a picture that can say what it is "
                    "(jpg, png, tif, exr)");
   }
   return *format;
@@ -59,25 +59,25 @@ FileInfo read_picture_header(const std::string& path) {
   return info;
 }
 
-PictureTag complete_tag(const KnownForm& known, const std::string& path, std::vector<std::string>& guesses) {
+PictureTag complete_tag(const FormatHint& known, const std::string& path, std::vector<std::string>& guesses) {
   const FileInfo info = read_picture_header(path);
-  const PictureForm form = find_form(info, path, known);
-  PictureTag tag{form.camera, form.layout.layout, form.eye, form.ipd_is_said};
+  const StereoFormat format = find_format(info, path, known);
+  PictureTag tag{format.camera, format.layout.layout, format.eye, format.has_ipd};
   if (const auto own = known.camera || info.is_float ? std::nullopt : gpano_camera(read_xmp(path))) {
-    if (!known.projection) tag.rig.projection = own->projection;  // which a sidecar may know otherwise
-    tag.rig.yaw = own->yaw, tag.rig.pitch = own->pitch, tag.rig.roll = own->roll;
+    if (!known.projection) tag.camera.projection = own->projection;  // which a sidecar may know otherwise
+    tag.camera.yaw = own->yaw, tag.camera.pitch = own->pitch, tag.camera.roll = own->roll;
   }
-  if (!known.projection && !form.camera_is_said && read_name(path).projection == nullptr) {
+  if (!known.projection && !format.has_camera && read_name(path).projection == nullptr) {
     const Layout layout = tag.layout.value_or(Layout::kSeparate);
     const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});
     const Extent squeeze = squeeze_of(layout, 2);
-    if (natural_height(form.camera.projection, eye.width * squeeze.width) != eye.height * squeeze.height) {
+    if (natural_height(format.camera.projection, eye.width * squeeze.width) != eye.height * squeeze.height) {
       throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
                                        "shows: say it with --layout and --projection",
                                        info.width, info.height));
     }
   }
-  guesses = form.guesses;
+  guesses = format.guesses;
   return tag;
 }
 
@@ -90,13 +90,13 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
                                             "a photo of both eyes of it: -o NAME.vr.jpg",
                                             layout_name(*tag.layout)));
   }
-  if (!fits_gpano(tag.rig.projection)) {
+  if (!fits_gpano(tag.camera.projection)) {
     throw unusable(file.path(), fmt::format("GPano knows lat-long and parts of it that do not cross the seam, and has "
                                             "no word for {}",
-                                            projection_name(tag.rig.projection)));
+                                            projection_name(tag.camera.projection)));
   }
   std::vector<Attribute> properties;
-  add_gpano(properties, tag.rig, size_of(file, format));
+  add_gpano(properties, tag.camera, size_of(file, format));
   return properties;
 }
 
@@ -106,10 +106,10 @@ static std::optional<std::string> tagged_packet(const FileInput& file, FileForma
                                                 const std::string& old) {
   std::vector<Attribute> wanted = gpano_of(file, format, tag);
   if (old.empty()) return make_xmp(wanted);
-  const std::optional<CameraRig> rig = gpano_camera(old);
-  if (!rig) return replace_gpano(old, wanted);
+  const std::optional<StereoCamera> stereo = gpano_camera(old);
+  if (!stereo) return replace_gpano(old, wanted);
   std::vector<Attribute> before, kept = gpano_properties(old);
-  add_gpano(before, *rig, size_of(file, format));
+  add_gpano(before, *stereo, size_of(file, format));
   const auto named = [](std::vector<Attribute>& list, const std::string& name) {
     return std::find_if(list.begin(), list.end(), [&](const Attribute& each) { return each.name == name; });
   };
@@ -145,26 +145,26 @@ static bool needs_said_camera(const std::string& name) {
 static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
   std::vector<Attribute> words{{"ods:version", std::string(ODS_VERSION)},
                                {"ods:layout", std::string(tag.layout ? layout_name(*tag.layout) : eye_name(tag.eye))}};
-  add_camera(words, tag.rig);
+  add_camera(words, tag.camera);
   if (tag.layout == Layout::kMultiview) words.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   if (!tag.layout && tag.eye != kMono) words.push_back({"view", std::string(eye_name(tag.eye))});
   std::vector<ExrAttribute> attributes;
   for (const Attribute& word : words) {
-    if (tag.camera_is_said || !needs_said_camera(word.name)) attributes.push_back(exr_attribute(word));
+    if (tag.has_camera || !needs_said_camera(word.name)) attributes.push_back(exr_attribute(word));
   }
   // 0: lat-long. It is of one eye: two in one picture are none that a renderer could look up.
-  if (!tag.layout && is_full_lat_long(tag.rig.projection)) {
+  if (!tag.layout && is_full_lat_long(tag.camera.projection)) {
     attributes.push_back({"envmap", "envmap", std::string(1, '\0')});
   }
   return attributes;
 }
 
 // What a tag says nothing of, and stays: which view has the bare names, who wrote the file, a merge map, which only a
-// sidecar holds, and of a camera that nobody knows all but its projection and attitude.
+// sidecar holds, and of a camera that nobody knows all but its projection and orientation.
 static bool stays(const ExrAttribute& there, const PictureTag& tag) {
   if (there.name == "multiView" || there.name == "ods:version") return true;
   if (there.name.starts_with("ods:poleMerge") && there.value == "map") return true;
-  return !tag.camera_is_said && needs_said_camera(there.name);
+  return !tag.has_camera && needs_said_camera(there.name);
 }
 
 // What a tag puts into the header or leaves out; without one, all that we ever put there.

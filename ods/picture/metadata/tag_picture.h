@@ -8,25 +8,25 @@
 #include <string>
 #include <vector>
 
-#include "ods/picture/metadata/picture_form.h"
+#include "ods/picture/metadata/stereo_format.h"
 
 namespace ods {
 
 // What it is to say.
 struct PictureTag {
-  CameraRig rig;
+  StereoCamera camera;
   std::optional<Layout> layout;  // none: one eye
   int eye = kMono;               // which
-  bool camera_is_said = false;   // else only projection and attitude of the rig are known
+  bool has_camera = false;       // else only projection and orientation of the camera are known
 };
 
 // Size, and of an EXR channels and attributes, from a header that is read byte by byte: no image library is needed.
 // Throws Error(kInput): not one of the four formats, damaged.
 FileInfo read_picture_header(const std::string& path);
 
-// What is not known as find_form() has it; `guesses` gets what was guessed. Throws Error(kInput), also where nothing
+// What is not known as find_format() has it; `guesses` gets what was guessed. Throws Error(kInput), also where nothing
 // tells what the picture shows: an ordinary photograph must not become a sphere.
-PictureTag complete_tag(const KnownForm& known, const std::string& path, std::vector<std::string>& guesses);
+PictureTag complete_tag(const FormatHint& known, const std::string& path, std::vector<std::string>& guesses);
 
 // Writes the picture with another tag into `to`, which may be `path` itself: a complete new file takes its place. No
 // tag: one that says nothing of its camera. All else in it stays as it was, also what its XMP says besides. Throws

@@ -229,9 +229,9 @@ Picture blank_picture(const RenderOptions& options) {
   return picture;
 }
 
-RenderOptions with_height(RenderOptions options, const CameraRig& rig) {
+RenderOptions with_height(RenderOptions options, const StereoCamera& stereo) {
   assert(options.width > 0 && options.height >= 0 && options.samples > 0 && options.bounces >= 0);
-  if (options.height == 0) options.height = natural_height(rig.projection, options.width);
+  if (options.height == 0) options.height = natural_height(stereo.projection, options.width);
   return options;
 }
 
@@ -266,18 +266,18 @@ void CpuRenderer::update(const SceneChange& change) {
   });
 }
 
-Picture CpuRenderer::render(const CameraRig& rig, const RenderOptions& options, const Progress& progress) const {
-  return render(std::span(&rig, 1), options, progress);
+Picture CpuRenderer::render(const StereoCamera& stereo, const RenderOptions& options, const Progress& progress) const {
+  return render(std::span(&stereo, 1), options, progress);
 }
 
-Picture CpuRenderer::render(std::span<const CameraRig> rigs, const RenderOptions& wanted,
+Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOptions& wanted,
                             const Progress& progress) const {
-  assert(rigs.size() % 2 == 1);
+  assert(path.size() % 2 == 1);
   assert(wanted.transparent || !has_catchers(parts_->scene));
-  const CameraRig& rig = rigs[rigs.size() / 2];
-  const RenderOptions options = with_height(wanted, rig);
+  const StereoCamera& stereo = path[path.size() / 2];
+  const RenderOptions options = with_height(wanted, stereo);
   std::vector<Camera> cameras;
-  for (const CameraRig& each : rigs) cameras.push_back(make_camera(each));
+  for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
   check_picture_memory(options);
   Picture picture = blank_picture(options);
   parts_->arena.execute([&] {
@@ -287,8 +287,8 @@ Picture CpuRenderer::render(std::span<const CameraRig> rigs, const RenderOptions
                   tracer,
                   cameras,
                   cameras[cameras.size() / 2],
-                  cameras.size() > 1 || parts_->scene.motion_keys > 1,
-                  media_at(*parts_->embree, tracer, rig.position),
+                  path.size() > 1 || parts_->scene.motion_keys > 1,
+                  media_at(*parts_->embree, tracer, stereo.position),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},
                   options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris};
@@ -297,9 +297,10 @@ Picture CpuRenderer::render(std::span<const CameraRig> rigs, const RenderOptions
   return picture;
 }
 
-Picture render_cpu(const Scene& scene, const CameraRig& rig, const RenderOptions& options, const Progress& progress) {
-  check_picture_memory(with_height(options, rig));  // before the trees are built
-  return CpuRenderer(scene, options.threads).render(rig, options, progress);
+Picture render_cpu(const Scene& scene, const StereoCamera& stereo, const RenderOptions& options,
+                   const Progress& progress) {
+  check_picture_memory(with_height(options, stereo));  // before the trees are built
+  return CpuRenderer(scene, options.threads).render(stereo, options, progress);
 }
 
 }  // namespace ods

@@ -11,7 +11,7 @@ static constexpr BuiltinScene kScenes[] = {
     {"wineglass", "red wine, water and glass on a table: refraction and absorption", make_wineglass},
     {"mirrors", "flat, round and hollow mirrors around the viewer: reflections in stereo", make_mirrors},
     {"fractal", "sphereflakes and sponges on all sides: millions of instanced triangles", make_fractal},
-    {"toys", "things that move in every way there is, a loop of eight seconds: for films", make_toys},
+    {"toys", "things that move in every way there is, a loop of eight seconds: for videos", make_toys},
     {"axis", "a labelled reference: directions, degrees, distances, poles", make_axis},
     {"furnace", "test: a glowing closed box, every pixel has the same known value", make_furnace},
     {"spheres", "test: small glowing spheres at known positions", make_marker_spheres},

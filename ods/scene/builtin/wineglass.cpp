@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // "wineglass": glass, wine and water on a laid table. Liquids reach a little into the wall of their glass: where media
-// overlap the one with the highest index of refraction counts, so the boundary is the glass' own and no film of air is
+// overlap the one with the highest index of refraction counts, so the boundary is the glass' own and no video of air is
 // left.
 #include <cmath>
 

@@ -9,7 +9,7 @@
 
 namespace ods {
 
-bool bends(const PrimitiveSource& primitive, const Bending& bending) {
+bool bends(const PrimitiveSource& primitive, const Deformers& bending) {
   return (bending.weights != -1 && primitive.targets.size() > 0) ||
          (bending.skin != -1 && !primitive.attributes["JOINTS_0"].is_null());
 }
@@ -96,8 +96,8 @@ int read_skin(GltfFile& file, Scene& scene, int index, const std::vector<int>& r
 
 // --- both
 
-void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primitive, const Bending& bending, int mesh,
-                      bool flat) {
+void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primitive, const Deformers& bending,
+                      int mesh, bool flat) {
   Animation& animation = scene.animation;
   const Mesh& stored = scene.meshes[static_cast<size_t>(mesh)];
   const auto first = scene.vertices.begin() + stored.first_vertex;

@@ -59,8 +59,8 @@ static constexpr std::array<std::string_view, kSlotCount> kSlots = {
     "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture", "/normalTexture",
     "/emissiveTexture", "/extensions/KHR_materials_transmission/transmissionTexture"};
 
-static std::optional<Target> find_form(List list, int index, std::span<const PointerForm> forms,
-                                       std::string_view member) {
+static std::optional<Target> find_format(List list, int index, std::span<const PointerForm> forms,
+                                         std::string_view member) {
   for (const PointerForm& form : forms) {
     if (member == form.member) return Target{list, index, form.property};
   }
@@ -71,7 +71,7 @@ static std::optional<Target> find_texture_form(int index, std::string_view membe
   for (size_t slot = 0; slot < kSlots.size(); slot++) {
     if (!member.starts_with(kSlots[slot])) continue;
     std::optional<Target> target =
-        find_form(List::kMaterials, index, kTextureForms, member.substr(kSlots[slot].size()));
+        find_format(List::kMaterials, index, kTextureForms, member.substr(kSlots[slot].size()));
     if (target) target->slot = static_cast<int>(slot);
     return target;
   }
@@ -95,7 +95,7 @@ static std::optional<Target> parse_pointer(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error != std::errc() || index < 0) return std::nullopt;
     const std::string_view member = text.substr(static_cast<size_t>(end - text.data()));
-    if (const auto target = find_form(start.list, index, start.forms, member)) return target;
+    if (const auto target = find_format(start.list, index, start.forms, member)) return target;
     return start.list == List::kMaterials ? find_texture_form(index, member) : std::nullopt;
   }
   return std::nullopt;
@@ -104,7 +104,7 @@ static std::optional<Target> parse_pointer(std::string_view text) {
 static std::optional<Target> target_of(const ChannelSource& channel) {
   if (channel.path.starts_with('/')) return parse_pointer(channel.path);
   if (channel.node == -1) return std::nullopt;
-  return find_form(List::kNodes, channel.node, kNodeForms, "/" + channel.path);
+  return find_format(List::kNodes, channel.node, kNodeForms, "/" + channel.path);
 }
 
 std::vector<char> named_nodes(const GltfFile& file) {

@@ -29,8 +29,8 @@ std::string printable(const std::string& text) {
 }
 
 void warn(Scene& scene, const std::string& what) {
-  constexpr size_t kMost = 100;  // a file may give reason for millions
-  if (scene.warnings.size() >= kMost) return;
+  constexpr size_t kMax = 100;  // a file may give reason for millions
+  if (scene.warnings.size() >= kMax) return;
   if (std::find(scene.warnings.begin(), scene.warnings.end(), what) == scene.warnings.end()) {
     scene.warnings.push_back(what);
   }
@@ -77,10 +77,10 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
     fail(file,
          fmt::format("needs the extension {}, which ods does not support; export it again without", printable(name)));
   }
-  constexpr size_t kMost = 50;
+  constexpr size_t kMax = 50;
   for (const std::string& name : names_in(file, "extensionsUsed")) {
     if (contains(kRendered, name)) continue;
-    if (scene.warnings.size() == kMost) break;
+    if (scene.warnings.size() == kMax) break;
     warn(scene, fmt::format("extension {} is ignored", printable(name)));
   }
 }

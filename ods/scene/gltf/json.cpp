@@ -103,7 +103,7 @@ bool JsonBuilder::key(string_t& name) {
     skip_next_ = true;
     return true;
   }
-  if (++open_.back().members > kMostMembers) fail(fmt::format("has an object with more than {} members", kMostMembers));
+  if (++open_.back().members > kMaxMembers) fail(fmt::format("has an object with more than {} members", kMaxMembers));
   key_ = &*document_.keys.insert(std::move(name)).first;
   return true;
 }

@@ -66,11 +66,11 @@ struct JsonDocument {
 };
 
 // Objects with more members than this are not glTF; finding a member looks at all of them.
-inline constexpr size_t kMostMembers = 256;
+inline constexpr size_t kMaxMembers = 256;
 
 // Parses the text, without what glTF readers skip: extras, root members that glTF does not have, and extensions that
 // `knows` does not name. Throws Error(kInput), naming the path, where the text is not JSON, nests more than 100 levels
-// deep, or has an object with more than kMostMembers members; Error(kMemory) where the values do not fit in memory.
+// deep, or has an object with more than kMaxMembers members; Error(kMemory) where the values do not fit in memory.
 JsonDocument parse_gltf_json(std::span<const unsigned char> text, const std::string& path,
                              const std::function<bool(std::string_view extension)>& knows);
 

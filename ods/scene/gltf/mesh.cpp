@@ -198,7 +198,7 @@ static void repair_normals(Geometry& geometry) {
 // --- meshes
 
 // Appends the Scene mesh of one primitive and returns it, or -1 when nothing of it can be seen.
-static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Bending& bending) {
+static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Deformers& bending) {
   const int mode = integer(file, primitive, "mode", kTriangles);
   if (mode < kPoints || mode > kFan) fail(file, fmt::format("primitive mode {} does not exist", mode));
   if (mode < kTriangles) {
@@ -240,7 +240,7 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
   return index;
 }
 
-std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Bending& bending) {
+std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Deformers& bending) {
   std::vector<int> meshes;
   for (const JsonValue& primitive : record(file, file.meshes, mesh, "mesh")["primitives"]) {
     const int index = read_primitive(file, scene, primitive, bending);

@@ -177,9 +177,9 @@ class Placer {
   };
   using LoadedMeshes = std::vector<LoadedMesh>;
 
-  LoadedMeshes read(int mesh, const Bending& bending);
+  LoadedMeshes read(int mesh, const Deformers& bending);
   const LoadedMeshes& load_mesh(int node);
-  Bending bending_of(int node);
+  Deformers bending_of(int node);
   void place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local);
   std::vector<dmat4> instance_matrices(const JsonValue& node);
 
@@ -194,10 +194,10 @@ class Placer {
 }  // namespace
 
 // A row of weights for a node whose mesh has morph targets, and of a skin where it has one.
-Bending Placer::bending_of(int index) {
+Deformers Placer::bending_of(int index) {
   const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
   const JsonValue& mesh = record(file_, file_.meshes, index_in(file_, node, "mesh"), "mesh");
-  Bending bending;
+  Deformers bending;
   size_t targets = 0;
   for (const JsonValue& primitive : mesh["primitives"]) {
     spend(file_, 1);  // many nodes may name one mesh of many primitives
@@ -222,7 +222,7 @@ Bending Placer::bending_of(int index) {
   return bending;
 }
 
-Placer::LoadedMeshes Placer::read(int mesh, const Bending& bending) {
+Placer::LoadedMeshes Placer::read(int mesh, const Deformers& bending) {
   LoadedMeshes loaded;
   const size_t first = scene_.animation.deformations.size();
   for (const int index : read_mesh(file_, scene_, mesh, bending)) {
@@ -240,7 +240,7 @@ Placer::LoadedMeshes Placer::read(int mesh, const Bending& bending) {
 // Meshes that bend are the node's own: each bends in its own way.
 const Placer::LoadedMeshes& Placer::load_mesh(int index) {
   const int mesh = index_in(file_, *file_.nodes[static_cast<size_t>(index)], "mesh");
-  const Bending bending = bending_of(index);
+  const Deformers bending = bending_of(index);
   if (bending.weights != -1 || bending.skin != -1) return bent_ = read(mesh, bending);
   auto& loaded = element(file_, meshes_, mesh, "mesh");
   if (!loaded) loaded = read(mesh, bending);
@@ -337,7 +337,7 @@ void Placer::place_light(int node, int index, const dmat4& world) {
     warn(scene_, fmt::format("lights of type {} are ignored", printable(type)));
     return;
   }
-  set_lamp(light, read_lamp(file_, index));
+  set_light(light, read_lamp(file_, index));
   ods::place_light(light, world);
   places_.lights.push_back({static_cast<int>(scene_.lights.size()), index, node});
   scene_.lights.push_back(light);

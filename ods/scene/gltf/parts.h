@@ -129,14 +129,14 @@ MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, in
 
 // --- mesh.cpp
 // What bends the vertices of a node's mesh: rows of Scene::animation.
-struct Bending {
+struct Deformers {
   int skin = -1;
   int weights = -1;
 };
 
 // The Scene meshes that a mesh of the file becomes: one for each primitive that has triangles. Where they bend, each
 // has a row in Animation::deformations.
-std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Bending& bending);
+std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Deformers& bending);
 
 // Floats of a primitive's attribute; count 0 where it has none. Fails unless there are `count` of them, each of so many
 // components or up to 4.
@@ -155,11 +155,11 @@ struct PrimitiveSource {
 };
 
 // Whether something bends the primitive.
-bool bends(const PrimitiveSource& primitive, const Bending& bending);
+bool bends(const PrimitiveSource& primitive, const Deformers& bending);
 
 // Appends a row to Animation::deformations for a mesh of the Scene that stands as it is stored.
-void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primitive, const Bending& bending, int mesh,
-                      bool flat);
+void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primitive, const Deformers& bending,
+                      int mesh, bool flat);
 
 // Appends a row to Animation::skins. rows: of the file's nodes in Animation::nodes.
 int read_skin(GltfFile& file, Scene& scene, int skin, const std::vector<int>& rows);

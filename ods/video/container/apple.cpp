@@ -17,26 +17,27 @@ enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
 
 }  // namespace
 
-static bool is_stacked(FilmStereo stereo) {
-  return stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kBottomTop;
+static bool is_stacked(VideoStereo stereo) {
+  return stereo == VideoStereo::kTopBottom || stereo == VideoStereo::kBottomTop;
 }
 
-static bool is_beside(FilmStereo stereo) {
-  return stereo == FilmStereo::kSideBySide || stereo == FilmStereo::kRightLeft;
+static bool is_beside(VideoStereo stereo) {
+  return stereo == VideoStereo::kSideBySide || stereo == VideoStereo::kRightLeft;
 }
 
-static bool has_right_first(FilmStereo stereo) {
-  return stereo == FilmStereo::kBottomTop || stereo == FilmStereo::kRightLeft;
+static bool has_right_first(VideoStereo stereo) {
+  return stereo == VideoStereo::kBottomTop || stereo == VideoStereo::kRightLeft;
 }
 
-static FilmStereo stereo_of(const FilmForm& form) {
-  return form.stereo.value_or(FilmStereo::kOneView);
+static VideoStereo stereo_of(const SphericalMetadata& metadata) {
+  return metadata.stereo.value_or(VideoStereo::kOneView);
 }
 
-bool fits_vexu(const FilmForm& form) {
-  const FilmStereo stereo = stereo_of(form);
-  const bool is_known = stereo == FilmStereo::kOneView || is_stacked(stereo) || is_beside(stereo);
-  return is_known && form.projection == FilmProjection::kEquirect && (!form.is_partial() || form.bounds == kFrontHalf);
+bool fits_vexu(const SphericalMetadata& metadata) {
+  const VideoStereo stereo = stereo_of(metadata);
+  const bool is_known = stereo == VideoStereo::kOneView || is_stacked(stereo) || is_beside(stereo);
+  return is_known && metadata.projection == VideoProjection::kEquirect &&
+         (!metadata.is_partial() || metadata.bounds == kFrontHalf);
 }
 
 // --- written ---------------------------------------------------------------------------------------------------------
@@ -57,34 +58,34 @@ static Box leaf(BoxType type, uint64_t value, size_t bytes) {
   return box;
 }
 
-Box vexu_box(const FilmForm& form) {
-  assert(fits_vexu(form));
-  const FilmStereo stereo = stereo_of(form);
+Box vexu_box(const SphericalMetadata& metadata) {
+  assert(fits_vexu(metadata));
+  const VideoStereo stereo = stereo_of(metadata);
   Box vexu = parent(box_type("vexu"), {});
-  if (stereo != FilmStereo::kOneView) {
+  if (stereo != VideoStereo::kOneView) {
     uint64_t flags = kHasLeft | kHasRight;
     if (has_right_first(stereo)) flags |= kRightFirst;
     Box eyes = parent(box_type("eyes"), {leaf(box_type("stri"), flags, 1), leaf(box_type("hero"), 1, 1)});
-    const auto micrometres = static_cast<uint64_t>(std::llround(form.ipd * 1e6));
+    const auto micrometres = static_cast<uint64_t>(std::llround(metadata.ipd * 1e6));
     if (micrometres > 0 && micrometres <= 0xffffffff) {
       eyes.children.push_back(parent(box_type("cams"), {leaf(box_type("blin"), micrometres, 4)}));
     }
     vexu.children.push_back(std::move(eyes));
   }
-  const BoxType kind = form.is_partial() ? box_type("hequ") : box_type("equi");
+  const BoxType kind = metadata.is_partial() ? box_type("hequ") : box_type("equi");
   vexu.children.push_back(parent(box_type("proj"), {leaf(box_type("prji"), kind, 4)}));
-  if (stereo != FilmStereo::kOneView) {
+  if (stereo != VideoStereo::kOneView) {
     const BoxType packing = is_stacked(stereo) ? box_type("over") : box_type("side");
     vexu.children.push_back(parent(box_type("pack"), {leaf(box_type("pkin"), packing, 4)}));
   }
   return vexu;
 }
 
-Box hfov_box(const FilmForm& form) {
-  assert(fits_vexu(form));
+Box hfov_box(const SphericalMetadata& metadata) {
+  assert(fits_vexu(metadata));
   Box box;
   box.type = box_type("hfov");
-  append_number(box.body, form.is_partial() ? 180000 : 360000, 4);
+  append_number(box.body, metadata.is_partial() ? 180000 : 360000, 4);
   return box;
 }
 
@@ -101,8 +102,8 @@ static void take_over(Box& box, const Box& old, std::initializer_list<BoxType> b
   }
 }
 
-Box updated_vexu(Box old, const FilmForm& form) {
-  Box vexu = vexu_box(form);
+Box updated_vexu(Box old, const SphericalMetadata& metadata) {
+  Box vexu = vexu_box(metadata);
   open_box(old, 0);
   take_over(vexu, old, {box_type("eyes"), box_type("proj"), box_type("pack")});
   Box *eyes = find_child(vexu, box_type("eyes")), *old_eyes = find_child(old, box_type("eyes"));
@@ -130,12 +131,12 @@ static double find_ipd(Box& vexu) {
   return static_cast<double>(find_number(*eyes, box_type("cams"), box_type("blin"), 4).value_or(0)) / 1e6;
 }
 
-static FilmStereo packed(bool is_over, bool right_first) {
-  if (is_over) return right_first ? FilmStereo::kBottomTop : FilmStereo::kTopBottom;
-  return right_first ? FilmStereo::kRightLeft : FilmStereo::kSideBySide;
+static VideoStereo packed(bool is_over, bool right_first) {
+  if (is_over) return right_first ? VideoStereo::kBottomTop : VideoStereo::kTopBottom;
+  return right_first ? VideoStereo::kRightLeft : VideoStereo::kSideBySide;
 }
 
-std::optional<FilmForm> parse_vexu(const Box& sample_entry) {
+std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry) {
   const Box* found = find_child(sample_entry, box_type("vexu"));
   if (found == nullptr) return std::nullopt;
   Box vexu = *found;
@@ -143,19 +144,20 @@ std::optional<FilmForm> parse_vexu(const Box& sample_entry) {
   const std::optional<uint64_t> flags = find_number(vexu, box_type("eyes"), box_type("stri"), 1);
   const std::optional<uint64_t> packing = find_number(vexu, box_type("pack"), box_type("pkin"), 4);
   const std::optional<uint64_t> kind = find_number(vexu, box_type("proj"), box_type("prji"), 4);
-  FilmForm form;
+  SphericalMetadata metadata;
   if (flags && (*flags & kHasLeft) != 0 && (*flags & kHasRight) != 0) {
     if (!packing) return std::nullopt;
     const bool is_known = *packing == box_type("over") || *packing == box_type("side");
-    form.stereo = is_known ? packed(*packing == box_type("over"), (*flags & kRightFirst) != 0) : FilmStereo::kOther;
-    form.ipd = find_ipd(vexu);
+    metadata.stereo =
+        is_known ? packed(*packing == box_type("over"), (*flags & kRightFirst) != 0) : VideoStereo::kOther;
+    metadata.ipd = find_ipd(vexu);
   } else {
-    form.stereo = FilmStereo::kOneView;
+    metadata.stereo = VideoStereo::kOneView;
   }
-  form.projection = !kind || *kind == box_type("rect") ? FilmProjection::kFlat : FilmProjection::kOther;
-  if (kind == box_type("equi") || kind == box_type("hequ")) form.projection = FilmProjection::kEquirect;
-  if (kind == box_type("hequ")) form.bounds = kFrontHalf;
-  return form;
+  metadata.projection = !kind || *kind == box_type("rect") ? VideoProjection::kFlat : VideoProjection::kOther;
+  if (kind == box_type("equi") || kind == box_type("hequ")) metadata.projection = VideoProjection::kEquirect;
+  if (kind == box_type("hequ")) metadata.bounds = kFrontHalf;
+  return metadata;
 }
 
 }  // namespace ods

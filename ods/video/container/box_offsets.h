@@ -18,18 +18,18 @@ struct Move {
   int64_t growth = 0;
   uint64_t file_size = 0;  // of the old file
 
-  // Where a byte of the old file lies in the new one. Throws Broken where it is one of those replaced or beyond the
-  // file's end.
+  // Where a byte of the old file lies in the new one. Throws MalformedFile where it is one of those replaced or beyond
+  // the file's end.
   uint64_t operator()(uint64_t offset) const;
 };
 
 // A track's offsets: stco, co64 and saio in an opened stbl. A stco that cannot hold them becomes a co64 with the old
-// offsets and the result is true: the header has become longer than `move` knows, so come again. Throws Broken.
+// offsets and the result is true: the header has become longer than `move` knows, so come again. Throws MalformedFile.
 bool widen_offsets(Box& sample_table, const Move& move);
 void move_offsets(Box& sample_table, const Move& move);
 
 // A box of the file itself other than moov: moof, sidx, mfra and meta have offsets in them, or may. `place` is where it
-// lies in the old file. Throws Broken.
+// lies in the old file. Throws MalformedFile.
 bool may_have_offsets(BoxType type);
 void move_offsets(Box& box, const FileBox& place, const Move& move);
 

@@ -17,7 +17,7 @@ std::string type_text(BoxType type) {
   return text;
 }
 
-constexpr size_t kMostChildren = 1000000;
+constexpr size_t kMaxChildren = 1000000;
 
 namespace {
 
@@ -33,25 +33,25 @@ struct BoxHeader {
 static BoxHeader parse_header(std::string_view bytes) {
   BoxHeader header{static_cast<BoxType>(get_number(bytes, 4, 4)), 8, get_number(bytes, 0, 4)};
   if (header.whole == 1) {
-    if (bytes.size() < 16) throw Broken(fmt::format("its box '{}' is cut short", type_text(header.type)));
+    if (bytes.size() < 16) throw MalformedFile(fmt::format("its box '{}' is cut short", type_text(header.type)));
     header.size = 16;
     header.whole = get_number(bytes, 8, 8);
   } else if (header.whole == 0) {
     return header;
   }
   if (header.whole < header.size) {
-    throw Broken(
+    throw MalformedFile(
         fmt::format("its box '{}' says that it has {} bytes, which no box can", type_text(header.type), header.whole));
   }
   return header;
 }
 
-static Broken too_long(BoxType type) {
-  return Broken(fmt::format("its box '{}' says that it is longer than what holds it", type_text(type)));
+static MalformedFile too_long(BoxType type) {
+  return MalformedFile(fmt::format("its box '{}' says that it is longer than what holds it", type_text(type)));
 }
 
-static Broken too_many() {
-  return Broken("a box of it holds more than a million others");
+static MalformedFile too_many() {
+  return MalformedFile("a box of it holds more than a million others");
 }
 
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
@@ -60,7 +60,7 @@ std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
     const BoxHeader header = parse_header(bytes);
     // Only a box of the file itself may reach as far as there is anything.
     if (header.whole == 0 || header.whole > bytes.size()) throw too_long(header.type);
-    if (boxes.size() == kMostChildren) throw too_many();
+    if (boxes.size() == kMaxChildren) throw too_many();
     Box box;
     box.type = header.type;
     box.is_large = header.size == 16;
@@ -74,7 +74,7 @@ std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
 
 void open_box(Box& box, size_t prefix) {
   if (!box.children.empty()) return;
-  if (box.body.size() < prefix) throw Broken(fmt::format("its box '{}' is too short", type_text(box.type)));
+  if (box.body.size() < prefix) throw MalformedFile(fmt::format("its box '{}' is too short", type_text(box.type)));
   if (box.body.size() == prefix) return;
   box.children = parse_boxes(std::string_view(box.body).substr(prefix), box.tail);
   box.body.resize(prefix);
@@ -94,7 +94,7 @@ Box* find_child(Box& box, BoxType type) {
 Box& open_child(Box& box, BoxType type, size_t prefix) {
   Box* child = find_child(box, type);
   if (child == nullptr) {
-    throw Broken(fmt::format("its box '{}' has no '{}' in it", type_text(box.type), type_text(type)));
+    throw MalformedFile(fmt::format("its box '{}' has no '{}' in it", type_text(box.type), type_text(type)));
   }
   open_box(*child, prefix);
   return *child;
@@ -137,27 +137,27 @@ static FileBox read_header(const FileInput& file, uint64_t at, uint64_t left) {
 }
 
 std::vector<FileBox> scan_boxes(const FileInput& file) {
-  constexpr size_t kMost = 1000000;
+  constexpr size_t kMax = 1000000;
   std::vector<FileBox> boxes;
   for (uint64_t at = 0; at < file.size();) {
     const uint64_t left = file.size() - at;
-    if (left < 8) throw Broken("it is cut short");
+    if (left < 8) throw MalformedFile("it is cut short");
     FileBox box = read_header(file, at, left);
     if (box.size > left) {
-      throw Broken(fmt::format("it is cut short: its box '{}' should have {} bytes, and {} are there",
-                               type_text(box.type), box.size, left));
+      throw MalformedFile(fmt::format("it is cut short: its box '{}' should have {} bytes, and {} are there",
+                                      type_text(box.type), box.size, left));
     }
     if (box.size == 0) box.size = left;
     boxes.push_back(box);
     at = box.end();
-    if (boxes.size() > kMost) throw Broken("it consists of more than a million boxes");
+    if (boxes.size() > kMax) throw MalformedFile("it consists of more than a million boxes");
   }
   return boxes;
 }
 
 Box read_box(const FileInput& file, const FileBox& box, std::span<const BoxType> opened) {
-  constexpr uint64_t kMost = uint64_t{256} << 20;
-  if (box.size > kMost) throw Broken(fmt::format("its box '{}' has more than 256 MiB", type_text(box.type)));
+  constexpr uint64_t kMax = uint64_t{256} << 20;
+  if (box.size > kMax) throw MalformedFile(fmt::format("its box '{}' has more than 256 MiB", type_text(box.type)));
   Box result;
   result.type = box.type;
   result.is_large = box.header == 16;
@@ -169,7 +169,7 @@ Box read_box(const FileInput& file, const FileBox& box, std::span<const BoxType>
   while (box.end() - at >= 8) {
     const FileBox child = read_header(file, at, box.end() - at);
     if (child.size == 0 || child.size > box.end() - at) throw too_long(child.type);
-    if (result.children.size() == kMostChildren) throw too_many();
+    if (result.children.size() == kMaxChildren) throw too_many();
     result.children.push_back(read_box(file, child, opened.subspan(1)));
     at = child.end();
   }

@@ -37,18 +37,18 @@ struct Box {
   bool is_large = false;      // its size has 64 bits, as few have
 };
 
-// The boxes that follow each other in these bytes; fewer than 8 that are left go into `tail`. Throws Broken.
+// The boxes that follow each other in these bytes; fewer than 8 that are left go into `tail`. Throws MalformedFile.
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail);
 
 // Turns the body behind its first `prefix` bytes into children. Nothing happens where it is opened already. Throws
-// Broken.
+// MalformedFile.
 void open_box(Box& box, size_t prefix);
 
 // The first child of that type; null where there is none.
 Box* find_child(Box& box, BoxType type);
 const Box* find_child(const Box& box, BoxType type);
 
-// The child, opened; Broken where there is none.
+// The child, opened; MalformedFile where there is none.
 Box& open_child(Box& box, BoxType type, size_t prefix = 0);
 
 // The bytes that write_box() appends, to others or to a file.
@@ -65,12 +65,12 @@ struct FileBox {
   uint64_t end() const { return offset + size; }
 };
 
-// All of them, from the first byte to the last. Throws Broken, where one is longer than the file and where there are
-// more than a million; Error(kInput).
+// All of them, from the first byte to the last. Throws MalformedFile, where one is longer than the file and where there
+// are more than a million; Error(kInput).
 std::vector<FileBox> scan_boxes(const FileInput& file);
 
 // A box of the file, in memory. `opened`: its type, then that of children which are opened, then that of theirs, and so
-// on: what is in them is in memory once, however large. Throws Broken, where it has more than 256 MiB, too.
+// on: what is in them is in memory once, however large. Throws MalformedFile, where it has more than 256 MiB, too.
 Box read_box(const FileInput& file, const FileBox& box, std::span<const BoxType> opened = {});
 
 }  // namespace ods

@@ -12,7 +12,7 @@
 namespace ods {
 
 constexpr uint32_t kCrc32 = 0xbf;
-constexpr size_t kMostChildren = 1000000;
+constexpr size_t kMaxChildren = 1000000;
 
 namespace {
 
@@ -26,15 +26,15 @@ struct ElementHeader {
 
 }  // namespace
 
-// How long a number is, going by its first byte; Broken where that is 0.
+// How long a number is, going by its first byte; MalformedFile where that is 0.
 static size_t length_of(uint64_t first) {
-  if (first == 0) throw Broken("a size in it makes no sense");
+  if (first == 0) throw MalformedFile("a size in it makes no sense");
   return static_cast<size_t>(std::countl_zero(static_cast<uint8_t>(first))) + 1;
 }
 
 static ElementHeader parse_header(std::string_view bytes) {
   const size_t id_length = length_of(get_number(bytes, 0, 1));
-  if (id_length > 4) throw Broken("an element of it has no id");
+  if (id_length > 4) throw MalformedFile("an element of it has no id");
   ElementHeader header;
   header.id = static_cast<uint32_t>(get_number(bytes, 0, id_length));
   header.size_width = length_of(get_number(bytes, id_length, 1));
@@ -51,9 +51,9 @@ void open_element(Element& element) {
     const ElementHeader header = parse_header(bytes);
     bytes.remove_prefix(header.length);
     if (header.is_endless || header.body > bytes.size()) {
-      throw Broken(fmt::format("its element {:X} says that it is longer than what holds it", header.id));
+      throw MalformedFile(fmt::format("its element {:X} says that it is longer than what holds it", header.id));
     }
-    if (element.children.size() == kMostChildren) throw Broken("an element of it has more than a million parts");
+    if (element.children.size() == kMaxChildren) throw MalformedFile("an element of it has more than a million parts");
     element.children.push_back({header.id, header.size_width, std::string(bytes.substr(0, header.body)), {}});
     bytes.remove_prefix(header.body);
   }
@@ -71,7 +71,7 @@ Element* find_child(Element& element, uint32_t id) {
 }
 
 uint64_t number_of(const Element& element) {
-  if (element.body.size() > 8) throw Broken("a number in it is too long");
+  if (element.body.size() > 8) throw MalformedFile("a number in it is too long");
   return get_number(element.body, 0, element.body.size());
 }
 
@@ -161,16 +161,16 @@ FileElement scan_element(const FileInput& file, uint64_t offset, uint64_t end) {
   const uint64_t left = end - element.body();
   if (header.is_endless) return element;
   if (header.body > left) {
-    throw Broken(fmt::format("it is cut short: its element {:X} should have {} bytes, and {} are there", header.id,
-                             header.body, left));
+    throw MalformedFile(fmt::format("it is cut short: its element {:X} should have {} bytes, and {} are there",
+                                    header.id, header.body, left));
   }
   element.size = header.length + header.body;
   return element;
 }
 
 Element read_element(const FileInput& file, const FileElement& element) {
-  constexpr uint64_t kMost = uint64_t{256} << 20;
-  if (element.size > kMost) throw Broken(fmt::format("its element {:X} has more than 256 MiB", element.id));
+  constexpr uint64_t kMax = uint64_t{256} << 20;
+  if (element.size > kMax) throw MalformedFile(fmt::format("its element {:X} has more than 256 MiB", element.id));
   return {element.id, element.size_width, file.read(element.body(), element.size - element.header), {}};
 }
 

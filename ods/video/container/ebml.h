@@ -22,14 +22,14 @@ struct Element {
   std::vector<Element> children;  // once opened; then there is no body
 };
 
-// Throws Broken.
+// Throws MalformedFile.
 void open_element(Element& element);
 
 // The first child of that id; null where there is none.
 Element* find_child(Element& element, uint32_t id);
 const Element* find_child(const Element& element, uint32_t id);
 
-// The number, text or float that an element is. Throws Broken.
+// The number, text or float that an element is. Throws MalformedFile.
 uint64_t number_of(const Element& element);
 std::string text_of(const Element& element);
 double float_of(const Element& element);
@@ -60,10 +60,10 @@ struct FileElement {
   uint64_t body() const { return offset + header; }
 };
 
-// The element that starts at `offset` and ends by `end`. Throws Broken.
+// The element that starts at `offset` and ends by `end`. Throws MalformedFile.
 FileElement scan_element(const FileInput& file, uint64_t offset, uint64_t end);
 
-// An element of the file, in memory. Throws Broken where it has more than 256 MiB.
+// An element of the file, in memory. Throws MalformedFile where it has more than 256 MiB.
 Element read_element(const FileInput& file, const FileElement& element);
 
 }  // namespace ods

@@ -27,7 +27,7 @@ static bool enter(std::string_view& bytes, Descriptor tag) {
 }
 
 static void skip(std::string_view& bytes, size_t count) {
-  if (count > bytes.size()) throw Broken("an esds is cut short");
+  if (count > bytes.size()) throw MalformedFile("an esds is cut short");
   bytes.remove_prefix(count);
 }
 
@@ -67,7 +67,7 @@ int count_channels(const Box& entry) {
     const bool is_second = get_number(entry.body, 8, 2) == 2;
     const uint64_t count = is_second ? get_number(entry.body, 40, 4) : get_number(entry.body, 16, 2);
     return count <= 255 ? static_cast<int>(count) : 0;
-  } catch (const Broken&) {
+  } catch (const MalformedFile&) {
     return 0;
   }
 }

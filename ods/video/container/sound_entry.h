@@ -8,7 +8,7 @@
 
 namespace ods {
 
-// Its boxes stand behind a description of three lengths, in QuickTime's reading. Throws Broken.
+// Its boxes stand behind a description of three lengths, in QuickTime's reading. Throws MalformedFile.
 void open_sound_entry(Box& entry);
 
 // Of an opened entry: of AAC in mp4 what its esds says, as the entry's own number is always 2 there. 0: it cannot be

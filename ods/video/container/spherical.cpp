@@ -13,37 +13,37 @@
 
 namespace ods {
 
-std::string_view stereo_name(FilmStereo stereo) {
+std::string_view stereo_name(VideoStereo stereo) {
   switch (stereo) {
-    case FilmStereo::kOneView:
+    case VideoStereo::kOneView:
       return "mono";
-    case FilmStereo::kTopBottom:
+    case VideoStereo::kTopBottom:
       return "top-bottom";
-    case FilmStereo::kSideBySide:
+    case VideoStereo::kSideBySide:
       return "side-by-side";
-    case FilmStereo::kCustom:
+    case VideoStereo::kCustom:
       return "stereo of a mesh";
-    case FilmStereo::kRightLeft:
+    case VideoStereo::kRightLeft:
       return "cross-eyed";
-    case FilmStereo::kBottomTop:
+    case VideoStereo::kBottomTop:
       return "bottom-top";
-    case FilmStereo::kOther:
+    case VideoStereo::kOther:
       break;
   }
   return "stereo of a rare kind";
 }
 
-std::string_view projection_name(FilmProjection projection) {
+std::string_view projection_name(VideoProjection projection) {
   switch (projection) {
-    case FilmProjection::kFlat:
+    case VideoProjection::kFlat:
       return "flat";
-    case FilmProjection::kEquirect:
+    case VideoProjection::kEquirect:
       return "lat-long";
-    case FilmProjection::kCubemap:
+    case VideoProjection::kCubemap:
       return "cubemap";
-    case FilmProjection::kMesh:
+    case VideoProjection::kMesh:
       return "mesh";
-    case FilmProjection::kOther:
+    case VideoProjection::kOther:
       break;
   }
   return "unknown projection";
@@ -51,68 +51,68 @@ std::string_view projection_name(FilmProjection projection) {
 
 constexpr double kWhole = 4294967296.0;  // 2^32
 
-std::string form_text(const FilmForm& form) {
-  std::string text(form.stereo ? stereo_name(*form.stereo) : "");
-  if (form.projection) text += fmt::format("{}{}", text.empty() ? "" : ", ", projection_name(*form.projection));
-  if (form.is_partial()) {
-    const auto& [top, bottom, left, right] = form.bounds;
+std::string metadata_text(const SphericalMetadata& metadata) {
+  std::string text(metadata.stereo ? stereo_name(*metadata.stereo) : "");
+  if (metadata.projection) text += fmt::format("{}{}", text.empty() ? "" : ", ", projection_name(*metadata.projection));
+  if (metadata.is_partial()) {
+    const auto& [top, bottom, left, right] = metadata.bounds;
     text += fmt::format(" {:.4g}x{:.4g}", 360.0 * (1.0 - (left + 1.0 * right) / kWhole),
                         180.0 * (1.0 - (top + 1.0 * bottom) / kWhole));
   }
-  if (form.yaw != 0.0 || form.pitch != 0.0 || form.roll != 0.0) {
-    text += fmt::format(", turned by {:.6g},{:.6g},{:.6g}", form.yaw, form.pitch, form.roll);
+  if (metadata.yaw != 0.0 || metadata.pitch != 0.0 || metadata.roll != 0.0) {
+    text += fmt::format(", turned by {:.6g},{:.6g},{:.6g}", metadata.yaw, metadata.pitch, metadata.roll);
   }
   return text;
 }
 
-static FilmStereo stereo_of(const FilmForm& form) {
-  return form.stereo.value_or(FilmStereo::kOneView);
+static VideoStereo stereo_of(const SphericalMetadata& metadata) {
+  return metadata.stereo.value_or(VideoStereo::kOneView);
 }
 
-bool same_stereo(const FilmForm& a, const FilmForm& b) {
+bool same_stereo(const SphericalMetadata& a, const SphericalMetadata& b) {
   return stereo_of(a) == stereo_of(b);
 }
 
-bool same_sphere(const FilmForm& a, const FilmForm& b) {
-  const FilmProjection projection = a.projection.value_or(FilmProjection::kFlat);
-  if (projection != b.projection.value_or(FilmProjection::kFlat)) return false;
-  if (projection != FilmProjection::kEquirect) return true;
+bool same_sphere(const SphericalMetadata& a, const SphericalMetadata& b) {
+  const VideoProjection projection = a.projection.value_or(VideoProjection::kFlat);
+  if (projection != b.projection.value_or(VideoProjection::kFlat)) return false;
+  if (projection != VideoProjection::kEquirect) return true;
   const auto near = [](uint32_t one, uint32_t other) { return std::abs(1.0 * one - 1.0 * other) < kWhole / 1000.0; };
   return std::equal(a.bounds.begin(), a.bounds.end(), b.bounds.begin(), near);
 }
 
 // --- V1 --------------------------------------------------------------------------------------------------------------
 
-static bool has_v1_stereo(const FilmForm& form) {
-  const FilmStereo stereo = stereo_of(form);
-  return stereo == FilmStereo::kOneView || stereo == FilmStereo::kTopBottom || stereo == FilmStereo::kSideBySide;
+static bool has_v1_stereo(const SphericalMetadata& metadata) {
+  const VideoStereo stereo = stereo_of(metadata);
+  return stereo == VideoStereo::kOneView || stereo == VideoStereo::kTopBottom || stereo == VideoStereo::kSideBySide;
 }
 
-bool fits_v1(const FilmForm& form) {
-  return form.projection == FilmProjection::kEquirect && !form.is_partial() && has_v1_stereo(form);
+bool fits_v1(const SphericalMetadata& metadata) {
+  return metadata.projection == VideoProjection::kEquirect && !metadata.is_partial() && has_v1_stereo(metadata);
 }
 
-static const char* v1_stereo(FilmStereo stereo) {
-  if (stereo == FilmStereo::kOneView) return "mono";
-  return stereo == FilmStereo::kTopBottom ? "top-bottom" : "left-right";
+static const char* v1_stereo(VideoStereo stereo) {
+  if (stereo == VideoStereo::kOneView) return "mono";
+  return stereo == VideoStereo::kTopBottom ? "top-bottom" : "left-right";
 }
 
 namespace {
 
 struct V1Angle {
   const char* name;
-  double FilmForm::*value;
+  double SphericalMetadata::*value;
 };
 
 }  // namespace
 
-constexpr V1Angle kV1Angles[] = {{"InitialViewHeadingDegrees", &FilmForm::yaw},
-                                 {"InitialViewPitchDegrees", &FilmForm::pitch},
-                                 {"InitialViewRollDegrees", &FilmForm::roll}};
+constexpr V1Angle kV1Angles[] = {{"InitialViewHeadingDegrees", &SphericalMetadata::yaw},
+                                 {"InitialViewPitchDegrees", &SphericalMetadata::pitch},
+                                 {"InitialViewRollDegrees", &SphericalMetadata::roll}};
 
 // No spaces between the elements: some players look for `<GSpherical:Spherical>true<` as it stands.
-std::string v1_xml(const FilmForm& form) {
-  assert(fits_v1(form));
+std::string v1_xml(const SphericalMetadata& metadata) {
+  assert(fits_v1(metadata));
   std::string xml =
       "<?xml version=\"1.0\"?><rdf:SphericalVideo xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\" "
       "xmlns:GSpherical=\"http://ns.google.com/videos/1.0/spherical/\">";
@@ -121,11 +121,11 @@ std::string v1_xml(const FilmForm& form) {
   };
   element("Spherical", "true");
   element("Stitched", "true");
-  element("StitchingSoftware", xml_escaped(form.source));
+  element("StitchingSoftware", xml_escaped(metadata.source));
   element("ProjectionType", "equirectangular");
-  element("StereoMode", v1_stereo(stereo_of(form)));
+  element("StereoMode", v1_stereo(stereo_of(metadata)));
   for (const V1Angle& angle : kV1Angles) {
-    const long degrees = std::lround(form.*angle.value);
+    const long degrees = std::lround(metadata.*angle.value);
     if (degrees != 0) element(angle.name, degrees);
   }
   return xml + "</rdf:SphericalVideo>";
@@ -162,24 +162,24 @@ static std::array<uint32_t, 4> v1_bounds(const std::string& xml) {
   return bounds;
 }
 
-std::optional<FilmForm> parse_v1(const std::string& xml) {
+std::optional<SphericalMetadata> parse_v1(const std::string& xml) {
   if (xml.find("GSpherical:") == std::string::npos) return std::nullopt;
-  FilmForm form;
+  SphericalMetadata metadata;
   const bool is_sphere = is_true(v1_word(xml, "Spherical")) && is_true(v1_word(xml, "Stitched")) &&
                          v1_word(xml, "ProjectionType") == "equirectangular";
-  form.projection = is_sphere ? FilmProjection::kEquirect : FilmProjection::kOther;
+  metadata.projection = is_sphere ? VideoProjection::kEquirect : VideoProjection::kOther;
   const std::string stereo = v1_word(xml, "StereoMode");
-  if (stereo == "mono") form.stereo = FilmStereo::kOneView;
-  if (stereo == "top-bottom") form.stereo = FilmStereo::kTopBottom;
-  if (stereo == "left-right") form.stereo = FilmStereo::kSideBySide;
-  form.bounds = v1_bounds(xml);
-  for (const V1Angle& angle : kV1Angles) form.*angle.value = v1_number(xml, angle.name).value_or(0.0);
-  form.source = xml_unescaped(v1_word(xml, "StitchingSoftware"));
-  return form;
+  if (stereo == "mono") metadata.stereo = VideoStereo::kOneView;
+  if (stereo == "top-bottom") metadata.stereo = VideoStereo::kTopBottom;
+  if (stereo == "left-right") metadata.stereo = VideoStereo::kSideBySide;
+  metadata.bounds = v1_bounds(xml);
+  for (const V1Angle& angle : kV1Angles) metadata.*angle.value = v1_number(xml, angle.name).value_or(0.0);
+  metadata.source = xml_unescaped(v1_word(xml, "StitchingSoftware"));
+  return metadata;
 }
 
-bool can_update_v1(const FilmForm& v1, const FilmForm& form) {
-  return v1.projection == FilmProjection::kEquirect && same_sphere(v1, form) && has_v1_stereo(form);
+bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadata) {
+  return v1.projection == VideoProjection::kEquirect && same_sphere(v1, metadata) && has_v1_stereo(metadata);
 }
 
 // Sets an element, which is added where there is none. False where the XML is not understood.
@@ -197,39 +197,39 @@ static bool set_v1_word(std::string& xml, const std::string& name, const std::st
   return true;
 }
 
-std::optional<std::string> updated_v1(const std::string& xml, const FilmForm& form, bool has_new_source) {
-  const std::optional<FilmForm> old = parse_v1(xml);
-  if (!old || !can_update_v1(*old, form)) return std::nullopt;
+std::optional<std::string> updated_v1(const std::string& xml, const SphericalMetadata& metadata, bool has_new_source) {
+  const std::optional<SphericalMetadata> old = parse_v1(xml);
+  if (!old || !can_update_v1(*old, metadata)) return std::nullopt;
   std::string updated = xml;
   bool is_understood = true;
   const auto set = [&](const char* name, const std::string& value) {
     is_understood = is_understood && set_v1_word(updated, name, value);
   };
-  if (!same_stereo(*old, form)) set("StereoMode", v1_stereo(stereo_of(form)));
+  if (!same_stereo(*old, metadata)) set("StereoMode", v1_stereo(stereo_of(metadata)));
   for (const V1Angle& angle : kV1Angles) {
-    const double value = form.*angle.value;
+    const double value = metadata.*angle.value;
     if (std::abs(std::remainder(value - (*old).*angle.value, 360.0)) >= 1.0)
       set(angle.name, std::to_string(std::lround(value)));
   }
-  if (has_new_source && old->source != form.source) set("StitchingSoftware", xml_escaped(form.source));
+  if (has_new_source && old->source != metadata.source) set("StitchingSoftware", xml_escaped(metadata.source));
   return is_understood ? std::optional(updated) : std::nullopt;
 }
 
 // --- V2 --------------------------------------------------------------------------------------------------------------
 
-constexpr FilmStereo kV2Stereo[] = {FilmStereo::kOneView, FilmStereo::kTopBottom, FilmStereo::kSideBySide,
-                                    FilmStereo::kCustom, FilmStereo::kRightLeft};
+constexpr VideoStereo kV2Stereo[] = {VideoStereo::kOneView, VideoStereo::kTopBottom, VideoStereo::kSideBySide,
+                                     VideoStereo::kCustom, VideoStereo::kRightLeft};
 
-static bool has_v2_stereo(const FilmForm& form) {
-  return std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(form)) != std::end(kV2Stereo);
+static bool has_v2_stereo(const SphericalMetadata& metadata) {
+  return std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(metadata)) != std::end(kV2Stereo);
 }
 
-static bool has_v2_projection(const FilmForm& form) {
-  return form.projection != FilmProjection::kMesh && form.projection != FilmProjection::kOther;
+static bool has_v2_projection(const SphericalMetadata& metadata) {
+  return metadata.projection != VideoProjection::kMesh && metadata.projection != VideoProjection::kOther;
 }
 
-bool fits_v2(const FilmForm& form) {
-  return has_v2_stereo(form) && has_v2_projection(form);
+bool fits_v2(const SphericalMetadata& metadata) {
+  return has_v2_stereo(metadata) && has_v2_projection(metadata);
 }
 
 static Box full_box(BoxType type) {
@@ -239,10 +239,10 @@ static Box full_box(BoxType type) {
   return box;
 }
 
-Box st3d_box(const FilmForm& form) {
-  assert(has_v2_stereo(form));
+Box st3d_box(const SphericalMetadata& metadata) {
+  assert(has_v2_stereo(metadata));
   Box box = full_box(box_type("st3d"));
-  const auto found = std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(form));
+  const auto found = std::find(std::begin(kV2Stereo), std::end(kV2Stereo), stereo_of(metadata));
   append_number(box.body, static_cast<uint64_t>(found - std::begin(kV2Stereo)), 1);
   return box;
 }
@@ -251,31 +251,31 @@ static uint64_t fixed_point(double degrees) {
   return static_cast<uint32_t>(static_cast<int32_t>(std::lround(degrees * 65536.0)));
 }
 
-static Box header_box(const FilmForm& form) {
+static Box header_box(const SphericalMetadata& metadata) {
   Box header = full_box(box_type("svhd"));
-  header.body += form.source + '\0';
+  header.body += metadata.source + '\0';
   return header;
 }
 
-static Box pose_box(const FilmForm& form) {
+static Box pose_box(const SphericalMetadata& metadata) {
   Box pose = full_box(box_type("prhd"));
-  for (double angle : {form.yaw, form.pitch, form.roll}) append_number(pose.body, fixed_point(angle), 4);
+  for (double angle : {metadata.yaw, metadata.pitch, metadata.roll}) append_number(pose.body, fixed_point(angle), 4);
   return pose;
 }
 
-std::string projection_body(const FilmForm& form) {
-  std::string body(4, '\0');                                                            // version and flags
-  if (form.projection == FilmProjection::kCubemap) return body + std::string(8, '\0');  // the layout, no padding
-  for (uint32_t bound : form.bounds) append_number(body, bound, 4);
+std::string projection_body(const SphericalMetadata& metadata) {
+  std::string body(4, '\0');                                                                 // version and flags
+  if (metadata.projection == VideoProjection::kCubemap) return body + std::string(8, '\0');  // the layout, no padding
+  for (uint32_t bound : metadata.bounds) append_number(body, bound, 4);
   return body;
 }
 
-Box sv3d_box(const FilmForm& form) {
-  assert(has_v2_projection(form) && form.projection && form.projection != FilmProjection::kFlat);
-  const Box header = header_box(form), pose = pose_box(form);
+Box sv3d_box(const SphericalMetadata& metadata) {
+  assert(has_v2_projection(metadata) && metadata.projection && metadata.projection != VideoProjection::kFlat);
+  const Box header = header_box(metadata), pose = pose_box(metadata);
   Box data;
-  data.type = form.projection == FilmProjection::kCubemap ? box_type("cbmp") : box_type("equi");
-  data.body = projection_body(form);
+  data.type = metadata.projection == VideoProjection::kCubemap ? box_type("cbmp") : box_type("equi");
+  data.body = projection_body(metadata);
   Box projection;
   projection.type = box_type("proj");
   projection.children = {pose, data};
@@ -285,38 +285,38 @@ Box sv3d_box(const FilmForm& form) {
   return sphere;
 }
 
-void parse_projection_body(const std::string& body, FilmForm& form) {
-  if (form.projection == FilmProjection::kEquirect && body.size() >= 20) {
-    for (size_t i = 0; i < 4; i++) form.bounds[i] = static_cast<uint32_t>(get_number(body, 4 + 4 * i, 4));
+void parse_projection_body(const std::string& body, SphericalMetadata& metadata) {
+  if (metadata.projection == VideoProjection::kEquirect && body.size() >= 20) {
+    for (size_t i = 0; i < 4; i++) metadata.bounds[i] = static_cast<uint32_t>(get_number(body, 4 + 4 * i, 4));
   }
-  if (form.projection == FilmProjection::kCubemap && get_number(body, 4, 4) != 0) {
-    form.projection = FilmProjection::kOther;  // faces that nobody has described yet
+  if (metadata.projection == VideoProjection::kCubemap && get_number(body, 4, 4) != 0) {
+    metadata.projection = VideoProjection::kOther;  // faces that nobody has described yet
   }
 }
 
-static void parse_sphere(Box sphere, FilmForm& form) {
+static void parse_sphere(Box sphere, SphericalMetadata& metadata) {
   open_box(sphere, 0);
   if (const Box* header = find_child(sphere, box_type("svhd")); header != nullptr && header->body.size() > 4) {
-    form.source = header->body.substr(4, header->body.find('\0', 4) - 4);
+    metadata.source = header->body.substr(4, header->body.find('\0', 4) - 4);
   }
   Box& projection = open_child(sphere, box_type("proj"));
   if (const Box* pose = find_child(projection, box_type("prhd"))) {
     const auto angle = [&](size_t at) {
       return static_cast<int32_t>(static_cast<uint32_t>(get_number(pose->body, at, 4))) / 65536.0;
     };
-    form.yaw = angle(4), form.pitch = angle(8), form.roll = angle(12);
+    metadata.yaw = angle(4), metadata.pitch = angle(8), metadata.roll = angle(12);
   }
-  form.projection = FilmProjection::kOther;
+  metadata.projection = VideoProjection::kOther;
   for (const Box& data : projection.children) {
-    if (data.type == box_type("equi")) form.projection = FilmProjection::kEquirect;
-    if (data.type == box_type("cbmp")) form.projection = FilmProjection::kCubemap;
-    if (data.type == box_type("mshp")) form.projection = FilmProjection::kMesh;
-    if (data.type != box_type("prhd")) parse_projection_body(data.body, form);
+    if (data.type == box_type("equi")) metadata.projection = VideoProjection::kEquirect;
+    if (data.type == box_type("cbmp")) metadata.projection = VideoProjection::kCubemap;
+    if (data.type == box_type("mshp")) metadata.projection = VideoProjection::kMesh;
+    if (data.type != box_type("prhd")) parse_projection_body(data.body, metadata);
   }
 }
 
-void update_sv3d(Box& sphere, const FilmForm& form) {
-  FilmForm old;
+void update_sv3d(Box& sphere, const SphericalMetadata& metadata) {
+  SphericalMetadata old;
   parse_sphere(sphere, old);
   open_box(sphere, 0);
   const auto put = [](Box& holder, const Box& box) {
@@ -326,23 +326,23 @@ void update_sv3d(Box& sphere, const FilmForm& form) {
       holder.children.insert(holder.children.begin(), box);
     }
   };
-  if (old.source != form.source) put(sphere, header_box(form));
+  if (old.source != metadata.source) put(sphere, header_box(metadata));
   const auto is_same = [](double a, double b) { return fixed_point(a) == fixed_point(b); };
-  if (is_same(old.yaw, form.yaw) && is_same(old.pitch, form.pitch) && is_same(old.roll, form.roll)) return;
-  put(open_child(sphere, box_type("proj")), pose_box(form));
+  if (is_same(old.yaw, metadata.yaw) && is_same(old.pitch, metadata.pitch) && is_same(old.roll, metadata.roll)) return;
+  put(open_child(sphere, box_type("proj")), pose_box(metadata));
 }
 
-std::optional<FilmForm> parse_v2(const Box& sample_entry) {
+std::optional<SphericalMetadata> parse_v2(const Box& sample_entry) {
   const Box* stereo = find_child(sample_entry, box_type("st3d"));
   const Box* sphere = find_child(sample_entry, box_type("sv3d"));
   if (stereo == nullptr && sphere == nullptr) return std::nullopt;
-  FilmForm form;
+  SphericalMetadata metadata;
   if (stereo != nullptr) {
     const uint64_t mode = get_number(stereo->body, 4, 1);
-    form.stereo = mode < std::size(kV2Stereo) ? kV2Stereo[mode] : FilmStereo::kOther;
+    metadata.stereo = mode < std::size(kV2Stereo) ? kV2Stereo[mode] : VideoStereo::kOther;
   }
-  if (sphere != nullptr) parse_sphere(*sphere, form);
-  return form;
+  if (sphere != nullptr) parse_sphere(*sphere, metadata);
+  return metadata;
 }
 
 // --- sound -----------------------------------------------------------------------------------------------------------

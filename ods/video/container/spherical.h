@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a film says of itself: how its eyes share a frame and what of the sphere a frame shows, and the bytes that say
+// What a video says of itself: how its eyes share a frame and what of the sphere a frame shows, and the bytes that say
 // so. Sources: google/spatial-media, "Spherical Video RFC" (V1) and "Spherical Video V2 RFC"; "Spatial Audio RFC".
 // Degrees; angles as V2 has them: yaw turns the picture to the left, pitch up, roll clockwise.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace ods {
 
-enum class FilmStereo {
+enum class VideoStereo {
   kOneView,
   kTopBottom,   // the left eye on top
   kSideBySide,  // the left eye on the left
@@ -24,26 +24,26 @@ enum class FilmStereo {
   kBottomTop,   // the right eye on top: only Matroska can say so
   kOther,       // what Matroska can say besides: interleaved, anaglyph
 };
-inline constexpr FilmStereo kFilmStereos[] = {FilmStereo::kOneView, FilmStereo::kTopBottom, FilmStereo::kSideBySide,
-                                              FilmStereo::kCustom,  FilmStereo::kRightLeft, FilmStereo::kBottomTop,
-                                              FilmStereo::kOther};
-std::string_view stereo_name(FilmStereo stereo);  // by the names of layout.h: a kRightLeft is cross-eyed
+inline constexpr VideoStereo kVideoStereos[] = {
+    VideoStereo::kOneView,   VideoStereo::kTopBottom, VideoStereo::kSideBySide, VideoStereo::kCustom,
+    VideoStereo::kRightLeft, VideoStereo::kBottomTop, VideoStereo::kOther};
+std::string_view stereo_name(VideoStereo stereo);  // by the names of layout.h: a kRightLeft is cross-eyed
 
-enum class FilmProjection {
+enum class VideoProjection {
   kFlat,
   kEquirect,
   kCubemap,  // right, left, up over down, front, back; up has front at its top, down has back
   kMesh,     // as its own triangles have it
   kOther,
 };
-inline constexpr FilmProjection kFilmProjections[] = {FilmProjection::kFlat, FilmProjection::kEquirect,
-                                                      FilmProjection::kCubemap, FilmProjection::kMesh,
-                                                      FilmProjection::kOther};
-std::string_view projection_name(FilmProjection projection);
+inline constexpr VideoProjection kVideoProjections[] = {VideoProjection::kFlat, VideoProjection::kEquirect,
+                                                        VideoProjection::kCubemap, VideoProjection::kMesh,
+                                                        VideoProjection::kOther};
+std::string_view projection_name(VideoProjection projection);
 
-struct FilmForm {
-  std::optional<FilmStereo> stereo;          // none: it does not say
-  std::optional<FilmProjection> projection;  // likewise
+struct SphericalMetadata {
+  std::optional<VideoStereo> stereo;          // none: it does not say
+  std::optional<VideoProjection> projection;  // likewise
   // kEquirect: what is left out of the sphere at the top, bottom, left and right, in parts of 2^32 of the whole.
   std::array<uint32_t, 4> bounds{};
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
@@ -52,49 +52,49 @@ struct FilmForm {
   std::string source;      // the program that says so
 
   bool is_partial() const { return bounds != std::array<uint32_t, 4>{}; }
-  bool operator==(const FilmForm&) const = default;
+  bool operator==(const SphericalMetadata&) const = default;
 };
 
 // "top-bottom, lat-long", "side-by-side, lat-long 180x180", "mono, flat".
-std::string form_text(const FilmForm& form);
+std::string metadata_text(const SphericalMetadata& metadata);
 
 // Whether both show the same part of the sphere, and lay out their eyes likewise. To players no word on the projection
 // is flat, and no word on the eyes is mono. Bounds that differ by less than a thousandth of the sphere are the same:
 // V1 has them in pixels.
-bool same_sphere(const FilmForm& a, const FilmForm& b);
-bool same_stereo(const FilmForm& a, const FilmForm& b);
+bool same_sphere(const SphericalMetadata& a, const SphericalMetadata& b);
+bool same_stereo(const SphericalMetadata& a, const SphericalMetadata& b);
 
 // The id of V1's `uuid` box in moov/trak, in front of its XML.
 inline constexpr std::string_view kV1Id = "\xff\xcc\x82\x63\xf8\x55\x4a\x93\x88\x14\x58\x7a\x02\x52\x1f\xdd";
 
 // V1 is written of the whole sphere in lat-long, in mono, top-bottom or side-by-side. It has the angles as whole
 // degrees of the initial view, as FFmpeg reads them.
-bool fits_v1(const FilmForm& form);
-std::string v1_xml(const FilmForm& form);
+bool fits_v1(const SphericalMetadata& metadata);
+std::string v1_xml(const SphericalMetadata& metadata);
 // Nothing where the XML is about something else.
-std::optional<FilmForm> parse_v1(const std::string& xml);
+std::optional<SphericalMetadata> parse_v1(const std::string& xml);
 
 // Whether a V1 that says `v1` can be changed to say `form`: both show the same part of the sphere, which may be a part
 // that fits_v1() knows nothing of, and V1 has a word for the eyes.
-bool can_update_v1(const FilmForm& v1, const FilmForm& form);
+bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadata);
 // The XML with only those elements changed that say otherwise than `form`: StereoMode, angles that differ by a degree,
 // and the software where `has_new_source`. Nothing where can_update_v1() is false or the XML is not understood.
-std::optional<std::string> updated_v1(const std::string& xml, const FilmForm& form, bool has_new_source);
+std::optional<std::string> updated_v1(const std::string& xml, const SphericalMetadata& metadata, bool has_new_source);
 
 // V2 knows no kBottomTop and no kOther; kMesh is not written.
-bool fits_v2(const FilmForm& form);
+bool fits_v2(const SphericalMetadata& metadata);
 // Preconditions: `form` has such eyes; it has such a projection, which is not flat.
-Box st3d_box(const FilmForm& form);
-Box sv3d_box(const FilmForm& form);
-// Changes the angles and the source of an sv3d box; all else in it stays byte for byte. Throws Broken.
-void update_sv3d(Box& sphere, const FilmForm& form);
-// From the boxes of a sample entry; nothing where it has neither. Throws Broken.
-std::optional<FilmForm> parse_v2(const Box& sample_entry);
+Box st3d_box(const SphericalMetadata& metadata);
+Box sv3d_box(const SphericalMetadata& metadata);
+// Changes the angles and the source of an sv3d box; all else in it stays byte for byte. Throws MalformedFile.
+void update_sv3d(Box& sphere, const SphericalMetadata& metadata);
+// From the boxes of a sample entry; nothing where it has neither. Throws MalformedFile.
+std::optional<SphericalMetadata> parse_v2(const Box& sample_entry);
 
 // The body of an equi or cbmp box, version and flags included, which Matroska has as ProjectionPrivate.
-std::string projection_body(const FilmForm& form);
+std::string projection_body(const SphericalMetadata& metadata);
 // The way back, for the projection that `form` has already.
-void parse_projection_body(const std::string& body, FilmForm& form);
+void parse_projection_body(const std::string& body, SphericalMetadata& metadata);
 
 // An SA3D box: ambisonic sound.
 struct Ambisonics {

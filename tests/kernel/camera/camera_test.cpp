@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/kernel/camera/project.h"
 #include "tests/support/exact_camera.h"
 #include "tests/support/statistics.h"
@@ -17,13 +17,13 @@ const int kModes[] = {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep};
 const int kEyes[] = {kLeft, kRight, kMono};
 
 // The camera once more, in double precision and from the definitions alone.
-ExactRay exact_ray(const CameraRig& rig, const Camera& camera, int eye, dvec2 uv) {
+ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, int eye, dvec2 uv) {
   const double theta = 2.0 * kExactPi * (uv.x - 0.5), phi = kExactPi * (0.5 - uv.y);
   const double elevation = kExactPi / 2.0 - std::abs(kExactPi / 2.0 - std::abs(phi));  // falls again beyond a pole
   const double side = eye == kLeft ? -0.5 : eye == kRight ? 0.5 : 0.0;
-  const double r = side * double{rig.ipd} * exact_factor(phi < 0.0 ? rig.bottom : rig.top, elevation);
+  const double r = side * double{stereo.ipd} * exact_factor(phi < 0.0 ? stereo.bottom : stereo.top, elevation);
   const dvec3 right(camera.right), up(camera.up), ahead = -dvec3(camera.back);
-  return {dvec3(rig.position) + r * (std::cos(theta) * right - std::sin(theta) * ahead),
+  return {dvec3(stereo.position) + r * (std::cos(theta) * right - std::sin(theta) * ahead),
           std::cos(phi) * (std::sin(theta) * right + std::cos(theta) * ahead) + std::sin(phi) * up};
 }
 
@@ -36,29 +36,29 @@ PoleMergeSetting random_merge(Dice& dice, int mode) {
   return merge;
 }
 
-CameraRig random_rig(Dice& dice, int top, int bottom) {
-  CameraRig rig;
-  rig.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
-  rig.yaw = dice.between(-180, 180);
-  rig.pitch = dice.between(-90, 90);
-  rig.roll = dice.between(-180, 180);
-  rig.ipd = dice.between(0.05f, 0.08f);
-  rig.top = random_merge(dice, top);
-  rig.bottom = random_merge(dice, bottom);
-  return rig;
+StereoCamera random_rig(Dice& dice, int top, int bottom) {
+  StereoCamera stereo;
+  stereo.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
+  stereo.yaw = dice.between(-180, 180);
+  stereo.pitch = dice.between(-90, 90);
+  stereo.roll = dice.between(-180, 180);
+  stereo.ipd = dice.between(0.05f, 0.08f);
+  stereo.top = random_merge(dice, top);
+  stereo.bottom = random_merge(dice, bottom);
+  return stereo;
 }
 
 TEST(Camera, AgreesWithItsTwinInDoublePrecision) {
   Dice dice(1);
   for (int top : kModes) {
     for (int bottom : kModes) {
-      const CameraRig rig = random_rig(dice, top, bottom);
-      const Camera camera = make_camera(rig);
+      const StereoCamera stereo = random_rig(dice, top, bottom);
+      const Camera camera = make_camera(stereo);
       for (int i = 0; i < 3000; i++) {
         const int eye = kEyes[i % 3];
         const vec2 uv(dice.between(-0.25f, 1.25f), dice.between(-0.25f, 1.25f));
         const Ray ray = camera_ray(camera, eye, uv);
-        const ExactRay exact = exact_ray(rig, camera, eye, uv);
+        const ExactRay exact = exact_ray(stereo, camera, eye, uv);
         ASSERT_LT(angle_between(dvec3(ray.direction), exact.direction), 1e-6) << uv.x << ' ' << uv.y;
         ASSERT_LT(length(dvec3(ray.origin) - exact.origin), 1e-6) << top << bottom << ' ' << uv.x << ' ' << uv.y;
         ASSERT_NEAR(length(ray.direction), 1.0f, 5e-7f);
@@ -80,8 +80,8 @@ TEST(Camera, FrameIsOrthonormalAndRightHanded) {
 // "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection: its theta and phi run from the left and
 // top edge, its origin is IPD/2 times (cos, 0, sin) in its own frame, of which ours is the quarter turn.
 TEST(Camera, IsGooglesModel) {
-  CameraRig rig;
-  const Camera camera = make_camera(rig);
+  StereoCamera stereo;
+  const Camera camera = make_camera(stereo);
   struct Known {
     vec2 uv;
     vec3 left_origin, direction;
@@ -148,9 +148,9 @@ TEST(Camera, PoleMergesAreThoseOfOtherRenderers) {
       {"Marrinan", {kMergeLinear, 75, 90, 1}, {1, 1, 1, 1, 1, 1, .6667f, .3333f, .1333f}},
   };
   for (const Known& known : table) {
-    CameraRig rig;
-    rig.top = known.merge;
-    const Camera camera = make_camera(rig);
+    StereoCamera stereo;
+    stereo.top = known.merge;
+    const Camera camera = make_camera(stereo);
     EXPECT_FLOAT_EQ(merge_factor(camera.top, 0.0f), 1.0f) << known.name;
     for (int i = 0; i < 9; i++) {
       EXPECT_NEAR(merge_factor(camera.top, glm::radians(at[i])), known.factor[i], 1e-4f) << known.name << ' ' << at[i];
@@ -164,9 +164,9 @@ TEST(Camera, PoleMergesAreThoseOfOtherRenderers) {
 
 TEST(Camera, AnglesTurnTheRightWay) {
   const auto looks = [](float yaw, float pitch, float roll) {
-    CameraRig rig;
-    rig.yaw = yaw, rig.pitch = pitch, rig.roll = roll;
-    return make_camera(rig);
+    StereoCamera stereo;
+    stereo.yaw = yaw, stereo.pitch = pitch, stereo.roll = roll;
+    return make_camera(stereo);
   };
   EXPECT_LT(length(-looks(90, 0, 0).back - vec3(1, 0, 0)), 1e-6f);   // to the right
   EXPECT_LT(length(-looks(0, 90, 0).back - vec3(0, 1, 0)), 1e-6f);   // up
@@ -184,9 +184,9 @@ TEST(Projection, FindsTheRayThatMeetsAPoint) {
   Dice dice(5);
   for (int top : kModes) {
     for (int bottom : kModes) {
-      CameraRig rig = random_rig(dice, top, bottom);
-      if (dice.next() < 0.5f) rig.top.start = 0.0f, rig.top.end = 90.0f, rig.top.exponent = 1.0f;
-      const Camera camera = make_camera(rig);
+      StereoCamera stereo = random_rig(dice, top, bottom);
+      if (dice.next() < 0.5f) stereo.top.start = 0.0f, stereo.top.end = 90.0f, stereo.top.exponent = 1.0f;
+      const Camera camera = make_camera(stereo);
       for (int i = 0; i < 10000; i++) {
         const int eye = kEyes[i % 3];
         const vec2 uv = dice.pair();
@@ -209,7 +209,7 @@ TEST(Projection, FindsTheRayThatMeetsAPoint) {
 }
 
 TEST(Projection, NothingIsSeenInsideTheViewingCircle) {
-  const Camera camera = make_camera(CameraRig{});
+  const Camera camera = make_camera(StereoCamera{});
   for (float rho : {0.0f, 0.01f, 0.032f}) {
     for (float height : {-1.0f, 0.0f, 0.3f}) {
       const vec3 point(rho, height, 0.0f);
@@ -223,7 +223,7 @@ TEST(Projection, NothingIsSeenInsideTheViewingCircle) {
 
 // theta = alpha - side asin(r / rho): a point 0.65 m ahead lies asin(1/20) to the right in the left eye's picture.
 TEST(Projection, DisparityIsTheClosedForm) {
-  const Camera camera = make_camera(CameraRig{});
+  const Camera camera = make_camera(StereoCamera{});
   const double turn = std::asin(0.0325 / 0.65) / (2.0 * kExactPi);
   const vec3 point(0.0f, 0.0f, -0.65f);
   EXPECT_NEAR(project_point(camera, kLeft, point).uv.x, 0.5 + turn, 1e-7);
@@ -232,13 +232,13 @@ TEST(Projection, DisparityIsTheClosedForm) {
   EXPECT_NEAR(project_point(camera, kLeft, point).depth, std::sqrt(0.65 * 0.65 - 0.0325 * 0.0325), 1e-7);
 }
 
-TEST(CameraRig, AnglesComeBack) {
+TEST(StereoCamera, AnglesComeBack) {
   for (float yaw : {-170.0f, -90.0f, 0.0f, 33.0f, 179.0f}) {
     for (float pitch : {-89.0f, -20.0f, 0.0f, 45.0f}) {
       for (float roll : {-120.0f, 0.0f, 75.0f}) {
-        CameraRig rig;
-        rig.yaw = yaw, rig.pitch = pitch, rig.roll = roll;
-        const Camera camera = make_camera(rig);
+        StereoCamera stereo;
+        stereo.yaw = yaw, stereo.pitch = pitch, stereo.roll = roll;
+        const Camera camera = make_camera(stereo);
         const ViewAngles angles = view_angles(-dvec3(camera.back), dvec3(camera.up));
         EXPECT_NEAR(angles.yaw, yaw, 1e-3f);
         EXPECT_NEAR(angles.pitch, pitch, 1e-3f);
@@ -247,9 +247,9 @@ TEST(CameraRig, AnglesComeBack) {
     }
   }
   for (float pitch : {-90.0f, 90.0f}) {
-    CameraRig rig;
-    rig.yaw = 40.0f, rig.pitch = pitch;
-    const Camera camera = make_camera(rig);
+    StereoCamera stereo;
+    stereo.yaw = 40.0f, stereo.pitch = pitch;
+    const Camera camera = make_camera(stereo);
     const ViewAngles angles = view_angles(-dvec3(camera.back), dvec3(camera.up));
     EXPECT_NEAR(angles.yaw, 40.0f, 1e-3f);
     EXPECT_NEAR(angles.pitch, pitch, 0.03f);

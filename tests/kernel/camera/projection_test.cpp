@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/camera/camera_rig.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/kernel/camera/project.h"
 #include "tests/support/exact_camera.h"
 #include "tests/support/statistics.h"
@@ -117,7 +117,7 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
     for (int i = 0; i < 10000; i++) {
       const vec2 uv = dice.pair();
       if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
-      const Look look = look_of(projection, uv, uv);
+      const ViewDirection look = look_of(projection, uv, uv);
       const dvec3 exact = normalize(exact_direction(setting, uv));
       ASSERT_TRUE(look.seen);
       ASSERT_LT(angle_between(look.direction, exact), 1e-6) << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
@@ -128,7 +128,7 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
         ASSERT_LT(length(dvec3(look.heading) - dvec3(exact.x, 0.0, exact.z) / level), 2e-6 / level);
       }
       // Back: the place where the found direction lies looks that way again.
-      const ImagePlace place = place_of(projection, look.direction * 3.0f);
+      const ImagePoint place = place_of(projection, look.direction * 3.0f);
       const vec2 inside = clamp(place.uv, vec2(0.0f), vec2(1.0f));
       ASSERT_LT(length(place.uv - inside), 1e-5f) << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
       ASSERT_LT(angle_between(exact, exact_direction(setting, place.uv)), 3e-6)
@@ -145,7 +145,7 @@ TEST(Projections, KnowWhatTheyDoNotSee) {
     int seen = 0;
     for (int i = 0; i < 10000; i++) {
       const vec3 direction = normalize(vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)));
-      const ImagePlace place = place_of(projection, direction);
+      const ImagePoint place = place_of(projection, direction);
       if (!place.seen) continue;
       seen++;
       ASSERT_LT(angle_between(direction, exact_direction(setting, place.uv)), 3e-6) << projection_name(setting);
@@ -241,61 +241,61 @@ TEST(Projections, FaultsAreTold) {
 
 // --- the camera through them -----------------------------------------------------------------------------------------
 
-CameraRig odd_rig(Dice& dice, const ProjectionSetting& setting, int convergence) {
-  CameraRig rig;
-  rig.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
-  rig.yaw = dice.between(-180, 180), rig.pitch = dice.between(-40, 40), rig.roll = dice.between(-40, 40);
-  rig.projection = setting;
-  rig.convergence = convergence;
-  rig.convergence_distance = dice.between(0.5f, 5.0f);
-  if (dice.next() < 0.5f) rig.neck = dice.between(0.0f, 0.1f);
-  if (dice.next() < 0.5f) rig.axis = vec3(0.0f, 2.0f, 0.0f);
-  rig.mirrored = dice.next() < 0.3f;
-  rig.top.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
-  rig.bottom.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
-  rig.top.start = 20.0f, rig.bottom.start = 0.0f;
-  if (dice.next() < 0.5f) rig.bottom.exponent = 2.0f;
-  return rig;
+StereoCamera odd_rig(Dice& dice, const ProjectionSetting& setting, int convergence) {
+  StereoCamera stereo;
+  stereo.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
+  stereo.yaw = dice.between(-180, 180), stereo.pitch = dice.between(-40, 40), stereo.roll = dice.between(-40, 40);
+  stereo.projection = setting;
+  stereo.convergence = convergence;
+  stereo.convergence_distance = dice.between(0.5f, 5.0f);
+  if (dice.next() < 0.5f) stereo.neck = dice.between(0.0f, 0.1f);
+  if (dice.next() < 0.5f) stereo.axis = vec3(0.0f, 2.0f, 0.0f);
+  stereo.mirrored = dice.next() < 0.3f;
+  stereo.top.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
+  stereo.bottom.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
+  stereo.top.start = 20.0f, stereo.bottom.start = 0.0f;
+  if (dice.next() < 0.5f) stereo.bottom.exponent = 2.0f;
+  return stereo;
 }
 
 // As ods/kernel/camera/camera.h says it, in world coordinates.
-ExactRay exact_ray(const CameraRig& rig, const Camera& camera, double side, dvec2 uv) {
-  const dvec3 d = normalize(exact_direction(rig.projection, uv));
+ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, double side, dvec2 uv) {
+  const dvec3 d = normalize(exact_direction(stereo.projection, uv));
   const dvec3 right(camera.right), up(camera.up), back(camera.back);
-  const dvec3 axis = rig.axis ? normalize(dvec3(*rig.axis)) : up;
+  const dvec3 axis = stereo.axis ? normalize(dvec3(*stereo.axis)) : up;
   dvec3 direction = right * d.x + up * d.y + back * d.z;
   const dvec3 a(dot(axis, right), dot(axis, up), dot(axis, back));
-  const double half = double{rig.ipd} / 2.0;
+  const double half = double{stereo.ipd} / 2.0;
   dvec3 look = d;
-  if (rig.convergence == kShift) {
-    const double turn = side * std::asin(half / double{rig.convergence_distance});
+  if (stereo.convergence == kShift) {
+    const double turn = side * std::asin(half / double{stereo.convergence_distance});
     look = d * std::cos(turn) + cross(a, d) * std::sin(turn) + a * dot(a, d) * (1.0 - std::cos(turn));
   }
   const double phi = std::asin(std::clamp(dot(look, a), -1.0, 1.0));
-  const double left = exact_factor(phi < 0.0 ? rig.bottom : rig.top, phi);
+  const double left = exact_factor(phi < 0.0 ? stereo.bottom : stereo.top, phi);
   const dvec3 heading = normalize(look - a * dot(look, a));
-  const dvec3 stereo = cross(heading, a) * (side * half * left);
-  const dvec3 origin = stereo + heading * (double{rig.neck} * left);
-  if (rig.convergence == kToeIn) look = normalize(look * double{rig.convergence_distance} - stereo);
+  const dvec3 sideways = cross(heading, a) * (side * half * left);
+  const dvec3 origin = sideways + heading * (double{stereo.neck} * left);
+  if (stereo.convergence == kToeIn) look = normalize(look * double{stereo.convergence_distance} - sideways);
   direction = right * look.x + up * look.y + back * look.z;
-  return {dvec3(rig.position) + right * origin.x + up * origin.y + back * origin.z, direction};
+  return {dvec3(stereo.position) + right * origin.x + up * origin.y + back * origin.z, direction};
 }
 
 TEST(Cameras, AgreeWithTheirTwinThroughEveryProjection) {
   Dice dice(3);
   for (int round = 0; round < 6; round++) {
     for (const ProjectionSetting& setting : many_settings(dice)) {
-      const CameraRig rig = odd_rig(dice, setting, kConvergences[round % 3]);
-      const Camera camera = make_camera(rig);
+      const StereoCamera stereo = odd_rig(dice, setting, kConvergences[round % 3]);
+      const Camera camera = make_camera(stereo);
       for (int i = 0; i < 500; i++) {
         const vec2 uv = dice.pair();
         if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
-        const ExactRay exact = exact_ray(rig, camera, double{eye_side(eye)}, uv);
+        const ExactRay exact = exact_ray(stereo, camera, double{eye_side(eye)}, uv);
         ASSERT_LT(angle_between(ray.direction, exact.direction), 1.5e-6) << projection_name(setting);
         // The heading of a ray that all but points at the pole is as uncertain as its direction is small there.
-        const dvec3 a = rig.axis ? dvec3(0, 1, 0) : dvec3(camera.up);
+        const dvec3 a = stereo.axis ? dvec3(0, 1, 0) : dvec3(camera.up);
         const double level = std::max(length(cross(exact.direction, a)), 1e-6);
         ASSERT_LT(length(dvec3(ray.origin) - exact.origin), 6e-7 + 1e-7 / level) << projection_name(setting);
       }
@@ -307,22 +307,22 @@ TEST(Cameras, FindTheRayThatMeetsAPointThroughEveryProjection) {
   Dice dice(4);
   for (int round = 0; round < 6; round++) {
     for (const ProjectionSetting& setting : many_settings(dice)) {
-      CameraRig rig = odd_rig(dice, setting, kConvergences[round % 3]);
-      if (round < 3) rig.neck = 0.0f, rig.top = rig.bottom = PoleMergeSetting();
-      const Camera camera = make_camera(rig);
+      StereoCamera stereo = odd_rig(dice, setting, kConvergences[round % 3]);
+      if (round < 3) stereo.neck = 0.0f, stereo.top = stereo.bottom = PoleMergeSetting();
+      const Camera camera = make_camera(stereo);
       for (int i = 0; i < 300; i++) {
         const vec2 uv = dice.pair();
         if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
-        const vec3 a = rig.axis ? vec3(0, 1, 0) : camera.up;
+        const vec3 a = stereo.axis ? vec3(0, 1, 0) : camera.up;
         const float level = length(cross(ray.direction, a));
         if (level < 0.05f) continue;  // near the axis a rounded point has another heading
         const float t = std::exp(dice.between(std::log(0.5f), std::log(100.0f)));
         const ImagePosition found = project_point(camera, eye, ray.origin + t * ray.direction);
-        ASSERT_NEAR(found.depth, t, t * 2e-5f) << projection_name(setting) << ' ' << rig.convergence;
+        ASSERT_NEAR(found.depth, t, t * 2e-5f) << projection_name(setting) << ' ' << stereo.convergence;
         const double error = angle_between(exact_direction(setting, found.uv), exact_direction(setting, uv));
-        ASSERT_LT(error, 1e-5 / double{level}) << projection_name(setting) << ' ' << rig.convergence << ' ' << t;
+        ASSERT_LT(error, 1e-5 / double{level}) << projection_name(setting) << ' ' << stereo.convergence << ' ' << t;
       }
     }
   }
@@ -331,10 +331,10 @@ TEST(Cameras, FindTheRayThatMeetsAPointThroughEveryProjection) {
 // The closed forms of the two ways to put a point at the distance C on the same place of both pictures.
 TEST(Cameras, ConvergeAtTheirDistance) {
   for (int convergence : {kToeIn, kShift}) {
-    CameraRig rig;
-    rig.convergence = convergence;
-    rig.convergence_distance = 1.5f;
-    const Camera camera = make_camera(rig);
+    StereoCamera stereo;
+    stereo.convergence = convergence;
+    stereo.convergence_distance = 1.5f;
+    const Camera camera = make_camera(stereo);
     for (double azimuth : {0.0, 1.0, -2.5}) {
       const auto at = [&](double distance) {
         return vec3(dvec3(std::sin(azimuth), 0.0, -std::cos(azimuth)) * distance);
@@ -353,10 +353,10 @@ TEST(Cameras, ConvergeAtTheirDistance) {
 }
 
 TEST(Cameras, LensesFocusAtTheirDistance) {
-  CameraRig rig;
-  rig.lens_radius = 0.02f;
-  rig.focus_distance = 3.0f;
-  const Camera camera = make_camera(rig);
+  StereoCamera stereo;
+  stereo.lens_radius = 0.02f;
+  stereo.focus_distance = 3.0f;
+  const Camera camera = make_camera(stereo);
   Dice dice(5);
   for (int i = 0; i < 1000; i++) {
     const vec2 uv = dice.pair();
@@ -375,10 +375,10 @@ TEST(Cameras, MergeMapsScaleTheCircle) {
   for (int y = 0; y < 4; y++) {
     for (int x = 0; x < 8; x++) *map->at(x, y) = y < 2 ? 1.0f : 0.25f;
   }
-  CameraRig rig;
-  rig.top.mode = rig.bottom.mode = kMergeMap;
-  rig.merge_map = map;
-  const Camera camera = make_camera(rig);
+  StereoCamera stereo;
+  stereo.top.mode = stereo.bottom.mode = kMergeMap;
+  stereo.merge_map = map;
+  const Camera camera = make_camera(stereo);
   EXPECT_NEAR(length(camera_ray(camera, kLeft, vec2(0.3f, 0.1f)).origin), 0.0325f, 1e-7f);
   EXPECT_NEAR(length(camera_ray(camera, kLeft, vec2(0.3f, 0.9f)).origin), 0.0325f * 0.25f, 1e-7f);
   EXPECT_NEAR(length(camera_ray(camera, kLeft, vec2(0.99f, 0.5f)).origin), 0.0325f * 0.625f, 1e-7f);

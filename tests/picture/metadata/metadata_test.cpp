@@ -38,8 +38,8 @@ EyeImage make_eye(int eye) {
 const Picture kStereo{{make_eye(kLeft), make_eye(kRight)}};
 const Picture kSingle{{make_eye(kMono)}};
 
-CameraRig rig() {
-  CameraRig result;
+StereoCamera camera() {
+  StereoCamera result;
   result.position = vec3(1.0f, 1.6f, -2.0f);
   result.yaw = -90.0f;
   result.pitch = 10.0f;
@@ -62,7 +62,7 @@ struct ExrFile {
 
 ExrFile save_exr(const Picture& picture, const SaveOptions& options) {
   const TemporaryFolder folder;
-  save_picture(picture, rig(), options, folder.path("a.exr"));
+  save_picture(picture, camera(), options, folder.path("a.exr"));
   const auto input = OIIO::ImageInput::open(folder.path("a.exr"));
   ExrFile file{input->spec(), {}};
   file.pixels.resize(static_cast<size_t>(file.spec.width * file.spec.height * file.spec.nchannels));
@@ -154,7 +154,7 @@ TEST(Exr, SaysHowItWasTaken) {
   EXPECT_EQ(spec.get_string_attribute("DateTime"), "");
   const OIIO::ParamValue* position = spec.find_attribute("ods:position");
   ASSERT_NE(position, nullptr);
-  for (int i = 0; i < 3; i++) EXPECT_EQ(static_cast<const float*>(position->data())[i], rig().position[i]);
+  for (int i = 0; i < 3; i++) EXPECT_EQ(static_cast<const float*>(position->data())[i], camera().position[i]);
   const OIIO::ParamValue* chromaticities = spec.find_attribute("chromaticities");
   ASSERT_NE(chromaticities, nullptr);
   EXPECT_EQ(chromaticities->get_float_indexed(0), 0.64f);
@@ -163,8 +163,8 @@ TEST(Exr, SaysHowItWasTaken) {
 
 TEST(Exr, OnlyAFileOfOneEyeIsAnEnvironmentMap) {
   const TemporaryFolder folder;
-  save_picture(kStereo, rig(), {}, folder.path("%V.exr"));
-  save_picture(kStereo, rig(), {}, folder.path("both.exr"));
+  save_picture(kStereo, camera(), {}, folder.path("%V.exr"));
+  save_picture(kStereo, camera(), {}, folder.path("both.exr"));
   // OpenImageIO keeps the typed attribute to itself, so look for the bytes: name, type, size 1, 0 = lat-long.
   const std::string attribute("envmap\0envmap\0\1\0\0\0\0", 19);
   EXPECT_NE(folder.read("left.exr").find(attribute), std::string::npos);
@@ -199,7 +199,7 @@ std::vector<std::pair<std::string, std::string>> png_chunks(const std::string& f
 
 TEST(Gpano, PngHoldsAnXmpChunk) {
   const TemporaryFolder folder;
-  save_picture(kSingle, rig(), {}, folder.path("a.png"));
+  save_picture(kSingle, camera(), {}, folder.path("a.png"));
   const auto chunks = png_chunks(folder.read("a.png"));
   ASSERT_GT(chunks.size(), 3u);
   EXPECT_EQ(chunks[0].first, "IHDR");
@@ -214,7 +214,7 @@ TEST(Gpano, PngHoldsAnXmpChunk) {
 TEST(Gpano, IsNotInStereoFiles) {
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "a.jpg", "a.tif", "a.webp", "a.hdr", "a.exr"}) {
-    save_picture(kStereo, rig(), {}, folder.path(name));
+    save_picture(kStereo, camera(), {}, folder.path(name));
     EXPECT_EQ(folder.read(name).find("GPano"), std::string::npos) << name;
   }
 }
@@ -232,10 +232,10 @@ TEST(Gpano, ExiftoolReadsIt) {
   if (output_of("exiftool -ver 2>/dev/null").empty()) GTEST_SKIP() << "skipped: exiftool is not installed";
   const TemporaryFolder folder;
   // Looking over the pole is the same pose with the heading turned and the roll upside down.
-  CameraRig over = rig();
+  StereoCamera over = camera();
   over.pitch = 170.0f;
   for (const char* name : {"a.png", "a.jpg", "a.tif", "%V.jpg"}) {
-    save_picture(name[0] == '%' ? kStereo : kSingle, rig(), {}, folder.path(name));
+    save_picture(name[0] == '%' ? kStereo : kSingle, camera(), {}, folder.path(name));
     const std::string file = folder.path(name[0] == '%' ? "right.jpg" : name);
     const std::string command =
         "exiftool -n -s3 -sep , -p '$XMP-GPano:ProjectionType $FullPanoWidthPixels "

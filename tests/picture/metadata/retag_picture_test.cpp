@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <map>
 
-#include "ods/image/format/exr_attributes.h"
+#include "ods/image/format/exr_header.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/format/xmp_file.h"
-#include "ods/picture/metadata/camera_file.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/metadata/tag_picture.h"
 #include "ods/picture/save.h"
 #include "tests/support/temporary_folder.h"
@@ -35,7 +35,7 @@ Picture gradient(const std::vector<int>& eyes) {
 void turn(const std::string& path, float yaw) {
   std::vector<std::string> guesses;
   PictureTag tag = complete_tag({}, path, guesses);
-  tag.rig.yaw = yaw;
+  tag.camera.yaw = yaw;
   tag_picture(path, path, tag);
 }
 
@@ -61,9 +61,9 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInGpano) {
     write_xmp(file, to, make_xmp(crop));
     to.commit();
   }
-  CameraFile sidecar;  // of the whole sphere: the picture knows better
+  Sidecar sidecar;  // of the whole sphere: the picture knows better
   sidecar.eyes = {kMono};
-  save_camera(sidecar, folder.path("a.camera.json"));
+  save_sidecar(sidecar, folder.path("a.camera.json"));
   const auto properties = [&] {
     std::map<std::string, std::string> all;
     for (const Attribute& each : gpano_properties(read_xmp(path))) all[each.name] = std::get<std::string>(each.value);
@@ -84,12 +84,12 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
   const TemporaryFolder folder;
   for (const Layout layout : {Layout::kTopBottom, Layout::kMultiview}) {
     const std::string path = folder.path("a.exr");
-    CameraRig rig;
-    rig.ipd = 0.07f, rig.position = vec3(1.0f, 2.0f, 3.0f), rig.pitch = 5.0f, rig.neck = 0.1f;
-    rig.top.mode = kMergeCosine;
+    StereoCamera camera;
+    camera.ipd = 0.07f, camera.position = vec3(1.0f, 2.0f, 3.0f), camera.pitch = 5.0f, camera.neck = 0.1f;
+    camera.top.mode = kMergeCosine;
     SaveOptions options;
     options.layout = layout;
-    save_picture(gradient({kLeft, kRight}), rig, options, path);
+    save_picture(gradient({kLeft, kRight}), camera, options, path);
     ExrHeader header = read_exr_header(FileInput(path));
     header.attributes.push_back(exr_attribute({"ods:somebody", std::string("else")}));
     const auto is_bottom = [](const ExrAttribute& each) { return each.name == "ods:poleMergeBottom"; };
@@ -114,7 +114,7 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
 TEST(RetagPicture, AnExrKeepsAPositionOfWhichNobodyKnowsTheEyes) {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.exr");
-  save_picture(gradient({kMono}), CameraRig(), {}, path);
+  save_picture(gradient({kMono}), StereoCamera(), {}, path);
   ExrHeader header = read_exr_header(FileInput(path));
   std::erase_if(header.attributes, [](const ExrAttribute& each) { return each.name == "ods:ipd"; });
   const FileInput file(path);

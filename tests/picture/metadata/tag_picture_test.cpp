@@ -12,12 +12,12 @@
 #include <cstring>
 
 #include "ods/base/error.h"
-#include "ods/image/format/exr_attributes.h"
+#include "ods/image/format/exr_header.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/xmp_file.h"
 #include "ods/picture/metadata/metadata.h"
 #include "ods/picture/save.h"
-#include "tests/support/decoded_film.h"
+#include "tests/support/decoded_video.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -40,7 +40,7 @@ Picture gradient(const std::vector<int>& eyes, int height = kHeight) {
 
 PictureTag sphere(float yaw = 90.0f) {
   PictureTag tag;
-  tag.rig.yaw = yaw;
+  tag.camera.yaw = yaw;
   return tag;
 }
 
@@ -56,9 +56,9 @@ class Tagged : public testing::TestWithParam<const char*> {
 
   void SetUp() override { save_picture(gradient({kMono}), {}, path); }
 
-  CameraRig camera() const {
+  StereoCamera camera() const {
     std::vector<std::string> guesses;
-    return find_form(read_info(path), path, {}).camera;
+    return find_format(read_info(path), path, {}).camera;
   }
 };
 
@@ -69,7 +69,7 @@ TEST_P(Tagged, SaysWhatItIsAndKeepsItsPixels) {
   EXPECT_FLOAT_EQ(camera().yaw, 90.0f);
   EXPECT_TRUE(is_full_lat_long(camera().projection));
   PictureTag front = sphere(0.0f);
-  front.rig.projection = find_projection("vr180")->setting;
+  front.camera.projection = find_projection("vr180")->setting;
   tag_picture(path, path, front);
   EXPECT_EQ(read_image(path).pixels, before.pixels);
   EXPECT_FLOAT_EQ(camera().yaw, 0.0f);
@@ -88,7 +88,7 @@ TEST_P(Tagged, RemovingLeavesWhatWasThere) {
   const std::string before = read_bytes(path);
   tag_picture(path, path, sphere());
   tag_picture(path, path, std::nullopt);
-  EXPECT_FALSE(find_form(read_info(path), path, {}).camera_is_said);
+  EXPECT_FALSE(find_format(read_info(path), path, {}).has_camera);
   if (path.ends_with("jpg") || path.ends_with("png")) {
     EXPECT_EQ(read_bytes(path), before);
   }
@@ -323,13 +323,13 @@ TEST(TagPicture, AnExrOfTwoViewsKeepsItsViewsAndACameraThatIsKnown) {
   const std::string path = folder.path("a.exr");
   SaveOptions options;
   options.layout = Layout::kMultiview;
-  CameraRig rig;
-  rig.ipd = 0.07f;
-  save_picture(gradient({kLeft, kRight}), rig, options, path);
+  StereoCamera stereo;
+  stereo.ipd = 0.07f;
+  save_picture(gradient({kLeft, kRight}), stereo, options, path);
   std::vector<std::string> guesses;
   PictureTag tag = complete_tag({}, path, guesses);
   EXPECT_EQ(tag.layout, Layout::kMultiview);
-  tag.rig.yaw = 5.0f;
+  tag.camera.yaw = 5.0f;
   tag_picture(path, path, tag);
   const auto input = OIIO::ImageInput::open(path);
   const OIIO::ParamValue* views = input->spec().find_attribute("multiView");
@@ -371,7 +371,7 @@ TEST(TagPicture, GpanoIsForOneEyeAndWholeOrPartialLatLong) {
   save_picture(gradient({kMono}, kWidth), {}, path);
   PictureTag both = sphere(), fisheye = sphere();
   both.layout = Layout::kTopBottom;
-  fisheye.rig.projection = find_projection("fisheye")->setting;
+  fisheye.camera.projection = find_projection("fisheye")->setting;
   EXPECT_THROW(tag_picture(path, path, both), Error);
   EXPECT_THROW(tag_picture(path, path, fisheye), Error);
 }
@@ -383,10 +383,10 @@ TEST(TagPicture, AnOrdinaryPhotographBecomesNoSphere) {
   save_picture(gradient({kMono}, 11), {}, named);
   std::vector<std::string> guesses;
   EXPECT_THROW(complete_tag({}, path, guesses), Error);
-  EXPECT_TRUE(is_full_lat_long(complete_tag({}, named, guesses).rig.projection));
-  KnownForm known;
+  EXPECT_TRUE(is_full_lat_long(complete_tag({}, named, guesses).camera.projection));
+  FormatHint known;
   known.projection = find_projection("lat-long")->setting;
-  EXPECT_TRUE(is_full_lat_long(complete_tag(known, path, guesses).rig.projection));
+  EXPECT_TRUE(is_full_lat_long(complete_tag(known, path, guesses).camera.projection));
 }
 
 TEST(TagPicture, OtherFilesAreRefused) {

@@ -49,7 +49,7 @@ RenderOptions catching_render(int width, int samples) {
 glm::dvec3 floor_at(int width, int x, int y) {
   const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
                 (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2));
-  const Ray ray = camera_ray(make_camera(CameraRig{}), kLeft, uv);
+  const Ray ray = camera_ray(make_camera(StereoCamera{}), kLeft, uv);
   return glm::dvec3(ray.origin) + glm::dvec3(ray.direction) * (-1.0 / static_cast<double>(ray.direction.y));
 }
 
@@ -61,7 +61,7 @@ TEST(Catcher, ASunsShadowIsBlackBesideNothing) {
   const int width = 64;
   RenderOptions options = catching_render(width, 4);
   options.layers = true;
-  const EyeImage eye = render_cpu(scene, CameraRig{}, options).eyes[0];
+  const EyeImage eye = render_cpu(scene, StereoCamera{}, options).eyes[0];
   const float margin = 0.15f;
   int inside = 0, outside = 0;
   for (int y = width / 4 + 2; y < width / 2; y++) {
@@ -107,9 +107,9 @@ TEST(Catcher, AnAreaLightsShadowIsTheShareThatIsHidden) {
   add_rectangle(scene, vec3(-1, 1, -1), vec3(2, 0, 0), vec3(0, 0, 2), add_material(scene, lamp));
   add_rectangle(scene, vec3(0, 0.001f, -50), vec3(0, 0, 100), vec3(50, 0, 0), grey(scene));
   const int width = 32;
-  CameraRig rig;
-  rig.ipd = 0.0f;
-  const EyeImage eye = render_cpu(scene, rig, catching_render(width, 256)).eyes[0];
+  StereoCamera camera;
+  camera.ipd = 0.0f;
+  const EyeImage eye = render_cpu(scene, camera, catching_render(width, 256)).eyes[0];
   int partly = 0;
   double error = 0.0;
   for (int y = 12; y < width / 2; y++) {
@@ -118,7 +118,7 @@ TEST(Catcher, AnAreaLightsShadowIsTheShareThatIsHidden) {
       for (int k = 0; k < 64; k++) {
         const vec2 place(static_cast<float>(k % 8) + 0.5f, static_cast<float>(k / 8) + 0.5f);
         const vec2 uv = (vec2(x, y) + place / 8.0f) / vec2(width, width / 2);
-        const glm::dvec3 d(camera_ray(make_camera(rig), kLeft, uv).direction), p = d * (-1.0 / d.y);
+        const glm::dvec3 d(camera_ray(make_camera(camera), kLeft, uv).direction), p = d * (-1.0 / d.y);
         const double edge = std::clamp(p.x - p.x * 2.0 / 1.001, -1.0, 1.0);  // its shadow on the lamp
         const auto part = [&](double to) { return polygon(p, {{-1, 1, -1}, {to, 1, -1}, {to, 1, 1}, {-1, 1, 1}}); };
         with += edge <= -1.0 ? 0.0 : part(edge), without += part(1.0);
@@ -141,9 +141,9 @@ TEST(Catcher, AWallTakesHalfOfTheSky) {
     add_rectangle(scene, vec3(-far, -1, -2), vec3(2 * far, 0, 0), vec3(0, far, 0), grey(scene));
     scene.environment.radiance = vec3(0.7f);
     if (picture) scene.environment = make_environment(16, [](vec3) { return vec3(0.7f); });
-    CameraRig rig;
-    rig.yaw = 180.0f;
-    const EyeImage eye = render_cpu(scene, rig, catching_render(32, 256)).eyes[0];
+    StereoCamera camera;
+    camera.yaw = 180.0f;
+    const EyeImage eye = render_cpu(scene, camera, catching_render(32, 256)).eyes[0];
     double mean = 0.0;
     for (int x = 12; x < 20; x++) {
       for (int y = 11; y < 16; y++) mean += static_cast<double>(*eye.alpha.at(x, y)) / 40.0;
@@ -158,7 +158,7 @@ TEST(Catcher, SkyAndSunTogether) {
   add_sun(scene, vec3(0.0f, -1.0f, 0.0f), 2.0f);
   scene.environment.radiance = vec3(0.3f);
   add_rectangle(scene, vec3(-0.5f, 30, -0.5f), vec3(1, 0, 0), vec3(0, 0, 1), grey(scene));
-  const EyeImage eye = render_cpu(scene, CameraRig{}, catching_render(32, 512)).eyes[0];
+  const EyeImage eye = render_cpu(scene, StereoCamera{}, catching_render(32, 512)).eyes[0];
   double mean = 0.0;
   for (int x = 0; x < 32; x++) mean += static_cast<double>(*eye.alpha.at(x, 15)) / 32.0;
   EXPECT_NEAR(mean, 2.0 / (2.0 + 0.3 * std::numbers::pi), 0.01);
@@ -174,11 +174,11 @@ TEST(Catcher, CatchersCastNoShadowAndHideWhatIsBehind) {
   add_box(scene, vec3(-1, -0.5f, -6), vec3(1, 0.5f, -4), grey(scene));              // behind the wall
   ASSERT_TRUE(make_catchers(scene, "wall"));
   const int width = 64;
-  const EyeImage eye = render_cpu(scene, CameraRig{}, catching_render(width, 4)).eyes[0];
+  const EyeImage eye = render_cpu(scene, StereoCamera{}, catching_render(width, 4)).eyes[0];
   EXPECT_EQ(*eye.alpha.at(width / 2, width / 4), 0.0f);  // the wall before the box: lit from its front
   for (float value : eye.radiance.pixels) ASSERT_TRUE(value >= 0.0f);
   scene.lights[0].direction = vec3(0.0f, -0.6f, 0.8f);  // now from behind the wall: all before it is dark anyway
-  const EyeImage dark = render_cpu(scene, CameraRig{}, catching_render(width, 4)).eyes[0];
+  const EyeImage dark = render_cpu(scene, StereoCamera{}, catching_render(width, 4)).eyes[0];
   for (int y = width / 4; y < width / 4 + 6; y++) EXPECT_EQ(*dark.alpha.at(width / 2, y), 0.0f) << y;
 }
 
@@ -188,7 +188,7 @@ TEST(Catcher, ALampCastsNoShadowOfItself) {
   Material lamp = matte(vec3(0.0f));
   lamp.emission = vec3(3.0f);
   add_sphere(scene, vec3(0.0f, 0.5f, -3.0f), 0.5f, add_material(scene, lamp));
-  const EyeImage eye = render_cpu(scene, CameraRig{}, catching_render(32, 16)).eyes[0];
+  const EyeImage eye = render_cpu(scene, StereoCamera{}, catching_render(32, 16)).eyes[0];
   for (int y = 9; y < 16; y++) {
     for (int x = 0; x < 32; x++) ASSERT_EQ(*eye.alpha.at(x, y), 0.0f) << x << ' ' << y;
   }
@@ -202,9 +202,9 @@ TEST(Catcher, OthersAreAsBefore) {
   add_box(scene, vec3(-1, -0.9f, -4), vec3(1, 1, -2), grey(scene));
   scene.environment.radiance = vec3(1.0f);
   RenderOptions options = catching_render(32, 16);
-  const EyeImage seen = render_cpu(scene, CameraRig{}, options).eyes[0];
+  const EyeImage seen = render_cpu(scene, StereoCamera{}, options).eyes[0];
   ASSERT_TRUE(make_catchers(scene, "floor"));
-  const EyeImage caught = render_cpu(scene, CameraRig{}, options).eyes[0];
+  const EyeImage caught = render_cpu(scene, StereoCamera{}, options).eyes[0];
   for (int c = 0; c < 3; c++) EXPECT_EQ(caught.radiance.at(16, 8)[c], seen.radiance.at(16, 8)[c]);
   EXPECT_GT(*caught.radiance.at(16, 8), 0.0f);
 }

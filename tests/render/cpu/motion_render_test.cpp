@@ -77,7 +77,7 @@ TEST(MotionRender, AFrameAloneIsTheFrameOfTheRun) {
     double last_time = -1.0;
     for (const double time : {0.0, 0.3, 1.0, 0.7, 0.7}) {
       renderer.update(set_time(scene, time));
-      const Picture frame = renderer.render(CameraRig(), small());
+      const Picture frame = renderer.render(StereoCamera(), small());
       EXPECT_TRUE(same_pixels(frame, alone(start, time))) << time;
       EXPECT_EQ(same_pixels(frame, last), time == last_time) << time;
       last = frame;
@@ -93,7 +93,7 @@ TEST(MotionRender, WhatMovedIsWhereItIsAndNowhereElse) {
   RenderOptions options = small(256, 1);
   options.eyes = Eyes::kMonoEye;
   const auto depth_at = [&](double azimuth) {
-    const Picture picture = renderer.render(CameraRig(), options);
+    const Picture picture = renderer.render(StereoCamera(), options);
     const int x = static_cast<int>((azimuth / (2.0 * std::acos(-1.0)) + 0.5) * 256.0);
     return *picture.eyes[0].depth.at(x, 64);
   };
@@ -183,18 +183,18 @@ TEST(MotionBlur, AMovingEdgeIsAsBrightAsItsTimeThere) {
 TEST(MotionBlur, AMovingCameraSeesTheSame) {
   Scene scene = make_edge(false);
   set_time(scene, 0.5);  // the edge stands at x = 0
-  std::vector<CameraRig> rigs(5);
-  for (size_t i = 0; i < rigs.size(); i++) rigs[i].position.x = 0.5f - 0.25f * static_cast<float>(i);
-  expect_blurred_edge(CpuRenderer(scene).render(rigs, sharp()));
+  std::vector<StereoCamera> cameras(5);
+  for (size_t i = 0; i < cameras.size(); i++) cameras[i].position.x = 0.5f - 0.25f * static_cast<float>(i);
+  expect_blurred_edge(CpuRenderer(scene).render(cameras, sharp()));
 }
 
 // A camera that turns by 40 degrees: the edge that stands at azimuth 0 is spread evenly over -20 .. 20.
 TEST(MotionBlur, ATurningCameraSpreadsEvenly) {
   Scene scene = make_edge(false);
   set_time(scene, 0.5);
-  std::vector<CameraRig> rigs(5);
-  for (size_t i = 0; i < rigs.size(); i++) rigs[i].yaw = -20.0f + 10.0f * static_cast<float>(i);
-  const Picture picture = CpuRenderer(scene).render(rigs, sharp());
+  std::vector<StereoCamera> cameras(5);
+  for (size_t i = 0; i < cameras.size(); i++) cameras[i].yaw = -20.0f + 10.0f * static_cast<float>(i);
+  const Picture picture = CpuRenderer(scene).render(cameras, sharp());
   for (int x = 50; x < 78; x++) {
     const double azimuth = ((x + 0.5) / 128.0 - 0.5) * 360.0;
     EXPECT_NEAR(*picture.eyes[0].radiance.at(x, 32), std::clamp(0.5 - azimuth / 40.0, 0.0, 1.0), 0.03) << azimuth;
@@ -261,7 +261,7 @@ TEST(MotionBlur, FramesOfARunAreThoseAlone) {
     renderer.update(open_shutter(scene, time - 0.1, time + 0.1));
     Scene other = start;
     open_shutter(other, time - 0.1, time + 0.1);
-    EXPECT_TRUE(same_pixels(renderer.render(CameraRig(), small()), render_cpu(other, {}, small()))) << time;
+    EXPECT_TRUE(same_pixels(renderer.render(StereoCamera(), small()), render_cpu(other, {}, small()))) << time;
   }
 }
 

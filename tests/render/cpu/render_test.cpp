@@ -33,7 +33,7 @@ TEST(Render, WhiteFurnaceBoxIsExactInEveryPixel) {
   options.eyes = Eyes::kBothEyes;
   options.bounces = 4;
   options.light_sampling = LightSampling::kBsdfOnly;
-  for (const EyeImage& eye : render_cpu(scene, CameraRig{}, options).eyes) {
+  for (const EyeImage& eye : render_cpu(scene, StereoCamera{}, options).eyes) {
     for (float value : eye.radiance.pixels) ASSERT_NEAR(value, 5 * 0.7f, 1e-4f);
   }
 }
@@ -49,7 +49,7 @@ TEST(Render, RussianRouletteKeepsTheMeanOfAFurnace) {
       RenderOptions options = small_render(64, 32);
       options.bounces = 6;
       options.light_sampling = sampling;
-      const Mean mean = mean_of(render_cpu(scene, CameraRig{}, options).eyes[0].radiance);
+      const Mean mean = mean_of(render_cpu(scene, StereoCamera{}, options).eyes[0].radiance);
       const double exact = (1.0 - std::pow(double{albedo}, 7)) / (1.0 - double{albedo});
       EXPECT_LT(std::abs(mean.value() - exact), 4.0 * std::sqrt(mean.variance()) + 1e-5) << albedo;
       EXPECT_NEAR(mean.value(), exact, 0.01 * exact);
@@ -65,23 +65,24 @@ TEST(Stereo, SpheresAppearWhereTheFormulaSays) {
   Material glow = default_material();
   glow.emission = vec3(1.0f);
   const int material = add_material(scene, glow);
-  CameraRig rig;
-  rig.position = vec3(0.5f, 1.0f, -0.25f);
-  rig.yaw = 30.0f;
-  const Camera camera = make_camera(rig);
+  StereoCamera stereo;
+  stereo.position = vec3(0.5f, 1.0f, -0.25f);
+  stereo.yaw = 30.0f;
+  const Camera camera = make_camera(stereo);
   std::vector<vec3> centers;
   for (int i = 0; i < count; i++) {
     const float y = 0.95f * (1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / count);
     const float turn = static_cast<float>(i) * 2.399963f, r = std::sqrt(1.0f - y * y);
     const vec3 local(r * std::sin(turn), y, -r * std::cos(turn));
     const float distance = 0.3f * std::pow(50.0f / 0.3f, static_cast<float>(i * 7 % count) / (count - 1));
-    centers.push_back(rig.position + distance * (local.x * camera.right + local.y * camera.up + local.z * camera.back));
+    centers.push_back(stereo.position +
+                      distance * (local.x * camera.right + local.y * camera.up + local.z * camera.back));
     add_sphere(scene, centers.back(), size * distance, material, 16);
   }
   RenderOptions options = small_render(width, 64);
   options.eyes = Eyes::kBothEyes;
   options.bounces = 0;
-  for (const EyeImage& image : render_cpu(scene, rig, options).eyes) {
+  for (const EyeImage& image : render_cpu(scene, stereo, options).eyes) {
     for (const vec3& center : centers) {
       const ImagePosition place = project_point(camera, image.eye, center);
       ASSERT_TRUE(place.seen);
@@ -121,9 +122,9 @@ void expect_floor(const Scene& scene, int samples, double tolerance,
                   const std::function<double(glm::dvec3)>& irradiance, float height = 0.0f) {
   RenderOptions options = small_render(32, samples);
   options.bounces = 1;
-  CameraRig rig;
-  rig.position.y = height;
-  const Picture picture = render_cpu(scene, rig, options);
+  StereoCamera stereo;
+  stereo.position.y = height;
+  const Picture picture = render_cpu(scene, stereo, options);
   for (int y = 9; y < 16; y++) {
     for (int x = 0; x < 32; x++) {
       const double expected = pixel_mean(
@@ -215,7 +216,7 @@ void expect_sphere(Scene scene, double albedo, double tolerance,
   add_sphere(scene, vec3(kSphere), 1.0f, add_material(scene, matte(vec3(static_cast<float>(albedo)))), 128);
   RenderOptions options = small_render(128, 256);
   options.bounces = 1;
-  const Picture picture = render_cpu(scene, CameraRig{}, options);
+  const Picture picture = render_cpu(scene, StereoCamera{}, options);
   int compared = 0;
   for (int y = 0; y < 64; y++) {
     for (int x = 0; x < 128; x++) {
@@ -264,7 +265,7 @@ TEST(Sphere, UnderASmallRectangle) {
 
 TEST(Render, FirstHitLayers) {
   Scene scene = floor_scene();
-  const Picture picture = render_cpu(scene, CameraRig{}, small_render(32, 2));
+  const Picture picture = render_cpu(scene, StereoCamera{}, small_render(32, 2));
   const EyeImage& eye = picture.eyes[0];
   for (int y = 0; y < 16; y++) {
     for (int x = 0; x < 32; x++) {
@@ -285,10 +286,10 @@ TEST(Render, LayersCanBeLeftOut) {
   const Scene scene = floor_scene();
   RenderOptions options = small_render(32, 2);
   options.height = 16;
-  const Picture whole = render_cpu(scene, CameraRig{}, options);
+  const Picture whole = render_cpu(scene, StereoCamera{}, options);
   EXPECT_EQ(picture_bytes(options), 32u * 16 * 10 * sizeof(float));
   options.layers = false;
-  const Picture bare = render_cpu(scene, CameraRig{}, options);
+  const Picture bare = render_cpu(scene, StereoCamera{}, options);
   EXPECT_EQ(picture_bytes(options), 32u * 16 * 3 * sizeof(float));
   EXPECT_EQ(bare.eyes[0].radiance.pixels, whole.eyes[0].radiance.pixels);
   EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
@@ -297,7 +298,7 @@ TEST(Render, LayersCanBeLeftOut) {
 TEST(Render, APictureLargerThanTheMemoryIsAnError) {
   RenderOptions options = small_render(1 << 24, 1);
   try {
-    render_cpu(floor_scene(), CameraRig{}, options);
+    render_cpu(floor_scene(), StereoCamera{}, options);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
@@ -307,7 +308,7 @@ TEST(Render, APictureLargerThanTheMemoryIsAnError) {
 // A wall ahead that fills the picture's middle; returns what the middle pixels average to.
 double middle_of(const Scene& scene, int samples = 256) {
   RenderOptions options = small_render(32, samples);
-  const Picture picture = render_cpu(scene, CameraRig{}, options);
+  const Picture picture = render_cpu(scene, StereoCamera{}, options);
   double sum = 0.0;
   for (int y = 6; y < 10; y++) {
     for (int x = 14; x < 18; x++) sum += double{*picture.eyes[0].radiance.at(x, y)} / 16.0;
@@ -329,9 +330,9 @@ TEST(Render, TransparentBeforeTheSkyIsThePicture) {
   add_box(scene, vec3(-1.0f, -1.0f, -4.0f), vec3(1.0f, 0.5f, -2.0f), add_material(scene, matte(vec3(0.6f))));
   scene.environment.radiance = vec3(0.5f);
   RenderOptions options = small_render(64, 8);
-  const Picture whole = render_cpu(scene, CameraRig{}, options);
+  const Picture whole = render_cpu(scene, StereoCamera{}, options);
   options.transparent = true;
-  const EyeImage cut = render_cpu(scene, CameraRig{}, options).eyes[0];
+  const EyeImage cut = render_cpu(scene, StereoCamera{}, options).eyes[0];
   int edges = 0;
   for (size_t i = 0; i < cut.radiance.pixels.size(); i++) {
     const float alpha = cut.alpha.pixels[i / 3];
@@ -384,7 +385,7 @@ TEST(Render, BacksAreCulledForTheCameraOnly) {
     scene.lights.push_back(sun);
     RenderOptions options = small_render(32, 4);
     options.bounces = 1;
-    const Picture picture = render_cpu(scene, CameraRig{}, options);
+    const Picture picture = render_cpu(scene, StereoCamera{}, options);
     EXPECT_EQ(*picture.eyes[0].radiance.at(16, 14), 0.0f) << "the floor lies in shadow";
   }
 }
@@ -401,7 +402,7 @@ TEST(Render, MirroredInstancesKeepTheirFront) {
     glm::mat4 place(1.0f);
     place[0][0] = mirror;
     add_instance(scene, 0, place);
-    const Picture picture = render_cpu(scene, CameraRig{}, small_render(32, 4));
+    const Picture picture = render_cpu(scene, StereoCamera{}, small_render(32, 4));
     EXPECT_GE(*picture.eyes[0].radiance.at(16, 8), 1.0f);
     EXPECT_NEAR(picture.eyes[0].normal.at(16, 8)[2], 1.0f, 1e-6f);
   }
@@ -417,7 +418,7 @@ TEST(Environment, LooksAsItWasGiven) {
     const float u = (static_cast<float>(i % width) + 0.5f) / width, v = (static_cast<float>(i / width) + 0.5f) / height;
     scene.environment.texels.push_back(vec3(1.0f + std::sin(2.0f * kPi * u), v, 1.0f));
   }
-  const Picture picture = render_cpu(scene, CameraRig{}, small_render(width, 256));
+  const Picture picture = render_cpu(scene, StereoCamera{}, small_render(width, 256));
   for (int y = 0; y < height; y++) {
     for (int x = 0; x < width; x++) {
       const vec3 texel = scene.environment.texels[static_cast<size_t>(y * width + x)] * scene.environment.radiance;
@@ -437,14 +438,14 @@ TEST(SameBits, WhateverTheThreadsAndTheOrderOfTiles) {
   std::vector<Picture> pictures;
   for (int threads : {1, 2, 3}) {
     options.threads = threads;
-    pictures.push_back(render_cpu(scene, CameraRig{}, options));
+    pictures.push_back(render_cpu(scene, StereoCamera{}, options));
   }
   EXPECT_EQ(digest(pictures[0]), digest(pictures[1]));
   EXPECT_EQ(digest(pictures[0]), digest(pictures[2]));
   options.last_tile_first = true;
-  EXPECT_EQ(digest(pictures[0]), digest(render_cpu(scene, CameraRig{}, options)));
+  EXPECT_EQ(digest(pictures[0]), digest(render_cpu(scene, StereoCamera{}, options)));
   options.seed = 1;
-  EXPECT_NE(digest(pictures[0]), digest(render_cpu(scene, CameraRig{}, options)));
+  EXPECT_NE(digest(pictures[0]), digest(render_cpu(scene, StereoCamera{}, options)));
 }
 
 TEST(SameBits, WhoeverElseRenders) {
@@ -457,11 +458,11 @@ TEST(SameBits, WhoeverElseRenders) {
   std::vector<uint64_t> seen(4);
   for (size_t i = 0; i < seen.size(); i++) {
     callers.emplace_back(
-        [&, i] { seen[i] = digest(render_cpu(i % 2 == 0 ? without : with_glass, CameraRig{}, options)); });
+        [&, i] { seen[i] = digest(render_cpu(i % 2 == 0 ? without : with_glass, StereoCamera{}, options)); });
   }
   for (std::thread& caller : callers) caller.join();
-  EXPECT_EQ(seen[0], digest(render_cpu(without, CameraRig{}, options)));
-  EXPECT_EQ(seen[1], digest(render_cpu(with_glass, CameraRig{}, options)));
+  EXPECT_EQ(seen[0], digest(render_cpu(without, StereoCamera{}, options)));
+  EXPECT_EQ(seen[1], digest(render_cpu(with_glass, StereoCamera{}, options)));
   EXPECT_EQ(seen[0], seen[2]);
   EXPECT_EQ(seen[1], seen[3]);
 }

@@ -273,11 +273,11 @@ TEST(Gltf, SeveralScenes) {
 TEST(Gltf, CamerasComeBackAsTheyWereSet) {
   for (const vec3 angles :
        {vec3(0, 0, 0), vec3(30, 20, 10), vec3(-120, -60, 45), vec3(170, 5, -170), vec3(40, 90, 0)}) {
-    CameraRig rig;
-    rig.yaw = angles.x;
-    rig.pitch = angles.y;
-    rig.roll = angles.z;
-    const Camera camera = make_camera(rig);
+    StereoCamera stereo;
+    stereo.yaw = angles.x;
+    stereo.pitch = angles.y;
+    stereo.roll = angles.z;
+    const Camera camera = make_camera(stereo);
     GltfBuilder file = make_triangle();
     file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
     const vec3 x = 2.0f * camera.right, y = 2.0f * camera.up, z = 2.0f * camera.back;

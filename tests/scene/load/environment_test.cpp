@@ -25,7 +25,7 @@ TEST(Environment, RadianceIsReadAndRepaired) {
   header.format = FileFormat::kExr;
   header.width = 2;
   header.height = 1;
-  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, Sample::kFloat});
+  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, SampleType::kFloat});
   AtomicFile file(path);
   write_image(file, header, [&](int, std::span<float> row) { std::copy(values.begin(), values.end(), row.begin()); });
   file.commit();

@@ -18,12 +18,12 @@ void expect_mean(const std::string& name, vec3 position, int samples, double kno
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "skipped: " << name << " is not in ../shared/scenes";
   Scene scene = load_scene(path.string());
   scene.environment = {vec3(1.0f), 0, 0, {}};
-  CameraRig rig;
-  rig.position = position;
+  StereoCamera camera;
+  camera.position = position;
   RenderOptions options = small_render(256, samples);
   options.eyes = Eyes::kBothEyes;
   options.bounces = 8;
-  for (const EyeImage& eye : render_cpu(scene, rig, options).eyes) {
+  for (const EyeImage& eye : render_cpu(scene, camera, options).eyes) {
     double sum = 0.0;
     for (float value : eye.radiance.pixels) sum += double{value};
     EXPECT_NEAR(sum / static_cast<double>(eye.radiance.pixels.size()), known, 0.01 * known) << eye.eye;

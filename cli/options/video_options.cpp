@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/video_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+
+#include "cli/console/console.h"
+#include "cli/options/apple_option.h"
+#include "cli/options/picture_options.h"
+#include "ods/base/suggest.h"
+#include "ods/lint/players.h"
+
+using ods::Chroma, ods::Container, ods::Extent, ods::VideoCodec, ods::Layout;
+
+namespace {
+
+std::string encoder_list() {
+  std::vector<std::string_view> names;
+  for (const ods::EncoderFacts& facts : ods::known_encoders()) names.push_back(facts.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void parse_encoder(const std::string& name, VideoWishes& wishes) {
+  for (const ods::EncoderFacts& facts : ods::known_encoders()) {
+    if (facts.name != name) continue;
+    wishes.encoder = name;
+    return;
+  }
+  throw UsageError(fmt::format("--encoder is one of {}, not '{}'", encoder_list(), name));
+}
+
+// What the target says, but for what was asked for.
+ods::Packing packing_for(const VideoWishes& wishes, Container container, Extent size) {
+  ods::Packing packing = ods::packing_for(wishes.target, size, wishes.rate.value());
+  const auto change = [&](VideoCodec codec) {
+    if (packing.codec == codec) return;
+    packing.codec = codec;
+    packing.quality.reset();
+    if (codec == VideoCodec::kProRes) packing.bits = 10, packing.chroma = Chroma::k422;
+  };
+  if (wishes.codec) {
+    change(*wishes.codec);
+  } else if (!wishes.encoder.empty()) {
+    for (const ods::EncoderFacts& facts : ods::known_encoders()) {
+      if (facts.name == wishes.encoder) change(facts.codec);
+    }
+  } else if (container == Container::kWebm && wishes.target != ods::VideoTarget::kMaster) {
+    change(VideoCodec::kVp9);
+  }
+  packing.bits = wishes.bits.value_or(packing.bits);
+  packing.chroma = wishes.chroma.value_or(packing.chroma);
+  if (wishes.crf) packing.quality = wishes.crf;
+  return packing;
+}
+
+void check_container(Container container, VideoCodec codec) {
+  if (ods::can_hold(container, codec)) return;
+  std::vector<std::string_view> codecs, containers;
+  for (VideoCodec each : ods::kVideoCodecs) {
+    if (ods::can_hold(container, each)) codecs.push_back(ods::video_codec_name(each));
+  }
+  for (Container each : ods::containers_of(codec)) containers.push_back(ods::container_name(each));
+  throw UsageError(fmt::format("{} holds {}, not {}, which goes into {}", ods::container_name(container),
+                               fmt::join(codecs, ", "), ods::video_codec_name(codec), fmt::join(containers, ", ")));
+}
+
+void check_quality(const ods::EncodeOptions& options) {
+  const ods::Packing& packing = options.packing;
+  const std::string_view codec = ods::video_codec_name(packing.codec);
+  if (!ods::can_have(packing.codec, packing.bits, packing.chroma)) {
+    throw UsageError(
+        fmt::format("there is no {} of {} bits and chroma {}", codec, packing.bits, ods::chroma_name(packing.chroma)));
+  }
+  for (const ods::EncoderFacts& facts : ods::known_encoders()) {
+    if (facts.codec != packing.codec) continue;
+    if (!options.encoder.empty() && options.encoder != facts.name) continue;
+    const bool has_choice = packing.quality || options.bitrate || !options.preset.empty();
+    if (facts.worst_quality == 0 && has_choice) {
+      throw UsageError(fmt::format("{} knows no --crf, --bitrate or --preset", codec));
+    }
+    if (packing.quality && *packing.quality > facts.worst_quality) {
+      throw UsageError(fmt::format("--crf of {} is from 0, the best, to {}", codec, facts.worst_quality));
+    }
+    return;
+  }
+  throw UsageError(fmt::format("{} does not encode {}", options.encoder, codec));
+}
+
+// A video that is not there yet, as ods probe would see it; with the name that players would know it by.
+void warn_of_names(const VideoWishes& wishes, const ods::VideoPlan& plan) {
+  ods::VideoFile video;
+  ods::VideoTrack track;
+  track.size = plan.size;
+  track.v2 = track.v1 = plan.metadata;
+  const std::vector<std::string> warnings = ods::video_warnings(video, track, wishes.output);
+  for (const std::string& warning : warnings) warn(warning);
+  const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_word.empty();
+  const bool misleads = std::any_of(warnings.begin(), warnings.end(),
+                                    [](const std::string& warning) { return warning.starts_with("its name says"); });
+  if (has_words && !misleads) return;
+  std::string words = plan.metadata.is_partial() ? "_180" : "_360";
+  if (!plan.metadata.projection || plan.metadata.projection == ods::VideoProjection::kFlat) words = "";
+  if (plan.eyes == 2) words += plan.metadata.stereo == ods::VideoStereo::kSideBySide ? "_LR" : "_TB";
+  const std::string name = std::filesystem::path(ods::renamed(wishes.output, words)).filename().native();
+  if (name == std::filesystem::path(wishes.output).filename().native()) return;
+  note(fmt::format("players that go by the name would know it as {}", name));
+}
+
+void warn_of_level(const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
+  const std::optional<ods::Codec> codec = ods::level_codec(options.packing.codec);
+  const double fps = options.rate.value();
+  if (!codec || !ods::smallest_level(*codec, plan.size, fps).empty()) return;
+  const std::optional<Extent> largest = ods::largest_in_levels(*codec, plan.size, fps);
+  warn(fmt::format("no level of {} holds {}x{} at {:.4g} frames a second: many players will refuse it{}",
+                   ods::codec_name(*codec), plan.size.width, plan.size.height, fps,
+                   largest ? fmt::format("; the largest is {}x{}", largest->width, largest->height) : ""));
+}
+
+void warn_of_hardware(const ods::Packing& packing) {
+  if (packing.codec == VideoCodec::kProRes) return;
+  if (packing.chroma != Chroma::k420 || (packing.codec == VideoCodec::kH264 && packing.bits > 8)) {
+    warn(fmt::format("few players take {} of {} bits and chroma {}", ods::video_codec_name(packing.codec), packing.bits,
+                     ods::chroma_name(packing.chroma)));
+  }
+}
+
+}  // namespace
+
+Container container_for(const std::string& path) {
+  if (path.empty()) throw UsageError("no output file: add -o video.mp4");
+  if (const std::optional<Container> container = ods::container_of_path(path)) return *container;
+  throw UsageError(fmt::format("'{}' is no name of a video: it ends in .mp4, .mov, .mkv or .webm", path));
+}
+
+ods::FrameRate parse_rate(const std::string& text) {
+  const size_t stroke = text.find('/');
+  const std::vector<float> parts = parse_numbers(text.substr(0, stroke));
+  const std::vector<float> below =
+      stroke == std::string::npos ? std::vector<float>{1.0f} : parse_numbers(text.substr(stroke + 1));
+  const auto thousandths = [](float value) { return std::lround(std::clamp(value, 0.0f, 2e5f) * 1000.0f); };
+  if (parts.size() != 1 || below.size() != 1 || thousandths(parts[0]) < 1 || thousandths(below[0]) < 1) {
+    throw UsageError(fmt::format("--fps is a number or a fraction, as 30, 29.97 or 30000/1001, not '{}'", text));
+  }
+  long count = thousandths(parts[0]), seconds = thousandths(below[0]);
+  for (long whole : {24, 30, 48, 60, 120}) {
+    if (seconds == 1000 && std::abs(count * 1001 - whole * 1000 * 1000) < 1000) count = whole * 1000, seconds = 1001;
+  }
+  const long common = std::gcd(count, seconds);
+  const ods::FrameRate rate{static_cast<int>(count / common), static_cast<int>(seconds / common)};
+  if (rate.value() < 0.1 || rate.value() > 1000.0) throw UsageError("--fps is from 0.1 to 1000");
+  return rate;
+}
+
+void add_video_options(Options& options, VideoWishes& wishes) {
+  options.group("Video");
+  options.text("-o,--output", "FILE", wishes.output, ".mp4 .mov .mkv .webm");
+  add_packing_options(options, wishes);
+}
+
+void add_packing_options(Options& options, VideoWishes& wishes) {
+  options.choice("--target", wishes.target, ods::kVideoTargets, ods::video_target_name,
+                 "preset for a destination; the options below override it");
+  options.choice("--codec", wishes.codec, ods::kVideoCodecs, ods::video_codec_name,
+                 "video codec; by default the target's");
+  options.custom(
+      "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
+      "encoder for the codec: " + encoder_list());
+  options.text("--preset", "NAME", wishes.preset, "the encoder's own preset name, e.g. slow");
+  options.number("--crf", wishes.crf, 0, 63,
+                 "quality, lower is better; by default 18 for h264, 20 for hevc, 28 for av1, 24 for vp9");
+  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "bit rate in Mbit/s, instead of --crf");
+  options.number("--bits", wishes.bits, 8, 10, "bits per channel: 8 or 10");
+  options.choice("--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "chroma subsampling");
+  options.text("--audio", "FILE", wishes.sound,
+               "sound file: mono, stereo, or first-order ambisonics with four channels (AmbiX)");
+  add_apple_option(options, wishes.for_apple);
+}
+
+ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int threads) {
+  const Container container = container_for(wishes.output);
+  check_apple(wishes.for_apple, container);
+  setenv("SVT_LOG", "0", 0);  // SVT-AV1 speaks for itself
+  ods::EncodeOptions options;
+  options.packing = packing_for(wishes, container, size);
+  options.encoder = wishes.encoder;
+  options.preset = wishes.preset;
+  if (wishes.bitrate) options.bitrate = static_cast<double>(*wishes.bitrate);
+  options.rate = wishes.rate;
+  options.threads = threads;
+  options.sound = wishes.sound;
+  options.copies_sound = wishes.copies_sound;
+  options.sound_cut = wishes.sound_cut;
+  options.for_apple = wishes.for_apple;
+  check_container(container, options.packing.codec);
+  check_quality(options);
+  ods::check_encoder(container, options);
+  ods::check_writable(wishes.output);
+  return options;
+}
+
+ods::VideoPlan expect_video(Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection) {
+  const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
+  if (eyes == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
+    throw UsageError(
+        fmt::format("a video's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
+  }
+  const ods::VideoPlan plan =
+      ods::plan_eyes(ods::squeezed_eye(layout, eye, static_cast<int>(eyes)), eyes, layout, projection);
+  for (const std::string& each : plan.notes) warn(each);
+  return plan;
+}
+
+void say_what_players_need(const VideoWishes& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
+  warn_of_level(plan, options);
+  warn_of_hardware(options.packing);
+  warn_of_names(wishes, plan);
+}
+
+void say_length_of_sound(const ods::EncodeOptions& options, size_t frames) {
+  if (options.sound.empty()) return;
+  const double frame = 1.0 / options.rate.value(), video = static_cast<double>(frames) * frame;
+  const ods::SoundInfo sound = ods::read_sound_info(options.sound);
+  if (sound.channels == 4) note("the sound is taken as first-order ambisonics (AmbiX: W Y Z X, SN3D)");
+  if (sound.seconds > video + frame) {
+    note(fmt::format("the sound, {:.1f} s, is cut where the pictures end, at {:.1f} s", sound.seconds, video));
+  } else if (sound.seconds > 0.0 && sound.seconds < video - frame) {
+    warn(fmt::format("the sound ends at {:.1f} s, the pictures at {:.1f} s", sound.seconds, video));
+  }
+}
+
+std::string video_text(const ods::VideoPlan& plan, const ods::EncodeOptions& options, size_t frames) {
+  const std::optional<ods::Codec> codec = ods::level_codec(options.packing.codec);
+  const std::string_view level =
+      codec ? ods::smallest_level(*codec, plan.size, options.rate.value()) : std::string_view();
+  return fmt::format("{}, {} bits, {}{}, {}x{}, {} frame{} at {:.4g} a second",
+                     ods::video_codec_name(options.packing.codec), options.packing.bits,
+                     ods::chroma_name(options.packing.chroma), level.empty() ? "" : fmt::format(", level {}", level),
+                     plan.size.width, plan.size.height, frames, frames == 1 ? "" : "s", options.rate.value());
+}

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture/over_video.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/picture_options.h"
+#include "ods/base/error.h"
+#include "ods/compose/over_video.h"
+
+using ods::Container, ods::VideoInput, ods::VideoStream, ods::Footage, ods::FootageKind;
+
+namespace {
+
+constexpr int kLast = 1 << 30;
+
+struct Range {
+  int first = 0, last = kLast;
+};
+
+// A video's sound runs through: so do its frames.
+Range range_of(const OverJob& job) {
+  if (!job.frames) return {};
+  check_rising(*job.frames);
+  const Range range{job.frames->front(), job.frames->back()};
+  if (static_cast<size_t>(range.last - range.first) + 1 == job.frames->size()) return range;
+  throw UsageError("--frames of a video that becomes a video follow each other, as 30-120: its sound does");
+}
+
+VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream, const Range& range) {
+  VideoWishes wishes = job.video;
+  wishes.output = job.output;
+  wishes.rate = stream.rate;
+  const auto like = packing_like(stream, container_for(job.output));
+  if (like && !job.has_target && !wishes.codec && wishes.encoder.empty()) {
+    wishes.codec = like->codec;
+    wishes.bits = wishes.bits.value_or(like->bits);
+    wishes.chroma = wishes.chroma.value_or(like->chroma);
+  }
+  if (!wishes.sound.empty() || !video.has_sound) return wishes;
+  wishes.sound = video.path;
+  wishes.copies_sound = true;
+  wishes.sound_cut = {stream.start + range.first / stream.rate.value(), job.frames.has_value()};
+  return wishes;
+}
+
+ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
+  ods::VideoPlan plan;
+  plan.eye = video.like.size;
+  plan.eyes = video.like.eyes.size();
+  plan.layout = video.like.layout;
+  plan.size = stream.size;
+  plan.metadata = video.metadata;
+  return plan;
+}
+
+void check_job(const OverJob& job, const VideoInput& video) {
+  if (job.has_tone || job.has_exposure)
+    throw UsageError("--exposure and --tone are for frames of light, not for videos");
+  if (job.layout && *job.layout != video.like.layout) {
+    throw UsageError(fmt::format("the video stays {}; over frames (-o 'x.####.png') --layout changes that",
+                                 layout_name(video.like.layout)));
+  }
+  refuse_overwriting(job.output, job.background);
+  refuse_overwriting(job.output, job.foreground);
+  const Container container = container_for(job.output);
+  if (has_boxes(container) && !ods::fits_v2(video.metadata)) {
+    throw UsageError(
+        fmt::format("{} has no word for {}; .mkv has", container_name(container), metadata_text(video.metadata)));
+  }
+}
+
+// What is in front, or the first of it.
+ods::StoredPicture first_of(Footage& front) {
+  if (front.kind() == FootageKind::kPicture) return *front.picture(0);
+  if (front.kind() == FootageKind::kVideo) {
+    ods::StoredPicture like = front.video().like;
+    like.eyes[0].layers.push_back({{"R", "G", "B"}});
+    if (front.stream().has_alpha) like.eyes[0].layers[0].channels.emplace_back("A");
+    return like;
+  }
+  const std::vector<int> frames = front.frames();
+  if (!frames.empty()) return *front.picture(frames.front());
+  throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no frame '{}'", front.path()));
+}
+
+}  // namespace
+
+void check_rising(const std::vector<int>& frames) {
+  if (std::is_sorted(frames.begin(), frames.end()) && frames.front() >= 0) return;
+  throw UsageError("--frames of a video rise, from 0 on: it is read from its start to its end");
+}
+
+void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressLines& lines) {
+  const auto start = std::chrono::steady_clock::now();
+  const VideoInput& video = back.video();
+  note_guesses(back.path(), video.like);
+  check_job(job, video);
+  const ods::StoredPicture first = first_of(front);
+  note_guesses(front.path(), first);
+  check_over(job, first, video.like);
+  for (const std::string& warning : over_warnings(first, video.like)) warn(warning);
+  if (front.kind() == FootageKind::kVideo && front.stream().rate.value() != back.stream().rate.value()) {
+    warn(fmt::format("the foreground has {:.4g} frames a second, the background {:.4g}: they go frame by frame",
+                     front.stream().rate.value(), back.stream().rate.value()));
+  }
+  const Range range = range_of(job);
+  const VideoWishes wishes = wishes_for(job, video, back.stream(), range);
+  const ods::EncodeOptions options = encode_options(wishes, back.stream().size, job.threads);
+  const ods::VideoPlan plan = plan_like(video, back.stream());
+  say_what_players_need(wishes, plan, options);
+  ods::Progress progress;
+  const int last = std::min(range.last, std::max(back.stream().count - 1, range.first));
+  const size_t expected = static_cast<size_t>(last - range.first) + 1;
+  progress.report = [&](double done) {
+    lines.report(done, seconds_since(start), video_step("over", done, expected, job.output));
+  };
+  const int count = over_video(back, front, range.first, range.last, job.over, options, job.output, progress);
+  lines.clear();
+  announce_file(job.output);
+  note(fmt::format("{}: {}, in {}", job.output, video_text(plan, options, static_cast<size_t>(count)),
+                   duration_text(seconds_since(start))));
+}

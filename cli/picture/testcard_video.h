@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods testcard as a video.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cli/console/progress.h"
+#include "cli/options/video_options.h"
+#include "ods/testcard/testcard.h"
+
+struct TestcardVideoWishes {
+  bool is_video = false;
+  VideoWishes video;
+  float duration = 10.0f;  // seconds
+  int threads = 0;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+// In groups of their own; --progress and its like in one that is open already.
+void add_testcard_video_options(Options& options, TestcardVideoWishes& wishes);
+
+// Where the card goes that is drawn for eyes of this layout. Throws UsageError and ods::Error.
+void make_video_of_card(const ods::StereoCamera& camera, ods::Extent eye, const std::vector<int>& eyes,
+                        ods::Layout layout, const std::vector<std::string>& lines, const TestcardVideoWishes& wishes,
+                        ProgressLines& progress_lines);

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/apple_option.h"
+#include "cli/video/inject_job.h"
+#include "ods/base/error.h"
+#include "ods/base/suggest.h"
+#include "ods/video/container/apple.h"
+#include "ods/video/container/complete_metadata.h"
+
+using ods::SphericalMetadata, ods::VideoProjection;
+
+namespace {
+
+void parse_projection(const std::string& name, SphericalMetadata& metadata) {
+  const std::vector<std::string> names = {"lat-long", "vr180", "cubemap", "flat"};
+  if (name == "cubemap" || name == "flat") {
+    metadata.projection = name == "flat" ? VideoProjection::kFlat : VideoProjection::kCubemap;
+  } else if (const ods::NamedProjection* named = ods::find_projection(name); named && name.starts_with("cube-3x2")) {
+    throw UsageError(
+        "--projection cube-3x2 has its faces in another order than the cubemap of videos: right, left, up over down, "
+        "front, back");
+  } else if (named) {
+    set_projection(metadata, named->setting);
+  } else {
+    throw UsageError(fmt::format("--projection is one of {}, not '{}'{}", fmt::join(names, ", "), name,
+                                 ods::did_you_mean(name, names)));
+  }
+}
+
+void say_what_is_written(const SphericalMetadata& metadata, const ods::TagResult& result, ods::Container container) {
+  const char* places = !has_boxes(container) ? "StereoMode and Projection" : result.has_v1 ? "V1 and V2" : "V2";
+  note(fmt::format("{}: written as {}{}", metadata_text(metadata), places,
+                   result.has_vexu ? ", and for Apple's players" : ""));
+}
+
+void set_angles(const InjectJob& job, SphericalMetadata& metadata) {
+  const bool is_asked = job.yaw || job.pitch || job.roll;
+  if (is_asked && metadata.projection == VideoProjection::kFlat) {
+    throw UsageError(fmt::format("'{}' is flat: there is no place for --yaw, --pitch and --roll", job.file));
+  }
+  const auto set = [](const std::optional<float>& wish, double& angle) {
+    if (wish) angle = static_cast<double>(*wish);
+  };
+  set(job.yaw, metadata.yaw), set(job.pitch, metadata.pitch), set(job.roll, metadata.roll);
+}
+
+bool asks_for_something(const InjectJob& job) {
+  return job.is_mono || job.layout || !job.projection.empty() || job.yaw || job.pitch || job.roll || job.ambisonics ||
+         job.for_apple;
+}
+
+// A video whose name or shape contradicts its own words is not tagged further before somebody says which is true.
+void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, const ods::VideoTrack& track,
+                      bool matters) {
+  std::string texts, options;
+  for (const ods::FormConflict& conflict : find_conflicts(known, track, job.file)) {
+    texts += (texts.empty() ? "" : "; ") + conflict.text;
+    options += (options.empty() ? "" : ", and ") + conflict.options;
+  }
+  if (texts.empty()) return;
+  if (!matters) return warn(texts);
+  throw ods::Error(ods::ErrorKind::kInput,
+                   fmt::format("'{}' contradicts itself: {}. Say which is true: {}", job.file, texts, options));
+}
+
+// The form that the video gets; what is not asked for is as the video has it. Says what its places cannot hold.
+SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container, const ods::VideoTrack& track,
+                                  std::vector<std::string>& guesses) {
+  SphericalMetadata known;
+  if (job.is_mono) known.stereo = ods::VideoStereo::kOneView;
+  if (job.layout) known.stereo = ods::video_stereo(*job.layout);
+  if (!job.projection.empty()) parse_projection(job.projection, known);
+  known.for_apple = job.for_apple;
+  SphericalMetadata metadata = complete_metadata(known, track, job.file, guesses);
+  set_angles(job, metadata);
+  const ods::TagPlan plan = plan_tag(container, track, metadata);
+  settle_conflicts(job, known, track, plan.says_more || !asks_for_something(job));
+  if (job.for_apple && track.has_layers) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("the eyes of '{}' are layers of its stream, which its vexu describes: --apple would "
+                                 "write another",
+                                 job.file));
+  }
+  if (job.for_apple && !fits_vexu(metadata)) {
+    throw ods::Error(ods::ErrorKind::kUsage,
+                     fmt::format("--apple: vexu has no words for {} ('{}')", metadata_text(metadata), job.file));
+  }
+  if (!can_say(container, track, metadata)) {
+    const auto kind = asks_for_something(job) ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;
+    throw ods::Error(kind, fmt::format("cannot use '{}': {} has no words for {}", job.file, container_name(container),
+                                       metadata_text(metadata)));
+  }
+  for (const std::string& each : plan.notes) note(each);
+  return metadata;
+}
+
+// What the sound is to say; nothing where it is left as it is.
+std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::VideoFile& video) {
+  if (!job.ambisonics) return std::nullopt;
+  if (!has_boxes(video.container))
+    throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus says it by itself");
+  const bool is_alone = video.sound.size() == 1;
+  if (!is_alone)
+    throw UsageError(fmt::format("--ambisonics: '{}' has {} tracks of sound, not one", job.file, video.sound.size()));
+  const int channels = video.sound[0].channels;
+  if (channels != 4) {
+    const std::string has = channels > 0 ? fmt::format("has {}", channels) : "does not say how many it has";
+    throw UsageError(fmt::format("--ambisonics takes sound of 4 channels; '{}' {}", job.file, has));
+  }
+  return ods::Ambisonics();
+}
+
+}  // namespace
+
+void inject_video(const InjectJob& job, ProgressLines& lines) {
+  const ods::VideoFile video = ods::read_video_file(job.file);
+  check_apple(job.for_apple, video.container);
+  const ods::VideoTrack& track = choose_track(video, job.track, job.file);
+  const std::optional<ods::Ambisonics> sound = wished_sound(job, video);
+  std::optional<SphericalMetadata> metadata;
+  std::vector<std::string> guesses;
+  if (!job.remove) metadata = wished_metadata(job, video.container, track, guesses);
+  const auto start = std::chrono::steady_clock::now();
+  const auto progress = [&](double done) {
+    const double kSoon = 1.0;  // seconds: what takes less needs no lines
+    if (const double seconds = seconds_since(start); seconds > kSoon)
+      lines.report(done, seconds, {"inject", 0, 0, job.output});
+  };
+  const ods::TagResult result = tag_video(job.file, job.output, track.id, metadata, sound, progress);
+  lines.clear();
+  for (const std::string& guess : guesses) note(guess);
+  if (metadata) say_what_is_written(*metadata, result, video.container);
+  if (job.ambisonics) note("its sound: written as ambisonics of first order (SA3D)");
+}

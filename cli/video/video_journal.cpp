@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/video/video_journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "cli/console/console.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/frames.h"
+#include "ods/files/read_file.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kNote = "job.txt";
+constexpr const char* kFrame = "frame.######.exr";
+constexpr const char* kMark = "omnistereo video frames, 1";  // another number: another way to write it
+constexpr const char* kFrames = "frames";
+
+fs::file_type type_of(const std::string& path) {
+  std::error_code ignored;
+  return fs::symlink_status(path, ignored).type();
+}
+
+// The parts of a line of the note: tabs stand between them, and never in them.
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> parts;
+  std::istringstream stream(line);
+  for (std::string part; std::getline(stream, part, '\t');) parts.push_back(part);
+  parts.resize(std::max<size_t>(parts.size(), 3));
+  return parts;
+}
+
+// Whether a file of the folder is what a killed run left of this one.
+bool is_half(const std::string& name, const std::string& of) {
+  return name.starts_with("." + of + ".tmp.");
+}
+
+// Whether there is nothing in a folder but what a process left that was killed while it wrote the first note.
+bool is_empty(const std::string& folder) {
+  std::error_code ignored;
+  return std::all_of(fs::directory_iterator(folder, ignored), fs::directory_iterator(),
+                     [](const auto& entry) { return is_half(entry.path().filename().native(), kNote); });
+}
+
+}  // namespace
+
+VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart)
+    : claim_(ods::claim(video)), folder_(video + ".frames"), settings_(settings) {
+  const fs::file_type type = type_of(folder_);
+  if (type != fs::file_type::directory && type != fs::file_type::not_found) {
+    throw UsageError(fmt::format("'{}' is where the frames would lie, and it is {}; remove it, or choose another -o",
+                                 folder_, type == fs::file_type::symlink ? "a link" : "no folder"));
+  }
+  begin(restart);
+  write_note();
+}
+
+void VideoJournal::begin(bool restart) {
+  std::vector<Setting> then;
+  if (!read_note(then)) {
+    if (type_of(note_path()) != fs::file_type::not_found) {
+      throw UsageError(
+          fmt::format("'{}' was not written by this version of ods video; remove '{}', or choose another -o",
+                      note_path(), folder_));
+    }
+    if (type_of(folder_) == fs::file_type::directory && !is_empty(folder_) && !restart) {
+      throw UsageError(fmt::format("'{}' is where the frames would lie, and it is not empty", folder_));
+    }
+    return;
+  }
+  const std::string difference = settings_difference(then, settings_);
+  if (restart || (!difference.empty() && !has_frames())) {
+    remove();
+    frames_.clear();
+  } else if (!difference.empty()) {
+    throw UsageError(
+        fmt::format("'{}' has frames of other options: {}; --restart renders them anew", folder_, difference));
+  }
+}
+
+VideoJournal::~VideoJournal() {
+  if (!has_frames()) remove();
+}
+
+std::string VideoJournal::note_path() const {
+  return folder_ + "/" + kNote;
+}
+
+std::string VideoJournal::pattern() const {
+  return folder_ + "/" + kFrame;
+}
+
+// False where there is none of ours.
+bool VideoJournal::read_note(std::vector<Setting>& settings) {
+  if (type_of(note_path()) != fs::file_type::regular) return false;
+  const std::vector<unsigned char> bytes = ods::read_file(note_path(), size_t{64} << 20);
+  std::istringstream note(std::string(bytes.begin(), bytes.end()));
+  std::string line;
+  if (!std::getline(note, line) || line != kMark) return false;
+  while (std::getline(note, line)) {
+    const std::vector<std::string> parts = split(line);
+    if (parts[0] != kFrames) {
+      settings.push_back({parts[0], parts[1], parts[2]});
+    } else if (!parts[1].empty()) {
+      for (const int frame : ods::parse_frames(parts[1])) frames_.insert(frame);
+    }
+  }
+  return true;
+}
+
+void VideoJournal::write_note() const {
+  std::string note = fmt::format("{}\n{}\t{}\n", kMark, kFrames, ods::frames_text({frames_.begin(), frames_.end()}));
+  for (const Setting& setting : settings_) {
+    note += fmt::format("{}\t{}{}{}\n", setting.option, setting.value, setting.path.empty() ? "" : "\t", setting.path);
+  }
+  ods::write_file(note_path(), note);
+}
+
+void VideoJournal::plan(const std::vector<int>& frames) {
+  const ods::FrameNames names = *ods::frame_names(pattern());
+  for (const int frame : frames) {
+    const fs::file_type type = type_of(names.path(frame));
+    if (type == fs::file_type::not_found || (type == fs::file_type::regular && frames_.contains(frame))) continue;
+    throw UsageError(fmt::format("'{}' is no frame of this video; remove it, or choose another -o", names.path(frame)));
+  }
+  frames_.insert(frames.begin(), frames.end());
+  write_note();
+}
+
+std::set<std::string> VideoJournal::frame_files() const {
+  std::set<std::string> files;
+  const ods::FrameNames names = *ods::frame_names(kFrame);
+  for (const int frame : frames_) files.insert(names.path(frame));
+  return files;
+}
+
+bool VideoJournal::has_frames() const {
+  if (type_of(folder_) != fs::file_type::directory) return false;
+  const std::set<std::string> own = frame_files();
+  std::error_code ignored;
+  const auto is_own = [&](const auto& entry) { return own.contains(entry.path().filename().native()); };
+  return std::any_of(fs::directory_iterator(folder_, ignored), fs::directory_iterator(), is_own);
+}
+
+void VideoJournal::remove() const {
+  if (claim_->is_lost()) return;  // it is another's
+  const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder < 0) return;
+  const std::set<std::string> own = frame_files();
+  std::vector<std::string> gone;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+    const std::string name = entry.path().filename().native();
+    const std::string of = name.starts_with(".") ? name.substr(1, name.find(".tmp.") - 1) : "";
+    const std::string stitched = name.ends_with(".stitching") ? name.substr(0, name.rfind('.')) : "";
+    const bool is_half_frame = own.contains(of) && is_half(name, of);
+    if (own.contains(name) || own.contains(stitched) || is_half_frame || is_half(name, kNote)) gone.push_back(name);
+  }
+  gone.push_back(kNote);  // last: until then the rest is known as ours
+  for (const std::string& name : gone) unlinkat(folder, name.c_str(), 0);
+  close(folder);
+  rmdir(folder_.c_str());
+}

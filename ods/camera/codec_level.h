@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What video decoders are bound to play. A file outside every level plays only where a device happens to allow more.
+// Sources: ITU-T H.264 table A-1, ITU-T H.265 tables A.8 and A.9, AV1 Bitstream & Decoding Process annex A.3, WebM
+// Project, "VP9 Levels and Decoder Testing". Only the size of a picture and pixels a second are looked at, not bit
+// rates.
+#pragma once
+#include <string_view>
+
+#include "ods/camera/layout.h"
+
+namespace ods {
+
+enum class Codec { kH264, kHevc, kAv1, kVp9 };
+
+inline constexpr Codec kCodecs[] = {Codec::kH264, Codec::kHevc, Codec::kAv1, Codec::kVp9};
+std::string_view codec_name(Codec codec);  // H.264, HEVC, AV1, VP9
+
+// The smallest level, as its standard writes it ("5.1"), of a video of such pictures; empty when none is large enough.
+// Precondition: sides above 0, fps >= 0.
+std::string_view smallest_level(Codec codec, Extent size, double fps);
+
+}  // namespace ods

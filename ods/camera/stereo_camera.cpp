@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/camera/stereo_camera.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ods/camera/camera_fields.h"
+
+namespace ods {
+
+std::string_view merge_name(int mode) {
+  switch (mode) {
+    case kMergeNone:
+      return "none";
+    case kMergeLinear:
+      return "linear";
+    case kMergeCosine:
+      return "cosine";
+    case kMergeSmoothstep:
+      return "smoothstep";
+    case kMergeGaussian:
+      return "gaussian";
+    case kMergePower:
+      return "power";
+    case kMergeTiltBrush:
+      return "tilt-brush";
+    default:
+      assert(mode == kMergeMap);
+      return "map";
+  }
+}
+
+std::optional<int> merge_of(std::string_view name) {
+  for (int mode : kMerges) {
+    if (merge_name(mode) == name) return mode;
+  }
+  return std::nullopt;
+}
+
+bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b) {
+  const bool none = a.mode == kMergeNone && b.mode == kMergeNone;
+  return none || (a.mode == b.mode && a.start == b.start && a.end == b.end && a.exponent == b.exponent);
+}
+
+std::string_view convergence_name(int convergence) {
+  switch (convergence) {
+    case kParallel:
+      return "parallel";
+    case kToeIn:
+      return "toe-in";
+    default:
+      assert(convergence == kShift);
+      return "shift";
+  }
+}
+
+static PoleMerge make_merge(const PoleMergeSetting& setting) {
+  assert(setting.mode == kMergeNone || (setting.start < setting.end && setting.exponent > 0.0f));
+  PoleMerge merge;
+  merge.mode = setting.mode;
+  merge.start = glm::radians(setting.start);
+  merge.end = glm::radians(setting.end);
+  merge.exponent = setting.exponent;
+  return merge;
+}
+
+Camera make_camera(const StereoCamera& stereo) {
+  assert(stereo.ipd >= 0.0f);
+  assert(stereo.merge_map || (stereo.top.mode != kMergeMap && stereo.bottom.mode != kMergeMap));
+  const auto radians = [](float degrees) { return glm::radians(static_cast<double>(degrees)); };
+  const auto [right, up, back] = orientation(radians(stereo.yaw), radians(stereo.pitch), radians(stereo.roll));
+  Camera camera;
+  camera.center = stereo.position;
+  camera.right = vec3(right);
+  camera.up = vec3(up);
+  camera.back = stereo.mirrored ? -vec3(back) : vec3(back);
+  camera.axis = vec3(0.0f, 1.0f, 0.0f);
+  if (stereo.axis) {
+    const vec3 axis = normalize(*stereo.axis);
+    camera.axis = vec3(dot(axis, camera.right), dot(axis, camera.up), dot(axis, camera.back));
+  }
+  camera.ipd = stereo.ipd;
+  camera.neck = stereo.neck;
+  camera.convergence = stereo.convergence;
+  camera.convergence_distance = stereo.convergence_distance;
+  camera.lens_radius = stereo.lens_radius;
+  camera.focus_distance = stereo.focus_distance;
+  camera.top = make_merge(stereo.top);
+  camera.bottom = make_merge(stereo.bottom);
+  camera.projection = make_projection(stereo.projection);
+  camera.map_width = stereo.merge_map ? stereo.merge_map->width : 0;
+  camera.map_height = stereo.merge_map ? stereo.merge_map->height : 0;
+  camera.map = stereo.merge_map ? stereo.merge_map->pixels.data() : nullptr;
+  return camera;
+}
+
+void turn(StereoCamera& camera, float yaw, float pitch, float roll) {
+  if (camera.pitch == 0.0f && camera.roll == 0.0f) {
+    camera.yaw = angle_in_range(double{camera.yaw} + double{yaw}), camera.pitch = pitch, camera.roll = roll;
+    return;
+  }
+  const auto frame = [](float y, float p, float r) {
+    return orientation(glm::radians(double{y}), glm::radians(double{p}), glm::radians(double{r}));
+  };
+  const std::array<glm::dvec3, 3> own = frame(camera.yaw, camera.pitch, camera.roll), by = frame(yaw, pitch, roll);
+  const auto placed = [&](glm::dvec3 v) { return v.x * own[0] + v.y * own[1] + v.z * own[2]; };
+  const ViewAngles angles = view_angles(-placed(by[2]), placed(by[1]));
+  camera.yaw = angles.yaw, camera.pitch = angles.pitch, camera.roll = angles.roll;
+}
+
+vec3 axis_in_world(const Camera& camera) {
+  return camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
+}
+
+ViewAngles view_angles(glm::dvec3 forward, glm::dvec3 up) {
+  const double pitch = std::asin(std::clamp(forward.y, -1.0, 1.0));
+  const glm::dvec3 right = glm::cross(forward, up);
+  double yaw = std::atan2(forward.x, -forward.z), roll = 0.0;
+  if (std::hypot(forward.x, forward.z) < 1e-6) {
+    yaw = std::atan2(right.z, right.x);
+  } else {
+    const glm::dvec3 level_right(std::cos(yaw), 0.0, std::sin(yaw));
+    roll = std::atan2(glm::dot(up, level_right), glm::dot(right, level_right));
+  }
+  return {static_cast<float>(glm::degrees(yaw)), static_cast<float>(glm::degrees(pitch)),
+          static_cast<float>(glm::degrees(roll))};
+}
+
+}  // namespace ods

@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/compose/over_video.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+#include "ods/base/error.h"
+#include "ods/base/memory.h"
+#include "ods/base/pipeline.h"
+
+namespace ods {
+
+// --- what covers -----------------------------------------------------------------------------------------------------
+
+Cover make_cover(const StoredPicture& foreground, const StoredPicture& video, const OverOptions& options) {
+  const PictureRows rows = fitted_foreground(foreground, video, options);
+  Cover cover;
+  cover.eyes.resize(video.eyes.size());
+  for (size_t eye = 0; eye < cover.eyes.size(); eye++) {
+    cover.eyes[eye].resize(static_cast<size_t>(video.size.height));
+    tbb::parallel_for(0, video.size.height, [&](int y) {
+      std::vector<float> row(4 * static_cast<size_t>(video.size.width));
+      rows.fill(static_cast<int>(eye), y, row);
+      size_t first = 0, last = row.size() / 4;
+      while (last > 0 && !(row[4 * last - 1] > 0.0f)) last--;
+      while (first < last && !(row[4 * first + 3] > 0.0f)) first++;
+      const auto at = [&](size_t x) { return row.begin() + static_cast<ptrdiff_t>(4 * x); };
+      cover.eyes[eye][static_cast<size_t>(y)] = {static_cast<int>(first), {at(first), at(last)}};
+    });
+  }
+  return cover;
+}
+
+// --- a frame ---------------------------------------------------------------------------------------------------------
+
+static Planes planes_of(const Planes& all, const StoredPicture& video, size_t eye) {
+  const EyeCorner corner = eye_corner(video.layout, video.size, static_cast<int>(eye));
+  return all.at(corner.x, corner.y);
+}
+
+void copy_planes(const Planes& from, Extent size, const Planes& to) {
+  const Extent block = chroma_block(from.chroma);
+  const size_t sample = from.bits > 8 ? 2 : 1;
+  for (size_t i = 0; i < 3; i++) {
+    const Extent share = i == 0 ? Extent{1, 1} : block;
+    const size_t row = static_cast<size_t>(size.width / share.width) * sample;
+    tbb::parallel_for(tbb::blocked_range<int>(0, size.height / share.height, 64), [&](const auto& range) {
+      for (int y = range.begin(); y < range.end(); y++) {
+        const auto line = static_cast<size_t>(y);
+        std::memcpy(to.first[i] + line * to.stride[i], from.first[i] + line * from.stride[i], row);
+      }
+    });
+  }
+}
+
+std::shared_ptr<VideoFrame> copied_frame(const DecodedFrame& frame, const VideoStream& stream, const VideoInput& video,
+                                         const Packing& packing) {
+  auto result = std::make_shared<VideoFrame>(stream.size, packing);
+  if (stream.color == ColorCode() && stream.bits == packing.bits && stream.chroma == packing.chroma) {
+    copy_planes(frame.planes, stream.size, result->planes());
+    return result;
+  }
+  for (size_t eye = 0; eye < video.like.eyes.size(); eye++) {
+    const Planes from = planes_of(frame.planes, video.like, eye);
+    const auto codes = [&](int y, std::span<float> row) {
+      get_codes(from, video.like.size, stream.color, y, 0, row);
+      for (float& code : row) code = std::clamp(code, 0.0f, 1.0f);
+    };
+    put_ycbcr(codes, video.like.size, planes_of(result->planes(), video.like, eye));
+  }
+  return result;
+}
+
+namespace {
+
+// The rows of one eye that share colours, while the cover is laid over them.
+template <typename T>
+class BlockRows {
+ public:
+  BlockRows(Extent size, const ColorCode& color, const Planes& from, const Planes& to)
+      : size_(size), color_(color), from_(from), to_(to), block_(chroma_block(to.chroma)) {}
+
+  void lay(const std::vector<AlphaRow>& cover, int block_row) {
+    const int top = block_row * block_.height;
+    first_ = size_.width, last_ = 0;
+    for (int y = top; y < top + block_.height; y++) {
+      const AlphaRow& row = cover[static_cast<size_t>(y)];
+      if (row.rgba.empty()) continue;
+      first_ = std::min(first_, row.first);
+      last_ = std::max(last_, row.first + static_cast<int>(row.rgba.size() / 4));
+    }
+    if (first_ >= last_) return;
+    const auto width = static_cast<size_t>(last_ - first_);
+    for (auto& sum : sums_) sum.assign(width, 0.0f);
+    for (int y = top; y < top + block_.height; y++) {
+      if (!cover[static_cast<size_t>(y)].rgba.empty()) lay_row(cover[static_cast<size_t>(y)], y);
+    }
+    put_color(block_row);
+  }
+
+ private:
+  void lay_row(const AlphaRow& cover, int y) {
+    const size_t width = cover.rgba.size() / 4, before = static_cast<size_t>(cover.first - first_);
+    back_.resize(3 * width);
+    get_codes(from_, size_, color_, y, cover.first, back_);
+    T* luma = reinterpret_cast<T*>(to_.first[0] + static_cast<size_t>(y) * to_.stride[0]) + cover.first;
+    const float unit = static_cast<float>(1 << (to_.bits - 8)), share = 1.0f / static_cast<float>(block_.height);
+    for (size_t x = 0; x < width; x++) {
+      const float* front = &cover.rgba[4 * x];
+      if (!(front[3] > 0.0f)) continue;
+      std::array<float, 3> codes;
+      for (size_t c = 0; c < 3; c++) {
+        float light = front[c];
+        if (front[3] < 1.0f) light += srgb_decode(std::clamp(back_[x + c * width], 0.0f, 1.0f)) * (1.0f - front[3]);
+        codes[c] = video_code(std::clamp(light, 0.0f, 1.0f));
+      }
+      const float bright = 0.2126f * codes[0] + 0.7152f * codes[1] + 0.0722f * codes[2];
+      luma[x] = static_cast<T>((16.0f + 219.0f * bright) * unit + 0.5f);
+      sums_[0][before + x] += (128.0f + 224.0f * (codes[2] - bright) / 1.8556f) * unit * share;
+      sums_[1][before + x] += (128.0f + 224.0f * (codes[0] - bright) / 1.5748f) * unit * share;
+      sums_[2][before + x] += share;
+    }
+  }
+
+  // A shared colour is the mean of its pixels', as put_ycbcr() has it.
+  void put_color(int block_row) {
+    const auto at = [&](size_t which, int x) {
+      return x < first_ || x >= last_ ? 0.0f : sums_[which][static_cast<size_t>(x - first_)];
+    };
+    for (int column = first_ / block_.width; column * block_.width <= last_ && column < size_.width / block_.width;
+         column++) {
+      const int x = column * block_.width;
+      const auto mean = [&](size_t which) {
+        if (block_.width == 1) return at(which, x);
+        return 0.5f * at(which, x) + 0.25f * (at(which, std::max(x - 1, 0)) + at(which, x + 1));
+      };
+      const float covered = mean(2);
+      if (!(covered > 0.0f)) continue;
+      for (size_t i = 0; i < 2; i++) {
+        T& color = reinterpret_cast<T*>(to_.first[i + 1] + static_cast<size_t>(block_row) * to_.stride[i + 1])[column];
+        color = static_cast<T>(mean(i) + static_cast<float>(color) * (1.0f - covered) + 0.5f);
+      }
+    }
+  }
+
+  Extent size_;
+  ColorCode color_;
+  Planes from_, to_;
+  Extent block_;
+  int first_ = 0, last_ = 0;                // columns that are covered in any of the rows
+  std::array<std::vector<float>, 3> sums_;  // of them: blue and red difference of the covered pixels, and their share
+  std::vector<float> back_;
+};
+
+}  // namespace
+
+template <typename T>
+static void lay_eye(const std::vector<AlphaRow>& cover, Extent size, const ColorCode& color, const Planes& from,
+                    const Planes& to) {
+  const int rows = size.height / chroma_block(to.chroma).height;
+  tbb::parallel_for(tbb::blocked_range<int>(0, rows, 8), [&](const auto& range) {
+    BlockRows<T> block(size, color, from, to);
+    for (int row = range.begin(); row < range.end(); row++) block.lay(cover, row);
+  });
+}
+
+void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& color, const Planes& from,
+               const Planes& to) {
+  const auto lay = to.bits == 8 ? lay_eye<uint8_t> : lay_eye<uint16_t>;
+  for (size_t eye = 0; eye < cover.eyes.size(); eye++) {
+    lay(cover.eyes[eye], video.size, color, planes_of(from, video, eye), planes_of(to, video, eye));
+  }
+}
+
+// --- the video
+// --------------------------------------------------------------------------------------------------------
+
+std::optional<Packing> packing_like(const VideoStream& stream, Container container) {
+  const int bits = stream.bits > 8 ? 10 : 8;
+  if (!stream.codec || !can_hold(container, *stream.codec) || !can_have(*stream.codec, bits, stream.chroma)) {
+    return std::nullopt;
+  }
+  return Packing{*stream.codec, bits, stream.chroma, {}};
+}
+
+namespace {
+
+// A frame on its way from the decoder to the encoder.
+struct Work {
+  int number = 0;
+  DecodedFrame back;
+  std::optional<StoredPicture> front;  // of a video, which only one at a time can read
+  std::shared_ptr<VideoFrame> frame;
+};
+
+class VideoOver {
+ public:
+  VideoOver(Footage& back, Footage& front, const OverOptions& over, const Packing& packing)
+      : back_(back), front_(front), over_(over), packing_(packing) {
+    if (front_.kind() == FootageKind::kPicture) still_ = cover_of(*front_.picture(0));
+  }
+
+  // False behind the last one.
+  bool decode(int number, Work& work) {
+    std::optional<DecodedFrame> decoded = back_.decode(number);
+    if (!decoded) return false;
+    work.number = number;
+    work.back = std::move(*decoded);
+    if (front_.kind() == FootageKind::kVideo && !front_ended_) {
+      work.front = front_.picture(number);
+      front_ended_ = !work.front;
+    }
+    return true;
+  }
+
+  void lay(Work& work) const {
+    work.frame = copied_frame(work.back, back_.stream(), back_.video(), packing_);
+    if (front_.kind() == FootageKind::kFrames) work.front = front_.picture(work.number);
+    if (work.front) {
+      lay(cover_of(*work.front), work);
+    } else if (still_) {
+      lay(*still_, work);
+    }
+    work.front.reset();
+    work.back = {};
+  }
+
+ private:
+  void lay(const Cover& cover, const Work& work) const {
+    lay_cover(cover, back_.video().like, back_.stream().color, work.back.planes, work.frame->planes());
+  }
+
+  Cover cover_of(const StoredPicture& front) const {
+    const StoredPicture& like = back_.video().like;
+    const std::string fault = over_fault(front, like, over_);
+    if (fault.empty()) return make_cover(front, like, over_);
+    throw Error(ErrorKind::kUsage, fmt::format("'{}' over '{}': {}", front_.path(), back_.path(), fault));
+  }
+
+  Footage& back_;
+  Footage& front_;
+  OverOptions over_;
+  Packing packing_;
+  std::optional<Cover> still_;
+  bool front_ended_ = false;
+};
+
+}  // namespace
+
+// Frames that may be in memory at once; one in front may have four floats a pixel, and its cover as many.
+static size_t frames_at_once(const VideoStream& stream, FootageKind front) {
+  const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
+  const size_t bytes = pixels * (front == FootageKind::kPicture ? 12 : 12 + 32);
+  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
+}
+
+int over_video(Footage& back, Footage& front, int first, int last, const OverOptions& over,
+               const EncodeOptions& options, const std::string& path, const Progress& progress) {
+  assert(back.kind() == FootageKind::kVideo && container_of_path(path) && first <= last);
+  VideoOver job(back, front, over, options.packing);
+  AtomicFile untagged(path);
+  VideoEncoder encoder(untagged, *container_of_path(path), back.stream().size, options);
+  const int expected = std::max(1, std::min(last, back.stream().count - 1) - first + 1);
+  int next = first, done = 0;
+  const auto decode = [&](Work& work) {
+    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
+    return next <= last && job.decode(next++, work);
+  };
+  const auto lay = [&](Work& work) { job.lay(work); };
+  const auto encode = [&](const Work& work) {
+    encoder.add(work.frame);
+    done++;
+    if (progress.report) progress.report(std::min(1.0, static_cast<double>(done) / expected));
+  };
+  run_pipeline<Work>(frames_at_once(back.stream(), front.kind()), decode, lay, encode);
+  if (done == 0) {
+    const ErrorKind kind = first > 0 ? ErrorKind::kUsage : ErrorKind::kInput;
+    throw Error(kind, fmt::format("there is no picture {} in '{}'", first, back.path()));
+  }
+  encoder.finish();
+  const VideoFile video = read_video_file(untagged.temporary());
+  std::optional<Ambisonics> ambisonics;
+  if (options.copies_sound) {
+    ambisonics = back.video().ambisonics;
+  } else if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) {
+    ambisonics.emplace();
+  }
+  SphericalMetadata metadata = back.video().metadata;
+  metadata.for_apple = metadata.for_apple || options.for_apple;
+  tag_video(untagged.temporary(), path, choose_track(video, {}, path).id, metadata, ambisonics);
+  return done;
+}
+
+}  // namespace ods

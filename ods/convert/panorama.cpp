@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/convert/panorama.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace ods {
+
+static vec2 size_of(const Source& source) {
+  return {static_cast<float>(source.picture->size.width), static_cast<float>(source.picture->size.height)};
+}
+
+bool is_apart_at_pole(const Camera& camera, bool above) {
+  if (camera.axis.y != 1.0f) return false;  // the circle has poles of its own
+  const float side = above ? 1.0f : -1.0f;
+  return merge_at(camera, vec3(0.0f, side, 0.0f), side * 0.5f * kPi) > 0.5f;
+}
+
+Source make_source(const StoredPicture& picture) {
+  assert(!picture.eyes.empty());
+  Source source;
+  source.picture = &picture;
+  source.camera = make_camera(picture.camera);
+  source.camera.center = vec3(0.0f);
+  if (picture.eyes.size() == 2 && source.camera.ipd > 0.0f) {
+    source.other_above = is_apart_at_pole(source.camera, true);
+    source.other_below = is_apart_at_pole(source.camera, false);
+  }
+  return source;
+}
+
+int eye_index(const StoredPicture& picture, int eye) {
+  for (size_t i = 0; i < picture.eyes.size(); i++) {
+    if (picture.eyes[i].eye == eye) return static_cast<int>(i);
+  }
+  return 0;
+}
+
+int eye_over_pole(const Source& source, int eye, bool above) {
+  return (above ? source.other_above : source.other_below) ? 1 - eye : eye;
+}
+
+// A fisheye's edge runs through texels: those whose middle is inside are there to their corners.
+static bool is_seen(const Source& source, const ImagePoint& place) {
+  if (place.seen || !has_image_circle(source.camera.projection.kind) || !inside_picture(place.uv)) return place.seen;
+  const vec2 middle = (floor(place.uv * size_of(source)) + 0.5f) / size_of(source);
+  return look_of(source.camera.projection, middle, middle).seen;
+}
+
+static Cell cell_at(int kind, Extent size, int column, int row) {
+  const int columns = cube_columns(kind), rows = 6 / columns;
+  // Texels belong where their middle is.
+  const auto edge = [](int i, int count, int whole) { return (2 * i * whole + count - 1) / (2 * count); };
+  return {edge(column, columns, size.width), edge(row, rows, size.height), edge(column + 1, columns, size.width),
+          edge(row + 1, rows, size.height)};
+}
+
+// The edge of a face lies beside that of another; the file may have a third one there.
+static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
+  const int kind = source.camera.projection.kind;
+  if (!is_cube(kind)) return;
+  const int cell = cube_cell_toward(kind, direction), columns = cube_columns(kind);
+  const Cell own = cell_at(kind, source.picture->size, cell % columns, cell / columns);
+  const auto keep = [](float x, int low, int high) {
+    const float kMargin = 1.0f / 128.0f;
+    return std::clamp(x, static_cast<float>(low) + kMargin, static_cast<float>(high) - kMargin);
+  };
+  place.at = {keep(place.at.x, own.left, own.right), keep(place.at.y, own.top, own.bottom)};
+}
+
+// Of a direction in the picture's own frame.
+static Place find_direction(const Source& source, int eye, vec3 d) {
+  const ImagePoint found = place_of(source.camera.projection, d);
+  Place place{eye, found.uv * size_of(source), is_seen(source, found)};
+  keep_in_cell(source, d, place);
+  return place;
+}
+
+// The direction by which a toed-in picture knows the line of direction d: its C times itself less the eye's offset is
+// along d. The offset's size depends on the elevation, through the merge: a few rounds find both.
+static vec3 toed_in_label(const Camera& camera, int eye, vec3 d) {
+  const float c = camera.convergence_distance, height = dot(d, camera.axis);
+  const vec3 level = d - camera.axis * height;
+  if (length(level) == 0.0f) return d;
+  float phi = std::asin(std::clamp(height, -1.0f, 1.0f)), r = 0.0f;
+  for (int i = 0; i < 8; i++) {
+    r = 0.5f * camera.ipd * std::abs(eye_side(eye)) * merge_at(camera, d, phi);
+    phi = std::asin(std::clamp(height * std::sqrt(1.0f + r * r / (c * c)), -1.0f, 1.0f));
+  }
+  const float turn = -eye_side(eye) * std::atan2(r, c * std::cos(phi));
+  return turn_about(normalize(level), camera.axis, turn) * std::cos(phi) + camera.axis * std::sin(phi);
+}
+
+Place place_of_line(const Source& source, int eye, vec3 direction) {
+  const Camera& camera = source.camera;
+  const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
+  direction = normalize(direction);
+  vec3 d(dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.back));
+  if (camera.convergence == kToeIn) d = toed_in_label(camera, which, d);
+  if (camera.convergence == kShift) d = turn_about(d, camera.axis, -shift_angle(camera, which));
+  return find_direction(source, eye, d);
+}
+
+Cell cell_of(const Projection& projection, Extent size, vec2 at) {
+  const int kind = projection.kind;
+  if (!is_cube(kind)) return {0, 0, size.width, size.height};
+  const int columns = cube_columns(kind), rows = 6 / columns;
+  int column = columns - 1, row = rows - 1;
+  Cell cell = cell_at(kind, size, column, row);
+  while (column > 0 && at.x < static_cast<float>(cell.left)) cell = cell_at(kind, size, --column, row);
+  while (row > 0 && at.y < static_cast<float>(cell.top)) cell = cell_at(kind, size, column, --row);
+  return cell;
+}
+
+static vec2 middle_of(const Source& source, int x, int y) {
+  return (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / size_of(source);
+}
+
+bool has_texel(const Source& source, const Cell& cell, int x, int y) {
+  if (x < cell.left || x >= cell.right || y < cell.top || y >= cell.bottom) return false;
+  if (!has_image_circle(source.camera.projection.kind)) return true;
+  const vec2 p = 2.0f * middle_of(source, x, y) - 1.0f;
+  return dot(p, p) <= 1.0f;
+}
+
+static Texel nearest_of_edge(const Source& source, int eye, const Cell& cell, int x, int y) {
+  if (has_image_circle(source.camera.projection.kind)) {
+    // Inwards until a texel around it has its middle in the circle.
+    const vec2 p = 2.0f * middle_of(source, x, y) - 1.0f;
+    const float r = length(p), texel = 2.0f / std::min(size_of(source).x, size_of(source).y);
+    const vec2 at = (0.5f + 0.5f * p * std::min(std::max(1.0f - 0.75f * texel, 0.0f) / r, 1.0f)) * size_of(source);
+    x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+  }
+  return {eye, std::clamp(x, cell.left, cell.right - 1), std::clamp(y, cell.top, cell.bottom - 1)};
+}
+
+Texel texel_of(const Source& source, int eye, const Cell& cell, int x, int y) {
+  if (has_texel(source, cell, x, y)) return {eye, x, y};
+  const Camera& camera = source.camera;
+  const vec2 home =
+      0.5f * (middle_of(source, cell.left, cell.top) + middle_of(source, cell.right - 1, cell.bottom - 1));
+  const vec2 uv = middle_of(source, x, y);
+  const ViewDirection look = look_of(camera.projection, home, uv);
+  vec3 direction = look.direction;
+  int there = eye;
+  if (abs(look.elevation) > 0.5f * kPi) {
+    const int other = eye_over_pole(source, eye, look.elevation > 0.0f);
+    if (other != eye && camera.convergence == kShift) {  // the other eye's picture is turned the other way
+      const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
+      direction = turn_about(direction, camera.axis, 2.0f * shift_angle(camera, which));
+    }
+    there = other;
+  }
+  const Place place = find_direction(source, there, direction);
+  if (!place.seen) return nearest_of_edge(source, eye, cell, x, y);
+  const Extent size = source.picture->size;
+  return {there, std::clamp(static_cast<int>(place.at.x), 0, size.width - 1),
+          std::clamp(static_cast<int>(place.at.y), 0, size.height - 1)};
+}
+
+}  // namespace ods

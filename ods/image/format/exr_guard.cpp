@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/image/format/exr_guard.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+
+namespace ods {
+
+namespace {
+
+constexpr size_t kLongestName = 255;
+constexpr int64_t kMaxRowsOfAChunk = 256;  // of DWAB
+constexpr size_t kOffset = 8;              // bytes
+
+struct Box {
+  int32_t left, top, right, bottom;
+};
+
+class HeaderReader {
+ public:
+  HeaderReader(size_t size, const ByteReader& read) : size_(size), read_(read) {}
+
+  size_t at = 0;
+
+  template <class T>
+  std::optional<T> number(size_t where) const {  // little endian, as all machines that this runs on
+    T value;
+    if (where > size_ || size_ - where < sizeof value || !read_(where, &value, sizeof value)) return std::nullopt;
+    return value;
+  }
+
+  // Up to the next zero, which is skipped.
+  std::optional<std::string> word() {
+    char bytes[kLongestName + 1] = {};
+    const size_t count = std::min(sizeof bytes, size_ - std::min(at, size_));
+    if (count == 0 || !read_(at, bytes, count)) return std::nullopt;
+    const char* end = static_cast<const char*>(std::memchr(bytes, 0, count));
+    if (!end) return std::nullopt;
+    at += static_cast<size_t>(end - bytes) + 1;
+    return std::string(static_cast<const char*>(bytes), end);
+  }
+
+  bool skip(size_t count) {
+    if (at > size_ || count > size_ - at) return false;
+    at += count;
+    return true;
+  }
+
+  bool has_room(int64_t offsets) const { return offsets <= static_cast<int64_t>(size_ / kOffset); }
+
+ private:
+  size_t size_;
+  const ByteReader& read_;
+};
+
+// Attributes up to the empty name that ends them.
+bool skip_attributes(HeaderReader& in) {
+  Box box{};
+  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // of a chunk; no columns: those of the picture
+  for (;;) {
+    const std::optional<std::string> name = in.word();
+    if (!name) return false;
+    if (name->empty()) break;
+    const std::optional<std::string> type = in.word();
+    const std::optional<int32_t> size = in.number<int32_t>(in.at);
+    if (!type || !size || *size < 0 || !in.skip(sizeof *size)) return false;
+    if (*name == "dataWindow") box = in.number<Box>(in.at).value_or(Box{});
+    if (*name == "tiles") {
+      columns = in.number<uint32_t>(in.at).value_or(0);
+      rows = in.number<uint32_t>(in.at + 4).value_or(0);
+    }
+    if (!in.skip(static_cast<size_t>(*size))) return false;
+  }
+  const int64_t width = int64_t{box.right} - box.left + 1, height = int64_t{box.bottom} - box.top + 1;
+  if (width < 1 || height < 1 || rows < 1) return true;  // wrong, but not large
+  const int64_t across = columns > 0 ? (width + columns - 1) / columns : 1, down = (height + rows - 1) / rows;
+  return in.has_room(across) && in.has_room(down) && in.has_room(across * down);
+}
+
+}  // namespace
+
+bool has_room_for_header(size_t file_size, const ByteReader& read) {
+  const uint32_t kSeveralParts = 1u << 12u;
+  HeaderReader in(file_size, read);
+  const std::optional<uint32_t> version = in.number<uint32_t>(4);
+  if (!version) return false;
+  in.at = 8;
+  do {
+    if (!skip_attributes(in)) return false;
+    const std::optional<char> next = in.number<char>(in.at);
+    if (!next) return false;
+    if (*next == 0) break;
+  } while (*version & kSeveralParts);
+  return true;
+}
+
+}  // namespace ods

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What can be said of a picture's size without a look at its pixels.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ods/camera/codec_level.h"
+#include "ods/lint/checks.h"
+
+namespace ods {
+
+constexpr double kVideoRate = 30.0;  // pictures a second
+
+static void check_aspect(const Subject& subject, LintReport& report) {
+  if (subject.projection().kind == kPerspective) return skip(report, Check::kShape, "a window may have any shape");
+  judge(report, Check::kShape);
+  const Layout layout = subject.layout();
+  const Extent squeeze = squeeze_of(layout, report.eye_count);
+  const int width = report.eye.width * squeeze.width, height = report.eye.height * squeeze.height;
+  const int natural = natural_height(subject.projection(), width);
+  // Rounding moves an edge by a pixel, squeezing by another.
+  const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
+  if (off == 0.0) return;
+  std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (--range)";
+  if (std::abs(height * 2 - natural) <= 2) cure = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
+  if (std::abs(height - natural * 2) <= 4)
+    cure = "its eyes look squeezed: read it as side-by-side-half, or stretch them";
+  if (std::abs(width * 2 - height * 3) <= 2) cure += "; 3:2 may be a cube (--projection cube-3x2)";
+  if (width == height) cure += "; square eyes may be vr180 or a fisheye (--projection vr180)";
+  report.findings.push_back(
+      {Fault::kWrongAspect, off / (off + 0.005),
+       fmt::format("an eye is {}x{}; {} of that width is {} high", width, height, report.projection, natural), cure});
+}
+
+static void check_video(LintReport& report) {
+  judge(report, Check::kVideoLevels);
+  std::string none;
+  for (Codec codec : kCodecs) {
+    if (!smallest_level(codec, report.file, kVideoRate).empty()) continue;
+    none += fmt::format("{}{}", none.empty() ? "" : ", ", codec_name(codec));
+  }
+  if (none.empty()) return;
+  report.findings.push_back({Fault::kVideoLevels, 1.0,
+                             fmt::format("{}x{} at {:.0f} pictures a second is beyond every level of {}",
+                                         report.file.width, report.file.height, kVideoRate, none),
+                             "as a still it is fine; videos of 5760x5760 or less play (ods sizes lists the levels)"});
+}
+
+void check_shape(const Subject& subject, LintReport& report) {
+  check_aspect(subject, report);
+  check_video(report);
+}
+
+}  // namespace ods

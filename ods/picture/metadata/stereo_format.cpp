@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/metadata/stereo_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/base/text.h"
+#include "ods/files/file_input.h"
+#include "ods/image/format/xmp.h"
+#include "ods/image/format/xmp_file.h"
+#include "ods/image/image_file.h"
+#include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/picture/metadata/vr_photo.h"
+
+namespace ods {
+
+// --- the name --------------------------------------------------------------------------------------------------------
+
+static bool is_packing(Layout layout) {
+  return !is_anaglyph(layout) && layout != Layout::kSeparate && layout != Layout::kMultiview;
+}
+
+// Words that stand behind the others: frame numbers, fields of view.
+static bool says_nothing(const std::string& word) {
+  return word.find_first_not_of("0123456789xX") == std::string::npos;
+}
+
+static const NamedProjection* projection_word(const std::string& word) {
+  if (word == "360" || word == "360x180") return find_projection("lat-long");
+  if (word == "180" || word == "180x180") return find_projection("vr180");
+  return find_projection(word);
+}
+
+NameWords read_name(const std::string& path) {
+  NameWords words;
+  std::string name = std::filesystem::path(path).stem().native();
+  for (size_t at = name.find_last_of("_. "); at != std::string::npos; at = name.find_last_of("_. ")) {
+    const std::string marked = name.substr(at);
+    const std::string word = small_letters(marked.substr(1));
+    const std::optional<Layout> layout = layout_of(word);
+    // Behind a point stands the number of a frame, not an angle.
+    const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
+    if ((layout && is_packing(*layout)) || word == "mono") {
+      words.layout = layout;
+      words.is_mono = word == "mono";
+      words.layout_word = marked;
+    } else if (projection != nullptr) {
+      words.projection = projection;
+      words.projection_word = marked;
+    } else if (!says_nothing(word)) {
+      break;
+    }
+    if (!words.layout_word.empty() && words.projection != nullptr) break;
+    name.resize(at);
+  }
+  return words;
+}
+
+std::string renamed(const std::string& path, const std::string& words) {
+  const std::filesystem::path file(path);
+  std::string name = file.stem().native();
+  const NameWords old = read_name(path);
+  for (const std::string& word : {old.layout_word, old.projection_word}) {
+    if (!word.empty()) name.erase(name.rfind(word), word.size());
+  }
+  return (file.parent_path() / (name + words + file.extension().native())).native();
+}
+
+// --- the shape -------------------------------------------------------------------------------------------------------
+
+static bool has_shape(const ProjectionSetting& setting, Extent eye) {
+  return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
+}
+
+// Those that a shape alone tells apart.
+static std::vector<const NamedProjection*> shapes() {
+  return {find_projection("lat-long"), find_projection("cube-3x2"), find_projection("cube-6x1"),
+          find_projection("cube-1x6")};
+}
+
+static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSetting>& known) {
+  std::vector<ProjectionSetting> settings;
+  if (known) settings.push_back(*known);
+  for (const NamedProjection* shape : shapes()) {
+    if (!known) settings.push_back(shape->setting);
+  }
+  for (const ProjectionSetting& setting : settings) {
+    const std::string_view name = projection_name(setting);
+    if (has_shape(setting, file)) {
+      return {{}, LayoutSource::kShape, fmt::format("it has the shape of one eye, {}", name)};
+    }
+    for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
+      const std::optional<Extent> eye = unpacked_size(layout, file);
+      if (eye && has_shape(setting, *eye)) {
+        return {layout, LayoutSource::kShape, fmt::format("it has the shape of two eyes, {}", name)};
+      }
+    }
+  }
+  return {{}, LayoutSource::kNothing, "nothing says otherwise"};
+}
+
+static bool has_channel(const FileInfo& info, const std::string& name) {
+  return std::find(info.channels.begin(), info.channels.end(), name) != info.channels.end();
+}
+
+// What ods:layout says: a layout, or which eye the file is.
+static std::optional<LayoutGuess> said_layout(const FileInfo& info) {
+  const auto said = info.text.find("ods:layout");
+  if (said == info.text.end()) return std::nullopt;
+  LayoutGuess guess{layout_of(said->second), LayoutSource::kFile, "the file says so"};
+  for (int eye : {kLeft, kRight, kMono}) {
+    if (said->second == eye_name(eye)) return guess;
+  }
+  return guess.layout ? std::optional(guess) : std::nullopt;
+}
+
+bool is_guess(const LayoutGuess& guess) {
+  return guess.source > LayoutSource::kFile;
+}
+
+LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
+                         const std::optional<ProjectionSetting>& projection) {
+  if (const std::optional<LayoutGuess> said = said_layout(info)) return *said;
+  if (has_channel(info, "right.R") || has_channel(info, "left.R")) {
+    return {Layout::kMultiview, LayoutSource::kFile, "it has two views"};
+  }
+  const NameWords words = read_name(path);
+  if (!words.layout_word.empty()) {
+    return {words.layout, LayoutSource::kName, fmt::format("its name ends in {}", words.layout_word)};
+  }
+  if (projection) return layout_of_shape({info.width, info.height}, projection);
+  if (words.projection != nullptr) return layout_of_shape({info.width, info.height}, words.projection->setting);
+  return layout_of_shape({info.width, info.height}, {});
+}
+
+// --- the whole -------------------------------------------------------------------------------------------------------
+
+// A sidecar may be that of another picture of this name: picture.exr and picture.png share one.
+static bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
+  const int count = static_cast<int>(sidecar.eyes.size());
+  if (count == 2 && sidecar.layout == Layout::kMultiview && !has_channel(info, "right.R")) return false;
+  if (sidecar.eye.width == 0) return true;
+  const Extent size = packed_size(sidecar.layout, squeezed_eye(sidecar.layout, sidecar.eye, count), count);
+  return size.width == info.width && size.height == info.height;
+}
+
+static std::optional<Sidecar> find_sidecar(const FileInfo& info, const std::string& path, const FormatHint& known,
+                                           std::vector<std::string>& warnings) {
+  const std::string beside = sidecar_path(path);
+  std::error_code ignored;
+  if (known.camera || !std::filesystem::exists(beside, ignored)) return std::nullopt;
+  try {
+    std::optional<Sidecar> sidecar = load_sidecar(beside, warnings);
+    if (belongs_to(*sidecar, info)) return sidecar;
+    warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    const std::string why = error.what();
+    if (!known.layout && !known.projection) {
+      throw Error(error.kind(), why + "; mend or remove it, or say what the picture's layout and projection are");
+    }
+    warnings.push_back(why + ": left aside");
+  }
+  return std::nullopt;
+}
+
+static bool is_taken_as_photo(const FileInfo& info, const std::string& path, const FormatHint& known) {
+  return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && is_photo(path);
+}
+
+static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
+                               const std::optional<Sidecar>& sidecar, bool photo) {
+  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo, with the right eye in it"};
+  if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
+  if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
+  if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
+  if (sidecar && !said_layout(info)) {
+    const bool is_one = sidecar->eyes.size() == 1;
+    return {is_one ? std::nullopt : std::optional(sidecar->layout), LayoutSource::kSidecar, "its sidecar says so"};
+  }
+  return guess_layout(info, path, known.projection);
+}
+
+static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar) {
+  if (sidecar && sidecar->eyes.size() == 1) return sidecar->eyes[0];
+  for (const char* name : {"ods:layout", "view"}) {
+    const auto said = info.text.find(name);
+    if (said == info.text.end()) continue;
+    for (int eye : {kLeft, kRight}) {
+      if (said->second == eye_name(eye)) return eye;
+    }
+  }
+  return kMono;
+}
+
+static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const std::string& path,
+                                                  std::vector<std::string>& warnings) {
+  if (std::optional<StereoCamera> camera = camera_of(info, warnings)) return camera;
+  if (!info.is_float) {
+    const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
+    const std::optional<StereoCamera> camera = gpano_camera(xmp);
+    if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
+      warnings.push_back(fmt::format("its GPano says {}, of which only whole lat-long and parts of it are understood",
+                                     xmp_property(xmp, "GPano:ProjectionType")));
+    }
+    return camera;
+  }
+  const auto envmap = info.text.find("textureformat");
+  if (envmap != info.text.end() && envmap->second == "LatLong Environment") return StereoCamera();
+  return std::nullopt;
+}
+
+// By the name, else the shape of an eye as it was before it was squeezed.
+static ProjectionSetting guess_projection(Extent eye, const std::string& path, std::vector<std::string>& guesses) {
+  const NameWords words = read_name(path);
+  const auto guess = [&](const NamedProjection& named, const std::string& reason) {
+    guesses.push_back(fmt::format("{}: {}", named.name, reason));
+    return named.setting;
+  };
+  if (words.projection) return guess(*words.projection, fmt::format("its name ends in {}", words.projection_word));
+  for (const NamedProjection* shape : shapes()) {
+    if (has_shape(shape->setting, eye)) return guess(*shape, "an eye has that shape");
+  }
+  return guess(*find_projection("lat-long"), "nothing says otherwise");
+}
+
+// A file's own words go before its sidecar's, which may be older, but for a merge map, which only the sidecar holds.
+static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
+                                               const std::optional<Sidecar>& sidecar,
+                                               std::vector<std::string>& guesses) {
+  if (known.camera) return known.camera;
+  if (sidecar && (sidecar->camera.merge_map || !info.text.contains("ods:projection"))) return sidecar->camera;
+  if (std::optional<StereoCamera> own = camera_in_file(info, path, guesses)) return own;
+  return sidecar ? std::optional(sidecar->camera) : std::nullopt;
+}
+
+StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known) {
+  StereoFormat format;
+  const std::optional<Sidecar> sidecar = find_sidecar(info, path, known, format.guesses);
+  format.is_photo = is_taken_as_photo(info, path, known);
+  format.layout = find_layout(info, path, known, sidecar, format.is_photo);
+  format.eye = find_eye(info, sidecar);
+  const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
+  if (is_anaglyph(layout)) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': nobody can take an anaglyph apart again", path));
+  }
+  if (info.text.contains("ods:layout") && !said_layout(info)) {
+    format.guesses.push_back("its ods:layout is no layout: left aside");
+  }
+  if (is_guess(format.layout)) {
+    const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
+    format.guesses.push_back(fmt::format("{}: {}", name, format.layout.reason));
+  }
+  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format.guesses);
+  format.has_camera = camera.has_value();
+  format.has_ipd = camera && (known.camera || sidecar || info.numbers.contains("ods:ipd"));
+  if (camera) format.camera = *camera;
+  if (known.projection) {
+    format.camera.projection = *known.projection;
+  } else if (!camera) {
+    const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});
+    const Extent squeeze = squeeze_of(layout, 2);
+    format.camera.projection =
+        guess_projection({eye.width * squeeze.width, eye.height * squeeze.height}, path, format.guesses);
+  }
+  return format;
+}
+
+// JSON starts with a brace; no picture format does.
+static bool is_sidecar(const std::string& path) {
+  if (path.ends_with(".json")) return true;
+  const FileInput file(path);
+  const std::string head = file.read(0, std::min<uint64_t>(file.size(), 64));
+  const size_t first = head.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && head[first] == '{';
+}
+
+Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings) {
+  if (is_sidecar(path)) return load_sidecar(path, warnings);
+  const FileInfo info = read_info(path);
+  const StereoFormat format = find_format(info, path, {});
+  if (!format.has_camera) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("cannot use '{}': it does not say how it was taken; name its .camera.json file", path));
+  }
+  warnings.insert(warnings.end(), format.guesses.begin(), format.guesses.end());
+  Sidecar file;
+  file.camera = format.camera;
+  file.layout = format.layout.layout.value_or(default_layout(format.camera.projection));
+  const bool has_both = format.layout.layout.has_value() || format.is_photo;
+  file.eyes = has_both ? std::vector{kLeft, kRight} : std::vector{format.eye};
+  const Layout packing = has_both ? file.layout : Layout::kSeparate;
+  const Extent eye = unpacked_size(packing, {info.width, info.height}).value_or(Extent{info.width, info.height});
+  const Extent squeeze = squeeze_of(packing, static_cast<int>(file.eyes.size()));
+  file.eye = {eye.width * squeeze.width, eye.height * squeeze.height};
+  return file;
+}
+
+std::string name_fault(const std::string& path, std::optional<Layout> layout, const ProjectionSetting& projection) {
+  const NameWords words = read_name(path);
+  const bool packed = !layout || is_packing(*layout);
+  if (!words.layout_word.empty() && packed && words.layout != layout) {
+    const std::string_view is = layout ? layout_name(*layout) : "one eye";
+    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.layout_word, is);
+  }
+  if (words.projection != nullptr && words.projection->setting.kind != projection.kind) {
+    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.projection_word,
+                       projection_name(projection));
+  }
+  return {};
+}
+
+}  // namespace ods

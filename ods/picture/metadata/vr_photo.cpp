@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/metadata/vr_photo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ods/base/base64.h"
+#include "ods/base/bytes.h"
+#include "ods/base/error.h"
+#include "ods/base/text.h"
+#include "ods/files/md5.h"
+#include "ods/image/format/jpeg_segments.h"
+#include "ods/image/format/xmp.h"
+#include "ods/image/format/xmp_file.h"
+#include "ods/picture/metadata/metadata.h"
+
+namespace ods {
+
+constexpr size_t kId = 32;                  // letters of an MD5
+constexpr size_t kExtended = 35 + kId + 8;  // bytes of a segment before its part of the packet
+constexpr uint64_t kMaxRight = uint64_t{3} << 30;
+
+bool names_photo(const std::string& path) {
+  return small_letters(path).ends_with(".vr.jpg");
+}
+
+static Error damaged(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot read the right eye in '{}': {}", path, why));
+}
+
+// --- extended XMP ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+// A segment of it.
+struct Piece {
+  uint64_t whole = 0;  // bytes of the packet
+  uint64_t at = 0;
+  std::string_view bytes;
+};
+
+}  // namespace
+
+// Those of the packet of this name, as they follow each other in it.
+static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, std::string_view id) {
+  std::vector<Piece> pieces;
+  for (const JpegSegment& segment : segments) {
+    const std::string_view data = segment.data;
+    if (segment.marker != kJpegApp1 || data.size() < kExtended || !data.starts_with(kJpegExtendedXmp)) continue;
+    if (data.substr(kJpegExtendedXmp.size(), kId) != id) continue;
+    const size_t numbers = kJpegExtendedXmp.size() + kId;
+    pieces.push_back({get_number(data, numbers, 4), get_number(data, numbers + 4, 4), data.substr(kExtended)});
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.at < b.at; });
+  return pieces;
+}
+
+// No number in the file decides how much memory is taken: the pieces do.
+static std::string join(const std::vector<Piece>& pieces, const std::string& path) {
+  std::string packet;
+  for (const Piece& piece : pieces) {
+    if (piece.at != packet.size()) throw damaged(path, "parts of it are missing or stand there twice");
+    packet += piece.bytes;
+  }
+  for (const Piece& piece : pieces) {
+    if (piece.whole != packet.size()) throw damaged(path, "it is longer or shorter than it says");
+  }
+  return packet;
+}
+
+static std::string id_in(std::string_view packet) {
+  return std::string(xmp_property(packet, "xmpNote:HasExtendedXMP"));
+}
+
+static std::string extended_xmp(const std::vector<JpegSegment>& segments, std::string_view packet,
+                                const std::string& path) {
+  const std::string id = id_in(packet);
+  const std::string extended = join(pieces_of(segments, id), path);
+  std::string capitals = id;
+  std::transform(id.begin(), id.end(), capitals.begin(), [](char c) { return c >= 'a' && c <= 'f' ? c - 32 : c; });
+  if (extended.empty()) throw damaged(path, "it is not there");
+  if (md5(extended) != capitals) throw damaged(path, "its bytes are not those that its MD5 was made of");
+  return extended;
+}
+
+// --- read ------------------------------------------------------------------------------------------------------------
+
+static std::string_view standard_packet(const std::vector<JpegSegment>& segments) {
+  const JpegSegment* segment = find_packet(segments);
+  return segment == nullptr ? std::string_view() : std::string_view(segment->data).substr(kJpegXmp.size());
+}
+
+// Other photos have a second picture in them, too: one of a lens that was focused elsewhere, a map of depth. Theirs
+// have no GPano.
+static bool is_photo(const std::vector<JpegSegment>& segments) {
+  const std::string_view packet = standard_packet(segments);
+  if (xmp_property(packet, "GPano:ProjectionType") != "equirectangular") return false;
+  if (xmp_property(packet, "GImage:Mime") == "image/jpeg") return true;
+  const std::string id = id_in(packet);
+  const std::vector<Piece> pieces = id.empty() ? std::vector<Piece>() : pieces_of(segments, id);
+  return !pieces.empty() && pieces[0].bytes.find("GImage:") != std::string_view::npos;
+}
+
+bool is_photo(const std::string& path) {
+  const FileInput file(path);
+  if (file.size() < 4 || file.read(0, 3) != "\xff\xd8\xff") return false;
+  try {
+    return is_photo(read_jpeg_headers(file));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return false;  // who reads the pixels says what is wrong with it
+  }
+}
+
+std::string read_right_eye(const std::string& path) {
+  const std::vector<JpegSegment> segments = read_jpeg_headers(FileInput(path));
+  const std::string_view packet = standard_packet(segments);
+  std::string_view data = xmp_property(packet, "GImage:Data");
+  std::string extended;
+  if (data.empty()) {
+    extended = extended_xmp(segments, packet, path);
+    data = xmp_property(extended, "GImage:Data");
+  }
+  const std::string right = decode_base64(data);
+  if (!right.starts_with("\xff\xd8\xff")) throw damaged(path, "it is no JPEG");
+  return right;
+}
+
+// --- written ---------------------------------------------------------------------------------------------------------
+
+void write_photo(const FileInput& left, const std::string& right, const StereoCamera& camera, Extent size,
+                 AtomicFile& to) {
+  if (right.size() > kMaxRight)
+    throw damaged(left.path(), "it has more than 3 GiB, and such a photo has no room for it");
+  const std::string extended = make_xmp_body({{"GImage:Data", encode_base64(right)}});
+  const std::string id = md5(extended);
+  std::vector<Attribute> properties;
+  add_gpano(properties, camera, size);
+  properties.push_back({"GImage:Mime", std::string("image/jpeg")});
+  properties.push_back({"xmpNote:HasExtendedXMP", id});
+  const uint64_t place = place_of_packet(read_jpeg_headers(left));
+  left.copy(0, place, to);
+  append(to, jpeg_segment(kJpegApp1, std::string(kJpegXmp) + make_xmp(properties)));
+  constexpr size_t kPiece = kLongestJpegSegment - kExtended;
+  for (size_t at = 0; at < extended.size(); at += kPiece) {
+    std::string piece = std::string(kJpegExtendedXmp) + id;
+    append_number(piece, extended.size(), 4);
+    append_number(piece, at, 4);
+    append(to, jpeg_segment(kJpegApp1, piece + extended.substr(at, kPiece)));
+  }
+  left.copy(place, left.size() - place, to);
+}
+
+}  // namespace ods

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/container/complete_metadata.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ods/base/error.h"
+#include "ods/video/container/apple.h"
+
+namespace ods {
+
+VideoStereo video_stereo(Layout layout) {
+  switch (layout) {
+    case Layout::kTopBottom:
+    case Layout::kTopBottomHalf:
+      return VideoStereo::kTopBottom;
+    case Layout::kSideBySide:
+    case Layout::kSideBySideHalf:
+      return VideoStereo::kSideBySide;
+    case Layout::kBottomTop:
+      return VideoStereo::kBottomTop;
+    case Layout::kCrossEyed:
+      return VideoStereo::kRightLeft;
+    default:
+      throw Error(ErrorKind::kUsage, fmt::format("videos have no word for eyes that are {}", layout_name(layout)));
+  }
+}
+
+void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projection) {
+  metadata.bounds = {};
+  if (projection.kind == kPerspective) {
+    metadata.projection = VideoProjection::kFlat;
+    return;
+  }
+  if (projection.kind != kLatLong || projection.longitude.x < -180.0f || projection.longitude.y > 180.0f) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("videos have no word for the projection {}: they know lat-long, parts of it such as vr180, "
+                            "cubemap and flat",
+                            projection_name(projection)));
+  }
+  metadata.projection = VideoProjection::kEquirect;
+  const auto part = [](float degrees, double whole) {
+    return static_cast<uint32_t>(std::llround(static_cast<double>(degrees) / whole * 4294967296.0));
+  };
+  metadata.bounds = {part(90.0f - projection.latitude.y, 180.0), part(90.0f + projection.latitude.x, 180.0),
+                     part(180.0f + projection.longitude.x, 360.0), part(180.0f - projection.longitude.y, 360.0)};
+}
+
+static FormatHint as_picture(const SphericalMetadata& known) {
+  FormatHint metadata;
+  if (known.stereo) metadata.layout = Layout::kSeparate;  // one eye, or eyes in a way that pictures do not know
+  for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
+    if (known.stereo == video_stereo(layout)) metadata.layout = layout;
+  }
+  if (known.projection) metadata.projection = ProjectionSetting();  // which does not matter: it is not asked for
+  return metadata;
+}
+
+// An eye as it was before it was squeezed.
+static Extent whole_eye(Layout layout, Extent file) {
+  const Extent eye = unpacked_size(layout, file).value_or(file);
+  const Extent squeeze = squeeze_of(layout, 2);
+  return {eye.width * squeeze.width, eye.height * squeeze.height};
+}
+
+std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
+  std::optional<SphericalMetadata> said;
+  for (const std::optional<SphericalMetadata>* place : {&track.v2, &track.v1, &track.vexu}) {
+    if (!*place) continue;
+    const SphericalMetadata& metadata = **place;
+    if (!said) {
+      said = metadata;
+    } else {
+      if (!said->stereo) said->stereo = metadata.stereo;
+      if (!said->projection) {  // nor angles, then, nor a source
+        const std::optional<VideoStereo> stereo = said->stereo;
+        said = metadata;
+        said->stereo = stereo;
+      }
+    }
+  }
+  if (!said) return said;
+  said->stereo = said->stereo.value_or(VideoStereo::kOneView);
+  said->projection = said->projection.value_or(VideoProjection::kFlat);
+  said->yaw = std::remainder(said->yaw, 360.0);  // a heading of V1 may be 270
+  said->ipd = track.vexu ? track.vexu->ipd : 0.0;
+  return said;
+}
+
+// Anything is taken as lat-long where nothing tells; a video of an ordinary camera must not be.
+static void guess_projection(SphericalMetadata& known, const StereoFormat& format, const VideoTrack& track,
+                             const std::string& path) {
+  const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size);
+  const bool is_told = format.has_camera || read_name(path).projection != nullptr;
+  if (!is_told && natural_height(format.camera.projection, eye.width) != eye.height) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("cannot tell what '{}' shows, from its name (_360_TB, _180_LR ...) or its shape "
+                            "({}x{}): say it with --layout and --projection",
+                            path, track.size.width, track.size.height));
+  }
+  set_projection(known, format.camera.projection);
+}
+
+static StereoFormat found_format(const SphericalMetadata& known, const VideoTrack& track, const std::string& path) {
+  FileInfo info;
+  info.width = track.size.width;
+  info.height = track.size.height;
+  info.is_float = true;  // no XMP of pictures is looked for in it
+  if (info.width == 0 || info.height == 0) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': its pictures have no size", path));
+  }
+  return find_format(info, path, as_picture(known));
+}
+
+static void take_words(SphericalMetadata& known, const SphericalMetadata& said) {
+  if (!known.stereo) known.stereo = said.stereo;
+  if (!known.projection) {
+    known.projection = said.projection;
+    known.bounds = said.bounds;
+  }
+  if (known.projection != VideoProjection::kFlat) {  // which has no place for angles
+    known.yaw = said.yaw, known.pitch = said.pitch, known.roll = said.roll;
+  }
+  known.source = said.source;
+}
+
+SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& track, const std::string& path,
+                                    std::vector<std::string>& guesses) {
+  const std::optional<SphericalMetadata> said = said_metadata(track);
+  if (said) take_words(known, *said);
+  const StereoFormat format = found_format(known, track, path);
+  const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
+  if (!known.stereo) known.stereo = layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(layout);
+  if (!known.projection) guess_projection(known, format, track, path);
+  if (known.stereo != VideoStereo::kOneView && known.ipd == 0.0) {
+    known.ipd = track.vexu ? track.vexu->ipd : format.has_ipd ? static_cast<double>(format.camera.ipd) : 0.0;
+  }
+  known.for_apple = known.for_apple || track.vexu.has_value();
+  if (!said) known.source = "Omnistereo";
+  guesses = format.guesses;
+  return known;
+}
+
+// --- contradictions --------------------------------------------------------------------------------------------------
+
+static bool is_stacked(const SphericalMetadata& metadata) {
+  return metadata.stereo == VideoStereo::kTopBottom || metadata.stereo == VideoStereo::kBottomTop;
+}
+
+static bool is_beside(const SphericalMetadata& metadata) {
+  return metadata.stereo == VideoStereo::kSideBySide || metadata.stereo == VideoStereo::kRightLeft;
+}
+
+// Eyes that were squeezed are as wide as high.
+std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
+  if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
+  const double aspect = static_cast<double>(size.width) / size.height;
+  const bool is_packed = is_stacked(metadata) || is_beside(metadata);
+  const double whole = is_stacked(metadata) ? 1.0 : is_beside(metadata) ? 4.0 : 2.0;
+  if (std::abs(aspect / whole - 1.0) < 0.02 || (is_packed && std::abs(aspect / 2.0 - 1.0) < 0.02)) return {};
+  return fmt::format("it says {}, and {}x{} is not the shape of that", metadata_text(metadata), size.width,
+                     size.height);
+}
+
+static std::optional<VideoStereo> stereo_of(std::optional<Layout> layout) {
+  if (!layout || *layout == Layout::kSeparate) return VideoStereo::kOneView;
+  try {
+    return video_stereo(*layout);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+// Whether a video of that form may be called by that projection: a cubemap or most of a sphere is 360, a mesh anything.
+static bool may_be_called(const SphericalMetadata& metadata, const ProjectionSetting& called) {
+  if (metadata.projection == VideoProjection::kMesh || metadata.projection == VideoProjection::kOther) return true;
+  const double cut = (1.0 * metadata.bounds[2] + metadata.bounds[3]) / 4294967296.0;
+  const bool is_wide = cut < 0.25;
+  if (called.kind == kPerspective) return metadata.projection == VideoProjection::kFlat;
+  if (metadata.projection == VideoProjection::kFlat) return false;
+  const bool is_part = called.kind == kLatLong && called.longitude.y - called.longitude.x < 270.0f;
+  if (metadata.projection == VideoProjection::kCubemap)
+    return called.kind >= kCube3x2 || (called.kind == kLatLong && !is_part);
+  return called.kind == kLatLong && is_wide != is_part;
+}
+
+static std::string word_of(const SphericalMetadata& metadata) {
+  if (metadata.projection != VideoProjection::kEquirect) return std::string(projection_name(*metadata.projection));
+  SphericalMetadata half;
+  set_projection(half, find_projection("vr180")->setting);
+  return metadata.is_partial() && same_sphere(metadata, half) ? "vr180" : "lat-long";
+}
+
+static FormConflict layout_conflict(const SphericalMetadata& said, VideoStereo other, const std::string& reason) {
+  return {fmt::format("it says {}, but {}", stereo_name(*said.stereo), reason),
+          fmt::format("--layout {} or --layout {}", stereo_name(*said.stereo), stereo_name(other))};
+}
+
+static FormConflict projection_conflict(const SphericalMetadata& said, const ProjectionSetting& other,
+                                        const std::string& reason) {
+  SphericalMetadata eye = said;
+  eye.stereo.reset();
+  eye.yaw = eye.pitch = eye.roll = 0.0;
+  std::vector<std::string> options;
+  const std::string word = word_of(said);
+  if (!said.is_partial() || word == "vr180") options.push_back("--projection " + word);
+  const std::string_view name = projection_name(other);
+  if (name == "lat-long" || name == "vr180") options.push_back(fmt::format("--projection {}", name));
+  if (options.size() < 2) options.emplace_back("another name for the file");
+  return {fmt::format("it says {}, but {}", metadata_text(eye), reason), fmt::format("{}", fmt::join(options, " or "))};
+}
+
+// What a sidecar says, or the name.
+static void compare_with_names(const SphericalMetadata& known, const SphericalMetadata& said, const StereoFormat& found,
+                               const std::string& path, std::vector<FormConflict>& conflicts) {
+  const NameWords words = read_name(path);
+  const bool has_sidecar = found.layout.source == LayoutSource::kSidecar;
+  const bool is_custom = said.stereo == VideoStereo::kCustom || said.stereo == VideoStereo::kOther;
+  if (!known.stereo && !is_custom && (has_sidecar || found.layout.source == LayoutSource::kName)) {
+    const std::optional<VideoStereo> other = stereo_of(found.layout.layout);
+    if (other && *other != said.stereo) conflicts.push_back(layout_conflict(said, *other, found.layout.reason));
+  }
+  if (known.projection) return;
+  if (found.has_camera && !may_be_called(said, found.camera.projection)) {
+    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar says otherwise"));
+  } else if (!found.has_camera && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
+    const std::string reason = fmt::format("its name ends in {}", words.projection_word);
+    conflicts.push_back(projection_conflict(said, words.projection->setting, reason));
+  }
+}
+
+std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
+                                         const std::string& path) {
+  std::vector<FormConflict> conflicts;
+  const std::optional<SphericalMetadata> said = said_metadata(track);
+  if (!said) return conflicts;
+  try {
+    compare_with_names(known, *said, found_format({}, track, path), path, conflicts);
+  } catch (const Error&) {
+    // a sidecar that cannot be read says nothing
+  }
+  const std::string fault = shape_fault(*said, track.size);
+  if (known.stereo || known.projection || !conflicts.empty() || fault.empty()) return conflicts;
+  const bool is_square = track.size.width == track.size.height;
+  conflicts.push_back({fault, fmt::format("--layout {} or {}", stereo_name(*said->stereo),
+                                          is_square ? "--layout top-bottom" : "--projection flat")});
+  return conflicts;
+}
+
+// --- what will be written --------------------------------------------------------------------------------------------
+
+bool can_say(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
+  const SphericalMetadata usual{VideoStereo::kOneView, VideoProjection::kEquirect, {}, 0.0, 0.0, 0.0, 0.0, false, ""};
+  SphericalMetadata eyes = usual, sphere = usual;
+  eyes.stereo = metadata.stereo;
+  sphere.projection = metadata.projection;
+  const bool is_mkv_word = !has_boxes(container) && metadata.stereo != VideoStereo::kOther;
+  const bool has_eyes = is_mkv_word || fits_v2(eyes) || (track.v2 && same_stereo(*track.v2, metadata));
+  return has_eyes && (fits_v2(sphere) || (track.v2 && same_sphere(*track.v2, metadata)));
+}
+
+static bool says(const std::optional<SphericalMetadata>& place, const SphericalMetadata& metadata) {
+  return place && same_stereo(*place, metadata) && same_sphere(*place, metadata);
+}
+
+static std::string turn_of(const SphericalMetadata& metadata) {
+  return fmt::format("{:.6g},{:.6g},{:.6g}", metadata.yaw, metadata.pitch, metadata.roll);
+}
+
+static bool has_whole_angles(const SphericalMetadata& metadata) {
+  return metadata.yaw == std::round(metadata.yaw) && metadata.pitch == std::round(metadata.pitch) &&
+         metadata.roll == std::round(metadata.roll);
+}
+
+static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, bool may_be_new, TagPlan& plan) {
+  const bool stays = track.v1 && can_update_v1(*track.v1, metadata) && (may_be_new || same_stereo(*track.v1, metadata));
+  const bool will_be = stays || (may_be_new && fits_v1(metadata));
+  if (track.v1 && !says(track.v1, metadata)) {
+    plan.says_more = true;
+    plan.notes.push_back(
+        fmt::format("its V1 says {}: {}", metadata_text(*track.v1), will_be ? "changed" : "taken out"));
+  }
+  if (will_be && !track.v1) plan.says_more = true;
+  if (!will_be && may_be_new && metadata.projection != VideoProjection::kFlat) {
+    plan.notes.push_back("V1 cannot say that, and is left out: players that read only V1 show a flat video");
+  }
+  if (will_be && !has_whole_angles(metadata)) {
+    plan.notes.push_back("V1 holds whole degrees: only V2 has the angles as they are");
+  }
+}
+
+static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata, TagPlan& plan) {
+  if (track.has_layers || !metadata.for_apple) return;
+  if (!says(track.vexu, metadata)) plan.says_more = true;
+  if (!says(track.vexu, metadata) && !fits_vexu(metadata)) {
+    plan.notes.push_back(fmt::format("vexu has no words for {}, and {}: Apple's players show a flat video",
+                                     metadata_text(metadata), track.vexu ? "is taken out" : "is left out"));
+    return;
+  }
+  if (track.vexu && !says(track.vexu, metadata)) {
+    plan.notes.push_back(fmt::format("its vexu says {}: changed", metadata_text(*track.vexu)));
+  }
+  if (metadata.yaw != 0.0 || metadata.pitch != 0.0 || metadata.roll != 0.0) {
+    plan.notes.push_back(
+        fmt::format("vexu has no place for angles: Apple's players do not turn it by {}", turn_of(metadata)));
+  }
+}
+
+TagPlan plan_tag(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
+  TagPlan plan;
+  plan.says_more = !says(track.v2, metadata);
+  plan_v1(track, metadata, has_boxes(container), plan);
+  if (has_boxes(container)) plan_vexu(track, metadata, plan);
+  return plan;
+}
+
+}  // namespace ods

@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/container/matroska_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "ods/video/container/complete_metadata.h"
+#include "ods/video/container/matroska_metadata.h"
+
+namespace ods {
+
+using namespace matroska;
+
+// --- reading ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct Matroska {
+  Element head;  // the EBML element
+  FileElement head_place, segment;
+  std::vector<FileElement> parts;    // of the segment
+  std::map<size_t, Element> opened;  // those of them that may change
+};
+
+}  // namespace
+
+bool is_matroska(std::string_view first_bytes) {
+  return first_bytes.size() >= 4 && get_number(first_bytes, 0, 4) == kEbml;
+}
+
+static void open_all(Element& element, const std::vector<uint32_t>& path, size_t depth = 0) {
+  open_element(element);
+  if (depth == path.size()) return;
+  for (Element& child : element.children) {
+    if (child.id == path[depth]) open_all(child, path, depth + 1);
+  }
+}
+
+static void open_part(Element& part) {
+  if (part.id == kSeekHead) open_all(part, {kSeek});
+  if (part.id == kTracks) open_all(part, {kTrackEntry, kVideo});
+  if (part.id == kCues) open_all(part, {kCuePoint, kCueTrackPositions});
+  if (part.id == kTags) {
+    open_all(part, {kTag, kSimpleTag});
+    for (Element& tag : part.children) {
+      if (Element* targets = tag.id == kTag ? find_child(tag, kTargets) : nullptr) open_element(*targets);
+    }
+  }
+}
+
+static Matroska open_matroska(const FileInput& file) {
+  constexpr size_t kMax = 1000000;
+  Matroska video;
+  video.head_place = scan_element(file, 0, file.size());
+  video.head = read_element(file, video.head_place);
+  open_element(video.head);
+  uint64_t at = video.head_place.end();
+  while (at < file.size() && video.segment.id != kSegment) {
+    video.segment = scan_element(file, at, file.size());
+    at = video.segment.end();
+  }
+  if (video.segment.id != kSegment) throw MalformedFile("there is no video in it");
+  for (at = video.segment.body(); at < video.segment.end();) {
+    video.parts.push_back(scan_element(file, at, video.segment.end()));
+    const FileElement& part = video.parts.back();
+    // Where such a one ends is only known by what is in it.
+    if (part.is_endless) throw MalformedFile("it is a live recording; mkvmerge makes a video of it");
+    at = part.end();
+    if (video.parts.size() > kMax) throw MalformedFile("it consists of more than a million parts");
+    if (part.id != kSeekHead && part.id != kTracks && part.id != kCues && part.id != kTags) continue;
+    Element& opened = video.opened[video.parts.size() - 1] = read_element(file, part);
+    open_part(opened);
+  }
+  return video;
+}
+
+static bool is_about(const Element& tag, const Element& track) {
+  const Element* targets = tag.id == kTag ? find_child(tag, kTargets) : nullptr;
+  return targets != nullptr && child_number(*targets, kTagTrackUid) == child_number(track, kTrackUid);
+}
+
+static std::optional<SphericalMetadata> v1_of(const Matroska& video, const Element& track) {
+  for (const auto& [index, part] : video.opened) {
+    for (const Element& tag : part.children) {
+      if (part.id != kTags || !is_about(tag, track)) continue;
+      for (const Element& simple : tag.children) {
+        if (is_v1_tag(simple)) return parse_v1(child_text(simple, kTagString));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+static VideoTrack read_track(const Matroska& video, const Element& entry) {
+  VideoTrack track;
+  track.id = child_number(entry, kTrackNumber);
+  track.codec = child_text(entry, kCodecId);
+  if (const Element* video = find_child(entry, kVideo)) {
+    const auto side = [&](uint32_t id) {
+      return static_cast<int>(std::min<uint64_t>(child_number(*video, id), 1 << 20));
+    };
+    track.size = {side(kPixelWidth), side(kPixelHeight)};
+    track.v2 = parse_video(*video);
+  }
+  const uint64_t duration = child_number(entry, kDefaultDuration);  // nanoseconds
+  track.fps = duration == 0 ? 0.0 : 1e9 / static_cast<double>(duration);
+  track.v1 = v1_of(video, entry);
+  return track;
+}
+
+VideoFile read_matroska(const FileInput& file) {
+  const Matroska video = open_matroska(file);
+  VideoFile info;
+  info.container = child_text(video.head, kDocType) == "webm" ? Container::kWebm : Container::kMatroska;
+  for (const auto& [index, part] : video.opened) {
+    for (const Element& entry : part.children) {
+      if (part.id != kTracks || entry.id != kTrackEntry) continue;
+      const uint64_t type = child_number(entry, kTrackType);
+      if (type == 1) info.tracks.push_back(read_track(video, entry));
+      if (type == 2) info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), 0, {}});
+    }
+  }
+  return info;
+}
+
+// --- writing ---------------------------------------------------------------------------------------------------------
+
+static void tag_tracks(Matroska& video, uint64_t number, const std::optional<SphericalMetadata>& metadata) {
+  const Element* tagged = nullptr;
+  for (auto& [index, part] : video.opened) {
+    for (Element& entry : part.children) {
+      if (part.id != kTracks || entry.id != kTrackEntry || child_number(entry, kTrackNumber) != number) continue;
+      Element* pictures = find_child(entry, kVideo);
+      if (pictures == nullptr) continue;
+      if (metadata && !can_say(Container::kMatroska, read_track(video, entry), *metadata)) {
+        throw MalformedFile(fmt::format("mkv and webm have no words for {}", metadata_text(*metadata)));
+      }
+      tag_video(*pictures, metadata);
+      tagged = &entry;
+    }
+  }
+  if (tagged == nullptr) throw MalformedFile("its video track does not say what its pictures are like");
+  for (auto& [index, part] : video.opened) {
+    for (Element& tag : part.children) {
+      if (part.id == kTags && is_about(tag, *tagged)) tag_v1(tag, metadata);
+    }
+    if (part.id != kTags) continue;
+    std::erase_if(part.children, [](const Element& e) { return e.id == kTag && find_child(e, kSimpleTag) == nullptr; });
+  }
+}
+
+// Projection came with version 4.
+static void raise_version(Element& head, const std::optional<SphericalMetadata>& metadata) {
+  Element* version = find_child(head, kDocTypeVersion);
+  if (metadata && version != nullptr && number_of(*version) < 4) set_number(*version, 4);
+}
+
+namespace {
+
+// Where every part of the segment comes to lie, counted from the segment's first byte behind its size.
+struct Places {
+  std::vector<uint64_t> offsets;
+  std::vector<uint64_t> sizes;
+  uint64_t end = 0;
+};
+
+}  // namespace
+
+static Places place_parts(const Matroska& video, const std::map<size_t, Element>& parts) {
+  Places places;
+  int64_t growth = 0;  // of what is in memory
+  for (size_t i = 0; i < video.parts.size(); i++) {
+    const auto part = parts.find(i);
+    places.sizes.push_back(part == parts.end() ? video.parts[i].size : element_size(part->second));
+    growth += static_cast<int64_t>(places.sizes[i]) - static_cast<int64_t>(video.parts[i].size);
+    if (video.parts[i].id == kCluster) break;
+  }
+  for (size_t i = 0; i < places.sizes.size(); i++) {  // the first Void that can give or take as much
+    const int64_t left = static_cast<int64_t>(places.sizes[i]) - growth;
+    if (growth == 0 || video.parts[i].id != kVoid || (left != 0 && left < 2)) continue;
+    places.sizes[i] = static_cast<uint64_t>(left);
+    growth = 0;
+  }
+  for (size_t i = places.sizes.size(); i < video.parts.size(); i++) {
+    const auto part = parts.find(i);
+    places.sizes.push_back(part == parts.end() ? video.parts[i].size : element_size(part->second));
+  }
+  for (uint64_t size : places.sizes) {
+    places.offsets.push_back(places.end);
+    places.end += size;
+  }
+  return places;
+}
+
+// Where the part that starts at this place of the old segment starts in the new one.
+static uint64_t moved(const Matroska& video, const Places& places, uint64_t position) {
+  const uint64_t offset = video.segment.body() + position;
+  const auto after = std::upper_bound(video.parts.begin(), video.parts.end(), offset,
+                                      [](uint64_t at, const FileElement& part) { return at < part.offset; });
+  if (after == video.parts.begin()) return position;
+  const size_t i = static_cast<size_t>(after - video.parts.begin()) - 1;
+  return places.offsets[i] + (offset - video.parts[i].offset);
+}
+
+static void move_positions(Element& element, const Matroska& video, const Places& places) {
+  for (Element& child : element.children) {
+    const bool is_position = child.id == kSeekPosition || child.id == kCueClusterPosition ||
+                             (child.id == kCueCodecState && number_of(child) != 0);
+    if (is_position) set_number(child, moved(video, places, number_of(child)));
+    move_positions(child, video, places);
+  }
+}
+
+// Positions may need more bytes than before, and then all moves again.
+static std::map<size_t, Element> move_parts(const Matroska& video, Places& places) {
+  places = place_parts(video, video.opened);
+  constexpr int kRounds = 16;  // a handful of widths, each of which grows once
+  for (int i = 0; i < kRounds; i++) {
+    std::map<size_t, Element> parts = video.opened;
+    for (auto& [index, part] : parts) {
+      if (part.id == kSeekHead || part.id == kCues) move_positions(part, video, places);
+      update_crc(part);
+    }
+    const Places again = place_parts(video, parts);
+    if (again.sizes == places.sizes) return parts;
+    places = again;
+  }
+  throw MalformedFile("its index does not settle");
+}
+
+// It stands before the first block.
+static bool says_position(const FileInput& file, const FileElement& cluster) {
+  constexpr int kBefore = 6;
+  uint64_t at = cluster.body();
+  for (int i = 0; i < kBefore && at < cluster.end(); i++) {
+    const FileElement child = scan_element(file, at, cluster.end());
+    if (child.id == kClusterPosition) return true;
+    at = child.end();
+  }
+  return false;
+}
+
+// A cluster may say where it lies. It keeps its length: a place that is too small says nothing from then on.
+static void write_moved_cluster(const FileInput& file, const FileElement& place, uint64_t position, AtomicFile& to) {
+  Element cluster = read_element(file, place);
+  open_element(cluster);
+  Element& said = *find_child(cluster, kClusterPosition);
+  const size_t width = said.body.size();
+  set_number(said, position);
+  if (said.body.size() != width) {
+    said.id = kVoid;
+    said.body.assign(width, '\0');
+  }
+  update_crc(cluster);
+  std::string bytes;
+  write_element(cluster, bytes);
+  append(to, bytes);
+}
+
+static std::string void_bytes(uint64_t size) {
+  if (size == 0) return {};
+  std::string bytes(1, static_cast<char>(kVoid));
+  const size_t width = size < 128 ? 1 : 8;
+  append_size(bytes, size - 1 - width, width);
+  bytes.resize(size);
+  return bytes;
+}
+
+static void write_segment_header(const FileInput& file, const Matroska& video, uint64_t size, AtomicFile& to) {
+  std::string bytes;
+  write_element(video.head, bytes);
+  append(to, bytes);
+  file.copy(video.head_place.end(), video.segment.offset - video.head_place.end(), to);
+  bytes = file.read(video.segment.offset, video.segment.header);
+  if (!video.segment.is_endless) {
+    bytes.resize(video.segment.header - video.segment.size_width);
+    append_size(bytes, size, video.segment.size_width);
+  }
+  append(to, bytes);
+}
+
+TagResult tag_matroska(const FileInput& file, AtomicFile& to, uint64_t track,
+                       const std::optional<SphericalMetadata>& metadata) {
+  Matroska video = open_matroska(file);
+  tag_tracks(video, track, metadata);
+  raise_version(video.head, metadata);
+  update_crc(video.head);
+  Places places;
+  const std::map<size_t, Element> parts = move_parts(video, places);
+  write_segment_header(file, video, places.end, to);
+  TagResult result;
+  result.has_v2 = metadata.has_value();
+  for (size_t i = 0; i < video.parts.size(); i++) {
+    const FileElement& part = video.parts[i];
+    const bool is_moved = part.id == kCluster && places.offsets[i] != part.offset - video.segment.body();
+    result.moved = result.moved || is_moved;
+    std::string bytes;
+    if (parts.contains(i)) {
+      write_element(parts.at(i), bytes);
+      append(to, bytes);
+    } else if (part.id == kVoid && places.sizes[i] != part.size) {
+      append(to, void_bytes(places.sizes[i]));
+    } else if (is_moved && says_position(file, part)) {
+      write_moved_cluster(file, part, places.offsets[i], to);
+    } else {
+      file.copy(part.offset, part.size, to);
+    }
+  }
+  file.copy(video.segment.end(), file.size() - video.segment.end(), to);
+  return result;
+}
+
+}  // namespace ods

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the elements of a Matroska track say of its form, and how they are made to say another. Source: RFC 9559.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "ods/video/container/ebml.h"
+#include "ods/video/container/spherical.h"
+
+namespace ods::matroska {
+
+// RFC 9559, section 5.1.
+enum Id : uint32_t {
+  kEbml = 0x1a45dfa3,
+  kDocType = 0x4282,
+  kDocTypeVersion = 0x4287,
+  kSegment = 0x18538067,
+  kSeekHead = 0x114d9b74,
+  kSeek = 0x4dbb,
+  kSeekPosition = 0x53ac,
+  kTracks = 0x1654ae6b,
+  kTrackEntry = 0xae,
+  kTrackNumber = 0xd7,
+  kTrackUid = 0x73c5,
+  kTrackType = 0x83,
+  kCodecId = 0x86,
+  kDefaultDuration = 0x23e383,
+  kVideo = 0xe0,
+  kPixelWidth = 0xb0,
+  kPixelHeight = 0xba,
+  kDisplayWidth = 0x54b0,
+  kDisplayHeight = 0x54ba,
+  kDisplayUnit = 0x54b2,
+  kStereoMode = 0x53b8,
+  kProjection = 0x7670,
+  kProjectionType = 0x7671,
+  kProjectionPrivate = 0x7672,
+  kPoseYaw = 0x7673,
+  kPosePitch = 0x7674,
+  kPoseRoll = 0x7675,
+  kTags = 0x1254c367,
+  kTag = 0x7373,
+  kTargets = 0x63c0,
+  kTagTrackUid = 0x63c5,
+  kSimpleTag = 0x67c8,
+  kTagName = 0x45a3,
+  kTagString = 0x4487,
+  kCues = 0x1c53bb6b,
+  kCuePoint = 0xbb,
+  kCueTrackPositions = 0xb7,
+  kCueClusterPosition = 0xf1,
+  kCueCodecState = 0xea,
+  kCluster = 0x1f43b675,
+  kClusterPosition = 0xa7,
+  kVoid = 0xec,
+};
+
+// The number or text of a child; 0 or empty where there is none. Throws MalformedFile.
+uint64_t child_number(const Element& element, uint32_t id);
+std::string child_text(const Element& element, uint32_t id);
+
+// What StereoMode and Projection of an opened Video element say. Throws MalformedFile.
+std::optional<SphericalMetadata> parse_video(const Element& video);
+
+// Makes them say a form, or nothing. What says it already stays as it is, but for the angles. The size to display
+// becomes that of an eye. Throws MalformedFile.
+void tag_video(Element& video, const std::optional<SphericalMetadata>& metadata);
+
+// Whether a SimpleTag holds a V1.
+bool is_v1_tag(const Element& tag);
+
+// The V1s of an opened Tag get the angles of the form; those that contradict it go. None is written anew. Throws
+// MalformedFile.
+void tag_v1(Element& tag, const std::optional<SphericalMetadata>& metadata);
+
+}  // namespace ods::matroska

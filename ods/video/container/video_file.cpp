@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/container/video_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/files/read_file.h"
+#include "ods/video/container/matroska_file.h"
+#include "ods/video/container/mp4_file.h"
+
+namespace ods {
+
+std::string_view container_name(Container container) {
+  switch (container) {
+    case Container::kMp4:
+      return "mp4";
+    case Container::kMov:
+      return "mov";
+    case Container::kMatroska:
+      return "mkv";
+    case Container::kWebm:
+      break;
+  }
+  return "webm";
+}
+
+static std::string first_bytes(const FileInput& file) {
+  return file.read(0, std::min<uint64_t>(file.size(), 16));
+}
+
+bool is_video(const std::string& path) {
+  const std::vector<unsigned char> start = read_start(path, 16);
+  const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
+  return is_mp4(bytes) || is_matroska(bytes);
+}
+
+static Error unusable(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
+}
+
+// One of the two families, or an Error.
+static bool is_of_matroska(const FileInput& file) {
+  const std::string start = first_bytes(file);
+  if (is_matroska(start)) return true;
+  if (is_mp4(start)) return false;
+  throw unusable(file.path(), "it is no video that is known (mp4, mov, mkv, webm)");
+}
+
+VideoFile read_video_file(const std::string& path) {
+  const FileInput file(path);
+  try {
+    return is_of_matroska(file) ? read_matroska(file) : read_mp4(file);
+  } catch (const MalformedFile& broken) {
+    throw unusable(path, broken.what());
+  }
+}
+
+static int64_t pixels(const VideoTrack& track) {
+  return int64_t{track.size.width} * track.size.height;
+}
+
+const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, const std::string& path) {
+  if (video.tracks.empty()) throw unusable(path, "there are no pictures in it");
+  std::string ids;
+  for (const VideoTrack& track : video.tracks) {
+    if (id && track.id == static_cast<uint64_t>(*id)) return track;
+    ids += fmt::format("{}{} ({}x{})", ids.empty() ? "" : ", ", track.id, track.size.width, track.size.height);
+  }
+  if (id) {
+    throw Error(ErrorKind::kUsage, fmt::format("--track: '{}' has no video track {}, but {}", path, *id, ids));
+  }
+  const auto smaller = [](const VideoTrack& a, const VideoTrack& b) { return pixels(a) < pixels(b); };
+  const VideoTrack& largest = *std::max_element(video.tracks.begin(), video.tracks.end(), smaller);
+  const auto as_large = [&](const VideoTrack& track) { return pixels(track) == pixels(largest); };
+  if (std::count_if(video.tracks.begin(), video.tracks.end(), as_large) > 1) {
+    throw unusable(path, fmt::format("several tracks are the largest, of {}: choose one with --track", ids));
+  }
+  return largest;
+}
+
+TagResult tag_video(const std::string& path, const std::string& to, uint64_t track,
+                    const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound,
+                    const std::function<void(double done)>& progress) {
+  FileInput file(path);
+  if (progress) {
+    file.watch([&](uint64_t copied) { progress(static_cast<double>(copied) / static_cast<double>(file.size())); });
+  }
+  const bool matroska = is_of_matroska(file);
+  AtomicFile output(to);
+  TagResult result;
+  try {
+    result = matroska ? tag_matroska(file, output, track, metadata) : tag_mp4(file, output, track, metadata, sound);
+  } catch (const MalformedFile& broken) {
+    throw unusable(path, broken.what());
+  }
+  file.give_mode(output);
+  output.commit();
+  return result;
+}
+
+}  // namespace ods

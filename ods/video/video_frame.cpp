@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/video_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <new>
+
+namespace ods {
+
+// --- memory ----------------------------------------------------------------------------------------------------------
+
+static constexpr std::align_val_t kAlign{64};  // as the widest instructions like it
+
+void VideoFrame::Free::operator()(std::byte* bytes) const {
+  operator delete[](bytes, kAlign);
+}
+
+VideoFrame::VideoFrame(Extent size, const Packing& packing) : size_(size) {
+  const size_t align = static_cast<size_t>(kAlign);
+  planes_.bits = packing.bits;
+  planes_.chroma = packing.chroma;
+  std::array<size_t, 3> starts{};
+  for (size_t i = 0; i < 3; i++) {
+    const Extent share = i == 0 ? Extent{1, 1} : chroma_block(packing.chroma);
+    const size_t row = static_cast<size_t>(size.width / share.width) * (packing.bits > 8 ? 2 : 1);
+    planes_.stride[i] = (row + align - 1) / align * align;
+    starts[i] = bytes_;
+    bytes_ += planes_.stride[i] * static_cast<size_t>(size.height / share.height);
+  }
+  bytes_ += align;  // encoders may read beyond the last pixel
+  memory_.reset(new (kAlign) std::byte[bytes_]());
+  for (size_t i = 0; i < 3; i++) planes_.first[i] = memory_.get() + starts[i];
+}
+
+// --- colours ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// srgb_encode() between 2^-12 and 1, exact to a millionth: from a table with 512 steps to every doubling.
+class SrgbTable {
+ public:
+  SrgbTable() {
+    for (size_t i = 0; i < codes_.size(); i++) {
+      codes_[i] = srgb_encode(std::bit_cast<float>(kFirst + (static_cast<uint32_t>(i) << kShift)));
+    }
+  }
+  float operator()(float linear) const {
+    const uint32_t bits = std::bit_cast<uint32_t>(linear);
+    if (!(linear >= kDarkest)) return 12.92f * linear;
+    const size_t i = std::min<size_t>((bits - kFirst) >> kShift, codes_.size() - 2);
+    const float share = static_cast<float>(bits - kFirst - (static_cast<uint32_t>(i) << kShift)) / (1 << kShift);
+    return codes_[i] + share * (codes_[i + 1] - codes_[i]);
+  }
+
+ private:
+  static constexpr float kDarkest = 0x1p-12f;
+  static constexpr uint32_t kFirst = std::bit_cast<uint32_t>(kDarkest);
+  static constexpr int kShift = 14;
+  std::array<float, 12 * 512 + 1> codes_{};
+};
+
+}  // namespace
+
+float video_code(float linear) {
+  static const SrgbTable table;
+  return table(linear);
+}
+
+namespace {
+
+// One row of one layer: red, then green, then blue, 0..1.
+struct RowOfCodes {
+  const LayerPixels& layer;
+  const std::byte* in;
+  std::span<float> out;
+
+  size_t width() const { return out.size() / 3; }
+  void put(size_t x, vec3 codes) const {
+    for (size_t c = 0; c < 3; c++) out[x + c * width()] = codes[static_cast<int>(c)];
+  }
+};
+
+}  // namespace
+
+static void develop(const RowOfCodes& row, const DisplayTransform& development) {
+  const std::byte* in = row.in;
+  const size_t step = bytes_of(row.layer.sample);
+  for (size_t x = 0; x < row.width(); x++, in += row.layer.pixel_stride) {
+    vec3 light;
+    for (size_t c = 0; c < 3; c++) light[static_cast<int>(c)] = sample_value(row.layer.sample, in + c * step);
+    const vec3 shown = tone_map(light, development.exposure, development.tone);
+    row.put(x, {video_code(shown.x), video_code(shown.y), video_code(shown.z)});
+  }
+}
+
+template <typename T>
+static void copy_codes(const RowOfCodes& row, float largest) {
+  const std::byte* in = row.in;
+  const size_t width = row.width();
+  for (size_t x = 0; x < width; x++, in += row.layer.pixel_stride) {
+    std::array<T, 3> codes;
+    std::copy_n(in, sizeof(codes), reinterpret_cast<std::byte*>(codes.data()));
+    for (size_t c = 0; c < 3; c++) row.out[x + c * width] = static_cast<float>(codes[c]) * (1.0f / largest);
+  }
+}
+
+// Colours are not multiplied by alpha there.
+static void put_before_black(const RowOfCodes& row) {
+  const std::byte* in = row.in + 3 * bytes_of(row.layer.sample);
+  for (size_t x = 0; x < row.width(); x++, in += row.layer.pixel_stride) {
+    const float alpha = sample_value(row.layer.sample, in);
+    if (alpha >= 1.0f) continue;
+    for (size_t c = 0; c < 3; c++) {
+      float& code = row.out[x + c * row.width()];
+      code = video_code(srgb_decode(code) * alpha);
+    }
+  }
+}
+
+static void read_codes(const RowOfCodes& row, const DisplayTransform& development) {
+  switch (row.layer.sample) {
+    case SampleType::kHalf:
+    case SampleType::kFloat:
+      return develop(row, development);
+    case SampleType::kUint8:
+      copy_codes<uint8_t>(row, 255.0f);
+      break;
+    case SampleType::kUint16:
+      copy_codes<uint16_t>(row, 65535.0f);
+      break;
+  }
+  if (row.layer.channels.size() == 4) put_before_black(row);
+}
+
+// --- the frame -------------------------------------------------------------------------------------------------------
+
+Layout video_layout(const StoredPicture& picture) {
+  switch (picture.layout) {
+    case Layout::kSideBySide:
+    case Layout::kSideBySideHalf:
+    case Layout::kTopBottomHalf:
+      return picture.layout;
+    case Layout::kCrossEyed:
+      return Layout::kSideBySide;
+    default:
+      return default_layout(picture.camera.projection);
+  }
+}
+
+void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& development, VideoFrame& frame) {
+  const bool beside = layout == Layout::kSideBySide || layout == Layout::kSideBySideHalf;
+  const Extent eye = picture.size;
+  for (size_t i = 0; i < picture.eyes.size(); i++) {
+    const LayerPixels& layer = picture.eyes[i].layers[0];
+    const int place = static_cast<int>(i);
+    const Planes planes = frame.planes().at(beside ? place * eye.width : 0, beside ? 0 : place * eye.height);
+    const auto rows = [&](int y, std::span<float> row) {
+      read_codes({layer, layer.first + y * layer.row_stride, row}, development);
+    };
+    put_ycbcr(rows, eye, planes);
+  }
+}
+
+}  // namespace ods

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/video/video_input.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "ods/base/error.h"
+#include "ods/files/scratch.h"
+#include "ods/video/container/complete_metadata.h"
+
+namespace ods {
+
+static Error unusable(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
+}
+
+// --- its form --------------------------------------------------------------------------------------------------------
+
+// None: one eye.
+static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::string& path) {
+  if (stereo == VideoStereo::kOneView) return Layout::kSeparate;
+  for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
+    if (stereo == video_stereo(layout)) return layout;
+  }
+  throw unusable(path, fmt::format("how its eyes share a picture is {}", stereo_name(stereo)));
+}
+
+static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
+  if (metadata.projection != VideoProjection::kEquirect) {
+    throw unusable(
+        path, fmt::format("it says that it is {}; videos are read in lat-long and parts of it (--from-projection says "
+                          "what it is in truth)",
+                          projection_name(*metadata.projection)));
+  }
+  const auto part = [](uint32_t bound, double whole) { return static_cast<float>(bound / 4294967296.0 * whole); };
+  ProjectionSetting projection;
+  projection.latitude = vec2(-90.0f + part(metadata.bounds[1], 180.0), 90.0f - part(metadata.bounds[0], 180.0));
+  projection.longitude = vec2(-180.0f + part(metadata.bounds[2], 360.0), 180.0f - part(metadata.bounds[3], 360.0));
+  return projection;
+}
+
+static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& known, const std::string& path,
+                                     std::vector<std::string>& guesses) {
+  SphericalMetadata metadata = track.v2 ? *track.v2 : track.v1.value_or(SphericalMetadata());
+  if (known.layout)
+    metadata.stereo = *known.layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(*known.layout);
+  if (known.projection) set_projection(metadata, *known.projection);
+  return complete_metadata(metadata, track, path, guesses);
+}
+
+// What V2's yaw turns to the left stands to the right of where the picture looks.
+static void set_attitude(StereoCamera& stereo, const SphericalMetadata& metadata) {
+  stereo.yaw = -static_cast<float>(metadata.yaw);
+  stereo.pitch = static_cast<float>(metadata.pitch);
+  stereo.roll = static_cast<float>(metadata.roll);
+}
+
+VideoInput open_video(const std::string& path, const FormatHint& known) {
+  const VideoFile info = read_video_file(path);
+  const VideoTrack& track = choose_track(info, {}, path);
+  VideoInput video;
+  video.path = path;
+  video.track = track.id;
+  video.has_sound = !info.sound.empty();
+  if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
+  StoredPicture& like = video.like;
+  video.metadata = metadata_of(track, known, path, like.guesses);
+  FileInfo file;
+  file.width = track.size.width;
+  file.height = track.size.height;
+  file.is_float = true;  // no XMP of pictures is looked for in it
+  FormatHint all;
+  all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
+  all.projection = projection_of(video.metadata, path);
+  like.camera = find_format(file, path, all).camera;
+  set_attitude(like.camera, video.metadata);
+  if (video.metadata.ipd > 0.0) {
+    like.camera.ipd = static_cast<float>(video.metadata.ipd);
+    like.has_ipd = true;
+  }
+  like.layout = *all.layout;
+  like.layout_reason = "the video says so";
+  const std::optional<Extent> eye = unpacked_size(like.layout, track.size);
+  if (!eye) {
+    throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}", track.size.width, track.size.height,
+                                     layout_name(like.layout)));
+  }
+  if ((eye->width | eye->height) % 2 != 0) {
+    throw unusable(path,
+                   fmt::format("its eyes of {}x{} pixels share colours: their sides are odd", eye->width, eye->height));
+  }
+  like.size = *eye;
+  like.eyes.resize(like.layout == Layout::kSeparate ? 1 : 2);
+  for (size_t i = 0; like.eyes.size() == 2 && i < 2; i++) like.eyes[i].eye = i == 0 ? kLeft : kRight;
+  return video;
+}
+
+// --- its pictures ----------------------------------------------------------------------------------------------------
+
+EyeCorner eye_corner(Layout layout, Extent eye, int index) {
+  switch (layout) {
+    case Layout::kTopBottom:
+    case Layout::kTopBottomHalf:
+      return {0, index * eye.height};
+    case Layout::kBottomTop:
+      return {0, (1 - index) * eye.height};
+    case Layout::kSideBySide:
+    case Layout::kSideBySideHalf:
+      return {index * eye.width, 0};
+    case Layout::kCrossEyed:
+      return {(1 - index) * eye.width, 0};
+    default:
+      return {};
+  }
+}
+
+static uint16_t code16(float code) {
+  return static_cast<uint16_t>(std::clamp(code, 0.0f, 1.0f) * 65535.0f + 0.5f);
+}
+
+static uint16_t alpha16(const DecodedFrame& frame, int x, int y) {
+  const std::byte* row = frame.alpha + static_cast<size_t>(y) * frame.alpha_stride;
+  const int bits = frame.planes.bits, most = (1 << bits) - 1;
+  if (bits == 8) return static_cast<uint16_t>(static_cast<int>(row[x]) * 257);
+  uint16_t value;
+  std::memcpy(&value, row + 2 * static_cast<size_t>(x), sizeof(value));
+  return static_cast<uint16_t>((std::min<int>(value, most) * 65535 + most / 2) / most);
+}
+
+StoredPicture picture_of(const VideoInput& video, const VideoStream& stream, const DecodedFrame& frame) {
+  StoredPicture picture = video.like;
+  const Extent eye = picture.size;
+  const size_t channels = stream.has_alpha ? 4 : 3;
+  const size_t row_bytes = static_cast<size_t>(eye.width) * channels * sizeof(uint16_t);
+  const size_t eye_bytes = row_bytes * static_cast<size_t>(eye.height);
+  picture.memory = std::make_shared<Scratch>(eye_bytes * picture.eyes.size(), "", 0);
+  for (size_t i = 0; i < picture.eyes.size(); i++) {
+    const EyeCorner corner = eye_corner(picture.layout, eye, static_cast<int>(i));
+    const Planes planes = frame.planes.at(corner.x, corner.y);
+    std::byte* const to = picture.memory->data() + i * eye_bytes;
+    tbb::parallel_for(0, eye.height, [&](int y) {
+      std::vector<float> row(3 * static_cast<size_t>(eye.width));
+      get_codes(planes, eye, stream.color, y, 0, row);
+      auto* out = reinterpret_cast<uint16_t*>(to + static_cast<size_t>(y) * row_bytes);
+      for (int x = 0; x < eye.width; x++) {
+        for (int c = 0; c < 3; c++) *out++ = code16(row[static_cast<size_t>(c * eye.width + x)]);
+        if (channels == 4) *out++ = alpha16(frame, corner.x + x, corner.y + y);
+      }
+    });
+    LayerPixels layer{{"R", "G", "B"}, LayerRule::kLight, SampleType::kUint16, to, 0, 0};
+    if (channels == 4) layer.channels.emplace_back("A");
+    layer.pixel_stride = static_cast<ptrdiff_t>(channels * sizeof(uint16_t));
+    layer.row_stride = static_cast<ptrdiff_t>(row_bytes);
+    picture.eyes[i].layers.push_back(layer);
+  }
+  return picture;
+}
+
+}  // namespace ods

@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods video as its users meet it: one command, and what becomes of it when it is killed.
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "ods/video/encode.h"
+#include "tests/support/cli_runner.h"
+#include "tests/support/gltf_builder.h"
+
+namespace {
+
+class Video : public Cli {
+ protected:
+  void SetUp() override {
+    if (!ods::has_encoder("libx264")) GTEST_SKIP() << "skipped: this machine has no libx264";
+  }
+
+  std::string words(const std::string& name, const std::string& more = "") const {
+    return "video toys --width 32 --samples 1 --frames 1-4 -o " + folder.path(name) + " " + more;
+  }
+};
+
+TEST_F(Video, OneCommandMakesATaggedVideoAndCleansUp) {
+  ASSERT_EQ(run(words("video_360_TB.mp4", "--fps 25")), 0) << err;
+  EXPECT_EQ(out, folder.path("video_360_TB.mp4") + "\n");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"video_360_TB.mp4"});
+  const ods::VideoFile video = ods::read_video_file(folder.path("video_360_TB.mp4"));
+  ASSERT_EQ(video.tracks.size(), 1u);
+  EXPECT_EQ(metadata_text(*video.tracks[0].v1), "top-bottom, lat-long");
+  EXPECT_EQ(metadata_text(*video.tracks[0].v2), "top-bottom, lat-long");
+  EXPECT_EQ(video.tracks[0].fps, 25.0);
+  EXPECT_EQ(video.tracks[0].size.height, 32);
+}
+
+TEST_F(Video, FormsOfFrames) {
+  ASSERT_EQ(run(words("a_180_LR.mkv", "--projection vr180")), 0) << err;
+  EXPECT_EQ(metadata_text(*ods::read_video_file(folder.path("a_180_LR.mkv")).tracks[0].v2),
+            "side-by-side, lat-long 180x180");
+  ASSERT_EQ(run(words("b_360.mp4", "--eyes mono --noise changing --turntable 1")), 0) << err;
+  EXPECT_EQ(metadata_text(*ods::read_video_file(folder.path("b_360.mp4")).tracks[0].v2), "mono, lat-long");
+}
+
+// The words that mislead go; those of what is written come.
+TEST_F(Video, ANameThatPlayersUnderstandIsProposed) {
+  const std::tuple<const char*, const char*, const char*> kCases[] = {
+      {"a_180.mp4", "", "a_360_TB.mp4"},
+      {"a_180_LR.mp4", "", "a_360_TB.mp4"},
+      {"a_LR_180.mp4", "--layout side-by-side", "a_360_LR.mp4"},
+      {"a_360.mp4", "--projection vr180", "a_180_LR.mp4"},
+      {"a_360_TB.mp4", "--eyes mono", "a_360.mp4"},
+      {"a.mp4", "", "a_360_TB.mp4"},
+      {"a_360_TB.mp4", "", ""},
+      {"a_TB.mp4", "", ""},
+      {"a_180_LR.mp4", "--projection vr180", ""},
+      {"a.mp4", "--eyes mono --noise changing --turntable 1", ""},
+  };
+  for (const auto& [name, options, proposed] : kCases) {
+    ASSERT_EQ(run(words(name, options)), 0) << err;
+    const size_t at = err.find("would know it as ");
+    if (!*proposed) {
+      EXPECT_EQ(at, std::string::npos) << name << options << err;
+      continue;
+    }
+    ASSERT_NE(at, std::string::npos) << name << options << err;
+    EXPECT_EQ(err.substr(at + 17, err.find('\n', at) - at - 17), proposed) << options;
+    EXPECT_EQ(err.find("would know it as ", at + 1), std::string::npos) << "once";
+    EXPECT_EQ(err.find("players differ"), err.rfind("players differ")) << "once";
+  }
+}
+
+TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  ASSERT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "a.mp4.frames"}));
+  const std::string video = folder.read("a.mp4");
+  // Another packing of the same frames, and more of them.
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames --exposure 1 --frames 1-5")), 0) << err;
+  EXPECT_NE(err.find("4 of 5 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(folder.read("a.mp4"), video);
+  ASSERT_EQ(run("encode " + folder.path("a.mp4.frames/frame.######.exr") + " --codec h264 --frames 1-4 -o " +
+                folder.path("b.mp4")),
+            0)
+      << err;
+  EXPECT_EQ(folder.read("b.mp4"), video);
+}
+
+TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  const std::string video = folder.read("a.mp4");
+  EXPECT_EQ(run(words("a.mp4", "--samples 2")), 2);
+  EXPECT_NE(err.find("--restart"), std::string::npos) << err;
+  EXPECT_NE(err.find("frames of other options: --samples was 1, now 2;"), std::string::npos) << err;
+  EXPECT_EQ(folder.read("a.mp4"), video);
+  ASSERT_EQ(run(words("a.mp4", "--samples 2 --restart")), 0) << err;
+  EXPECT_NE(folder.read("a.mp4"), video);
+  EXPECT_EQ(files(), 1u);
+  std::filesystem::create_directory(folder.path("b.mp4.frames"));
+  folder.write("b.mp4.frames/diary.txt", "mine");
+  EXPECT_EQ(run(words("b.mp4")), 2);
+  EXPECT_EQ(run(words("b.mp4", "--restart")), 0) << err;
+  EXPECT_EQ(folder.read("b.mp4.frames/diary.txt"), "mine");
+}
+
+TEST_F(Video, TheSceneIsOfTheJob) {
+  ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("sky.png")), 0) << err;
+  const std::string video = words("a.mp4", "--keep-frames --env " + folder.path("sky.png"));
+  ASSERT_EQ(run(video), 0) << err;
+  ASSERT_EQ(run(video), 0) << err;
+  EXPECT_NE(err.find("4 of 4 frames are there already"), std::string::npos) << err;
+  ASSERT_EQ(run("render furnace --width 32 --samples 1 --eyes mono -q -o " + folder.path("sky.png")), 0) << err;
+  EXPECT_EQ(run(video), 2);
+  EXPECT_NE(err.find("--env '" + folder.path("sky.png") + "' has changed"), std::string::npos) << err;
+}
+
+// The files of a scene are known by what is in them, wherever they lie and however old they are.
+TEST_F(Video, ACopyOfTheSceneIsTheSameSceneAndAChangedFileIsNamed) {
+  ods::GltfBuilder scene = ods::make_triangle();
+  scene.json["images"] = ods::Json::parse(R"([{"uri": "wood%20panel.png"}])");
+  scene.json["textures"] = ods::Json::parse(R"([{"source": 0}])");
+  scene.json["materials"] = ods::Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+  scene.primitive()["material"] = 0;
+  scene.json["buffers"] = {{{"byteLength", scene.binary.size()}, {"uri", "shape.bin"}}};
+  const ods::Binary png = ods::small_png();
+  const auto write = [&](const std::string& to) {
+    std::filesystem::create_directory(folder.path(to));
+    folder.write(to + "/scene.gltf", scene.json.dump());
+    folder.write(to + "/shape.bin", {scene.binary.begin(), scene.binary.end()});
+    folder.write(to + "/wood panel.png", {png.begin(), png.end()});
+  };
+  const auto video = [&](const std::string& from) {
+    return run("video " + folder.path(from) + "/scene.gltf --width 16 --samples 1 --frames 1-2 --keep-frames -o " +
+               folder.path("a.mp4"));
+  };
+  write("one"), write("two");
+  ASSERT_EQ(video("one"), 0) << err;
+  ASSERT_EQ(video("two"), 0) << err;
+  EXPECT_NE(err.find("2 of 2 frames are there already"), std::string::npos) << err;
+  scene.binary[0] ^= 1;
+  write("two");
+  EXPECT_EQ(video("two"), 2);
+  EXPECT_NE(err.find("SCENE's file shape.bin '" + folder.path("two/shape.bin") + "' has changed"), std::string::npos)
+      << err;
+  scene.binary[0] ^= 1;
+  write("two");
+  folder.write("two/wood panel.png", "x");
+  EXPECT_EQ(video("two"), 2);
+  EXPECT_NE(err.find("wood panel.png' has changed"), std::string::npos) << err;
+  write("two");
+  EXPECT_EQ(video("two"), 0) << err;
+}
+
+// Of every option of ods video it is known whether it changes frames: what changes the video alone may change while its
+// frames are being made, what changes a frame is refused by name.
+class VideoOptions : public Video {
+ protected:
+  void SetUp() override {
+    Video::SetUp();
+    if (IsSkipped()) return;
+    ASSERT_EQ(run(job), 0) << err;
+    const std::string frame = folder.path("a.mp4.frames/frame.000001.exr");
+    made = std::filesystem::last_write_time(frame);
+  }
+  bool frames_are_those() const {
+    return std::filesystem::last_write_time(folder.path("a.mp4.frames/frame.000001.exr")) == made;
+  }
+
+  const std::string job = "video furnace --width 16 --samples 1 --frames 1-2 --keep-frames -o " + folder.path("a.mp4");
+  std::filesystem::file_time_type made;
+};
+
+const std::map<std::string, std::string> kVideoAlone = {
+    {"--target", "youtube"}, {"--codec", "h264"},      {"--encoder", "libx264"}, {"--preset", "ultrafast"},
+    {"--crf", "30"},         {"--bitrate", "1"},       {"--bits", "10"},         {"--chroma", "444"},
+    {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
+    {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
+    {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
+    {"--quality", "draft"},
+};
+const std::map<std::string, std::string> kOfFrames = {
+    {"--scene", "0"},
+    {"--env", "0.5"},
+    {"--width", "32"},
+    {"--height", "10"},
+    {"--eyes", "mono"},
+    {"--layout", "sbs"},
+    {"--camera", "other"},
+    {"--position", "0,1,0"},
+    {"--yaw", "10"},
+    {"--pitch", "10"},
+    {"--roll", "10"},
+    {"--camera-preset", "google:IPD=0.1"},
+    {"--ipd", "0.06"},
+    {"--merge", "cosine"},
+    {"--merge-top", "power"},
+    {"--merge-bottom", "linear"},
+    {"--convergence", "shift,3"},
+    {"--eye-to-neck", "0.1"},
+    {"--axis", "1,1,0"},
+    {"--lens", "0.01,2"},
+    {"--left-handed", ""},
+    {"--projection", "vr180"},
+    {"--face", "up"},
+    {"--range", "-90,90"},
+    {"--animation", "walk"},
+    {"--fps", "25"},
+    {"--turntable", "1"},
+    {"--fly-to", "0,1,0"},
+    {"--shutter", "180"},
+    {"--noise", "changing"},
+    {"--samples", "2"},
+    {"--bounces", "2"},
+    {"--filter", "box"},
+    {"--seed", "7"},
+};
+// These ask for other files (tested elsewhere), say where, or need another one; --time and --sidecar are refused.
+const std::set<std::string> kOthers = {
+    "--output",         "--audio", "--rig",     "--restart",           "--size", "--merge-map", "--fov",
+    "--lens-direction", "--time",  "--sidecar", "--merge-map-inverted"};
+
+TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
+  ASSERT_EQ(run("video --help"), 0);
+  std::istringstream help(out);
+  std::set<std::string> options;
+  for (std::string line; std::getline(help, line);) {
+    const size_t dashes = line.find("--");
+    if (!line.starts_with("  -") || dashes > 5) continue;
+    options.insert(line.substr(dashes, line.find_first_of(" ,", dashes) - dashes));
+  }
+  EXPECT_GT(options.size(), 60u);
+  for (const std::string& option : options) {
+    const size_t known = kVideoAlone.count(option) + kOfFrames.count(option) + kOthers.count(option);
+    EXPECT_EQ(known, 1u) << option << ": does it change frames? Then cli/video/frame_settings.cpp has to know it";
+  }
+}
+
+TEST_F(VideoOptions, WhatChangesTheVideoAloneMayChange) {
+  for (const auto& [option, value] : kVideoAlone) {
+    EXPECT_EQ(run(job + " " + option + " " + value), 0) << option << err;
+    EXPECT_TRUE(frames_are_those()) << option;
+  }
+}
+
+TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
+  for (const auto& [option, value] : kOfFrames) {
+    EXPECT_EQ(run(job + " " + option + " " + value), 2) << option << err;
+    const std::map<std::string, std::string> kSaidAs = {
+        {"--merge", "--merge-top"}, {"--camera-preset", "--ipd"}, {"--face", "--projection"}};
+    const auto other = kSaidAs.find(option);
+    const std::string said = other == kSaidAs.end() ? option : other->second;
+    EXPECT_NE(err.find(said + " was "), std::string::npos) << option << ": " << err;
+    EXPECT_TRUE(frames_are_those()) << option;
+  }
+  ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("map.png")), 0) << err;
+  EXPECT_EQ(run(job + " --merge-map " + folder.path("map.png")), 2);
+  EXPECT_NE(err.find("--merge-top was none, now map"), std::string::npos) << err;
+  EXPECT_EQ(run(job + " --projection fisheye --fov 100 --lens-direction 20,10"), 2);
+  EXPECT_NE(err.find("; and 1 more; --restart"), std::string::npos) << err;
+}
+
+// --- two at once, and what is not ours ------------------------------------------------------------------------------
+
+TEST_F(Video, OneProcessAtATimeMakesAVideo) {
+  const std::vector<std::string> job = {"video", "toys",     "--width", "32", "--samples",
+                                        "64",    "--frames", "1-4",     "-o", folder.path("a.mp4")};
+  Ods first(job);
+  first.wait_for("to render: ");
+  first.kill(SIGSTOP);  // so that it is at work for as long as we like
+  for (const std::string other : {"", "--samples 2 --restart", "--crf 30 --keep-frames"}) {
+    EXPECT_EQ(run(words("a.mp4", other)), 4) << err;
+    const std::string who = "another ods is at work on '" + folder.path("a.mp4") + "': process " +
+                            std::to_string(first.process()) + " on '";
+    EXPECT_NE(err.find(who), std::string::npos) << err;
+    EXPECT_NE(err.find(", since 20"), std::string::npos) << err;
+  }
+  first.kill(SIGCONT);
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mp4"});
+  Ods killed(job);
+  killed.wait_for("to render: ");
+  killed.kill(SIGKILL);
+  killed.finish();
+  EXPECT_EQ(run(words("a.mp4", "--samples 64")), 0) << "the dead hold nothing: " << err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.mp4"});
+  Ods interrupted(job);
+  interrupted.wait_for("to render: ");
+  interrupted.kill(SIGTERM);
+  EXPECT_EQ(interrupted.finish(), 128 + SIGTERM);
+  EXPECT_FALSE(std::filesystem::exists(folder.path(".a.mp4.claim")));
+}
+
+TEST_F(Video, FramesBehindALinkAreNotOurs) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  std::filesystem::rename(folder.path("a.mp4.frames"), folder.path("precious"));
+  std::filesystem::create_directory_symlink(folder.path("precious"), folder.path("a.mp4.frames"));
+  for (const std::string more : {"", "--restart", "--restart --samples 2"}) {
+    EXPECT_EQ(run(words("a.mp4", more)), 2) << err;
+    EXPECT_NE(err.find("it is a link"), std::string::npos) << err;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path("precious")), {}), 5);
+}
+
+TEST_F(Video, FramesThatNoJobOfOursMadeStay) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  folder.write("a.mp4.frames/frame.000005.exr", "mine");
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames --restart --samples 2")), 0) << err;
+  EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
+  EXPECT_EQ(run(words("a.mp4", "--samples 2 --frames 1-5")), 2);
+  EXPECT_NE(err.find("frame.000005.exr' is no frame of this video"), std::string::npos) << err;
+  ASSERT_EQ(run(words("a.mp4", "--samples 2")), 0) << err;
+  EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
+  // A folder without our note: nothing in it is taken for a frame, nothing is written through a link.
+  std::filesystem::create_directory(folder.path("b.mp4.frames"));
+  folder.write("b.mp4.frames/frame.000002.exr", "mine");
+  EXPECT_EQ(run(words("b.mp4", "--restart")), 2);
+  EXPECT_EQ(folder.read("b.mp4.frames/frame.000002.exr"), "mine");
+  folder.write("victim", "mine");
+  std::filesystem::create_directory(folder.path("c.mp4.frames"));
+  std::filesystem::create_symlink(folder.path("victim"), folder.path("c.mp4.frames/job.txt"));
+  EXPECT_EQ(run(words("c.mp4", "--restart")), 2);
+  EXPECT_EQ(folder.read("victim"), "mine");
+}
+
+TEST_F(Video, HowMuchRoomTheFramesNeedIsSaid) {
+  ASSERT_EQ(run("video furnace --width 512 --samples 1 --frames 1-4 -o " + folder.path("a.mp4")), 0) << err;
+  EXPECT_NE(err.find("the frames need up to 6 MB in '" + folder.path("a.mp4.frames") + "'; "), std::string::npos)
+      << err;
+  const ods::TinyDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "skipped: a small tmpfs can only be mounted by root with CAP_SYS_ADMIN";
+  EXPECT_EQ(run("video furnace --width 512 --samples 1 --frames 1-4 -o " + disk.folder().path("a.mp4")), 4) << err;
+  EXPECT_NE(err.find("warning: the frames need up to 6 MB"), std::string::npos) << err;
+}
+
+// However often it is killed, wherever: at last there is the video of an undisturbed run.
+TEST_F(Video, AKilledVideoGoesOnWhereItWas) {
+  ASSERT_EQ(run(words("whole.mp4", "-q --samples 256")), 0) << err;
+  const std::vector<std::string> job = {"video",      "toys",     "--width", "32", "--samples",
+                                        "256",        "--frames", "1-4",     "-o", folder.path("killed.mp4"),
+                                        "--progress", "json"};
+  for (const char* line : {"players that go", "to render: ", "\"progress\":0.2", "\"progress\":0.7"}) {
+    Ods command(job);
+    command.wait_for(line);
+    command.kill(SIGKILL);
+    EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
+  }
+  ASSERT_EQ(run(words("killed.mp4", "--samples 256")), 0) << err;
+  EXPECT_NE(err.find(" of 4 frames are there already"), std::string::npos) << err;
+  EXPECT_EQ(folder.read("killed.mp4"), folder.read("whole.mp4"));
+  EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(Video, WhatCannotBeIsSaidBeforeAnythingIsRendered) {
+  const std::tuple<std::string, int, const char*> kCases[] = {
+      {words("a.avi"), 2, "ends in .mp4"},
+      {words("a.mp4", "--codec prores"), 2, "not prores, which goes into mov, mkv"},
+      {words("a.mp4", "--layout anaglyph"), 2, "a video's layout is top-bottom or side-by-side"},
+      {words("a.mp4", "--time 3"), 2, "--frames"},
+      {words("a.mp4", "--width 30"), 2, "its sides are even"},
+      {words("a.mp4", "--audio " + folder.path("none.wav")), 3, "no such file"},
+      {"video room --width 32 -o " + folder.path("a.mp4"), 2, "the scene has no animation: add --duration SECONDS"},
+      {"video none.glb --width 32 -o " + folder.path("a.mp4"), 3, "none.glb"},
+  };
+  for (const auto& [command, code, why] : kCases) {
+    EXPECT_EQ(run(command), code) << command << err;
+    EXPECT_NE(err.find(why), std::string::npos) << err;
+    EXPECT_EQ(files(), 0u) << command;
+  }
+}
+
+}  // namespace

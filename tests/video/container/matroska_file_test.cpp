@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tagging mkv and webm: whatever had to move, everything that says where something lies goes on being right.
+#include "ods/video/container/matroska_file.h"
+
+#include <gtest/gtest.h>
+
+#include "ods/base/error.h"
+#include "tests/support/made_videos.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+constexpr uint64_t kSegment = 0x18538067, kCluster = 0x1f43b675, kTracks = 0x1654ae6b, kCues = 0x1c53bb6b;
+
+SphericalMetadata stacked() {
+  SphericalMetadata metadata;
+  metadata.stereo = VideoStereo::kTopBottom;
+  metadata.projection = VideoProjection::kEquirect;
+  return metadata;
+}
+
+class MatroskaVideo : public ::testing::Test {
+ protected:
+  std::string tag(const std::string& video, const std::optional<SphericalMetadata>& metadata) {
+    folder.write("video.mkv", video);
+    result = tag_video(folder.path("video.mkv"), folder.path("video.mkv"), 1, metadata);
+    return folder.read("video.mkv");
+  }
+
+  VideoTrack read(const std::string& video) {
+    folder.write("read.mkv", video);
+    return read_video_file(folder.path("read.mkv")).tracks.at(0);
+  }
+
+  std::string error_of(const std::string& video) {
+    folder.write("bad.mkv", video);
+    std::string text;
+    try {
+      tag_video(folder.path("bad.mkv"), folder.path("bad.mkv"), 1, stacked());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput) << error.what();
+      text = error.what();
+      EXPECT_EQ(folder.read("bad.mkv"), video);
+    }
+    return text;
+  }
+
+  // Whatever comes of it; nothing is kept, as flushing to the disk takes its time.
+  void try_to_tag(const std::string& video) {
+    folder.write("bad.mkv", video);
+    const FileInput file(folder.path("bad.mkv"));
+    AtomicFile to(folder.path("to.mkv"));
+    try {
+      tag_matroska(file, to, 1, stacked());
+    } catch (const MalformedFile&) {
+    }
+  }
+
+  TemporaryFolder folder;
+  TagResult result;
+};
+
+// What stands at the places that the video's index names: ids, and the words in the clusters.
+void expect_right_places(const std::string& video, bool says_position) {
+  const made::Piece segment = made::pieces(video, {kSegment}).at(0);
+  const auto number = [&](const made::Piece& piece) {
+    return made::value(video, piece.begin, static_cast<int>(piece.end - piece.begin));
+  };
+  const std::vector<made::Piece> seeks = made::pieces(video, {kSegment, 0x114d9b74, 0x4dbb, 0x53ac});
+  ASSERT_EQ(seeks.size(), 2u);
+  EXPECT_EQ(made::piece_at(video, segment.begin + number(seeks[0]), video.size()).id, kTracks);
+  EXPECT_EQ(made::piece_at(video, segment.begin + number(seeks[1]), video.size()).id, kCues);
+  const std::vector<made::Piece> clusters = made::pieces(video, {kSegment, kCluster});
+  const std::vector<made::Piece> cues = made::pieces(video, {kSegment, kCues, 0xbb, 0xb7, 0xf1});
+  const std::vector<made::Piece> positions = made::pieces(video, {kSegment, kCluster, 0xa7});
+  const std::vector<made::Piece> blocks = made::pieces(video, {kSegment, kCluster, 0xa3});
+  ASSERT_TRUE(clusters.size() == 2 && cues.size() == 2 && blocks.size() == 2);
+  EXPECT_GE(positions.size(), says_position ? 2u : 0u);
+  for (size_t i = 0; i < 2; i++) {
+    EXPECT_EQ(segment.begin + number(cues[i]), clusters[i].at);
+    if (i < positions.size()) {
+      EXPECT_EQ(segment.begin + number(positions[i]), clusters[i].at);
+    }
+    EXPECT_EQ(video.substr(blocks[i].begin + 4, made::kWord), made::word(1, static_cast<int>(i)));
+  }
+}
+
+std::vector<made::MatroskaOptions> variants() {
+  std::vector<made::MatroskaOptions> all;
+  for (size_t room : {size_t{0}, size_t{9}, size_t{200}}) {
+    for (bool first : {true, false}) {
+      for (bool endless : {true, false}) {
+        all.push_back({room, first, false, endless, "", ""});
+      }
+    }
+  }
+  return all;
+}
+
+TEST_F(MatroskaVideo, EverythingThatSaysWhereGoesOnBeingRight) {
+  for (const made::MatroskaOptions& options : variants()) {
+    const std::string video = made::matroska(options);
+    expect_right_places(video, false);
+    const std::string tagged = tag(video, stacked());
+    EXPECT_EQ(result.moved, options.room < 200);
+    expect_right_places(tagged, false);
+    EXPECT_EQ(read(tagged).v2, stacked());
+    EXPECT_EQ(tag(tagged, stacked()), tagged) << "twice is once";
+    const std::string removed = tag(tagged, std::nullopt);
+    expect_right_places(removed, false);
+    EXPECT_FALSE(read(removed).v2);
+  }
+}
+
+TEST_F(MatroskaVideo, AVoidIsUsedUpInsteadOfMoving) {
+  made::MatroskaOptions options;
+  options.room = 500;
+  options.says_position = false;
+  const std::string video = made::matroska(options), tagged = tag(video, stacked());
+  EXPECT_FALSE(result.moved);
+  EXPECT_EQ(tagged.size(), video.size());
+  expect_right_places(tagged, false);
+}
+
+// A position of one byte cannot grow: it is taken out where it is too small.
+TEST_F(MatroskaVideo, ClustersThatSayWhereTheyLieSayItAnewOrNoLonger) {
+  made::MatroskaOptions options;
+  const std::string video = made::matroska(options);
+  expect_right_places(video, true);
+  const std::string tagged = tag(video, stacked());
+  expect_right_places(tagged, false);
+  EXPECT_EQ(
+      made::pieces(tagged, {kSegment, kCluster, 0xec}).size() + made::pieces(tagged, {kSegment, kCluster, 0xa7}).size(),
+      2u);
+}
+
+TEST_F(MatroskaVideo, TheElementsAreTheBytesOfTheirSpecification) {
+  const std::string tagged = tag(made::matroska({}), stacked());
+  const made::Piece video = made::pieces(tagged, {kSegment, kTracks, 0xae, 0xe0}).at(0);
+  const std::string expected =
+      made::element(0xb0, made::number(256, 2)) + made::element(0xba, made::number(256, 2)) +
+      made::element(0x54b0, made::number(256, 2)) + made::element(0x54ba, made::number(128, 1)) +
+      made::element(0x53b8, made::number(3, 1)) +
+      made::element(0x7670, made::element(0x7671, made::number(1, 1)) + made::element(0x7672, std::string(20, '\0')));
+  EXPECT_EQ(tagged.substr(video.begin, video.end - video.begin), expected);
+  EXPECT_EQ(made::value(tagged, made::pieces(tagged, {0x1a45dfa3, 0x4287}).at(0).begin, 1), 4u)
+      << "Projection is of version 4";
+}
+
+TEST_F(MatroskaVideo, EveryFormItKnowsComesBack) {
+  for (VideoStereo stereo : kVideoStereos) {
+    for (VideoProjection projection : {VideoProjection::kEquirect, VideoProjection::kCubemap}) {
+      if (stereo == VideoStereo::kOther) continue;
+      SphericalMetadata metadata;
+      metadata.stereo = stereo, metadata.projection = projection;
+      if (projection == VideoProjection::kEquirect) metadata.bounds = {0, 0, 0x40000000, 0x40000000};
+      metadata.yaw = 12.5, metadata.pitch = -3.25, metadata.roll = 170.0;
+      EXPECT_EQ(read(tag(made::matroska({}), metadata)).v2, metadata) << metadata_text(metadata);
+    }
+  }
+}
+
+TEST_F(MatroskaVideo, AV1InTheTagsIsReadAndTakenOut) {
+  SphericalMetadata old = stacked();
+  old.stereo = VideoStereo::kOneView;
+  old.source = "Somebody";
+  const auto name = [](const std::string& text) { return made::element(0x45a3, text); };
+  made::MatroskaOptions options;
+  options.tags =
+      made::element(0x7373,
+                    made::element(0x63c0, made::element(0x63c5, made::number(7, 1))) +
+                        made::element(0x67c8, name("SPHERICAL-VIDEO") + made::element(0x4487, v1_xml(old), 2), 2) +
+                        made::element(0x67c8, name("TITLE") + made::element(0x4487, "kept")),
+                    2);
+  // The segment's parts are found by their sizes, of which this has two bytes.
+  std::string video = made::matroska({});
+  const made::Piece segment = made::pieces(video, {kSegment}).at(0);
+  video += made::element(0x1254c367, options.tags, 2);
+  video.replace(segment.begin - 8, 8, made::number((uint64_t{1} << 56) | (video.size() - segment.begin), 8));
+  EXPECT_EQ(read(video).v1, old);
+  const std::string tagged = tag(video, stacked());
+  EXPECT_FALSE(read(tagged).v1);
+  EXPECT_NE(tagged.find("kept"), std::string::npos);
+  expect_right_places(tagged, false);
+}
+
+TEST_F(MatroskaVideo, CheckSumsAreMadeTrue) {
+  Element element;
+  element.id = 0x1654ae6b;
+  element.children = {{0xbf, 1, "none", {}}, {0x31, 1, "3456789ab", {}}};
+  update_crc(element);
+  // Of the bytes 31 89 "3456789ab", by Python's zlib.crc32().
+  EXPECT_EQ(element.children[0].body, std::string("\x7b\xf8\x4e\x74", 4));
+}
+
+TEST_F(MatroskaVideo, CutShortAnywhereIsAnError) {
+  const std::string video = made::matroska({});
+  for (size_t size = 0; size < video.size(); size++) EXPECT_NE(error_of(video.substr(0, size)), "") << size;
+}
+
+TEST_F(MatroskaVideo, AnyByteMayBeWrong) {
+  const std::string video = made::matroska({});
+  for (size_t at = 4; at < video.size(); at++) {
+    for (char value : {'\0', '\x01', '\x40', '\x7f', '\xff'}) {
+      std::string bad = video;
+      bad[at] = value;
+      try_to_tag(bad);
+    }
+  }
+}
+
+TEST_F(MatroskaVideo, LiveRecordingsSayWhatToUse) {
+  std::string video = made::matroska({});
+  const made::Piece cluster = made::pieces(video, {kSegment, kCluster}).at(1);
+  video[cluster.at + 4] = '\xff';
+  EXPECT_NE(error_of(video).find("mkvmerge"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ods
