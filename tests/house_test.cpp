@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 const std::set<std::string> kAvFiles = {"ods/video/av.cpp", "ods/video/decode.cpp", "ods/video/encode.cpp",
                                         "ods/video/sound.cpp"};
 const std::map<std::string, std::set<std::string>> kHidden = {
-    {"OpenImageIO/", {"ods/image/image_file.cpp", "ods/image/image_writer.cpp"}},
+    {"OpenImageIO/", {"ods/image/codec/image_reader.cpp", "ods/image/codec/image_writer.cpp"}},
     {"embree", {"ods/render/cpu/embree_scene.cpp"}},
     {"CLI/", {"cli/console/options.cpp"}},
-    {"OpenEXR/", {"ods/image/exr_rows.cpp"}},
-    {"libdeflate.h", {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/exr_rows.cpp"}},
+    {"OpenEXR/", {"ods/image/codec/exr_rows.cpp"}},
+    {"libdeflate.h", {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp"}},
     {"lcms2", {"ods/image/icc_profile.cpp"}},
     {"libavcodec/", kAvFiles},
     {"libavformat/", kAvFiles},

@@ -54,6 +54,6 @@ void camera(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_camera(int argc, char** argv) {
+int ods_camera(int argc, char** argv) {
   return run_command([=] { camera(argc, argv); });
 }

@@ -145,6 +145,6 @@ void run(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_compare(int argc, char** argv) {
+int ods_compare(int argc, char** argv) {
   return run_command([=] { run(argc, argv); });
 }

@@ -73,6 +73,6 @@ void convert(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_convert(int argc, char** argv) {
+int ods_convert(int argc, char** argv) {
   return run_command([=] { convert(argc, argv); });
 }

@@ -134,6 +134,6 @@ void run(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_lint(int argc, char** argv) {
+int ods_lint(int argc, char** argv) {
   return run_command([=] { run(argc, argv); });
 }

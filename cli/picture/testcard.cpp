@@ -109,6 +109,6 @@ void testcard(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_testcard(int argc, char** argv) {
+int ods_testcard(int argc, char** argv) {
   return run_command([=] { testcard(argc, argv); });
 }

@@ -85,6 +85,6 @@ void title(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_title(int argc, char** argv) {
+int ods_title(int argc, char** argv) {
   return run_command([=] { title(argc, argv); });
 }

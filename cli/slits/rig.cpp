@@ -102,6 +102,6 @@ void rig(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_rig(int argc, char** argv) {
+int ods_rig(int argc, char** argv) {
   return run_command([=] { rig(argc, argv); });
 }

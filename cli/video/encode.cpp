@@ -102,6 +102,6 @@ void encode(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_encode(int argc, char** argv) {
+int ods_encode(int argc, char** argv) {
   return run_command([=] { encode(argc, argv); });
 }

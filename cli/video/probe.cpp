@@ -81,6 +81,6 @@ void run(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_probe(int argc, char** argv) {
+int ods_probe(int argc, char** argv) {
   return run_command([=] { run(argc, argv); });
 }

@@ -132,6 +132,6 @@ void video(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_video(int argc, char** argv) {
+int ods_video(int argc, char** argv) {
   return run_command([=] { video(argc, argv); });
 }

@@ -134,6 +134,8 @@ static std::vector<Plane> other_planes(const View& channels, const RowReader& re
 
 namespace {
 
+using Readers = std::vector<std::unique_ptr<RowReader>>;  // of the files of a picture
+
 // One view of one file.
 struct FileShare {
   RowReader* reader = nullptr;
@@ -192,22 +194,21 @@ static void keep_common(std::vector<FileShare>& shares, const std::string& path,
   if (!lost.empty()) guesses.push_back("only one eye has" + lost + ": left out");
 }
 
-static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const std::string& path, Layout layout,
-                                        bool color_only) {
+static std::vector<FileShare> shares_of(Readers& readers, const std::string& path, Layout layout, bool color_only) {
   std::vector<FileShare> shares;
   if (layout != Layout::kMultiview) {
-    for (RowReader& reader : readers) {
-      shares.push_back(make_share(reader, path, channels_of_view(reader.info(), "", true), color_only));
+    for (const auto& reader : readers) {
+      shares.push_back(make_share(*reader, path, channels_of_view(reader->info(), "", true), color_only));
     }
     return shares;
   }
-  const FileInfo& info = readers[0].info();
+  const FileInfo& info = readers[0]->info();
   const View left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
   const View bare = channels_of_view(info, "left", true);
   if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
   if (left.contains("R") || right.contains("R")) {
-    shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
-    shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
     return shares;
   }
   throw unreadable(path, "it does not hold two views");
@@ -367,33 +368,33 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   return eye;
 }
 
-static void check_pair(std::vector<RowReader>& readers, const std::string& path) {
-  const FileInfo &one = readers[0].info(), &other = readers[1].info();
+static void check_pair(Readers& readers, const std::string& path) {
+  const FileInfo &one = readers[0]->info(), &other = readers[1]->info();
   if (one.width != other.width || one.height != other.height) {
     throw unreadable(
         path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
   }
   if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
   const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
-  if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // both become 16 bits if one has been converted to them
-    for (RowReader& reader : readers) reader.widen();
+  if (!is_ours(*readers[0]) || !is_ours(*readers[1])) {  // both become 16 bits if one has been converted to them
+    for (const auto& reader : readers) reader->widen();
   }
 }
 
-static std::vector<RowReader> open_files(const std::string& path) {
-  std::vector<RowReader> readers;
+static Readers open_files(const std::string& path) {
+  Readers readers;
   if (!names_eye(path)) {
-    readers.emplace_back(path);
+    readers.push_back(open_rows(path));
     return readers;
   }
-  for (int eye : {kLeft, kRight}) readers.emplace_back(path_for_eye(path, eye));
+  for (int eye : {kLeft, kRight}) readers.push_back(open_rows(path_for_eye(path, eye)));
   check_pair(readers, path);
   return readers;
 }
 
-static void open_right_eye(std::vector<RowReader>& readers, const MemoryFile& file, const std::string& path) {
+static void open_right_eye(Readers& readers, const MemoryFile& file, const std::string& path) {
   try {
-    readers.emplace_back(file.path());
+    readers.push_back(open_rows(file.path()));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
     throw unreadable(path, "the JPEG of its right eye is damaged");
@@ -461,11 +462,11 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
 }
 
 StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
-  std::vector<RowReader> readers = open_files(path);
-  StereoFormat format = find_format(readers[0].info(), path, options.format);
+  Readers readers = open_files(path);
+  StereoFormat format = find_format(readers[0]->info(), path, options.format);
   const MemoryFile right(format.is_photo ? read_right_eye(path) : "");
   if (format.is_photo) open_right_eye(readers, right, path);
-  const FileInfo& info = readers[0].info();
+  const FileInfo& info = readers[0]->info();
   StoredPicture picture;
   picture.is_float = info.is_float;
   picture.layout = format.layout.layout.value_or(Layout::kSeparate);
@@ -474,8 +475,8 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.has_ipd = format.has_ipd;
   picture.guesses = std::move(format.guesses);
   if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
-  for (const RowReader& reader : readers) {
-    if (picture.color_fault.empty()) picture.color_fault = reader.info().color_fault;
+  for (const auto& reader : readers) {
+    if (picture.color_fault.empty()) picture.color_fault = reader->info().color_fault;
   }
   if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
   const auto parts = info.numbers.find("oiio:subimages");
@@ -486,7 +487,7 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);
   keep_common(shares, path, picture.guesses);
   picture.memory = make_room(shares, info, options);
-  for (RowReader& reader : readers) read_file(reader, shares, *picture.memory);
+  for (const auto& reader : readers) read_file(*reader, shares, *picture.memory);
   leave_out_unreadable(shares, path, picture.guesses);
   picture.memory->release();
   picture.eyes = make_eyes(shares, picture.layout, picture.size, format.eye);
