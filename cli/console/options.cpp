@@ -89,6 +89,13 @@ void Options::argument(const std::string& name, std::string& value, const std::s
   explain(name, "", text);
 }
 
+void Options::argument(const std::string& name, const std::function<void(const std::string&)>& set,
+                       const std::string& text) {
+  app_->add_option_function<std::string>(name, set)->required();
+  usage_ += " " + name;
+  explain(name, "", text);
+}
+
 void Options::optional_argument(const std::string& name, std::string& value, const std::string& text) {
   app_->add_option(name, value);
   usage_ += fmt::format(" [{}]", name);

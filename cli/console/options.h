@@ -28,6 +28,8 @@ class Options {
 
   // Words that are no options, in their order.
   void argument(const std::string& name, std::string& value, const std::string& text);
+  // The options that were added before it are set by then, those after it are not yet.
+  void argument(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& text);
   void optional_argument(const std::string& name, std::string& value, const std::string& text);
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "cli/console/interrupt.h"
+
 enum class ProgressMode {
   kAuto,      // the bar on a terminal, plain lines elsewhere
   kBar,       // one line that redraws itself
@@ -28,7 +30,7 @@ std::string_view progress_mode_name(ProgressMode mode);
 bool progress_is_for_farm(ProgressMode mode);
 
 // The last line on stderr of a job that a signal ends; a bar is taken off the screen.
-const char* interrupted_line(ProgressMode mode);
+LastWords interrupted_line(ProgressMode mode);
 
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);

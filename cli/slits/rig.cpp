@@ -95,7 +95,8 @@ void rig(int argc, char** argv) {
   job.slits.slits = job.count ? *job.count : ods::slits_for(file.camera, file.eye, job.slits, nearest, job.max_error);
   const std::string fault = slit_fault(file.camera, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);
-  const ods::SlitRig made = make_slit_rig(file.camera, file.eye, file.eyes, job.slits);
+  ods::SlitRig made = make_slit_rig(file.camera, file.eye, file.eyes, job.slits);
+  made.layout = file.layout;
   if (job.output.empty() || !console.quiet) print_plan(made, nearest);
   if (!job.output.empty()) write_rig(made, job.targets, job.output);
 }

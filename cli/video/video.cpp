@@ -87,7 +87,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
-  if (rig && !render.has_layout) job.render.save.layout = ods::default_layout(rig->camera.projection);
+  if (rig && !render.has_layout) job.render.save.layout = rig->layout;
   const ods::VideoPlan expected =
       rig ? expect_video(render.save.layout, rig->eyes.size(), rig->eye, rig->camera.projection)
           : expect_video(render.save.layout, ods::eye_list(render.render.eyes).size(),

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
-#include "ods/lint/match.h"
 
 namespace ods {
 
@@ -27,7 +27,7 @@ struct Cut {
 Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes) {
   Cut cut;
   cut.layout = layout;
-  const std::vector<View> views = make_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
+  const std::vector<GrayView> views = make_gray_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
   Search search;
   search.correlation = 0.7f;
   search.down = 0.04f;

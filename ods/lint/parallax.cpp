@@ -11,8 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
-#include "ods/lint/match.h"
 
 namespace ods {
 
@@ -245,7 +245,7 @@ static void check_waves(const Parallaxes& parallaxes, double upright, LintReport
 }
 
 // Share of the horizon.
-static double seen_around(const View& view) {
+static double seen_around(const GrayView& view) {
   const float* row = view.at(0, view.height / 2);
   return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;
 }
@@ -255,7 +255,8 @@ void check_parallax(const Subject& subject, LintReport& report) {
   std::vector<Matches> scales;
   double around = 0.0;
   for (int width : {256, 512, 1024}) {
-    const std::vector<View> views = make_views(subject.eyes, subject.projection(), subject.info.is_float, width);
+    const std::vector<GrayView> views =
+        make_gray_views(subject.eyes, subject.projection(), subject.info.is_float, width);
     scales.push_back(match_tiles(views[0], views[1], {}));
     add_matches(parallaxes, scales.back(), subject);
     around = seen_around(views[0]);

@@ -64,6 +64,11 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
 
 static FileFormat format_for(const std::string& path) {
   const std::optional<FileFormat> format = format_of_path(path);
+  std::error_code ignored;
+  if (path.ends_with('/') || (!format && std::filesystem::is_directory(path, ignored))) {
+    throw unfit(path, fmt::format("it is a folder: add the name of a file, as in '{}'",
+                                  (std::filesystem::path(path) / "picture.png").string()));
+  }
   if (!format) throw unfit(path, fmt::format("unknown extension; known are {}", known_extensions()));
   return *format;
 }

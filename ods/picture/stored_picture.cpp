@@ -362,8 +362,8 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   const ptrdiff_t width = share.reader->info().width;
   for (const Plane& plane : share.planes) {
     const ptrdiff_t pixel = static_cast<ptrdiff_t>(plane.pixel_size()), row = width * pixel;
-    eye.layers.push_back({plane.channels, plane.rule, plane.sample, plane.to + view.y * row + view.x * pixel, pixel,
-                          view.row_step * row});
+    const std::byte* first = plane.to != nullptr ? plane.to + view.y * row + view.x * pixel : nullptr;
+    eye.layers.push_back({plane.channels, plane.rule, plane.sample, first, pixel, view.row_step * row});
   }
   return eye;
 }
@@ -461,7 +461,7 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
   }
 }
 
-StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
+static StoredPicture open_picture(const std::string& path, const OpenOptions& options, bool with_pixels) {
   Readers readers = open_files(path);
   StereoFormat format = find_format(readers[0]->info(), path, options.format);
   const MemoryFile right(format.is_photo ? read_right_eye(path) : "");
@@ -486,12 +486,22 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.size = eye_size(picture, info, path);
   std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);
   keep_common(shares, path, picture.guesses);
-  picture.memory = make_room(shares, info, options);
-  for (const auto& reader : readers) read_file(*reader, shares, *picture.memory);
-  leave_out_unreadable(shares, path, picture.guesses);
-  picture.memory->release();
+  if (with_pixels) {
+    picture.memory = make_room(shares, info, options);
+    for (const auto& reader : readers) read_file(*reader, shares, *picture.memory);
+    leave_out_unreadable(shares, path, picture.guesses);
+    picture.memory->release();
+  }
   picture.eyes = make_eyes(shares, picture.layout, picture.size, format.eye);
   return picture;
+}
+
+StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
+  return open_picture(path, options, true);
+}
+
+StoredPicture open_picture_header(const std::string& path, const OpenOptions& options) {
+  return open_picture(path, options, false);
 }
 
 }  // namespace ods

@@ -53,6 +53,7 @@ struct SlitRig {
   // Of a rig that was read from a file: each view's matrix as it stands there, 16 numbers, row by row. `views` are the
   // same places and directions, but angles round them.
   std::vector<std::vector<float>> matrices;
+  Layout layout = default_layout(camera.projection);  // how the eyes of the picture share a file
 };
 
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);
