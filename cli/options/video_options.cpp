@@ -206,8 +206,8 @@ ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int th
 }
 
 ods::VideoPlan expect_video(Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection) {
-  const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
-  if (eyes == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
+  const ods::EyeArrangement shared = ods::arrangement_of(layout);
+  if (eyes == 2 && (!shared.is_halves() || shared.right_first)) {
     throw UsageError(
         fmt::format("a video's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
   }

@@ -102,7 +102,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   if (fades && !job.frames) throw UsageError("--fps and fades are for videos: --frames 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
-  job.save.tone = ods::ToneCurve::kLinear;               // a colour is shown as it is given
+  job.save.tone = ods::ToneCurve::kLinear;  // a colour is shown as it is given
   finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
   return true;

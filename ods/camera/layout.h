@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ods/base/extent.h"
+#include "ods/base/names.h"
 #include "ods/image/image.h"
 
 namespace ods {
@@ -28,12 +29,57 @@ enum class Layout {
   kMultiview,  // one EXR of the size of an eye; every eye has its own channels
 };
 
-// `top-bottom`, `side-by-side-half`, ...: the words of the command line.
-inline constexpr Layout kLayouts[] = {Layout::kTopBottom, Layout::kBottomTop,     Layout::kSideBySide,
-                                      Layout::kCrossEyed, Layout::kTopBottomHalf, Layout::kSideBySideHalf,
-                                      Layout::kSeparate,  Layout::kMultiview,     Layout::kRowInterleaved,
-                                      Layout::kAnaglyph,  Layout::kAnaglyphHalf,  Layout::kAnaglyphDubois};
-std::string_view layout_name(Layout layout);
+enum class EyePacking {
+  kStacked,  // one above the other
+  kBeside,
+  kRows,   // every other row
+  kMixed,  // every pixel has both: nobody can take them apart again
+  kAlone,  // each eye is an image of its own
+};
+
+// Where a layout puts its eyes. Code that needs to know asks this, instead of listing layouts.
+struct EyeArrangement {
+  EyePacking how = EyePacking::kAlone;
+  bool right_first = false;  // the right eye is on top or on the left
+  bool squeezed = false;     // to half the height (stacked) or width (beside)
+
+  // Each eye is one half of the file. This is all that videos and most other programs know.
+  constexpr bool is_halves() const { return how == EyePacking::kStacked || how == EyePacking::kBeside; }
+  bool operator==(const EyeArrangement&) const = default;
+};
+
+// The words of the command line, in the order of help texts.
+struct LayoutRow {
+  Layout member;
+  std::string_view name;
+  EyeArrangement eyes;
+};
+inline constexpr LayoutRow kLayoutTable[] = {
+    {Layout::kTopBottom, "top-bottom", {EyePacking::kStacked}},
+    {Layout::kBottomTop, "bottom-top", {EyePacking::kStacked, true}},
+    {Layout::kSideBySide, "side-by-side", {EyePacking::kBeside}},
+    {Layout::kCrossEyed, "cross-eyed", {EyePacking::kBeside, true}},
+    {Layout::kTopBottomHalf, "top-bottom-half", {EyePacking::kStacked, false, true}},
+    {Layout::kSideBySideHalf, "side-by-side-half", {EyePacking::kBeside, false, true}},
+    {Layout::kSeparate, "separate", {EyePacking::kAlone}},
+    {Layout::kMultiview, "multiview", {EyePacking::kAlone}},
+    {Layout::kRowInterleaved, "row-interleaved", {EyePacking::kRows}},
+    {Layout::kAnaglyph, "anaglyph", {EyePacking::kMixed}},
+    {Layout::kAnaglyphHalf, "anaglyph-half", {EyePacking::kMixed}},
+    {Layout::kAnaglyphDubois, "anaglyph-dubois", {EyePacking::kMixed}},
+};
+static_assert(has_every_member(kLayoutTable));
+inline constexpr auto kLayouts = members_of(kLayoutTable);
+constexpr std::string_view layout_name(Layout layout) {
+  return name_in(kLayoutTable, layout);
+}
+constexpr EyeArrangement arrangement_of(Layout layout) {
+  return row_in(kLayoutTable, layout).eyes;
+}
+
+// The first layout with this arrangement; kSeparate of eyes that are alone. None: no layout has it, such as squeezed
+// with the right eye first.
+std::optional<Layout> layout_with(const EyeArrangement& eyes);
 
 struct ProjectionSetting;
 
@@ -55,7 +101,7 @@ const std::vector<LayoutAlias>& layout_aliases();
 // By name or alias, in capitals or not.
 std::optional<Layout> layout_of(std::string_view word);
 
-// Both eyes are in every pixel, as a display shows them: nobody can take them apart again.
+// Both eyes are in every pixel, as a display shows them.
 bool is_anaglyph(Layout layout);
 
 // How many columns and rows of an eye become one of the file: 2x1 and 1x2 for the halves, 1x1 for all others and for a
@@ -78,6 +124,14 @@ std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
 // The size of either eye in a packed image; nothing when an image of that size cannot be of this layout. Squeezed eyes
 // stay as they are stored. Precondition: not an anaglyph.
 std::optional<Extent> unpacked_size(Layout layout, Extent packed);
+
+// Where an eye begins in a packed image. `eye` is the size of either, `index` 0 for the left or the only one.
+// Precondition: is_halves() or kAlone.
+struct EyeCorner {
+  int x = 0;
+  int y = 0;
+};
+EyeCorner eye_corner(Layout layout, Extent eye, int index);
 
 // The eyes of a packed image, left and right, bit for bit. kSeparate and kMultiview: the image itself, as it is one
 // eye. Precondition: unpacked_size() has a value.

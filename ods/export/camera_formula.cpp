@@ -84,18 +84,18 @@ class Writer {
       place = step(name, select(second_half, 2.0 * place, 2.0 * place - 1.0));
     };
     if (file_.eyes.size() == 2) {
-      switch (file_.layout) {
-        case Layout::kTopBottom:
-        case Layout::kTopBottomHalf:
-          return share("eye_v", eye_v_, -1.0);
-        case Layout::kBottomTop:
-          return share("eye_v", eye_v_, 1.0);
-        case Layout::kSideBySide:
-        case Layout::kSideBySideHalf:
-          return share("eye_u", eye_u_, -1.0);
-        case Layout::kCrossEyed:
-          return share("eye_u", eye_u_, 1.0);
-        default:
+      const EyeArrangement eyes = arrangement_of(file_.layout);
+      const double first = eyes.right_first ? 1.0 : -1.0;
+      switch (eyes.how) {
+        case EyePacking::kStacked:
+          return share("eye_v", eye_v_, first);
+        case EyePacking::kBeside:
+          return share("eye_u", eye_u_, first);
+        case EyePacking::kRows:
+        case EyePacking::kMixed:
+          assert(false);  // formula_fault() refuses them
+          break;
+        case EyePacking::kAlone:
           break;
       }
     }
@@ -325,8 +325,8 @@ class Writer {
 std::string formula_fault(const Sidecar& file) {
   const StereoCamera& stereo = file.camera;
   if (stereo.top.mode == kMergeMap || stereo.bottom.mode == kMergeMap) return "a merge map is no formula";
-  const bool mixed = file.layout == Layout::kRowInterleaved || is_anaglyph(file.layout);
-  if (file.eyes.size() == 2 && mixed) {
+  const EyeArrangement eyes = arrangement_of(file.layout);
+  if (file.eyes.size() == 2 && !eyes.is_halves() && eyes.how != EyePacking::kAlone) {
     return fmt::format("{} mixes the eyes in a way that is no formula of the image position; export top-bottom",
                        layout_name(file.layout));
   }

@@ -80,6 +80,27 @@ TEST(Layout, EveryEyeIsWhereItsLayoutSays) {
   }
 }
 
+// eye_corner() and packed_row() say the same, each in its own way.
+TEST(Layout, HalvesBeginWhereTheirRowsDo) {
+  const Extent eye{4, 2};
+  for (Layout layout : kLayouts) {
+    const EyeArrangement eyes = arrangement_of(layout);
+    if (!eyes.is_halves()) continue;
+    EXPECT_EQ(layout_with(eyes), layout) << layout_name(layout);
+    for (int y = 0; y < packed_size(layout, eye, 2).height; y++) {
+      int x = 0;
+      for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
+        const EyeCorner corner = eye_corner(layout, eye, part.index);
+        EXPECT_EQ(corner.x, x) << layout_name(layout);
+        EXPECT_EQ(corner.y, y - part.y) << layout_name(layout);
+        x += eye.width;
+      }
+    }
+  }
+  EXPECT_EQ(layout_with({EyePacking::kAlone}), Layout::kSeparate);
+  EXPECT_EQ(layout_with({EyePacking::kStacked, true, true}), std::nullopt);
+}
+
 TEST(Layout, HalvesHaveTheSizeOfAnEye) {
   for (Layout layout : {Layout::kTopBottomHalf, Layout::kSideBySideHalf}) {
     const Extent squeeze = squeeze_of(layout, 2);

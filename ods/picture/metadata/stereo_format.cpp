@@ -22,7 +22,8 @@ namespace ods {
 // --- the name --------------------------------------------------------------------------------------------------------
 
 static bool is_packing(Layout layout) {
-  return !is_anaglyph(layout) && layout != Layout::kSeparate && layout != Layout::kMultiview;
+  const EyePacking how = arrangement_of(layout).how;
+  return how != EyePacking::kMixed && how != EyePacking::kAlone;
 }
 
 // Words that stand behind the others: frame numbers, fields of view.

@@ -13,6 +13,34 @@
 
 namespace ods {
 
+EyeArrangement arrangement_of(VideoStereo stereo) {
+  switch (stereo) {
+    case VideoStereo::kOneView:
+      return {EyePacking::kAlone};
+    case VideoStereo::kTopBottom:
+      return {EyePacking::kStacked};
+    case VideoStereo::kBottomTop:
+      return {EyePacking::kStacked, true};
+    case VideoStereo::kSideBySide:
+      return {EyePacking::kBeside};
+    case VideoStereo::kRightLeft:
+      return {EyePacking::kBeside, true};
+    case VideoStereo::kCustom:
+    case VideoStereo::kOther:
+      break;
+  }
+  return {EyePacking::kMixed};
+}
+
+std::optional<VideoStereo> stereo_with(EyeArrangement eyes) {
+  if (eyes.how == EyePacking::kMixed) return std::nullopt;
+  eyes.squeezed = false;
+  for (const VideoStereo stereo : kVideoStereos) {
+    if (arrangement_of(stereo) == eyes) return stereo;
+  }
+  return std::nullopt;
+}
+
 std::string_view stereo_name(VideoStereo stereo) {
   switch (stereo) {
     case VideoStereo::kOneView:

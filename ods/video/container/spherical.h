@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "ods/camera/layout.h"
 #include "ods/video/container/boxes.h"
 
 namespace ods {
@@ -27,7 +28,9 @@ enum class VideoStereo {
 inline constexpr VideoStereo kVideoStereos[] = {
     VideoStereo::kOneView,   VideoStereo::kTopBottom, VideoStereo::kSideBySide, VideoStereo::kCustom,
     VideoStereo::kRightLeft, VideoStereo::kBottomTop, VideoStereo::kOther};
-std::string_view stereo_name(VideoStereo stereo);  // by the names of layout.h: a kRightLeft is cross-eyed
+EyeArrangement arrangement_of(VideoStereo stereo);            // kMixed: kCustom and kOther, in ways unknown to us
+std::optional<VideoStereo> stereo_with(EyeArrangement eyes);  // squeezed or not; none: videos have no word for it
+std::string_view stereo_name(VideoStereo stereo);             // by the names of layout.h: a kRightLeft is cross-eyed
 
 enum class VideoProjection {
   kFlat,
