@@ -24,19 +24,19 @@ constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"bac
                            {"left", -90.0f, 0.0f}, {"up", 0.0f, 90.0f},    {"down", 0.0f, -90.0f}};
 
 // An option that a projection has no use for would otherwise be lost without a word.
-void expect(bool useful, const char* option, const char* owners, const ProjectionSetting& projection) {
+void expect(bool useful, const char* option, const std::string& owners, const ProjectionSetting& projection) {
   if (useful) return;
   throw UsageError(
       fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
 }
 
 void expect_lens(const char* option, const ProjectionSetting& projection) {
-  expect(ods::has_lens(projection.kind), option, "fisheye and perspective", projection);
+  expect(ods::has_lens(projection.kind), option, ods::kinds_with(ods::has_lens), projection);
 }
 
 // LON0,LON1[,LAT0,LAT1]
 void parse_range(const std::string& text, ProjectionSetting& projection) {
-  expect(ods::has_range(projection.kind), "--range", "lat-long and cylinder", projection);
+  expect(ods::has_range(projection.kind), "--range", ods::kinds_with(ods::has_range), projection);
   const std::vector<float> numbers = parse_numbers(text);
   if (numbers.size() != 2 && numbers.size() != 4) {
     throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));

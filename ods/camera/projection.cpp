@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/camera/projection.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/camera_fields.h"
 
 namespace ods {
@@ -118,63 +123,86 @@ std::string projection_fault(const ProjectionSetting& setting) {
   return has_lens(setting.kind) ? lens_fault(setting) : "";
 }
 
-// Kinds are numbers, which GLSL reads too: no compiler sees that a switch leaves one out.
-static_assert(kProjectionCount == 9, "a new projection needs its name, shape and sharpness in this file");
+// --- what each kind is like ------------------------------------------------------------------------------------------
 
-static double tangent(float degrees) {
+namespace {
+
+double tangent(float degrees) {
   return std::tan(glm::radians(static_cast<double>(degrees)));
 }
 
+double turn_of(const ProjectionSetting& setting) {
+  return glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
+}
+
+double fov_of(const ProjectionSetting& setting) {
+  return glm::radians(static_cast<double>(setting.fov));
+}
+
+using Setting = const ProjectionSetting&;
+
+// One row per kind of ods/kernel/camera/projection.h.
+struct KindRow {
+  int member;
+  std::string_view name;                               // of the kind, for messages
+  double (*aspect)(Setting);                           // width over height of a picture in its true shape
+  double (*pixels_per_radian)(Setting, double width);  // in the middle, from left to right
+};
+
+double square(Setting) {
+  return 1.0;
+}
+
+double turn_pixels(Setting setting, double width) {
+  return width / turn_of(setting);
+}
+
+double face_pixels(Setting setting, double width) {
+  return width / cube_columns(setting.kind) / 2.0;
+}
+
+double lat_long_aspect(Setting setting) {
+  return turn_of(setting) / glm::radians(static_cast<double>(setting.latitude.y - setting.latitude.x));
+}
+
+double cylinder_aspect(Setting setting) {
+  return turn_of(setting) / (tangent(setting.latitude.y) - tangent(setting.latitude.x));
+}
+
+constexpr KindRow kKinds[] = {
+    {kLatLong, "lat-long", lat_long_aspect, turn_pixels},
+    {kCylinder, "cylinder", cylinder_aspect, turn_pixels},
+    {kFisheye, "fisheye", square, [](Setting s, double width) { return width / fov_of(s); }},
+    {kFisheyeEquisolid, "fisheye-equisolid", square,
+     [](Setting s, double width) { return width / (4.0 * std::sin(fov_of(s) / 4.0)); }},
+    {kPerspective, "perspective", [](Setting s) { return static_cast<double>(s.aspect); },
+     [](Setting s, double width) { return width / (2.0 * std::tan(fov_of(s) / 2.0)); }},
+    {kCube3x2, "cube-3x2", [](Setting) { return 1.5; }, face_pixels},
+    {kCube6x1, "cube-6x1", [](Setting) { return 6.0; }, face_pixels},
+    {kCube1x6, "cube-1x6", [](Setting) { return 1.0 / 6.0; }, face_pixels},
+    {kEac, "eac", [](Setting) { return 1.5; },
+     [](Setting, double width) { return width / 3.0 * (2.0 / static_cast<double>(kPi)); }},
+};
+static_assert(has_each_of(kKinds, kProjectionCount), "a new projection needs its row");
+
+}  // namespace
+
 int natural_height(const ProjectionSetting& setting, int width) {
-  const double turn = glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
-  double aspect = 1.0;
-  switch (setting.kind) {
-    case kLatLong:
-      aspect = turn / glm::radians(static_cast<double>(setting.latitude.y - setting.latitude.x));
-      break;
-    case kCylinder:
-      aspect = turn / (tangent(setting.latitude.y) - tangent(setting.latitude.x));
-      break;
-    case kPerspective:
-      aspect = static_cast<double>(setting.aspect);
-      break;
-    case kCube3x2:
-    case kEac:
-      aspect = 1.5;
-      break;
-    case kCube6x1:
-      aspect = 6.0;
-      break;
-    case kCube1x6:
-      aspect = 1.0 / 6.0;
-      break;
-    case kFisheye:
-    case kFisheyeEquisolid:
-      break;
-  }
-  return std::max(1, static_cast<int>(std::lround(width / aspect)));
+  return std::max(1, static_cast<int>(std::lround(width / row_in(kKinds, setting.kind).aspect(setting))));
 }
 
 double pixels_per_radian(const ProjectionSetting& setting, double width) {
-  const double fov = glm::radians(static_cast<double>(setting.fov));
-  switch (setting.kind) {
-    case kLatLong:
-    case kCylinder:
-      return width / glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
-    case kFisheye:
-      return width / fov;
-    case kFisheyeEquisolid:
-      return width / (4.0 * std::sin(fov / 4.0));
-    case kPerspective:
-      return width / (2.0 * std::tan(fov / 2.0));
-    case kEac:
-      return width / 3.0 * (2.0 / static_cast<double>(kPi));
-    case kCube3x2:
-    case kCube6x1:
-    case kCube1x6:
-      break;
+  return row_in(kKinds, setting.kind).pixels_per_radian(setting, width);
+}
+
+std::string kinds_with(bool (*trait)(int kind)) {
+  std::vector<std::string_view> names;
+  for (const KindRow& row : kKinds) {
+    if (trait(row.member)) names.push_back(row.name);
   }
-  return width / cube_columns(setting.kind) / 2.0;
+  const std::string last = names.size() > 1 ? fmt::format(" and {}", names.back()) : "";
+  if (!last.empty()) names.pop_back();
+  return fmt::format("{}{}", fmt::join(names, ", "), last);
 }
 
 int width_step(const ProjectionSetting& setting) {

@@ -39,6 +39,9 @@ const NamedProjection* find_projection(std::string_view name);
 // The name of a setting: the first whose kind fits and whose numbers are its defaults, else the first of the kind.
 std::string_view projection_name(const ProjectionSetting& setting);
 
+// The kinds that are of a family, such as has_lens, in words for a message: "fisheye and perspective".
+std::string kinds_with(bool (*trait)(int kind));
+
 // Whether a setting is the whole sphere in lat-long, which players know without being told more.
 bool is_full_lat_long(const ProjectionSetting& setting);
 

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "ods/base/decimal.h"
 
@@ -32,6 +34,27 @@ Vector combine(const std::array<glm::dvec3, 3>& columns, const Vector& v) {
     }
   }
   return result;
+}
+
+// What a merge leaves of the circle at t, before its exponent: the curves of ods/kernel/camera/merge.h.
+struct MergeCurve {
+  int mode;
+  Formula (*left)(const Formula& t);
+};
+const MergeCurve kMergeCurves[] = {
+    {kMergeLinear, [](const Formula& t) { return 1.0 - t; }},
+    {kMergeCosine, [](const Formula& t) { return max(cos(kExactPi / 2.0 * t), 0.0); }},
+    {kMergeSmoothstep, [](const Formula& t) { return 1.0 - t * t * (3.0 - 2.0 * t); }},
+    {kMergeGaussian, [](const Formula& t) { return (exp(-(t * t)) - std::exp(-1.0)) / (1.0 - std::exp(-1.0)); }},
+    {kMergeTiltBrush, [](const Formula& t) { return 1.0 - sin(t / (2.0 * kExactPi)); }},
+};
+static_assert(std::size(kMergeCurves) == kMergeCount - 3, "a new merge needs its curve; none, power and map have none");
+
+Formula merge_curve(int mode, const Formula& t) {
+  const MergeCurve* curve = std::find_if(std::begin(kMergeCurves), std::end(kMergeCurves),
+                                         [&](const MergeCurve& each) { return each.mode == mode; });
+  assert(curve != std::end(kMergeCurves));
+  return curve->left(t);
 }
 
 class Writer {
@@ -161,6 +184,7 @@ class Writer {
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
+    assert(is_fisheye(setting_.kind));
     const Formula angle = step(
         "from_axis", setting_.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
@@ -239,11 +263,7 @@ class Writer {
     const Formula elevation = 180.0 / kExactPi * abs(phi_);
     const Formula t = step(pole + "merge_t", min(max((elevation - start) / (end - start), 0.0), 1.0));
     if (merge.mode == kMergePower) return 1.0 - pow(t, merge_exponent(merge, pole));
-    Formula left = 1.0 - t;
-    if (merge.mode == kMergeCosine) left = max(cos(kExactPi / 2.0 * t), 0.0);
-    if (merge.mode == kMergeSmoothstep) left = 1.0 - t * t * (3.0 - 2.0 * t);
-    if (merge.mode == kMergeGaussian) left = (exp(-(t * t)) - std::exp(-1.0)) / (1.0 - std::exp(-1.0));
-    if (merge.mode == kMergeTiltBrush) left = 1.0 - sin(t / (2.0 * kExactPi));
+    const Formula left = merge_curve(merge.mode, t);
     return merge.exponent == 1.0f ? left : pow(max(left, 0.0), merge_exponent(merge, pole));
   }
 

@@ -12,6 +12,7 @@
 #include "ods/camera/camera_preset.h"
 #include "ods/picture/metadata/metadata.h"
 #include "ods/picture/metadata/sidecar.h"
+#include "tests/support/exact_camera.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
@@ -141,7 +142,7 @@ TEST(CameraFields, RandomCamerasComeBack) {
         *number = range.least + (range.most - range.least) * std::pow(share, power);
       }
     }
-    camera.top.mode = static_cast<int>(dice.next() * 6.99f);  // but for maps, which only a sidecar holds
+    camera.top.mode = any_closed_merge(dice);  // but for maps, which only a sidecar holds
     camera.convergence = kConvergences[i % 3];
     camera.mirrored = i % 5 == 0;
     if (!camera_fault(camera).empty()) continue;

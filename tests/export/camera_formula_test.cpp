@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "ods/export/camera_export.h"
+#include "tests/support/exact_camera.h"
 #include "tests/support/formula_reader.h"
 #include "tests/support/statistics.h"
 
@@ -46,11 +47,11 @@ EyePlace eye_place(const Sidecar& file, vec2 uv) {
 // Too near to the edge of a cell or of an image circle for float and double to agree about the side.
 bool on_an_edge(const ProjectionSetting& setting, vec2 uv) {
   const auto near_whole = [](float x) { return std::abs(x - std::round(x)) < 1e-4f; };
-  if (setting.kind >= kCube3x2) {
+  if (is_cube(setting.kind)) {
     const int columns = cube_columns(setting.kind);
     return near_whole(uv.x * static_cast<float>(columns)) || near_whole(uv.y * static_cast<float>(6 / columns));
   }
-  if (setting.kind != kFisheye && setting.kind != kFisheyeEquisolid) return false;
+  if (!has_image_circle(setting.kind)) return false;
   return std::abs(length(2.0f * uv - 1.0f) - 1.0f) < 1e-4f;
 }
 
@@ -123,8 +124,7 @@ PoleMergeSetting merge_of_mode(Dice& dice, int mode) {
 // 1e-6, and what the kernel's own floats add at worst.
 constexpr double kTolerance = 1.2e-6;
 
-constexpr int kClosedMerges[] = {kMergeNone,     kMergeLinear, kMergeCosine,   kMergeSmoothstep,
-                                 kMergeGaussian, kMergePower,  kMergeTiltBrush};
+const std::vector<int> kClosedMerges = closed_merges();
 
 struct Packing {
   Layout layout;
@@ -163,7 +163,8 @@ void for_every_camera(Dice& dice, const Check& check) {
             file.camera.projection = named.setting;
             file.camera.convergence = convergence, file.camera.neck = neck;
             file.camera.top = merge_of_mode(dice, mode);
-            file.camera.bottom = dice.next() < 0.5f ? file.camera.top : merge_of_mode(dice, kClosedMerges[turn % 7]);
+            file.camera.bottom =
+                dice.next() < 0.5f ? file.camera.top : merge_of_mode(dice, kClosedMerges[turn % kClosedMerges.size()]);
             check(file, name_of(named, convergence, neck, pose, mode, packing));
           }
         }

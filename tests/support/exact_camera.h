@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "ods/camera/stereo_camera.h"
+#include "tests/support/statistics.h"
 
 namespace ods {
 
@@ -16,6 +18,18 @@ inline const double kExactPi = std::numbers::pi;
 struct ExactRay {
   glm::dvec3 origin, direction;
 };
+
+// The merges that are functions of the elevation: all but maps.
+inline std::vector<int> closed_merges() {
+  std::vector<int> merges(kMerges.begin(), kMerges.end());
+  std::erase(merges, kMergeMap);
+  return merges;
+}
+
+inline int any_closed_merge(Dice& dice) {
+  const std::vector<int> merges = closed_merges();
+  return merges[static_cast<size_t>(dice.next() * static_cast<float>(merges.size())) % merges.size()];
+}
 
 // phi: radians above the horizon or below it.
 inline double exact_factor(const PoleMergeSetting& merge, double phi) {

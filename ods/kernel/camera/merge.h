@@ -19,6 +19,7 @@ const int kMergeGaussian = 4;   // eVRydayVR
 const int kMergePower = 5;      // Mandelbulber: 1 - t^exponent
 const int kMergeTiltBrush = 6;  // Google's Unity kit: never below 0.84
 const int kMergeMap = 7;        // a lat-long picture: the VR camera for Arnold's shader mode
+const int kMergeCount = 8;
 
 // Elevations in radians from the horizon towards the pole, start < end. t runs 0..1 between them.
 struct PoleMerge {

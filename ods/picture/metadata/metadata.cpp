@@ -138,11 +138,9 @@ static void read_projection(AttributeReader& in, const std::string& name, Projec
 
 static void read_extras(AttributeReader& in, StereoCamera& camera) {
   if (const auto word = in.word("ods:convergence")) {
-    bool known = false;
-    for (int convergence : kConvergences) {
-      if (*word == convergence_name(convergence)) camera.convergence = convergence, known = true;
-    }
-    if (!known) in.refuse("ods:convergence");
+    const std::optional<int> convergence = find_in(kConvergenceTable, *word);
+    if (convergence) camera.convergence = *convergence;
+    if (!convergence) in.refuse("ods:convergence");
   }
   in.number("ods:convergenceDistance", camera.convergence_distance, CameraField::kConvergenceDistance);
   in.number("ods:neck", camera.neck, CameraField::kNeck);

@@ -108,11 +108,9 @@ void read_projection(JsonReader& in, ProjectionSetting& setting) {
 
 void read_convergence(JsonReader& in, StereoCamera& camera) {
   const std::string mode = in.word("mode");
-  bool known = mode.empty();
-  for (int convergence : kConvergences) {
-    if (mode == convergence_name(convergence)) camera.convergence = convergence, known = true;
-  }
-  if (!known) in.fail("mode", fmt::format("is no convergence '{}'", mode));
+  const std::optional<int> convergence = find_in(kConvergenceTable, mode);
+  if (convergence) camera.convergence = *convergence;
+  if (!convergence && !mode.empty()) in.fail("mode", fmt::format("is no convergence '{}'", mode));
   read_number(in, "distance", camera.convergence_distance, CameraField::kConvergenceDistance);
 }
 

@@ -164,7 +164,7 @@ static bool may_be_called(const SphericalMetadata& metadata, const ProjectionSet
   if (metadata.projection == VideoProjection::kFlat) return false;
   const bool is_part = called.kind == kLatLong && called.longitude.y - called.longitude.x < 270.0f;
   if (metadata.projection == VideoProjection::kCubemap)
-    return called.kind >= kCube3x2 || (called.kind == kLatLong && !is_part);
+    return is_cube(called.kind) || (called.kind == kLatLong && !is_part);
   return called.kind == kLatLong && is_wide != is_part;
 }
 

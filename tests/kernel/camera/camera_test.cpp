@@ -13,7 +13,7 @@ namespace ods {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-const int kModes[] = {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep};
+const std::vector<int> kModes = closed_merges();
 const int kEyes[] = {kLeft, kRight, kMono};
 
 // The camera once more, in double precision and from the definitions alone.

@@ -116,7 +116,7 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
     const Projection projection = make_projection(setting);
     for (int i = 0; i < 10000; i++) {
       const vec2 uv = dice.pair();
-      if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
+      if (has_image_circle(setting.kind) && !in_circle(uv)) continue;
       const ViewDirection look = look_of(projection, uv, uv);
       const dvec3 exact = normalize(exact_direction(setting, uv));
       ASSERT_TRUE(look.seen);
@@ -151,7 +151,7 @@ TEST(Projections, KnowWhatTheyDoNotSee) {
       ASSERT_LT(angle_between(direction, exact_direction(setting, place.uv)), 3e-6) << projection_name(setting);
     }
     EXPECT_GT(seen, 20) << projection_name(setting);
-    const bool all = setting.kind >= kCube3x2 || is_full_lat_long(setting);
+    const bool all = is_cube(setting.kind) || is_full_lat_long(setting);
     EXPECT_EQ(seen == 10000, all) << projection_name(setting);
   }
   const Projection half = make_projection(find_projection("vr180")->setting);
@@ -165,7 +165,8 @@ TEST(Projections, KnowWhatTheyDoNotSee) {
 
 // A pixel filter reaches over a face's edge: the face goes on there, the neighbour in the picture does not matter.
 TEST(Projections, FacesGoOnBeyondTheirCells) {
-  for (int kind : {kCube3x2, kCube6x1, kCube1x6, kEac}) {
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    if (!is_cube(kind)) continue;
     ProjectionSetting setting;
     setting.kind = kind;
     const Projection projection = make_projection(setting);
@@ -184,7 +185,8 @@ TEST(Projections, FacesGoOnBeyondTheirCells) {
 
 // Seen from inside, no face is mirrored; and in the rows that players show as strips, neighbours share an edge.
 TEST(Projections, FacesAreSeenFromInside) {
-  for (int kind : {kCube3x2, kCube6x1, kCube1x6, kEac}) {
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    if (!is_cube(kind)) continue;
     for (int cell = 0; cell < 6; cell++) {
       const CubeFace face = cube_cell(kind, cell);
       EXPECT_EQ(cross(face.right, face.top), -face.middle) << kind << ' ' << cell;
@@ -251,8 +253,8 @@ StereoCamera odd_rig(Dice& dice, const ProjectionSetting& setting, int convergen
   if (dice.next() < 0.5f) stereo.neck = dice.between(0.0f, 0.1f);
   if (dice.next() < 0.5f) stereo.axis = vec3(0.0f, 2.0f, 0.0f);
   stereo.mirrored = dice.next() < 0.3f;
-  stereo.top.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
-  stereo.bottom.mode = kMerges[static_cast<int>(dice.between(0.0f, 6.99f))];
+  stereo.top.mode = any_closed_merge(dice);
+  stereo.bottom.mode = any_closed_merge(dice);
   stereo.top.start = 20.0f, stereo.bottom.start = 0.0f;
   if (dice.next() < 0.5f) stereo.bottom.exponent = 2.0f;
   return stereo;
@@ -289,7 +291,7 @@ TEST(Cameras, AgreeWithTheirTwinThroughEveryProjection) {
       const Camera camera = make_camera(stereo);
       for (int i = 0; i < 500; i++) {
         const vec2 uv = dice.pair();
-        if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
+        if (has_image_circle(setting.kind) && !in_circle(uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
         const ExactRay exact = exact_ray(stereo, camera, double{eye_side(eye)}, uv);
@@ -312,7 +314,7 @@ TEST(Cameras, FindTheRayThatMeetsAPointThroughEveryProjection) {
       const Camera camera = make_camera(stereo);
       for (int i = 0; i < 300; i++) {
         const vec2 uv = dice.pair();
-        if (is_fisheye(setting.kind) && !in_circle(uv)) continue;
+        if (has_image_circle(setting.kind) && !in_circle(uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
         const vec3 a = stereo.axis ? vec3(0, 1, 0) : camera.up;
