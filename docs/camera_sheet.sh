@@ -43,11 +43,11 @@ tile "--eyes mono" --eyes mono --width 480
 sheet 4x3 layouts.jpg
 
 # Straight down at the floor's grid, where a merge shows most: red-cyan, with eyes far apart.
-for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 gaussian,0,90 power,0,90,10 \
+for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 smootherstep,30,90 gaussian,0,90 power,0,90,10 \
   tilt-brush,0,72; do
   tile "$merge" --layout anaglyph --projection fisheye --lens-direction 0,-90 --ipd 0.4 --merge "$merge" --width 320
 done
-sheet 4x2 merges.jpg
+sheet 3x3 merges.jpg
 
 # Ahead and a little down, red-cyan, eyes 20 cm apart where nothing else is said.
 window="--layout anaglyph --projection perspective --fov 80 --lens-direction 0,-15 --width 320"

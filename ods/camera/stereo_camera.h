@@ -33,6 +33,7 @@ inline constexpr NameRow<int> kMergeTable[] = {
     {kMergeLinear, "linear"},
     {kMergeCosine, "cosine"},
     {kMergeSmoothstep, "smoothstep"},
+    {kMergeSmootherstep, "smootherstep"},
     {kMergeGaussian, "gaussian"},
     {kMergePower, "power"},
     {kMergeTiltBrush, "tilt-brush"},

@@ -45,6 +45,7 @@ const MergeCurve kMergeCurves[] = {
     {kMergeLinear, [](const Formula& t) { return 1.0 - t; }},
     {kMergeCosine, [](const Formula& t) { return max(cos(kExactPi / 2.0 * t), 0.0); }},
     {kMergeSmoothstep, [](const Formula& t) { return 1.0 - t * t * (3.0 - 2.0 * t); }},
+    {kMergeSmootherstep, [](const Formula& t) { return 1.0 - t * t * t * (t * (6.0 * t - 15.0) + 10.0); }},
     {kMergeGaussian, [](const Formula& t) { return (exp(-(t * t)) - std::exp(-1.0)) / (1.0 - std::exp(-1.0)); }},
     {kMergeTiltBrush, [](const Formula& t) { return 1.0 - sin(t / (2.0 * kExactPi)); }},
 };

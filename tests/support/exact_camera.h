@@ -40,6 +40,7 @@ inline double exact_factor(const PoleMergeSetting& merge, double phi) {
   if (merge.mode == kMergePower) return 1.0 - std::pow(t, double{merge.exponent});
   if (merge.mode == kMergeCosine) left = std::max(std::cos(t * kExactPi / 2.0), 0.0);
   if (merge.mode == kMergeSmoothstep) left = 1.0 - t * t * (3.0 - 2.0 * t);
+  if (merge.mode == kMergeSmootherstep) left = 1.0 - t * t * t * (10.0 + t * (-15.0 + t * 6.0));
   if (merge.mode == kMergeGaussian) left = (std::exp(-t * t) - 0.36787944117144233) / 0.63212055882855767;
   if (merge.mode == kMergeTiltBrush) left = 1.0 - std::sin(t / (2.0 * kExactPi));
   return std::pow(left, double{merge.exponent});
