@@ -34,13 +34,13 @@ done
 tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
 sheet 4x3 projections.jpg
 
-for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved anaglyph \
-  anaglyph-half anaglyph-dubois; do
+for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved \
+  column-interleaved checkerboard anaglyph anaglyph-half anaglyph-dubois; do
   tile $name --layout $name --width 480
 done
 tile "--eyes left" --eyes left --width 480
 tile "--eyes mono" --eyes mono --width 480
-sheet 4x3 layouts.jpg
+sheet 5x3 layouts.jpg
 
 # Straight down at the floor's grid, where a merge shows most: red-cyan, with eyes far apart.
 for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 smootherstep,30,90 gaussian,0,90 power,0,90,10 \

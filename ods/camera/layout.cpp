@@ -65,7 +65,9 @@ static Extent cuts_of(EyePacking how, int eye_count) {
     case EyePacking::kRows:
       return {1, eye_count};
     case EyePacking::kBeside:
+    case EyePacking::kColumns:
       return {eye_count, 1};
+    case EyePacking::kCheckerboard:
     case EyePacking::kMixed:
     case EyePacking::kAlone:
       break;
@@ -94,11 +96,18 @@ std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y) 
     case EyePacking::kRows:
       return {{y % 2, y / 2}};
     case EyePacking::kBeside:
+      return {{first, y}, {1 - first, y, eye.width}};
+    case EyePacking::kColumns:
+      return {{0, y, 0, 2}, {1, y, 1, 2}};
+    case EyePacking::kCheckerboard: {
+      const int left = y % 2, right = 1 - left;
+      return {{0, y, left, 2, left, 2}, {1, y, right, 2, right, 2}};
+    }
     case EyePacking::kMixed:
     case EyePacking::kAlone:
       break;
   }
-  return {{first, y}, {1 - first, y}};
+  return {{0, y}, {1, y}};
 }
 
 EyeCorner eye_corner(Layout layout, Extent eye, int index) {
@@ -110,6 +119,8 @@ EyeCorner eye_corner(Layout layout, Extent eye, int index) {
     case EyePacking::kBeside:
       return {place * eye.width, 0};
     case EyePacking::kRows:
+    case EyePacking::kColumns:
+    case EyePacking::kCheckerboard:
     case EyePacking::kMixed:
       assert(false);
       break;
@@ -123,7 +134,34 @@ std::optional<Extent> unpacked_size(Layout layout, Extent packed) {
   assert(!is_anaglyph(layout));
   const Extent cuts = cuts_of(arrangement_of(layout).how, 2);
   if (packed.width % cuts.width != 0 || packed.height % cuts.height != 0) return std::nullopt;
+  const bool too_small = packed.width == 1 && packed.height == 1;  // the right eye would have no pixel at all
+  if (arrangement_of(layout).how == EyePacking::kCheckerboard && too_small) return std::nullopt;
   return Extent{packed.width / cuts.width, packed.height / cuts.height};
+}
+
+Neighbours neighbours_of(int x, int y, Extent eye) {
+  Neighbours found;
+  const auto add = [&](int nx, int ny) {
+    if (nx < 0 || ny < 0 || nx >= eye.width || ny >= eye.height) return;
+    found.x[found.count] = nx, found.y[found.count] = ny;
+    found.count++;
+  };
+  add(x, y - 1), add(x - 1, y), add(x + 1, y), add(x, y + 1);
+  return found;
+}
+
+static void fill_left_out(Image& eye, int index) {
+  for (int y = 0; y < eye.height; y++) {
+    for (int x = 0; x < eye.width; x++) {
+      if (!is_left_out(index, x, y)) continue;
+      const Neighbours from = neighbours_of(x, y, {eye.width, eye.height});
+      for (int c = 0; c < eye.channels; c++) {
+        float sum = 0.0f;
+        for (int i = 0; i < from.count; i++) sum += eye.at(from.x[i], from.y[i])[c];
+        eye.at(x, y)[c] = sum / static_cast<float>(from.count);
+      }
+    }
+  }
 }
 
 std::vector<Image> unpack(Layout layout, const Image& packed) {
@@ -131,13 +169,15 @@ std::vector<Image> unpack(Layout layout, const Image& packed) {
   const Extent eye = *unpacked_size(layout, {packed.width, packed.height});
   std::vector<Image> eyes(2, Image(eye.width, eye.height, packed.channels));
   for (int y = 0; y < packed.height; y++) {
-    int x = 0;
     for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
-      const float* in = packed.at(x, y);
-      std::copy(in, in + eye.width * packed.channels, eyes[static_cast<size_t>(part.index)].at(0, part.y));
-      x += eye.width;
+      Image& to = eyes[static_cast<size_t>(part.index)];
+      int from = part.x;
+      for (int x = part.first; x < eye.width; x += part.every, from += part.step) {
+        std::copy_n(packed.at(from, y), packed.channels, to.at(x, part.y));
+      }
     }
   }
+  if (arrangement_of(layout).how == EyePacking::kCheckerboard) fill_left_out(eyes[0], 0), fill_left_out(eyes[1], 1);
   return eyes;
 }
 

@@ -22,7 +22,9 @@ enum class Layout {
   kTopBottomHalf,   // top-bottom of eyes squeezed to half their height: the file has the size of an eye
   kSideBySideHalf,  // side-by-side of eyes squeezed to half their width
   kRowInterleaved,  // every row of the left eye is followed by the right eye's; none is left out
-  kAnaglyph,        // for red-cyan glasses: see anaglyph.h
+  kColumnInterleaved,
+  kCheckerboard,  // a file of the eye's size, the left eye's pixel where x + y is even: half of each eye's are left out
+  kAnaglyph,      // for red-cyan glasses: see anaglyph.h
   kAnaglyphHalf,
   kAnaglyphDubois,
   kSeparate,   // a file per eye: %V in its name becomes left or right, %v l or r
@@ -32,7 +34,9 @@ enum class Layout {
 enum class EyePacking {
   kStacked,  // one above the other
   kBeside,
-  kRows,   // every other row
+  kRows,     // every other row
+  kColumns,  // every other column
+  kCheckerboard,
   kMixed,  // every pixel has both: nobody can take them apart again
   kAlone,  // each eye is an image of its own
 };
@@ -45,6 +49,10 @@ struct EyeArrangement {
 
   // Each eye is one half of the file. This is all that videos and most other programs know.
   constexpr bool is_halves() const { return how == EyePacking::kStacked || how == EyePacking::kBeside; }
+  // Neighbouring pixels belong to different eyes, and each pixel to one.
+  constexpr bool is_interleaved() const {
+    return how == EyePacking::kRows || how == EyePacking::kColumns || how == EyePacking::kCheckerboard;
+  }
   bool operator==(const EyeArrangement&) const = default;
 };
 
@@ -64,6 +72,8 @@ inline constexpr LayoutRow kLayoutTable[] = {
     {Layout::kSeparate, "separate", {EyePacking::kAlone}},
     {Layout::kMultiview, "multiview", {EyePacking::kAlone}},
     {Layout::kRowInterleaved, "row-interleaved", {EyePacking::kRows}},
+    {Layout::kColumnInterleaved, "column-interleaved", {EyePacking::kColumns}},
+    {Layout::kCheckerboard, "checkerboard", {EyePacking::kCheckerboard}},
     {Layout::kAnaglyph, "anaglyph", {EyePacking::kMixed}},
     {Layout::kAnaglyphHalf, "anaglyph-half", {EyePacking::kMixed}},
     {Layout::kAnaglyphDubois, "anaglyph-dubois", {EyePacking::kMixed}},
@@ -113,11 +123,15 @@ Extent squeezed_eye(Layout layout, Extent eye, int eye_count);
 // kSeparate and kMultiview pack nothing.
 Extent packed_size(Layout layout, Extent eye, int eye_count);
 
-// What row y of that image is, from left to right: the row of one eye, or of one after the other. Of anaglyphs and
+// What row y of that image is made of, from left to right: the row of one eye, or those of both. Of anaglyphs and
 // kMultiview: the row of every eye, in one place.
 struct EyeRow {
   int index;  // of the eye in the picture: 0 is the left, or the only one
   int y;
+  int x = 0;      // the image's column of the first pixel,
+  int step = 1;   // and how many columns on the next one lies
+  int first = 0;  // the eye's column of the first pixel,
+  int every = 1;  // and of how many of the eye's pixels one is taken
 };
 std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
 
@@ -133,7 +147,20 @@ struct EyeCorner {
 };
 EyeCorner eye_corner(Layout layout, Extent eye, int index);
 
-// The eyes of a packed image, left and right, bit for bit. kSeparate and kMultiview: the image itself, as it is one
+// What kCheckerboard leaves out of an eye is filled from the pixels above, below and beside, which it has: those of
+// them that lie in the picture. Precondition: the eye has more than one pixel.
+struct Neighbours {
+  int count = 0;
+  int x[4] = {};
+  int y[4] = {};
+};
+Neighbours neighbours_of(int x, int y, Extent eye);
+constexpr bool is_left_out(int index, int x, int y) {
+  return (x + y) % 2 != index;
+}
+
+// The eyes of a packed image, left and right, bit for bit; of kCheckerboard with the mean of the neighbours for what it
+// leaves out. kSeparate and kMultiview: the image itself, as it is one
 // eye. Precondition: unpacked_size() has a value.
 std::vector<Image> unpack(Layout layout, const Image& packed);
 

@@ -116,6 +116,8 @@ class Writer {
         case EyePacking::kBeside:
           return share("eye_u", eye_u_, first);
         case EyePacking::kRows:
+        case EyePacking::kColumns:
+        case EyePacking::kCheckerboard:
         case EyePacking::kMixed:
           assert(false);  // formula_fault() refuses them
           break;

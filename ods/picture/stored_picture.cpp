@@ -14,6 +14,7 @@
 #include "ods/base/text.h"
 #include "ods/files/memory_file.h"
 #include "ods/files/scratch.h"
+#include "ods/picture/checkerboard.h"
 #include "ods/picture/metadata/vr_photo.h"
 
 namespace ods {
@@ -331,11 +332,12 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
 
 namespace {
 
-// Row `y` and the first column of every eye in a packed image.
+// The first row and column of an eye in a packed image, and how many of the image's it is to the next.
 struct EyeView {
   int x = 0;
   int y = 0;
   int row_step = 1;
+  int pixel_step = 1;
 };
 
 }  // namespace
@@ -344,12 +346,10 @@ static std::vector<EyeView> views_of(Layout layout, Extent eye) {
   std::vector<EyeView> views(2);
   const Extent file = packed_size(layout, eye, 2);
   for (int y = 0; y < file.height; y++) {
-    int x = 0;
     for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
-      const size_t i = static_cast<size_t>(part.index);
-      if (part.y == 0) views[i].x = x, views[i].y = y;
-      if (part.y == 1) views[i].row_step = y - views[i].y;
-      x += eye.width;
+      EyeView& view = views[static_cast<size_t>(part.index)];
+      if (part.y == 0) view.x = part.x, view.y = y, view.pixel_step = part.step;
+      if (part.y == 1) view.row_step = y - view.y;
     }
   }
   return views;
@@ -361,8 +361,8 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   const ptrdiff_t width = share.reader->info().width;
   for (const Plane& plane : share.planes) {
     const ptrdiff_t pixel = static_cast<ptrdiff_t>(plane.pixel_size()), row = width * pixel;
-    eye.layers.push_back({plane.channels, plane.rule, plane.sample, plane.to + view.y * row + view.x * pixel, pixel,
-                          view.row_step * row});
+    eye.layers.push_back({plane.channels, plane.rule, plane.sample, plane.to + view.y * row + view.x * pixel,
+                          view.pixel_step * pixel, view.row_step * row});
   }
   return eye;
 }
@@ -432,8 +432,9 @@ static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const 
 
 static std::vector<StoredEye> make_eyes(const std::vector<FileShare>& shares, Layout layout, Extent size, int eye) {
   if (shares.size() == 2) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[1], {})};
-  const Extent file = packed_size(layout, size, 2);
-  if (file.width == size.width && file.height == size.height) return {make_eye(eye, shares[0], {})};
+  const EyePacking how = arrangement_of(layout).how;
+  if (how == EyePacking::kAlone) return {make_eye(eye, shares[0], {})};
+  if (how == EyePacking::kCheckerboard) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[0], {})};
   const std::vector<EyeView> views = views_of(layout, size);
   return {make_eye(kLeft, shares[0], views[0]), make_eye(kRight, shares[0], views[1])};
 }
@@ -490,6 +491,7 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   leave_out_unreadable(shares, path, picture.guesses);
   picture.memory->release();
   picture.eyes = make_eyes(shares, picture.layout, picture.size, format.eye);
+  if (arrangement_of(picture.layout).how == EyePacking::kCheckerboard) take_checkerboard_apart(picture, options);
   return picture;
 }
 
