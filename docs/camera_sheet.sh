@@ -26,13 +26,13 @@ sheet() {
   rm "$parts"/tile-*.png
 }
 
-for name in lat-long vr180 cylinder fisheye fisheye-equisolid dome perspective cube-3x2 cube-6x1 cube-1x6 eac; do
+for name in lat-long vr180 cylinder fisheye fisheye-equisolid mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac; do
   width=480
   [ $name = cube-1x6 ] && width=120
   tile $name --eyes left --projection $name --width $width
 done
 tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
-sheet 4x3 projections.jpg
+sheet 5x3 projections.jpg
 
 for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved \
   column-interleaved checkerboard anaglyph anaglyph-half anaglyph-dubois; do

@@ -42,6 +42,7 @@ std::span<const NamedProjection> named_projections() {
       {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
       {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
+      {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f)},
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
       {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
       {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2)},

@@ -167,6 +167,7 @@ inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
   ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
+  if (out_of_axis == 0.0f && p.z > 0.0f) place.uv.x = 0.5f + 0.5f * r;  // straight behind is the whole rim
   place.seen = r <= 1.0f;
   return place;
 }
