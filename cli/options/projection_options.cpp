@@ -30,10 +30,6 @@ void expect(bool useful, const char* option, const std::string& owners, const Pr
       fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
 }
 
-void expect_lens(const char* option, const ProjectionSetting& projection) {
-  expect(ods::has_lens(projection.kind), option, ods::kinds_with(ods::has_lens), projection);
-}
-
 // LON0,LON1[,LAT0,LAT1]
 void parse_range(const std::string& text, ProjectionSetting& projection) {
   expect(ods::has_range(projection.kind), "--range", ods::kinds_with(ods::has_range), projection);
@@ -46,7 +42,7 @@ void parse_range(const std::string& text, ProjectionSetting& projection) {
 }
 
 void parse_look(const std::string& text, ProjectionSetting& projection) {
-  expect_lens("--lens-direction", projection);
+  expect(ods::has_lens(projection.kind), "--lens-direction", ods::kinds_with(ods::has_lens), projection);
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 2 && range_of(ods::CameraField::kPan).contains(numbers[0]) &&
                      range_of(ods::CameraField::kTilt).contains(numbers[1]);
@@ -55,7 +51,7 @@ void parse_look(const std::string& text, ProjectionSetting& projection) {
 }
 
 void parse_fov(const std::string& text, ProjectionSetting& projection) {
-  expect_lens("--fov", projection);
+  expect(ods::has_fov(projection.kind), "--fov", ods::kinds_with(ods::has_fov), projection);
   const std::vector<float> numbers = parse_numbers(text);
   if (numbers.size() != 1) throw UsageError(fmt::format("--fov is an angle in degrees, not '{}'", text));
   projection.fov = numbers[0];
@@ -109,7 +105,7 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
       "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
   options.custom(
       "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
-      "direction of a fisheye or perspective view, degrees right and up; the eyes stay level");
+      "direction of a fisheye, a perspective view or an eac-face, degrees right and up; the eyes stay level");
 }
 
 void finish_projection(ProjectionSetting& projection, int width, int& height) {

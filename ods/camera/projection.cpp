@@ -49,6 +49,7 @@ std::span<const NamedProjection> named_projections() {
       {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1)},
       {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6)},
       {"eac", "equi-angular cube, 3x2", of_kind(kEac)},
+      {"eac-face", "one face of it", of_kind(kEacFace)},
   };
   return kAll;
 }
@@ -183,6 +184,7 @@ constexpr KindRow kKinds[] = {
     {kCube1x6, "cube-1x6", [](Setting) { return 1.0 / 6.0; }, face_pixels},
     {kEac, "eac", [](Setting) { return 1.5; },
      [](Setting, double width) { return width / 3.0 * (2.0 / static_cast<double>(kPi)); }},
+    {kEacFace, "eac-face", square, [](Setting, double width) { return width * (2.0 / static_cast<double>(kPi)); }},
 };
 static_assert(has_each_of(kKinds, kProjectionCount), "a new projection needs its row");
 

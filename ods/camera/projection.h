@@ -20,7 +20,7 @@ struct ProjectionSetting {
   vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; of a cylinder within +-89
   float fov = 180.0f;               // kFisheye...: from edge to edge, at most 360; kPerspective: horizontal, below 180
   float aspect = 1.0f;              // kPerspective: width over height
-  float pan = 0.0f;                 // kFisheye..., kPerspective: where the lens points, to the right
+  float pan = 0.0f;                 // has_lens(): where the lens points, to the right
   float tilt = 0.0f;                // and up; the viewing circle stays as it is
 
   bool operator==(const ProjectionSetting&) const = default;

@@ -176,7 +176,7 @@ class Writer {
 
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
-    static_assert(kProjectionCount == 9, "a new projection needs its formula here");
+    static_assert(kProjectionCount == 10, "a new projection needs its formula here");
     const std::array<glm::dvec3, 3> columns = orientation(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
     if (setting_.kind == kPerspective) {
@@ -184,6 +184,7 @@ class Writer {
       return combine(columns, {half * x, half / decimal(setting_.aspect) * y, -1.0});
     }
     if (is_cube(setting_.kind)) return cube_direction();
+    if (setting_.kind == kEacFace) return combine(columns, {tan(kExactPi / 4.0 * x), tan(kExactPi / 4.0 * y), -1.0});
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");

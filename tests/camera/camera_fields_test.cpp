@@ -26,8 +26,8 @@ StereoCamera without_meaningless_numbers(StereoCamera camera) {
   const ProjectionSetting own = camera.projection;
   camera.projection = find_projection(projection_name(own))->setting;
   if (has_range(own.kind)) camera.projection.longitude = own.longitude, camera.projection.latitude = own.latitude;
-  if (has_lens(own.kind))
-    camera.projection.fov = own.fov, camera.projection.pan = own.pan, camera.projection.tilt = own.tilt;
+  if (has_fov(own.kind)) camera.projection.fov = own.fov;
+  if (has_lens(own.kind)) camera.projection.pan = own.pan, camera.projection.tilt = own.tilt;
   if (own.kind == kPerspective) camera.projection.aspect = own.aspect;
   if (camera.convergence == kParallel) camera.convergence_distance = plain.convergence_distance;
   for (PoleMergeSetting* merge : {&camera.top, &camera.bottom}) {

@@ -23,7 +23,8 @@ const int kCube3x2 = 5;           // as the VR camera for Arnold packs them
 const int kCube6x1 = 6;           // likewise ("NVIDIA" order)
 const int kCube1x6 = 7;           // the faces of kCube6x1 in a column
 const int kEac = 8;               // equi-angular cube, 3x2 as players of 360 video have it
-const int kProjectionCount = 9;
+const int kEacFace = 9;           // one face of it, which can be pointed
+const int kProjectionCount = 10;
 
 // Headings and heights run evenly from edge to edge.
 inline bool has_range(int kind) {
@@ -39,9 +40,14 @@ inline bool has_image_circle(int kind) {
   return is_fisheye(kind);
 }
 
-// Can be pointed, and has an angle of view.
-inline bool has_lens(int kind) {
+// Has an angle of view that can be set.
+inline bool has_fov(int kind) {
   return is_fisheye(kind) || kind == kPerspective;
+}
+
+// Can be pointed.
+inline bool has_lens(int kind) {
+  return has_fov(kind) || kind == kEacFace;
 }
 
 // Six faces, each in a cell of its own.
@@ -55,7 +61,7 @@ struct Projection {
   vec2 span;        // and how far the picture reaches from edge to edge, likewise
   float angle;      // kFisheye...: from edge to edge of the image circle, radians
   vec2 half_size;   // kPerspective: tangents of half the horizontal and vertical angle
-  vec3 lens_right;  // kFisheye..., kPerspective: where the lens points, in the camera's frame
+  vec3 lens_right;  // has_lens(): where the lens points, in the camera's frame
   vec3 lens_up;
   vec3 lens_back;
 };
@@ -187,6 +193,19 @@ inline ImagePoint perspective_place(Projection projection, vec3 direction) {
   return place;
 }
 
+inline ViewDirection eac_face_look(Projection projection, vec2 uv) {
+  vec3 p = vec3(tan(0.25f * kPi * (2.0f * uv.x - 1.0f)), tan(0.25f * kPi * (1.0f - 2.0f * uv.y)), -1.0f);
+  return look_along(from_lens(projection, p));
+}
+
+inline ImagePoint eac_face_place(Projection projection, vec3 direction) {
+  vec3 p = to_lens(projection, direction);
+  ImagePoint place;
+  place.uv = vec2(0.5f + atan(p.x, -p.z) * (2.0f / kPi), 0.5f - atan(p.y, -p.z) * (2.0f / kPi));
+  place.seen = p.z < 0.0f && inside_picture(place.uv);
+  return place;
+}
+
 // One face of a cube around the camera: its middle, and where its picture's right and top edge lie from there.
 struct CubeFace {
   vec3 middle;
@@ -286,6 +305,7 @@ inline ViewDirection look_of(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kPerspective) return perspective_look(projection, uv);
   if (is_fisheye(projection.kind)) return fisheye_look(projection, home, uv);
   if (is_cube(projection.kind)) return cube_look(projection.kind, home, uv);
+  if (projection.kind == kEacFace) return eac_face_look(projection, uv);
   ViewDirection nothing = lat_long_look(projection, uv);  // no projection
   nothing.seen = false;
   return nothing;
@@ -298,6 +318,7 @@ inline ImagePoint place_of(Projection projection, vec3 direction) {
   if (projection.kind == kPerspective) return perspective_place(projection, direction);
   if (is_fisheye(projection.kind)) return fisheye_place(projection, direction);
   if (is_cube(projection.kind)) return cube_place(projection.kind, direction);
+  if (projection.kind == kEacFace) return eac_face_place(projection, direction);
   ImagePoint nothing = lat_long_place(projection, direction);
   nothing.seen = false;
   return nothing;
@@ -305,7 +326,7 @@ inline ImagePoint place_of(Projection projection, vec3 direction) {
 
 #ifdef __cplusplus
 static_assert(sizeof(Projection) == 68);
-static_assert(kProjectionCount == 9,
+static_assert(kProjectionCount == 10,
               "a new projection is named in is_cube() .. above, cube_cell(), look_of(), place_of()");
 }  // namespace ods
 #endif

@@ -30,10 +30,8 @@ static void add_projection(std::vector<Attribute>& attributes, const ProjectionS
     pair("ods:longitude", projection.longitude.x, projection.longitude.y);
     pair("ods:latitude", projection.latitude.x, projection.latitude.y);
   }
-  if (has_lens(projection.kind)) {
-    attributes.push_back({"ods:fov", projection.fov});
-    pair("ods:look", projection.pan, projection.tilt);
-  }
+  if (has_fov(projection.kind)) attributes.push_back({"ods:fov", projection.fov});
+  if (has_lens(projection.kind)) pair("ods:look", projection.pan, projection.tilt);
   if (projection.kind == kPerspective) attributes.push_back({"ods:aspect", projection.aspect});
 }
 

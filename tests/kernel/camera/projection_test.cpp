@@ -82,6 +82,9 @@ dvec3 exact_direction(const ProjectionSetting& setting, dvec2 uv) {
       const double half = std::tan(glm::radians(double{setting.fov}) / 2.0);
       return turned({half * (2.0 * uv.x - 1.0), half / double{setting.aspect} * (1.0 - 2.0 * uv.y), -1.0}, pan, tilt);
     }
+    case kEacFace:
+      return turned({std::tan(kExactPi / 2.0 * (uv.x - 0.5)), std::tan(kExactPi / 2.0 * (0.5 - uv.y)), -1.0}, pan,
+                    tilt);
     default:
       return exact_cube(setting.kind, uv);
   }
@@ -172,6 +175,23 @@ TEST(Projections, KnowWhatTheyDoNotSee) {
   EXPECT_FALSE(place_of(dome, vec3(0.0f, -0.1f, -1.0f)).seen);
   EXPECT_FALSE(look_of(dome, vec2(0.02f), vec2(0.02f)).seen);
   EXPECT_LT(length(look_of(dome, vec2(0.5f), vec2(0.5f)).direction - vec3(0, 1, 0)), 1e-6f);
+}
+
+// A face that is pointed shows what the whole cube has there.
+TEST(Projections, AnEacFaceIsACellOfEac) {
+  const Projection eac = make_projection(find_projection("eac")->setting);
+  ProjectionSetting setting = find_projection("eac-face")->setting;
+  const vec2 middles[] = {{-90.0f, 0.0f}, {0.0f, 0.0f}, {90.0f, 0.0f}};
+  Dice dice(8);
+  for (int cell = 0; cell < 3; cell++) {
+    setting.pan = middles[cell].x, setting.tilt = middles[cell].y;
+    const Projection face = make_projection(setting);
+    for (int i = 0; i < 1000; i++) {
+      const vec2 uv = dice.pair(), whole((static_cast<float>(cell) + uv.x) / 3.0f, uv.y / 2.0f);
+      EXPECT_LT(angle_between(look_of(face, uv, uv).direction, look_of(eac, whole, whole).direction), 2e-6);
+    }
+  }
+  EXPECT_FALSE(place_of(make_projection(setting), vec3(-1.0f, 0.0f, 0.0f)).seen) << "behind it";
 }
 
 // A pixel filter reaches over a face's edge: the face goes on there, the neighbour in the picture does not matter.

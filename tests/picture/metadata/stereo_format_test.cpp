@@ -62,7 +62,7 @@ TEST(Metadata, EveryCameraComesBackBitForBitFromAnExr) {
         stereo.projection.latitude = vec2(-50.0f / 7.0f, 80.3f);
       }
       if (!plain && has_lens(named.setting.kind)) {
-        stereo.projection.fov = 400.0f / 3.0f;
+        if (has_fov(named.setting.kind)) stereo.projection.fov = 400.0f / 3.0f;
         stereo.projection.pan = 1.0f / 3.0f;
         stereo.projection.tilt = -20.0f / 3.0f;
         if (named.setting.kind == kPerspective) stereo.projection.aspect = 16.0f / 9.0f;
