@@ -26,7 +26,7 @@ sheet() {
   rm "$parts"/tile-*.png
 }
 
-for name in lat-long vr180 cylinder fisheye fisheye-equisolid mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac eac-face; do
+for name in lat-long vr180 cylinder fisheye fisheye-equisolid fisheye-polynomial mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac eac-face; do
   width=480
   [ $name = cube-1x6 ] && width=120
   tile $name --eyes left --projection $name --width $width

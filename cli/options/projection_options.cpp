@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -57,6 +58,22 @@ void parse_fov(const std::string& text, ProjectionSetting& projection) {
   projection.fov = numbers[0];
 }
 
+void parse_sensor(const std::string& text, ProjectionSetting& projection) {
+  expect(projection.kind == ods::kFisheyePolynomial, "--sensor", "fisheye-polynomial", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != 2) throw UsageError(fmt::format("--sensor is WIDTH,HEIGHT in millimetres, not '{}'", text));
+  projection.sensor = vec2(numbers[0], numbers[1]);
+}
+
+void parse_polynomial(const std::string& text, ProjectionSetting& projection) {
+  expect(projection.kind == ods::kFisheyePolynomial, "--lens-polynomial", "fisheye-polynomial", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != projection.polynomial.size()) {
+    throw UsageError(fmt::format("--lens-polynomial is K0,K1,K2,K3,K4, not '{}'", text));
+  }
+  std::copy(numbers.begin(), numbers.end(), projection.polynomial.begin());
+}
+
 void parse_face(const std::string& name, bool has_other, ProjectionSetting& projection) {
   expect(!has_other || projection.kind == ods::kPerspective, "--face", "perspective, which it implies", projection);
   for (const Face& face : kFaces) {
@@ -103,6 +120,13 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
   options.custom(
       "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
       "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
+  options.custom(
+      "--lens-polynomial", "K0,K1,K2,K3,K4", "", [&](const std::string& text) { parse_polynomial(text, projection); },
+      "fisheye-polynomial: at R millimetres from the middle of the sensor it looks -(K0 + K1 R + K2 R^2 + K3 R^3 + K4 "
+      "R^4) radians off axis, as in Cycles");
+  options.custom(
+      "--sensor", "WIDTH,HEIGHT", "", [&](const std::string& text) { parse_sensor(text, projection); },
+      "fisheye-polynomial: size of the sensor, millimetres [36,24]");
   options.custom(
       "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
       "direction of a fisheye, a perspective view or an eac-face, degrees right and up; the eyes stay level");

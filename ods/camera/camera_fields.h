@@ -34,6 +34,8 @@ enum class CameraField {
   kAspect,
   kPan,
   kTilt,
+  kSensor,
+  kPolynomial,
 };
 
 inline constexpr CameraField kCameraFields[] = {CameraField::kPosition,      CameraField::kYaw,
@@ -45,7 +47,8 @@ inline constexpr CameraField kCameraFields[] = {CameraField::kPosition,      Cam
                                                 CameraField::kFocusDistance, CameraField::kLongitude,
                                                 CameraField::kLatitude,      CameraField::kFov,
                                                 CameraField::kAspect,        CameraField::kPan,
-                                                CameraField::kTilt};
+                                                CameraField::kTilt,          CameraField::kSensor,
+                                                CameraField::kPolynomial};
 static_assert(std::size(kCameraFields) == enumerator_count<CameraField>());
 std::string_view field_name(CameraField field);  // for people: "yaw"
 

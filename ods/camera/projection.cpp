@@ -42,6 +42,7 @@ std::span<const NamedProjection> named_projections() {
       {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
       {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
+      {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial)},
       {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f)},
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
       {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
@@ -62,7 +63,8 @@ const NamedProjection* find_projection(std::string_view name) {
 }
 
 static bool same_numbers(const ProjectionSetting& a, const ProjectionSetting& b) {
-  return a.longitude == b.longitude && a.latitude == b.latitude && a.fov == b.fov && a.pan == b.pan && a.tilt == b.tilt;
+  return a.longitude == b.longitude && a.latitude == b.latitude && a.fov == b.fov && a.pan == b.pan &&
+         a.tilt == b.tilt && a.sensor == b.sensor && a.polynomial == b.polynomial;
 }
 
 std::string_view projection_name(const ProjectionSetting& setting) {
@@ -104,10 +106,61 @@ static std::string range_fault(const ProjectionSetting& setting) {
   return {};
 }
 
+// Minus the polynomial, and what it grows by for a millimetre. Radians.
+static double polynomial_angle(const std::array<float, 5>& k, double r) {
+  return -(double{k[0]} + r * (double{k[1]} + r * (double{k[2]} + r * (double{k[3]} + r * double{k[4]}))));
+}
+
+static double polynomial_slope(const std::array<float, 5>& k, double r) {
+  return -(double{k[1]} + r * (2.0 * double{k[2]} + r * (3.0 * double{k[3]} + r * 4.0 * double{k[4]})));
+}
+
+constexpr int kPolynomialSteps = 4096;  // from the axis to the corner, looking for where a polynomial reaches an angle
+
+// The radius of the image circle, millimetres: where the angle first is half the field of view, at most the corner.
+static double polynomial_edge(const ProjectionSetting& setting) {
+  const double corner = std::hypot(double{setting.sensor.x}, double{setting.sensor.y}) / 2.0;
+  const double half = glm::radians(double{setting.fov}) / 2.0;
+  const auto is_beyond = [&](double r) { return polynomial_angle(setting.polynomial, r) > half; };
+  int step = 1;
+  while (step <= kPolynomialSteps && !is_beyond(corner * step / kPolynomialSteps)) step++;
+  if (step > kPolynomialSteps) return corner;
+  double low = corner * (step - 1) / kPolynomialSteps, high = corner * step / kPolynomialSteps;
+  for (int i = 0; i < 60; i++) {
+    const double middle = (low + high) / 2.0;
+    (is_beyond(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+static std::string polynomial_fault(const ProjectionSetting& setting) {
+  for (const float side : {setting.sensor.x, setting.sensor.y}) {
+    if (!range_of(CameraField::kSensor).contains(side)) return "a sensor's sides are 0.1 to 1000 millimetres";
+  }
+  for (const float k : setting.polynomial) {
+    if (!range_of(CameraField::kPolynomial).contains(k)) return "a lens polynomial's numbers are within 10";
+  }
+  if (!(std::abs(setting.polynomial[0]) <= 0.01f)) return "a lens polynomial's K0 is within 0.01 radians of the axis";
+  const double corner = std::hypot(double{setting.sensor.x}, double{setting.sensor.y}) / 2.0;
+  const double half = glm::radians(double{setting.fov}) / 2.0;
+  for (int i = 0; i <= kPolynomialSteps; i++) {
+    const double r = corner * i / kPolynomialSteps;
+    if (!(polynomial_slope(setting.polynomial, r) > 1e-6)) {
+      return fmt::format("a lens polynomial's angle grows with the radius, and this one turns back at {:.4g} mm", r);
+    }
+    if (polynomial_angle(setting.polynomial, r) > half) break;
+  }
+  return {};
+}
+
 static std::string lens_fault(const ProjectionSetting& setting) {
   const FieldRange fov = range_of(CameraField::kFov);
-  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
+  if (has_image_circle(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
     return "a fisheye sees 1 to 360 degrees";
+  }
+  if (setting.kind == kFisheyePolynomial) {
+    const std::string fault = polynomial_fault(setting);
+    if (!fault.empty()) return fault;
   }
   if (setting.kind == kPerspective) {
     if (!(setting.fov >= fov.least && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
@@ -185,6 +238,11 @@ constexpr KindRow kKinds[] = {
     {kEac, "eac", [](Setting) { return 1.5; },
      [](Setting, double width) { return width / 3.0 * (2.0 / static_cast<double>(kPi)); }},
     {kEacFace, "eac-face", square, [](Setting, double width) { return width * (2.0 / static_cast<double>(kPi)); }},
+    {kFisheyePolynomial, "fisheye-polynomial",
+     [](Setting s) { return static_cast<double>(s.sensor.x) / static_cast<double>(s.sensor.y); },
+     [](Setting s, double width) {
+       return width / (static_cast<double>(s.sensor.x) * polynomial_slope(s.polynomial, 0.0));
+     }},
 };
 static_assert(has_each_of(kKinds, kProjectionCount), "a new projection needs its row");
 
@@ -233,6 +291,13 @@ Projection make_projection(const ProjectionSetting& setting) {
   projection.center = vec2((longitude.x + longitude.y) / 2.0, (height.x + height.y) / 2.0);
   projection.span = vec2(longitude.y - longitude.x, height.y - height.x);
   projection.angle = glm::radians(setting.fov);
+  projection.circle = vec2(1.0f);
+  projection.sensor = setting.sensor;
+  if (setting.kind == kFisheyePolynomial) {
+    projection.circle = vec2(2.0 * polynomial_edge(setting) / glm::dvec2(setting.sensor));
+  }
+  const std::array<float, 5>& k = setting.polynomial;
+  projection.k0 = k[0], projection.k1 = k[1], projection.k2 = k[2], projection.k3 = k[3], projection.k4 = k[4];
   const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
   projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
   const auto [right, up, back] =

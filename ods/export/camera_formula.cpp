@@ -176,7 +176,7 @@ class Writer {
 
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
-    static_assert(kProjectionCount == 10, "a new projection needs its formula here");
+    static_assert(kProjectionCount == 11, "a new projection needs its formula here");
     const std::array<glm::dvec3, 3> columns = orientation(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
     if (setting_.kind == kPerspective) {
@@ -185,6 +185,7 @@ class Writer {
     }
     if (is_cube(setting_.kind)) return cube_direction();
     if (setting_.kind == kEacFace) return combine(columns, {tan(kExactPi / 4.0 * x), tan(kExactPi / 4.0 * y), -1.0});
+    if (setting_.kind == kFisheyePolynomial) return polynomial_direction(columns);
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
@@ -193,6 +194,24 @@ class Writer {
         "from_axis", setting_.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
     seen_ = step("seen", select(1.0 - radius, 0.0, 1.0));
+    return combine(columns, {px * outwards, py * outwards, -cos(angle)});
+  }
+
+  // Millimetres on the sensor.
+  Vector polynomial_direction(const std::array<glm::dvec3, 3>& columns) {
+    const Formula width = parameter("sensor_width", setting_.sensor.x, "millimetres");
+    const Formula height = parameter("sensor_height", setting_.sensor.y, "millimetres");
+    const Formula px = step("lens_x", width * (eye_u_ - 0.5)), py = step("lens_y", height * (0.5 - eye_v_));
+    const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
+    Formula polynomial = 0.0;
+    for (size_t i = setting_.polynomial.size(); i-- > 0;) {
+      const std::string name = fmt::format("k{}", i);
+      polynomial = parameter(name, setting_.polynomial[i], "of the lens polynomial") + radius * polynomial;
+    }
+    const Formula angle = step("from_axis", max(-polynomial, 0.0));
+    const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
+    const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
+    seen_ = step("seen", select(full / 2.0 - angle, 0.0, 1.0));
     return combine(columns, {px * outwards, py * outwards, -cos(angle)});
   }
 

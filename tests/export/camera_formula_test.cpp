@@ -52,6 +52,8 @@ bool on_an_edge(const ProjectionSetting& setting, vec2 uv) {
     return near_whole(uv.x * static_cast<float>(columns)) || near_whole(uv.y * static_cast<float>(6 / columns));
   }
   if (!has_image_circle(setting.kind)) return false;
+  const vec2 circle = make_projection(setting).circle;
+  if (setting.kind == kFisheyePolynomial) return std::abs(length((2.0f * uv - 1.0f) / circle) - 1.0f) < 1e-4f;
   // Close to straight behind, an equisolid lens makes much of the radius's last bits.
   const float sine = std::sin(glm::radians(setting.fov) / 4.0f);
   if (setting.kind == kFisheyeEquisolid && sine * length(2.0f * uv - 1.0f) > 0.98f) return true;

@@ -38,6 +38,15 @@ dvec3 exact_fisheye(const ProjectionSetting& setting, dvec2 uv) {
   return {std::sin(angle) * std::cos(roll), std::sin(angle) * std::sin(roll), -std::cos(angle)};
 }
 
+dvec3 exact_polynomial(const ProjectionSetting& setting, dvec2 uv) {
+  const double x = (uv.x - 0.5) * double{setting.sensor.x}, y = (0.5 - uv.y) * double{setting.sensor.y};
+  const double r = std::hypot(x, y), roll = std::atan2(y, x);
+  double theta = 0.0;
+  for (int i = 0; i < 5; i++) theta -= double{setting.polynomial[static_cast<size_t>(i)]} * std::pow(r, i);
+  theta = std::max(theta, 0.0);
+  return {std::sin(theta) * std::cos(roll), std::sin(theta) * std::sin(roll), -std::cos(theta)};
+}
+
 // The faces as the VR camera for Arnold's source lists them, s to the right and t up; kEac as players unfold it.
 dvec3 exact_face(int kind, int cell, double s, double t) {
   if (kind == kCube3x2) {
@@ -82,6 +91,8 @@ dvec3 exact_direction(const ProjectionSetting& setting, dvec2 uv) {
       const double half = std::tan(glm::radians(double{setting.fov}) / 2.0);
       return turned({half * (2.0 * uv.x - 1.0), half / double{setting.aspect} * (1.0 - 2.0 * uv.y), -1.0}, pan, tilt);
     }
+    case kFisheyePolynomial:
+      return turned(exact_polynomial(setting, uv), pan, tilt);
     case kEacFace:
       return turned({std::tan(kExactPi / 2.0 * (uv.x - 0.5)), std::tan(kExactPi / 2.0 * (0.5 - uv.y)), -1.0}, pan,
                     tilt);
@@ -101,6 +112,9 @@ std::vector<ProjectionSetting> many_settings(Dice& dice) {
     other.latitude = vec2(dice.between(-85.0f, -5.0f), dice.between(5.0f, 85.0f));
     other.fov = dice.between(20.0f, other.kind == kPerspective ? 160.0f : 350.0f);
     other.aspect = dice.between(0.3f, 3.0f);
+    other.sensor = vec2(dice.between(10.0f, 40.0f), dice.between(10.0f, 40.0f));
+    other.polynomial = {dice.between(-1e-4f, 0.0f), dice.between(-0.08f, -0.03f), dice.between(-1e-3f, 0.0f),
+                        dice.between(-1e-5f, 2e-6f), dice.between(-1e-6f, 0.0f)};
     other.pan = dice.between(-180.0f, 180.0f);
     other.tilt = dice.between(-90.0f, 90.0f);
     settings.push_back(other);
@@ -111,13 +125,16 @@ std::vector<ProjectionSetting> many_settings(Dice& dice) {
 // What the kernel's floats leave of a direction: its radius is rounded, and an equisolid lens makes that the more of an
 // angle the nearer it looks to straight behind.
 double rounding(const ProjectionSetting& setting, dvec2 uv) {
+  if (setting.kind == kFisheyePolynomial) return 5e-7;  // five terms, a root
   if (setting.kind != kFisheyeEquisolid) return 0.0;
   const double sine = std::sin(glm::radians(double{setting.fov}) / 4.0), r = sine * length(2.0 * uv - 1.0);
   return 1.2e-7 * 2.0 * sine / std::sqrt(1.0 - std::min(r * r, 0.99999));
 }
 
-bool in_circle(dvec2 uv) {
-  return length(uv - dvec2(0.5)) < 0.4999;
+bool in_circle(const ProjectionSetting& setting, dvec2 uv) {
+  if (setting.kind != kFisheyePolynomial) return length(uv - dvec2(0.5)) < 0.4999;
+  const dvec3 ahead(0.0, 0.0, -1.0);
+  return angle_between(exact_polynomial(setting, uv), ahead) < 0.4999 * glm::radians(double{setting.fov});
 }
 
 TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
@@ -127,7 +144,7 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
     const Projection projection = make_projection(setting);
     for (int i = 0; i < 10000; i++) {
       const vec2 uv = dice.pair();
-      if (has_image_circle(setting.kind) && !in_circle(uv)) continue;
+      if (has_image_circle(setting.kind) && !in_circle(setting, uv)) continue;
       const ViewDirection look = look_of(projection, uv, uv);
       const dvec3 exact = normalize(exact_direction(setting, uv));
       ASSERT_TRUE(look.seen);
@@ -175,6 +192,46 @@ TEST(Projections, KnowWhatTheyDoNotSee) {
   EXPECT_FALSE(place_of(dome, vec3(0.0f, -0.1f, -1.0f)).seen);
   EXPECT_FALSE(look_of(dome, vec2(0.02f), vec2(0.02f)).seen);
   EXPECT_LT(length(look_of(dome, vec2(0.5f), vec2(0.5f)).direction - vec3(0, 1, 0)), 1e-6f);
+}
+
+// What Cycles calls an equidistant lens is ours; known answers of its defaults, which come close to a lens of 50 mm.
+TEST(Projections, APolynomialOfOneTermIsAFisheye) {
+  ProjectionSetting lens = find_projection("fisheye-polynomial")->setting;
+  lens.sensor = vec2(30.0f, 30.0f);
+  lens.polynomial = {0.0f, -glm::radians(180.0f) / 30.0f, 0.0f, 0.0f, 0.0f};
+  ASSERT_EQ(projection_fault(lens), "");
+  const Projection one = make_projection(lens), other = make_projection(find_projection("fisheye")->setting);
+  EXPECT_NEAR(one.circle.x, 1.0f, 1e-6f);
+  Dice dice(9);
+  for (int i = 0; i < 1000; i++) {
+    const vec2 uv = dice.pair();
+    if (length(uv - 0.5f) > 0.499f) continue;
+    EXPECT_LT(angle_between(look_of(one, uv, uv).direction, look_of(other, uv, uv).direction), 1e-6);
+  }
+  const ProjectionSetting cycles = find_projection("fisheye-polynomial")->setting;
+  EXPECT_EQ(natural_height(cycles, 3600), 2400);
+  EXPECT_NEAR(pixels_per_radian(cycles, 3600.0), 3600.0 / 36.0 / 0.019988737, 1e-3);
+  for (const float mm : {5.0f, 10.0f, 18.0f}) {
+    const vec2 uv(0.5f + mm / 36.0f, 0.5f);
+    const vec3 d = look_of(make_projection(cycles), uv, uv).direction;
+    EXPECT_NEAR(std::atan2(d.x, -d.z), std::atan(mm / 50.0f), 4e-4f) << mm;
+  }
+}
+
+TEST(Projections, APolynomialSeesHalfItsFieldOfView) {
+  ProjectionSetting lens = find_projection("fisheye-polynomial")->setting;
+  lens.fov = 20.0f;
+  const Projection narrow = make_projection(lens);
+  const auto off_axis = [](float degrees) {
+    const float angle = glm::radians(degrees);
+    return vec3(0.0f, std::sin(angle), -std::cos(angle));
+  };
+  EXPECT_TRUE(place_of(narrow, off_axis(9.99f)).seen);
+  EXPECT_FALSE(place_of(narrow, off_axis(10.01f)).seen);
+  EXPECT_TRUE(look_of(narrow, vec2(0.5f), vec2(0.5f)).seen);
+  EXPECT_FALSE(look_of(narrow, vec2(0.99f, 0.5f), vec2(0.99f, 0.5f)).seen);
+  EXPECT_FALSE(place_of(narrow, vec3(0.0f, 0.0f, 1.0f)).seen) << "behind it";
+  EXPECT_EQ(place_of(narrow, vec3(0.0f, 0.0f, -1.0f)).uv, vec2(0.5f));
 }
 
 // A face that is pointed shows what the whole cube has there.
@@ -299,6 +356,11 @@ TEST(Projections, FaultsAreTold) {
         +[](ProjectionSetting& s) { s.latitude.x = std::nanf(""); }, +[](ProjectionSetting& s) { s.kind = kCylinder; },
         +[](ProjectionSetting& s) { s.kind = kFisheye, s.fov = 361.0f; },
         +[](ProjectionSetting& s) { s.kind = kPerspective; },
+        +[](ProjectionSetting& s) { s.kind = kFisheyePolynomial, s.sensor.x = 0.0f; },
+        +[](ProjectionSetting& s) { s.kind = kFisheyePolynomial, s.polynomial[0] = 0.1f; },
+        +[](ProjectionSetting& s) { s.kind = kFisheyePolynomial, s.polynomial[1] = 0.02f; },
+        +[](ProjectionSetting& s) { s.kind = kFisheyePolynomial, s.polynomial[3] = 3e-4f; },
+        +[](ProjectionSetting& s) { s.kind = kFisheyePolynomial, s.polynomial[4] = std::nanf(""); },
         +[](ProjectionSetting& s) { s.kind = kPerspective, s.fov = 90.0f, s.aspect = 0.0f; }}) {
     ProjectionSetting setting;
     spoil(setting);
@@ -356,7 +418,7 @@ TEST(Cameras, AgreeWithTheirTwinThroughEveryProjection) {
       const Camera camera = make_camera(stereo);
       for (int i = 0; i < 500; i++) {
         const vec2 uv = dice.pair();
-        if (has_image_circle(setting.kind) && !in_circle(uv)) continue;
+        if (has_image_circle(setting.kind) && !in_circle(setting, uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
         const ExactRay exact = exact_ray(stereo, camera, double{eye_side(eye)}, uv);
@@ -380,7 +442,7 @@ TEST(Cameras, FindTheRayThatMeetsAPointThroughEveryProjection) {
       const Camera camera = make_camera(stereo);
       for (int i = 0; i < 300; i++) {
         const vec2 uv = dice.pair();
-        if (has_image_circle(setting.kind) && !in_circle(uv)) continue;
+        if (has_image_circle(setting.kind) && !in_circle(setting, uv)) continue;
         const int eye = i % 3;
         const Ray ray = camera_ray(camera, eye, uv);
         const vec3 a = stereo.axis ? vec3(0, 1, 0) : camera.up;
@@ -464,7 +526,8 @@ TEST(Cameras, MergeMapsScaleTheCircle) {
 TEST(Projection, EveryKindIsOfOneFamily) {
   for (int kind = 0; kind < kProjectionCount; kind++) {
     EXPECT_EQ(int{has_range(kind)} + int{has_lens(kind)} + int{is_cube(kind)}, 1) << kind;
-    EXPECT_EQ(has_image_circle(kind), kind == kFisheye || kind == kFisheyeEquisolid) << kind;
+    EXPECT_EQ(has_image_circle(kind), kind == kFisheye || kind == kFisheyeEquisolid || kind == kFisheyePolynomial)
+        << kind;
     EXPECT_EQ(std::count_if(named_projections().begin(), named_projections().end(),
                             [&](const NamedProjection& named) { return named.setting.kind == kind; }) > 0,
               true)
