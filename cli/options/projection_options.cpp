@@ -129,7 +129,7 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
       "fisheye-polynomial: size of the sensor, millimetres [36,24]");
   options.custom(
       "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
-      "direction of a fisheye, a perspective view or an eac-face, degrees right and up; the eyes stay level");
+      fmt::format("where it points ({}), degrees right and up; the eyes stay level", ods::kinds_with(ods::has_lens)));
 }
 
 void finish_projection(ProjectionSetting& projection, int width, int& height) {

@@ -43,6 +43,7 @@ std::span<const NamedProjection> named_projections() {
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
       {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
       {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial)},
+      // Where an orthographic camera sees the ball at the radius sin(b), the ball turns its ray by 2 b.
       {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f)},
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
       {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},

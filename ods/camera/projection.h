@@ -36,8 +36,7 @@ struct ProjectionSetting {
 };
 
 // A projection by the name that users type. Several names may be one kind with other defaults: `vr180` is the front
-// half of `lat-long`, `dome` a fisheye that looks up, `mirror-ball` an equisolid fisheye of 360 degrees: where an
-// orthographic camera sees the ball at the radius sin(b), the ball turns its ray by 2 b.
+// half of `lat-long`, `dome` a fisheye that looks up.
 struct NamedProjection {
   std::string_view name;
   std::string_view summary;

@@ -16,60 +16,12 @@
 #include "ods/files/scratch.h"
 #include "ods/image/tone.h"
 #include "ods/picture/save.h"
+#include "tests/support/picture_rows.h"
 #include "tests/support/saved_pictures.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
 namespace {
-
-const int kWidth = 32, kHeight = 16;
-
-float light(int eye, int x, int y, int c) {
-  const float side = eye == kLeft ? 0.15f : eye == kRight ? 0.45f : 0.3f;
-  return side + 0.006f * static_cast<float>(x) + 0.004f * static_cast<float>(y) + 0.01f * static_cast<float>(c);
-}
-
-// Colour (with alpha: 1 but in the first column), depth, normals.
-PictureRows picture_rows(const std::vector<int>& eyes, bool alpha, bool layers) {
-  PictureRows rows;
-  rows.eye = {kWidth, kHeight};
-  rows.eyes = eyes;
-  rows.layers = {{{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}};
-  if (alpha) rows.layers[0].channels.push_back("A");
-  if (layers) {
-    rows.layers.push_back({{"Z"}, LayerRule::kNearest, SampleType::kFloat});
-    rows.layers.push_back({{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kHalf});
-  }
-  rows.fill = [=](int index, int y, std::span<float> row) {
-    const int eye = eyes[static_cast<size_t>(index)];
-    float* out = row.data();
-    for (int x = 0; x < kWidth; x++) {
-      const float opacity = alpha && x == 0 ? 0.5f : 1.0f;
-      for (int c = 0; c < 3; c++) *out++ = opacity * light(eye, x, y, c);
-      if (alpha) *out++ = opacity;
-      if (!layers) continue;
-      *out++ = 100.0f + light(eye, x, y, 0);
-      for (int c = 0; c < 3; c++) *out++ = light(eye, x, y, c) - 0.5f;
-    }
-  };
-  return rows;
-}
-
-float value_at(const LayerPixels& layer, int x, int y, size_t c) {
-  return sample_value(layer.sample,
-                      layer.first + x * layer.pixel_stride + y * layer.row_stride + c * bytes_of(layer.sample));
-}
-
-float light_at(const StoredPicture& picture, const StoredEye& eye, int x, int y, size_t c) {
-  const float value = value_at(eye.layers[0], x, y, c);
-  return picture.is_float ? value : srgb_decode(value);
-}
-
-OpenOptions as(std::optional<Layout> layout) {
-  OpenOptions options;
-  options.format.layout = layout;
-  return options;
-}
 
 void expect_eye(const StoredPicture& picture, const StoredEye& eye, FileFormat format) {
   const int columns = kWidth / picture.size.width, rows = kHeight / picture.size.height;
@@ -109,52 +61,6 @@ TEST(OpenPicture, GivesBackTheEyesOfEveryLayoutAndFormat) {
       for (const StoredEye& eye : picture.eyes) expect_eye(picture, eye, format);
     }
   }
-}
-
-// Light is a ramp, so that the mean of four neighbours is what was left out; over the edge there is none to be had.
-TEST(OpenPicture, CheckerboardsKeepHalfOfEachEyeAndFillTheRest) {
-  for (const char* extension : {"png", "tif", "hdr", "exr"}) {
-    SCOPED_TRACE(extension);
-    const TemporaryFolder folder;
-    const std::string path = folder.path(std::string("a.") + extension);
-    const FileFormat format = *format_of_path(path);
-    save_picture(picture_rows({kLeft, kRight}, true, true), nullptr, options_for(Layout::kCheckerboard), path);
-    EXPECT_EQ(read_info(path).width, kWidth);
-    EXPECT_EQ(read_info(path).height, kHeight);
-    const StoredPicture picture = open_picture(path, as(Layout::kCheckerboard));
-    ASSERT_EQ(picture.eyes.size(), 2u);
-    EXPECT_EQ(picture.size.width, kWidth);
-    for (size_t i = 0; i < 2; i++) {
-      const StoredEye& eye = picture.eyes[i];
-      EXPECT_EQ(eye.eye, i == 0 ? kLeft : kRight);
-      ASSERT_EQ(eye.layers.size(), format == FileFormat::kExr ? 3u : 1u);
-      for (int y = 0; y < kHeight; y++) {
-        for (int x = 1; x < kWidth; x++) {  // the first column is half transparent
-          const bool is_edge = x < 2 || y == 0 || x == kWidth - 1 || y == kHeight - 1;
-          if (is_edge && is_left_out(static_cast<int>(i), x, y)) continue;
-          ASSERT_NEAR(light_at(picture, eye, x, y, 1), light(eye.eye, x, y, 1), tolerance(format)) << x << ' ' << y;
-        }
-      }
-    }
-  }
-}
-
-TEST(OpenPicture, CheckerboardsFillLayersByTheirRulesAndColoursByTheirAlpha) {
-  const TemporaryFolder folder;
-  save_picture(picture_rows({kLeft, kRight}, true, true), nullptr, options_for(Layout::kCheckerboard),
-               folder.path("a.exr"));
-  const StoredPicture picture = open_picture(folder.path("a.exr"));
-  EXPECT_EQ(picture.layout, Layout::kCheckerboard) << "the file says so";
-  const StoredEye& right = picture.eyes[1];
-  ASSERT_EQ(right.layers[2].channels, std::vector<std::string>{"Z"});
-  EXPECT_EQ(value_at(right.layers[2], 4, 2, 0), 100.0f + light(kRight, 3, 2, 0)) << "of four the nearest, no mean";
-  EXPECT_NEAR(value_at(right.layers[1], 4, 2, 2), light(kRight, 4, 2, 2) - 0.5f, 0.001f) << "the mean";
-  EXPECT_NEAR(value_at(right.layers[0], 0, 0, 3), 0.75f, 1e-3f) << "between opaque and half transparent";
-  save_picture(picture_rows({kLeft, kRight}, true, false), nullptr, options_for(Layout::kCheckerboard),
-               folder.path("a.png"));
-  const StoredPicture codes = open_picture(folder.path("a.png"), as(Layout::kCheckerboard));
-  const float mean = (light(kRight, 1, 0, 1) + 0.5f * light(kRight, 0, 1, 1)) / 1.5f;
-  EXPECT_NEAR(light_at(codes, codes.eyes[1], 0, 0, 1), mean, 0.005f) << "weighted by alpha";
 }
 
 TEST(OpenPicture, LayersHaveTheirRulesAndKindsOfNumber) {
