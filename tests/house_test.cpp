@@ -303,4 +303,65 @@ TEST(House, PathsThatThePagesNameExist) {
   EXPECT_GT(found, 30u);
 }
 
+// The files that a row of CONTRIBUTING.md's recipes names by their whole paths.
+std::set<std::string> files_of_recipe(const std::string& name) {
+  const std::regex path("`((ods|cli|tests|docs)/[A-Za-z0-9_/.-]+)`");
+  std::set<std::string> files;
+  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+    if (!line.starts_with("| " + name + " |")) continue;
+    for (std::sregex_iterator match(line.begin(), line.end(), path), end; match != end; ++match) {
+      files.insert((*match)[1].str());
+    }
+  }
+  EXPECT_FALSE(files.empty()) << name;
+  return files;
+}
+
+// The files that speak of a member of a closed set, by its name in the code or by the word of the command line.
+std::set<std::string> files_that_name(const std::string& member, const std::string& word) {
+  const std::regex either("(^|[^A-Za-z0-9_])" + member + "($|[^A-Za-z0-9_])|(^|[^A-Za-z0-9_])" + word +
+                          "($|[^A-Za-z0-9_])");
+  const fs::path root = ODS_SOURCE_DIR;
+  std::set<std::string> files;
+  for (const char* folder : {"ods", "cli", "tests", "docs"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::set<std::string> texts = {".cpp", ".h", ".md", ".sh", ".glsl", ".frag"};
+      const std::string path = fs::relative(entry.path(), root).generic_string();
+      if (!texts.contains(entry.path().extension()) || path == "tests/house_test.cpp") continue;
+      for (const std::string& line : read_lines(entry.path())) {
+        if (line.find(member) == std::string::npos && line.find(word) == std::string::npos) continue;
+        if (std::regex_search(line, either)) files.insert(path);
+      }
+    }
+  }
+  return files;
+}
+
+// Each of these was added by its recipe: the recipe names the files that know of it, all of them and no other.
+TEST(House, RecipesNameTheFilesThatAMemberTouches) {
+  struct Added {
+    const char* recipe;
+    const char* member;
+    const char* word;
+  };
+  for (const Added& added : {Added{"a projection", "kEacFace", "eac-face"},
+                             Added{"a name for a projection with other defaults", "mirror-ball", "mirror-ball"},
+                             Added{"a pole merge", "kMergeSmootherstep", "smootherstep"},
+                             Added{"a layout of the eyes", "kColumnInterleaved", "column-interleaved"}}) {
+    EXPECT_EQ(files_that_name(added.member, added.word), files_of_recipe(added.recipe)) << added.recipe;
+  }
+}
+
+// Recipes give the names of some files without their folders.
+TEST(House, FilesThatRecipesNameExist) {
+  std::set<std::string> names;
+  for (const Source& source : all_sources()) names.insert(fs::path(source.path).filename());
+  const std::regex file("`([a-z0-9_]+\\.(cpp|h))`");
+  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+    for (std::sregex_iterator match(line.begin(), line.end(), file), end; match != end; ++match) {
+      EXPECT_TRUE(names.contains((*match)[1].str())) << (*match)[1].str();
+    }
+  }
+}
+
 }  // namespace

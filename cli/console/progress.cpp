@@ -12,28 +12,6 @@
 
 #include "ods/base/text.h"
 
-std::string_view progress_mode_name(ProgressMode mode) {
-  switch (mode) {
-    case ProgressMode::kAuto:
-      return "auto";
-    case ProgressMode::kBar:
-      return "bar";
-    case ProgressMode::kPlain:
-      return "plain";
-    case ProgressMode::kJson:
-      return "json";
-    case ProgressMode::kNone:
-      return "none";
-    case ProgressMode::kDeadline:
-      return "deadline";
-    case ProgressMode::kOpenJd:
-      return "openjd";
-    case ProgressMode::kTractor:
-      return "tractor";
-  }
-  return "";
-}
-
 bool progress_is_for_farm(ProgressMode mode) {
   return mode == ProgressMode::kDeadline || mode == ProgressMode::kOpenJd || mode == ProgressMode::kTractor;
 }

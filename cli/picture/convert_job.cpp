@@ -76,7 +76,7 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
   options.number("--width", wishes.size.width, 0, 32768, "width of one eye in pixels; 0: keeps the input's resolution");
   options.number("--height", wishes.size.height, 0, 32768,
                  "height of one eye in pixels; 0: follows from the width and projection");
-  options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  options.choice("--eyes", wishes.size.eyes, ods::kEyesTable, "which eyes to make");
   options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
   add_layout_option(options, wishes.layout,
                     "how both eyes share the file; by default the input's, side-by-side for --to vr180");
@@ -84,7 +84,7 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
                "also write the camera to picture.camera.json, which --from of other commands reads");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable,
                  "tone curve, when converting .hdr or .exr to another format");
 }
 

@@ -45,7 +45,7 @@ void add_slit_options(Options& options, RigJob& job) {
   options.number("--blend", job.slits.blend, 0.0f, 1.0f, "share of a slit that blends into the next one");
   options.number("--padding", job.slits.padding, 0, 4096, "extra pixels around each view, for effects such as bloom");
   options.number("--scale", job.slits.scale, 0.01f, 16.0f, "resolution of the views relative to the picture");
-  options.choice("--depth", job.slits.depth, ods::kViewDepths, ods::view_depth_name,
+  options.choice("--depth", job.slits.depth, ods::kViewDepthTable,
                  "depth that the views will have: along the ray, or of a depth buffer (plane); with depth, a tenth of "
                  "the slits is enough");
 }

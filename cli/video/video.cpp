@@ -50,7 +50,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
   options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops");
-  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve");
+  options.choice("--tone", job.development.tone, ods::kToneCurveTable, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);

@@ -217,9 +217,9 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
     certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
     evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
-  const Layout layout = subject.layout();
-  const bool stacked = layout == Layout::kTopBottom || layout == Layout::kTopBottomHalf;
-  const char* cure = layout == Layout::kTopBottom
+  const EyeArrangement eyes = arrangement_of(subject.layout());
+  const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
+  const char* cure = stacked && !eyes.squeezed
                          ? "the right eye is on top: exchange the halves, or tell the player bottom-top"
                      : stacked ? "the right eye is on top: exchange the halves"
                                : "exchange the eyes, or tell the player the other order";

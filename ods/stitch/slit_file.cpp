@@ -101,9 +101,7 @@ namespace {
 ViewDepth depth_of(JsonReader& in) {
   if (!in.find("depth")) return ViewDepth::kNone;
   const std::string word = in.word("depth");
-  for (const ViewDepth depth : kViewDepths) {
-    if (word == view_depth_name(depth)) return depth;
-  }
+  if (const std::optional<ViewDepth> depth = find_in(kViewDepthTable, word)) return *depth;
   in.fail("depth", "is none, ray or plane");
 }
 
