@@ -62,7 +62,7 @@ bool JsonReader::is_null(const std::string& key) {
 }
 
 float JsonReader::checked(const Json& json, const std::string& key, float low, float high) const {
-  // As a float: 0.001 is less than the float that is nearest to it, which is the limit.
+  // Compares as float: the limit is the float nearest to 0.001, which may lie above 0.001.
   const float value = json.is_number() ? static_cast<float>(json.get<double>()) : NAN;
   if (!(value >= low && value <= high)) fail(key, fmt::format("is a number from {:g} to {:g}", low, high));
   return value;
@@ -115,12 +115,12 @@ std::string JsonReader::word(const std::string& key) {
   return json ? json->get<std::string>().substr(0, 64) : "";
 }
 
-// They may be anything: shown short.
+// Keys can be any text, so they are shown shortened.
 void JsonReader::finish() {
   for (const auto& [key, value] : json_.items()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     if (warnings_.size() == 16) break;
-    warnings_.push_back(fmt::format("'{}': nothing is known of '{}{}{}'{}", file_, place_, place_.empty() ? "" : ".",
+    warnings_.push_back(fmt::format("'{}': unknown key '{}{}{}'{}", file_, place_, place_.empty() ? "" : ".",
                                     key.substr(0, 64), did_you_mean(key.substr(0, 64), known_)));
   }
 }

@@ -65,7 +65,7 @@ void FileInput::copy(uint64_t offset, uint64_t count, AtomicFile& file) const {
   while (count > 0) {
     const ssize_t done =
         copy_file_range(descriptor_, &from, fileno(file.stream()), nullptr, std::min(count, kAtOnce), 0);
-    if (done <= 0) break;  // other file systems, old kernels, a full disk: the buffer's way, which says what is wrong
+    if (done <= 0) break;  // other file systems, old kernels, a full disk: the copy below reports it
     advance(static_cast<uint64_t>(done));
   }
   constexpr uint64_t kBuffer = uint64_t{4} << 20;

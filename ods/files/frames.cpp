@@ -31,7 +31,7 @@ size_t digits_at(std::string_view text, size_t start) {
   return count;
 }
 
-// Takes words off the front of a text.
+// Consumes tokens from the front of a text.
 struct Reader {
   const std::string& whole;  // for messages
   std::string_view rest;
@@ -73,7 +73,7 @@ Range read_range(Reader& reader) {
   range.step = direction;
   if (!reader.take("x") && !reader.take(":")) return range;
   const int step = reader.number();
-  if (step == 0) reader.fail("a step of 0 leads nowhere");
+  if (step == 0) reader.fail("the step is 0");
   if (step < 0 && direction > 0) {
     reader.fail(fmt::format("a step of {} does not lead from {} to {}", step, range.first, range.last));
   }
@@ -81,7 +81,7 @@ Range read_range(Reader& reader) {
   return range;
 }
 
-// The length of the mark that starts there, 0 for none, and how many digits it asks for.
+// The length of the frame mark that starts here, 0 if there is none, and its number of digits.
 size_t mark_at(std::string_view name, size_t start, int& digits) {
   const std::string_view rest = name.substr(start);
   for (char mark : {'#', '@'}) {
@@ -117,7 +117,7 @@ std::vector<int> parse_frames(const std::string& text) {
     const Range range = read_range(reader);
     const auto count = static_cast<size_t>((int64_t{range.last} - range.first) / range.step) + 1;
     if (count > kMaxFrames || frames.size() + count > kMaxFrames) {
-      reader.fail(fmt::format("that are more than {} frames", kMaxFrames));
+      reader.fail(fmt::format("it has more than {} frames", kMaxFrames));
     }
     for (size_t i = 0; i < count; ++i) {
       const int frame = range.first + static_cast<int>(i) * range.step;
@@ -160,7 +160,7 @@ std::vector<int> gaps(const std::vector<int>& frames) {
 }
 
 std::string FrameNames::path(int frame) const {
-  // The sign is one of the digits, as printf has it.
+  // The sign counts as a digit, as in printf.
   return fmt::format("{}{:0{}}{}", before, frame, digits, after);
 }
 

@@ -24,7 +24,7 @@ size_t file_size(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw cannot_read(path, "no such file");
   if (error) throw cannot_read(path, error.message());
-  // A folder opens as if it were endless, a pipe waits for ever.
+  // Opening a folder reads without end, and a pipe blocks.
   if (!std::filesystem::is_regular_file(status)) throw cannot_read(path, "it is not a file");
   const uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw cannot_read(path, error.message());

@@ -41,7 +41,7 @@ TEST(Frames, WhatIsNoRangeIsSaid) {
       {"a", "'a' is no number"},
       {"1-b", "'b' is no number"},
       {"1-10y3", "'y3' is not understood"},
-      {"1-10x0", "a step of 0 leads nowhere"},
+      {"1-10x0", "the step is 0"},
       {"1-10x-2", "a step of -2 does not lead from 1 to 10"},
       {"1-2000000", "more than 1000000 frames"},
       {"1-600000,700000-1300000", "more than 1000000 frames"},
