@@ -12,9 +12,9 @@
 
 namespace ods {
 
-constexpr uint64_t kStart = 8;               // bytes of magic number and version
-constexpr uint64_t kLongest = 64ull << 20u;  // of a header
-constexpr size_t kOffset = 8;                // bytes of the offset of a chunk
+constexpr uint64_t kStart = 8;               // magic number and version, in bytes
+constexpr uint64_t kLongest = 64ull << 20u;  // limit on the header's bytes
+constexpr size_t kOffset = 8;                // bytes of a chunk's offset
 
 static Error unusable(const FileInput& file, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", file.path(), why));
@@ -58,9 +58,9 @@ ExrHeader read_exr_header(const FileInput& file) {
   return header;
 }
 
-// --- what it says ----------------------------------------------------------------------------------------------------
+// --- reading ---------------------------------------------------------------------------------------------------------
 
-// Each: its name, a zero, 16 bytes.
+// Each channel: its name, a zero, 16 bytes.
 static std::vector<std::string> channel_names(const std::string& list) {
   std::vector<std::string> names;
   for (size_t at = 0; at < list.size() && list[at] != 0;) {
@@ -100,7 +100,7 @@ FileInfo exr_info(const ExrHeader& header) {
   return info;
 }
 
-// --- written ---------------------------------------------------------------------------------------------------------
+// --- writing ---------------------------------------------------------------------------------------------------------
 
 static std::string sized(const std::string& bytes) {
   const int32_t size = static_cast<int32_t>(bytes.size());
@@ -120,7 +120,7 @@ ExrAttribute exr_attribute(const Attribute& attribute) {
   return {attribute.name, "stringvector", words};
 }
 
-// Where the chunks begin: the offsets end where the first chunk lies, which need not be the first one's of the list.
+// The offset table ends where the earliest chunk starts, which need not be the first one in the table.
 static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
   constexpr uint64_t kPiece = 8192;  // offsets
   const Error damaged = unusable(file, "the offsets in the EXR are damaged, as in one that was never finished");
