@@ -23,7 +23,7 @@ std::string description_of(cmsHPROFILE profile) {
   return line.empty() ? "ICC profile" : fmt::format("ICC profile '{}'", line);
 }
 
-// Little CMS keeps what it returns until the profile is closed.
+// Little CMS owns what it returns until the profile is closed.
 const cmsToneCurve* curve_of(cmsHPROFILE profile, cmsTagSignature tag) {
   return static_cast<const cmsToneCurve*>(cmsReadTag(profile, tag));
 }
