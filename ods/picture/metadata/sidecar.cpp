@@ -20,7 +20,7 @@ namespace ods {
 namespace {
 
 constexpr int64_t kLargestMap = 1 << 24;      // texels
-constexpr size_t kLargestFile = 512u << 20u;  // bytes; what such a map may take
+constexpr size_t kLargestFile = 512u << 20u;  // bytes; room for the largest map
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 

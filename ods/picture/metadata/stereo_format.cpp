@@ -25,7 +25,7 @@ static bool is_packing(Layout layout) {
   return !is_anaglyph(layout) && layout != Layout::kSeparate && layout != Layout::kMultiview;
 }
 
-// Words that stand behind the others: frame numbers, fields of view.
+// Words after the format words: frame numbers, fields of view.
 static bool says_nothing(const std::string& word) {
   return word.find_first_not_of("0123456789xX") == std::string::npos;
 }
@@ -43,7 +43,7 @@ NameWords read_name(const std::string& path) {
     const std::string marked = name.substr(at);
     const std::string word = small_letters(marked.substr(1));
     const std::optional<Layout> layout = layout_of(word);
-    // Behind a point stands the number of a frame, not an angle.
+    // After a dot a number is a frame number, not an angle.
     const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
     if ((layout && is_packing(*layout)) || word == "mono") {
       words.layout = layout;
@@ -77,7 +77,7 @@ static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
 }
 
-// Those that a shape alone tells apart.
+// The projections that a shape alone identifies.
 static std::vector<const NamedProjection*> shapes() {
   return {find_projection("lat-long"), find_projection("cube-3x2"), find_projection("cube-6x1"),
           find_projection("cube-1x6")};
@@ -108,7 +108,7 @@ static bool has_channel(const FileInfo& info, const std::string& name) {
   return std::find(info.channels.begin(), info.channels.end(), name) != info.channels.end();
 }
 
-// What ods:layout says: a layout, or which eye the file is.
+// The layout in ods:layout, or the eye it names.
 static std::optional<LayoutGuess> said_layout(const FileInfo& info) {
   const auto said = info.text.find("ods:layout");
   if (said == info.text.end()) return std::nullopt;
@@ -138,9 +138,9 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
   return layout_of_shape({info.width, info.height}, {});
 }
 
-// --- the whole -------------------------------------------------------------------------------------------------------
+// --- everything together ---------------------------------------------------------------------------------------------
 
-// A sidecar may be that of another picture of this name: picture.exr and picture.png share one.
+// A sidecar may belong to another picture of the same name: picture.exr and picture.png share one.
 static bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
   const int count = static_cast<int>(sidecar.eyes.size());
   if (count == 2 && sidecar.layout == Layout::kMultiview && !has_channel(info, "right.R")) return false;
@@ -215,7 +215,7 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
   return std::nullopt;
 }
 
-// By the name, else the shape of an eye as it was before it was squeezed.
+// By the name, else by the shape of an eye before squeezing.
 static ProjectionSetting guess_projection(Extent eye, const std::string& path, std::vector<std::string>& guesses) {
   const NameWords words = read_name(path);
   const auto guess = [&](const NamedProjection& named, const std::string& reason) {
@@ -229,7 +229,8 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, s
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
-// A file's own words go before its sidecar's, which may be older, but for a merge map, which only the sidecar holds.
+// The file's own metadata takes precedence over its sidecar, which may be older. A merge map comes from the sidecar,
+// which alone holds it.
 static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
                                                const std::optional<Sidecar>& sidecar,
                                                std::vector<std::string>& guesses) {
@@ -271,7 +272,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   return format;
 }
 
-// JSON starts with a brace; no picture format does.
+// JSON starts with a brace, and no picture format does.
 static bool is_sidecar(const std::string& path) {
   if (path.ends_with(".json")) return true;
   const FileInput file(path);
