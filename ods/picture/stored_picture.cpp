@@ -22,15 +22,15 @@ static Error unreadable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
 }
 
-// --- which channels are what -----------------------------------------------------------------------------------------
+// --- channels and layers ---------------------------------------------------------------------------------------------
 
 namespace {
 
-// A layer of one view of a file, and where it comes to lie.
+// A layer of one view of a file, and where it is stored.
 struct Plane {
-  std::string name;                   // N, albedo; of the colour and single channels empty
-  std::vector<std::string> channels;  // without the view
-  std::vector<size_t> from;           // their numbers in the file
+  std::string name;                   // N, albedo; empty for the colour and for single channels
+  std::vector<std::string> channels;  // without the view's name
+  std::vector<size_t> from;           // channel indices in the file
   LayerRule rule = LayerRule::kMean;
   SampleType sample = SampleType::kUint8;
   std::byte* to = nullptr;
@@ -54,15 +54,15 @@ static LayerRule rule_of(const std::string& layer, const std::string& channel, b
   for (const std::string& name : {last, small_letters(channel), group.substr(0, group.find('.'))}) {
     nearest = nearest || std::find(std::begin(kWords), std::end(kWords), name) != std::end(kWords);
   }
-  // Normals and positions have a Z, too.
+  // Layers of normals and positions also have a channel Z.
   if (small_letters(channel) == "z" && !layer.empty() && last != "depth" && last != "z") nearest = packed;
   return nearest ? LayerRule::kNearest : LayerRule::kMean;
 }
 
-// Channels of one view: name without it, number in the file.
+// The channels of one view: name without the view, index in the file.
 using View = std::map<std::string, size_t>;
 
-// `right.R`, `N.right.X`; bare names are those of the view that has no others. Of a file of one view: all.
+// `right.R`, `N.right.X`; bare names belong to the default view. In a file with one view, all channels.
 static View channels_of_view(const FileInfo& info, const std::string& view, bool is_default) {
   View channels;
   for (size_t c = 0; c < info.channels.size(); c++) {
@@ -77,7 +77,7 @@ static View channels_of_view(const FileInfo& info, const std::string& view, bool
   return channels;
 }
 
-// R, G, B, perhaps A, of some layer; of grey files Y and A. Taken out of `channels`.
+// R, G, B and perhaps A of a layer, or Y and A of a grey file. Removes them from `channels`.
 static std::optional<Plane> take_color(View& channels, const std::string& layer) {
   const std::string prefix = layer.empty() ? "" : layer + ".";
   Plane light;
@@ -110,7 +110,7 @@ static std::optional<Plane> find_light(View& channels) {
   return std::nullopt;
 }
 
-// Channels in the order of the file, layers in that of their names: it is the same for both views.
+// Channels in file order, layers in order of name, so that both views have the same order.
 static std::vector<Plane> other_planes(const View& channels, const RowReader& reader) {
   const FileInfo& info = reader.info();
   std::map<size_t, std::string> ordered;
@@ -146,7 +146,7 @@ static FileShare make_share(RowReader& reader, const std::string& path, View cha
   const FileInfo& info = reader.info();
   FileShare share{&reader, {}};
   std::optional<Plane> light = find_light(channels);
-  // Files of a display have their colour first, whatever they call it.
+  // In display-referred files the colour comes first, whatever its channels are called.
   if (!light && !info.is_float && info.channels.size() >= 3) {
     light = Plane{"", {"R", "G", "B"}, {0, 1, 2}, LayerRule::kLight};
   }
@@ -165,7 +165,7 @@ static bool same_layer(const Plane& a, const Plane& b) {
   return a.channels == b.channels && a.sample == b.sample && a.rule == b.rule;
 }
 
-// Both eyes have the same layers.
+// Keeps the layers that both eyes have.
 static void keep_common(std::vector<FileShare>& shares, const std::string& path, std::vector<std::string>& guesses) {
   if (shares.size() < 2) return;
   if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
@@ -232,7 +232,7 @@ static void gather(const std::byte* in, size_t stride, const std::vector<size_t>
 
 namespace {
 
-// The channels of a file that are read at all, as they lie behind each other.
+// The channels that are read, packed in this order.
 struct Packing {
   size_t count = 0;
   std::vector<size_t> offsets;
@@ -269,7 +269,7 @@ static void put_rows(const Plane& plane, const Packing& packing, const std::byte
   });
 }
 
-// R, G and B first, or of one layer: albedo.R, ...
+// R, G and B come first, possibly in a named layer: albedo.R, ...
 static bool is_color(const Plane& plane) {
   if (plane.rule == LayerRule::kNearest || plane.channels.size() < 3 || bytes_of(plane.sample) == 1) return false;
   constexpr const char* kNames[] = {"R", "G", "B"};
@@ -279,7 +279,7 @@ static bool is_color(const Plane& plane) {
   return true;
 }
 
-// Light of the file's primaries becomes that of Rec. 709, in place.
+// Converts light of the file's primaries to Rec. 709, in place.
 static void convert_rows(const Plane& plane, const ColorSpace& color, int begin, int end, int width) {
   const size_t pixel = plane.pixel_size(), size = bytes_of(plane.sample), columns = static_cast<size_t>(width);
   tbb::parallel_for(begin, end, [&](int y) {
@@ -298,9 +298,9 @@ static void convert_rows(const Plane& plane, const ColorSpace& color, int begin,
   });
 }
 
-// Straight to its place where a file is nothing but one layer; by way of a band where it has to be taken apart.
+// Reads directly into place if the file is a single layer, else band by band.
 static void read_file(RowReader& reader, const std::vector<FileShare>& shares, const Scratch& memory) {
-  const size_t kOften = size_t{64} << 20;  // bytes between two releases
+  const size_t kOften = size_t{64} << 20;  // bytes between calls of release()
   const FileInfo& info = reader.info();
   const Packing packing = packing_of(info, shares, &reader);
   std::vector<const Plane*> planes;
@@ -331,7 +331,7 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
 
 namespace {
 
-// Row `y` and the first column of every eye in a packed image.
+// The first row and column of each eye in a packed image.
 struct EyeView {
   int x = 0;
   int y = 0;
@@ -375,7 +375,7 @@ static void check_pair(std::vector<RowReader>& readers, const std::string& path)
   }
   if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
   const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
-  if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // both become 16 bits if one has been converted to them
+  if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // if one was converted to 16 bits, convert both
     for (RowReader& reader : readers) reader.widen();
   }
 }
