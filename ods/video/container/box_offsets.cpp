@@ -13,12 +13,11 @@ uint64_t Move::operator()(uint64_t offset) const {
   return offset + static_cast<uint64_t>(growth);
 }
 
-// --- tables of a track
-// ------------------------------------------------------------------------------------------------
+// --- tables of a track -----------------------------------------------------------------------------------------------
 
 namespace {
 
-// Entries behind their number, all of a box to its end.
+// Entries that follow their count and fill the rest of the box.
 struct OffsetTable {
   size_t first;  // byte
   size_t width;
@@ -31,7 +30,7 @@ static OffsetTable table_of(const Box& box) {
   OffsetTable table{8, box.type == box_type("co64") ? size_t{8} : size_t{4}, 0};
   if (box.type == box_type("saio")) {
     table.width = get_number(box.body, 0, 1) == 0 ? 4 : 8;
-    if ((get_number(box.body, 3, 1) & 1) != 0) table.first += 8;  // what the information is about
+    if ((get_number(box.body, 3, 1) & 1) != 0) table.first += 8;  // type of the auxiliary information
   }
   table.count = get_number(box.body, table.first - 4, 4);
   if (table.count > (box.body.size() - table.first) / table.width)
@@ -83,7 +82,7 @@ void move_offsets(Box& sample_table, const Move& move) {
 
 // --- fragments -------------------------------------------------------------------------------------------------------
 
-// tfhd, where it has a base of its own: else offsets count from the fragment, which moves as a whole.
+// tfhd, if it has a base offset: otherwise offsets count from the fragment, which moves as a whole.
 static void move_fragment(Box& moof, const Move& move) {
   open_box(moof, 0);
   for (Box& track : moof.children) {
@@ -96,7 +95,7 @@ static void move_fragment(Box& moof, const Move& move) {
   }
 }
 
-// Sizes of pieces that follow each other, from the end of the box or further on.
+// The sizes of consecutive pieces, counted from the end of the box plus an offset.
 static void move_index(Box& sidx, const FileBox& place, const Move& move) {
   const size_t width = get_number(sidx.body, 0, 1) == 0 ? 4 : 8;
   const size_t first = 12 + width;
@@ -137,7 +136,7 @@ static void move_random_access(Box& mfra, const Move& move) {
 
 namespace {
 
-// One item of iloc: its extents may count from a base, which is then what moves.
+// One item of iloc. If its extents have a common base, only the base is changed.
 class ItemLocations {
  public:
   ItemLocations(std::string& body, const Move& move) : body_(body), move_(move) {
@@ -191,14 +190,13 @@ class ItemLocations {
 }  // namespace
 
 void move_item_offsets(Box& meta, const Move& move) {
-  // QuickTime's has no version in front of its boxes.
+  // QuickTime's meta has no version before its boxes.
   const bool is_quicktime = meta.body.size() >= 8 && get_number(meta.body, 4, 4) == box_type("hdlr");
   open_box(meta, is_quicktime ? 0 : 4);
   if (Box* items = find_child(meta, box_type("iloc"))) ItemLocations(items->body, move);
 }
 
-// --- boxes of the file
-// -------------------------------------------------------------------------------------------------
+// --- boxes of the file -----------------------------------------------------------------------------------------------
 
 bool may_have_offsets(BoxType type) {
   return type == box_type("moof") || type == box_type("sidx") || type == box_type("mfra") || type == box_type("meta");

@@ -24,12 +24,12 @@ namespace {
 struct BoxHeader {
   BoxType type;
   uint32_t size;   // of the header
-  uint64_t whole;  // of the box; 0: as far as there is anything
+  uint64_t whole;  // of the box; 0: to the end of the file
 };
 
 }  // namespace
 
-// Of bytes that are 8 or more.
+// Precondition: at least 8 bytes.
 static BoxHeader parse_header(std::string_view bytes) {
   BoxHeader header{static_cast<BoxType>(get_number(bytes, 4, 4)), 8, get_number(bytes, 0, 4)};
   if (header.whole == 1) {
@@ -58,7 +58,7 @@ std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
   std::vector<Box> boxes;
   while (bytes.size() >= 8) {
     const BoxHeader header = parse_header(bytes);
-    // Only a box of the file itself may reach as far as there is anything.
+    // Only a top-level box may extend to the end of the file.
     if (header.whole == 0 || header.whole > bytes.size()) throw too_long(header.type);
     if (boxes.size() == kMaxChildren) throw too_many();
     Box box;
@@ -130,7 +130,7 @@ void write_box(const Box& box, AtomicFile& file) {
   append(file, box.tail);
 }
 
-// The header at a place from which 8 bytes or more are left.
+// Precondition: at least 8 bytes are left.
 static FileBox read_header(const FileInput& file, uint64_t at, uint64_t left) {
   const BoxHeader header = parse_header(file.read(at, std::min<uint64_t>(left, 16)));
   return {header.type, header.size, at, header.whole};

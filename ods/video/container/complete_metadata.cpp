@@ -52,15 +52,15 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
 
 static FormatHint as_picture(const SphericalMetadata& known) {
   FormatHint metadata;
-  if (known.stereo) metadata.layout = Layout::kSeparate;  // one eye, or eyes in a way that pictures do not know
+  if (known.stereo) metadata.layout = Layout::kSeparate;  // one eye, or stereo that pictures do not support
   for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
     if (known.stereo == video_stereo(layout)) metadata.layout = layout;
   }
-  if (known.projection) metadata.projection = ProjectionSetting();  // which does not matter: it is not asked for
+  if (known.projection) metadata.projection = ProjectionSetting();  // any value: a known projection is not guessed
   return metadata;
 }
 
-// An eye as it was before it was squeezed.
+// The eye's size before squeezing.
 static Extent whole_eye(Layout layout, Extent file) {
   const Extent eye = unpacked_size(layout, file).value_or(file);
   const Extent squeeze = squeeze_of(layout, 2);
@@ -76,7 +76,7 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
       said = metadata;
     } else {
       if (!said->stereo) said->stereo = metadata.stereo;
-      if (!said->projection) {  // nor angles, then, nor a source
+      if (!said->projection) {  // then it has no angles and no source, either
         const std::optional<VideoStereo> stereo = said->stereo;
         said = metadata;
         said->stereo = stereo;
@@ -91,7 +91,7 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
   return said;
 }
 
-// Anything is taken as lat-long where nothing tells; a video of an ordinary camera must not be.
+// Pictures default to lat-long. Videos must not: an ordinary video must not become a sphere.
 static void guess_projection(SphericalMetadata& known, const StereoFormat& format, const VideoTrack& track,
                              const std::string& path) {
   const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size);
@@ -109,7 +109,7 @@ static StereoFormat found_format(const SphericalMetadata& known, const VideoTrac
   FileInfo info;
   info.width = track.size.width;
   info.height = track.size.height;
-  info.is_float = true;  // no XMP of pictures is looked for in it
+  info.is_float = true;  // skips the search for a picture's XMP
   if (info.width == 0 || info.height == 0) {
     throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': its pictures have no size", path));
   }
@@ -122,7 +122,7 @@ static void take_words(SphericalMetadata& known, const SphericalMetadata& said) 
     known.projection = said.projection;
     known.bounds = said.bounds;
   }
-  if (known.projection != VideoProjection::kFlat) {  // which has no place for angles
+  if (known.projection != VideoProjection::kFlat) {  // flat has no angles
     known.yaw = said.yaw, known.pitch = said.pitch, known.roll = said.roll;
   }
   known.source = said.source;
@@ -155,7 +155,7 @@ static bool is_beside(const SphericalMetadata& metadata) {
   return metadata.stereo == VideoStereo::kSideBySide || metadata.stereo == VideoStereo::kRightLeft;
 }
 
-// Eyes that were squeezed are as wide as high.
+// Squeezed eyes are square.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
   const double aspect = static_cast<double>(size.width) / size.height;
@@ -175,7 +175,7 @@ static std::optional<VideoStereo> stereo_of(std::optional<Layout> layout) {
   }
 }
 
-// Whether a video of that form may be called by that projection: a cubemap or most of a sphere is 360, a mesh anything.
+// Whether a video may be named after this projection: a cubemap or most of a sphere is 360, a mesh may be anything.
 static bool may_be_called(const SphericalMetadata& metadata, const ProjectionSetting& called) {
   if (metadata.projection == VideoProjection::kMesh || metadata.projection == VideoProjection::kOther) return true;
   const double cut = (1.0 * metadata.bounds[2] + metadata.bounds[3]) / 4294967296.0;
@@ -214,7 +214,7 @@ static FormConflict projection_conflict(const SphericalMetadata& said, const Pro
   return {fmt::format("it says {}, but {}", metadata_text(eye), reason), fmt::format("{}", fmt::join(options, " or "))};
 }
 
-// What a sidecar says, or the name.
+// Contradictions from a sidecar, and from the name.
 static void compare_with_names(const SphericalMetadata& known, const SphericalMetadata& said, const StereoFormat& found,
                                const std::string& path, std::vector<FormConflict>& conflicts) {
   const NameWords words = read_name(path);
@@ -241,7 +241,7 @@ std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const V
   try {
     compare_with_names(known, *said, found_format({}, track, path), path, conflicts);
   } catch (const Error&) {
-    // a sidecar that cannot be read says nothing
+    // An unreadable sidecar says nothing.
   }
   const std::string fault = shape_fault(*said, track.size);
   if (known.stereo || known.projection || !conflicts.empty() || fault.empty()) return conflicts;
@@ -251,7 +251,7 @@ std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const V
   return conflicts;
 }
 
-// --- what will be written --------------------------------------------------------------------------------------------
+// --- the plan --------------------------------------------------------------------------------------------------------
 
 bool can_say(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
   const SphericalMetadata usual{VideoStereo::kOneView, VideoProjection::kEquirect, {}, 0.0, 0.0, 0.0, 0.0, false, ""};

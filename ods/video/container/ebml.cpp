@@ -19,14 +19,14 @@ namespace {
 struct ElementHeader {
   uint32_t id = 0;
   size_t size_width = 0;
-  uint32_t length = 0;  // of id and size
+  uint32_t length = 0;  // of id and size together
   uint64_t body = 0;
   bool is_endless = false;
 };
 
 }  // namespace
 
-// How long a number is, going by its first byte; MalformedFile where that is 0.
+// The length of a number, from its first byte; throws MalformedFile if that is 0.
 static size_t length_of(uint64_t first) {
   if (first == 0) throw MalformedFile("a size in it makes no sense");
   return static_cast<size_t>(std::countl_zero(static_cast<uint8_t>(first))) + 1;
@@ -112,7 +112,7 @@ static size_t id_length(uint32_t id) {
   return id > 0xffffff ? 4 : id > 0xffff ? 3 : id > 0xff ? 2 : 1;
 }
 
-// All bits set are no size.
+// A size with all bits set means unknown.
 static size_t size_length(uint64_t size, size_t width) {
   while (size >= (uint64_t{1} << (7 * width)) - 1) width++;
   return width;
@@ -141,7 +141,7 @@ void write_element(const Element& element, std::string& bytes) {
   for (const Element& child : element.children) write_element(child, bytes);
 }
 
-// Of all that follows it in what holds it; the low byte first.
+// A CRC covers everything after it in its parent, and is little endian.
 void update_crc(Element& element) {
   for (Element& child : element.children) update_crc(child);
   if (element.children.empty() || element.children[0].id != kCrc32) return;

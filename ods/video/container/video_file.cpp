@@ -42,7 +42,7 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
 }
 
-// One of the two families, or an Error.
+// Which of the two container families; throws if neither.
 static bool is_of_matroska(const FileInput& file) {
   const std::string start = first_bytes(file);
   if (is_matroska(start)) return true;
