@@ -179,8 +179,7 @@ void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& 
   }
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 std::optional<Packing> packing_like(const VideoStream& stream, Container container) {
   const int bits = stream.bits > 8 ? 10 : 8;

@@ -7,10 +7,9 @@
 // kAnaglyph        red of the left eye, green and blue of the right one: full colour, strong retinal rivalry.
 // kAnaglyphHalf    as kAnaglyph, but red is the luminance of the left eye (Rec. 709): less rivalry, pale reds.
 // kAnaglyphDubois  a least-squares match of both eyes' colours through real filters, with the least ghosting. Matrices
-// of
-//                  E. Dubois, "Conversion of a Stereo Pair to Anaglyph with the Least-Squares Projection Method", 2009,
-//                  after his "A projection method to generate anaglyph stereo images", ICASSP 2001: projected in CIE
-//                  XYZ, hence linear light; for sRGB displays.
+//                  of E. Dubois, "Conversion of a Stereo Pair to Anaglyph with the Least-Squares Projection Method",
+//                  2009, after his "A projection method to generate anaglyph stereo images", ICASSP 2001: projected in
+//                  CIE XYZ, hence linear light; for sRGB displays.
 // All three show two equal grey eyes as that grey (to 0.001).
 #pragma once
 #include "ods/camera/layout.h"

@@ -134,8 +134,7 @@ std::string testcard_sound(int frames, double fps) {
   return wav;
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 static void encode_frames(const TestcardVideo& video, int frames, VideoEncoder& encoder, const Progress& progress) {
   struct Work {

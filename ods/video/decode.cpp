@@ -20,8 +20,7 @@ namespace ods {
 
 using av::checked, av::made, av::Owned;
 
-// --- what the video says
-// ----------------------------------------------------------------------------------------------
+// --- what the video says ---------------------------------------------------------------------------------------------
 
 static std::optional<VideoCodec> codec_of(AVCodecID id) {
   switch (id) {
@@ -57,7 +56,7 @@ static bool is_turned(const AVStream& stream) {
   return std::isfinite(angle) && std::abs(angle) > 0.5;
 }
 
-// The form of its numbers. Empty words: it is one that we know.
+// Reads the pixel format. Returns why it is unsupported; empty if it is supported.
 static std::string read_format(AVPixelFormat format, VideoStream& stream) {
   const AVPixFmtDescriptor* metadata = av_pix_fmt_desc_get(format);
   const std::string name = metadata == nullptr ? "unknown" : metadata->name;
@@ -84,7 +83,7 @@ static std::string read_color(const AVCodecParameters& stream, ColorCode& color)
   if (space != AVCOL_SPC_UNSPECIFIED && space != AVCOL_SPC_BT709 && !old) {
     return fmt::format("the matrix of its colours is {}; ods knows BT.709 and BT.601", av_color_space_name(space));
   }
-  // Where nothing is said, players go by the size.
+  // Players choose an unspecified matrix by the size.
   color.is_601 = old || (space == AVCOL_SPC_UNSPECIFIED && stream.height < 720);
   color.has_full_range = stream.color_range == AVCOL_RANGE_JPEG || stream.format == AV_PIX_FMT_YUVJ420P ||
                          stream.format == AV_PIX_FMT_YUVJ422P || stream.format == AV_PIX_FMT_YUVJ444P;
@@ -104,13 +103,13 @@ struct VideoDecoder::State {
   Owned<AVFormatContext> file;
   const AVStream* source = nullptr;
   Owned<AVCodecContext> decoder;
-  int64_t count = 0;  // of frames so far
+  int64_t count = 0;  // frames so far
 
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, why));
   }
 
-  // Some demuxers know tracks by other numbers: then it is the one that they think best, which is the largest.
+  // Some demuxers number tracks differently: then use the stream that FFmpeg ranks best, which is the largest.
   void find_stream(uint64_t track) {
     const int best =
         checked(av_find_best_stream(file.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0), ErrorKind::kInput, what);
@@ -157,7 +156,7 @@ struct VideoDecoder::State {
     const AVCodec* codec = avcodec_find_decoder(facts.codec_id);
     const AVDictionaryEntry* alpha = av_dict_get(source->metadata, "alpha_mode", nullptr, 0);
     const AVCodec* other = facts.codec_id == AV_CODEC_ID_VP9 ? avcodec_find_decoder_by_name("libvpx-vp9") : nullptr;
-    if (alpha != nullptr && other != nullptr) codec = other;  // FFmpeg's own leaves alpha out
+    if (alpha != nullptr && other != nullptr) codec = other;  // FFmpeg's own decoder drops alpha
     if (codec == nullptr) fail(fmt::format("no decoder here knows {}", avcodec_get_name(facts.codec_id)));
     decoder.reset(made(avcodec_alloc_context3(codec)));
     checked(avcodec_parameters_to_context(decoder.get(), &facts), ErrorKind::kInput, what);
@@ -168,7 +167,7 @@ struct VideoDecoder::State {
     if (alpha != nullptr && other != nullptr) stream.has_alpha = true;
   }
 
-  // False behind the last.
+  // False at the end of the stream.
   bool receive(AVFrame& frame) {
     const Owned<AVPacket> packet(made(av_packet_alloc()));
     for (;;) {

@@ -31,13 +31,13 @@ std::string FrameFiles::path(size_t index) const {
   return names_in(pattern).path(frames[index]);
 }
 
-// The names of one file for a frame, or of two.
+// The file patterns of a frame: one, or two if each eye has its own.
 static std::vector<std::string> patterns_of(const std::string& pattern) {
   if (!names_eye(pattern)) return {pattern};
   return {path_for_eye(pattern, kLeft), path_for_eye(pattern, kRight)};
 }
 
-// For messages, which stay lines.
+// For messages, which must stay one line.
 static std::string some_of(const std::vector<int>& frames) {
   const size_t kLongest = 200;
   const std::string text = frames_text(frames);
@@ -71,7 +71,7 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
 
 // --- the plan --------------------------------------------------------------------------------------------------------
 
-// Of a PNG by its first bytes alone: what opens it looks at every one.
+// Reads a PNG's first bytes alone: opening it would scan the whole file.
 static Extent size_of(const std::string& path) {
   const std::vector<unsigned char> start = read_start(path, 24);
   const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
@@ -82,7 +82,7 @@ static Extent size_of(const std::string& path) {
   return {info.width, info.height};
 }
 
-// Frames whose headers tell another size than the first one's.
+// Throws if a frame's header gives another size than the first frame's.
 static void check_sizes(const FrameFiles& files) {
   for (const std::string& pattern : patterns_of(files.pattern)) {
     const FrameNames names = names_in(pattern);
@@ -151,8 +151,7 @@ void check_packing(const VideoPlan& plan, const Packing& packing) {
                                              plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const VideoPlan& plan,
                                               const DisplayTransform& development, const Packing& packing) {
@@ -171,7 +170,7 @@ static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const Vid
   return frame;
 }
 
-// Frames that may be in memory at once: one that is read has up to four floats a pixel.
+// How many frames may be in memory at once; a decoded one takes up to four floats per pixel.
 static size_t frames_ahead(const VideoPlan& plan, const Packing& packing) {
   const size_t pixels = static_cast<size_t>(plan.size.width) * static_cast<size_t>(plan.size.height);
   const size_t bytes = pixels * 4 * sizeof(float) + VideoFrame(plan.size, packing).bytes();

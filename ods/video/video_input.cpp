@@ -18,9 +18,9 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
 }
 
-// --- its form --------------------------------------------------------------------------------------------------------
+// --- format ----------------------------------------------------------------------------------------------------------
 
-// None: one eye.
+// None: mono.
 static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::string& path) {
   if (stereo == VideoStereo::kOneView) return Layout::kSeparate;
   for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
@@ -52,7 +52,7 @@ static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& 
   return complete_metadata(metadata, track, path, guesses);
 }
 
-// What V2's yaw turns to the left stands to the right of where the picture looks.
+// V2's yaw turns the picture to the left, so the view moves to the right.
 static void set_attitude(StereoCamera& stereo, const SphericalMetadata& metadata) {
   stereo.yaw = -static_cast<float>(metadata.yaw);
   stereo.pitch = static_cast<float>(metadata.pitch);
@@ -72,7 +72,7 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   FileInfo file;
   file.width = track.size.width;
   file.height = track.size.height;
-  file.is_float = true;  // no XMP of pictures is looked for in it
+  file.is_float = true;  // skips the search for a picture's XMP
   FormatHint all;
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
   all.projection = projection_of(video.metadata, path);
