@@ -47,7 +47,7 @@ struct Fontconfig {
   ~Fontconfig() { FcConfigDestroy(config); }
 };
 
-// A misspelt file must not pass for the name of a font, for which another one would stand in.
+// A mistyped file name must not count as a font name, which would be silently substituted.
 bool is_font_file(const std::string& font) {
   const std::string extension = small_letters(std::filesystem::path(font).extension().native());
   for (const char* known : {".ttf", ".otf", ".ttc", ".otc", ".pfb", ".woff", ".woff2"}) {
@@ -57,7 +57,7 @@ bool is_font_file(const std::string& font) {
   return font.find('/') != std::string::npos || std::filesystem::is_regular_file(font, ignored);
 }
 
-// The name by which a file's first font goes, once fontconfig knows it.
+// The name of the file's first font, after adding it to fontconfig.
 std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   const auto* name = reinterpret_cast<const FcChar8*>(path.c_str());
   const bool added = FcConfigAppFontAddFile(fonts.config, name);
@@ -72,7 +72,7 @@ std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   return found;
 }
 
-// A layout and what it stands on.
+// A Pango layout and the objects it depends on.
 class Text {
  public:
   Text(const std::string& text, const LetteringOptions& options) : map_(pango_ft2_font_map_new()) {
@@ -99,7 +99,7 @@ class Text {
     pango_layout_set_font_description(layout_.get(), description_);
   }
 
-  // All that is drawn, in pixels.
+  // The bounds of everything drawn, in pixels.
   PangoRectangle ink() const {
     PangoRectangle ink;
     pango_layout_get_pixel_extents(layout_.get(), &ink, nullptr);
@@ -177,7 +177,7 @@ Lettering draw_lettering(const std::string& text, float em, const LetteringOptio
   if (ink.width < 1 || ink.height < 1) throw Error(ErrorKind::kUsage, "the text has no visible characters");
   lettering.coverage = drawn.draw();
   lettering.font = drawn.family();
-  const bool is_any = options.font.starts_with("Sans");  // no family's name
+  const bool is_any = options.font.starts_with("Sans");  // a generic name, not a family
   lettering.stands_in = !is_any && !is_font_file(options.font) && !options.font.starts_with(lettering.font);
   lettering.characters_lost = drawn.characters_lost();
   return lettering;

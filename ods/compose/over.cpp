@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// The foreground as if its eyes were the background's.
+// The foreground, pretending that its eyes are the background's.
 static StoredPicture with_eyes_of(StoredPicture foreground, const StereoCamera& camera) {
   StereoCamera& own = foreground.camera;
   own.ipd = camera.ipd, own.neck = camera.neck, own.axis = camera.axis, own.mirrored = camera.mirrored;
@@ -40,10 +40,10 @@ std::string over_fault(const StoredPicture& foreground, const StoredPicture& bac
   return conversion_fault(with_eyes_of(foreground, background.camera), same_format(background));
 }
 
-// --- what is suspicious ----------------------------------------------------------------------------------------------
+// --- warnings --------------------------------------------------------------------------------------------------------
 
 static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back, std::vector<std::string>& warnings) {
-  const float micrometre = 1e-6f;  // finer than videos have it
+  const float micrometre = 1e-6f;  // finer than videos store it
   if (std::abs(front.ipd - back.ipd) > micrometre) {
     warnings.push_back(
         fmt::format("the foreground was made for eyes {:g} mm apart, the background for {:g}: make it with "
@@ -64,15 +64,15 @@ std::vector<std::string> over_warnings(const StoredPicture& foreground, const St
   return warnings;
 }
 
-// --- laying over -----------------------------------------------------------------------------------------------------
+// --- compositing -----------------------------------------------------------------------------------------------------
 
 namespace {
 
-// A row of a picture as another's form has it: which channel is what.
+// Rows of a picture in another's format, and which channel is which.
 struct Rows {
   PictureRows rows;
   size_t channels = 0;
-  int alpha = -1;  // below 0: there is none
+  int alpha = -1;  // below 0: none
   int depth = -1;
 
   Rows(const StoredPicture& picture, const ConvertTarget& target) : rows(convert(picture, target).rows) {
@@ -90,7 +90,7 @@ struct Rows {
   }
 };
 
-// Of a row's pixels, as Overlay has them.
+// Pixel counts for a row, as in Overlay.
 struct Count {
   int covered = 0, behind = 0;
 };
