@@ -20,7 +20,7 @@ namespace ods {
 
 static constexpr const char* kVersion = "1";
 
-// Without -0, which a file may have where memory has 0.
+// Turns -0, which a file may contain, into 0.
 static double number(float value) {
   return decimal(value) + 0.0;
 }
@@ -39,8 +39,8 @@ static std::string numbers(vec3 v) {
   return numbers(std::vector{v.x, v.y, v.z});
 }
 
-// The height of a view's pixels over their width. Rounded: the angle across is the file's own number, but the aspect
-// is computed from two of them.
+// The pixel aspect (height over width) of a view. Rounded, because the file stores the angle across, but the aspect is
+// computed from two such numbers.
 static double pixel_aspect(const SlitRig& rig) {
   const double wide = static_cast<double>(rig.view.width) / static_cast<double>(rig.view.height);
   return std::round(1e3 * wide / static_cast<double>(rig.views[0].projection.aspect)) * 1e-3;
@@ -89,7 +89,7 @@ std::string rig_mark(const SlitRig& rig) {
 
 // --- comparing ------------------------------------------------------------------------------------------------------
 
-// In their order; names have no values twice.
+// Key-value pairs in order; a repeated key is ignored.
 static std::vector<std::pair<std::string, std::string>> words_of(const std::string& mark) {
   std::vector<std::pair<std::string, std::string>> words;
   std::istringstream stream(mark);

@@ -79,7 +79,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                  {"fov", {decimal(rig.views[0].projection.fov), decimal(vertical_fov(rig.views[0]))}}}},
                {"camera", Json::parse(write_sidecar(camera))}};
   std::string text = json.dump(2);
-  text.resize(text.size() - 2);  // the closing bracket: one view a line
+  text.resize(text.size() - 2);  // the closing bracket; views follow, one per line
   text += ",\n  \"views\": [";
   for (size_t i = 0; i < rig.views.size(); i++) {
     const size_t pitch = i % static_cast<size_t>(options.pitches), column = i / static_cast<size_t>(options.pitches);
@@ -107,7 +107,7 @@ ViewDepth depth_of(JsonReader& in) {
   in.fail("depth", "is none, ray or plane");
 }
 
-// Attitude and place, if the matrix has no more than these.
+// Orientation and position, if the matrix contains nothing else.
 bool set_pose(const std::vector<float>& m, StereoCamera& view) {
   const auto column = [&](size_t i) { return glm::dvec3(m[i], m[4 + i], m[8 + i]); };
   const glm::dvec3 right = column(0), up = column(1), back = column(2);

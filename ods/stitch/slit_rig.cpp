@@ -40,7 +40,7 @@ float slit_longitude(const SlitRig& rig, int slit) {
   return glm::radians(rig.camera.projection.longitude).x + (static_cast<float>(slit) + 0.5f) * slit_width(rig);
 }
 
-// Pitches as high as the picture; two caps are one.
+// The pitches that the picture's height divides into; two caps count as one.
 static float whole_pitches(const SlitRig& rig) {
   return static_cast<float>(rig.options.pitches - (rig.options.caps ? 1 : 0));
 }
@@ -90,13 +90,13 @@ namespace {
 
 constexpr float kWidestTangent = 11.4f;  // of half of 170 degrees
 
-// The tangents of half the angles that a view must see.
+// The tangents of the half angles that a view must cover.
 struct Window {
   float x = 0.0f;
   float y = 0.0f;
 };
 
-// `ray`: of the middle of what the view shows. `ahead`: where it looks; a cap, along the axis.
+// `ray`: the centre of what the view shows. `ahead`: where it looks; for a cap, along the axis.
 StereoCamera view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
   StereoCamera view;
   view.ipd = 0.0f;
@@ -110,7 +110,7 @@ StereoCamera view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
   return view;
 }
 
-// Widens the window to what a view shows of its slit: the corners and edges of its part of the picture.
+// Widens the window to cover the view's part of the picture: corners and edges.
 void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitch, const StereoCamera& view,
            Window& window) {
   constexpr int kSteps = 8;
@@ -151,7 +151,7 @@ Views place_views(const SlitRig& rig) {
   return all;
 }
 
-// The picture's pixel in the middle of a view, as the tangent of its angle.
+// The size of a picture pixel at a view's centre, as a tangent.
 float pixel_of(const SlitRig& rig) {
   const ProjectionSetting& setting = rig.camera.projection;
   const vec2 across = glm::radians(setting.longitude), up = glm::radians(setting.latitude);
