@@ -66,7 +66,6 @@ class FileParts {
 // or missing. Hiding the rest keeps libpng from printing warnings about it on stderr. (libpng still prints if the
 // chunks are intact but the compressed pixels are not: OpenImageIO's error handler returns into it. Only decoding twice
 // would avoid that.)
-// libpng, which then prints. Only unpacking the pixels twice would tell before.)
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read);
 
 }  // namespace ods

@@ -60,7 +60,7 @@ static void read_influences(GltfFile& file, const PrimitiveSource& primitive, si
   spend(file, primitive.order.size());
   result.influences.resize(primitive.order.size() * result.influences_per_vertex);
   for (int set = 0; set < (second ? 2 : 1); set++) read_set(file, primitive, set, joints, result);
-  // The specification wants sums of 1; a vertex that hangs on nothing goes with the first joint.
+  // The specification requires sums of 1; a vertex without weights follows the first joint.
   for (auto at = result.influences.begin(); at != result.influences.end();) {
     const auto end = at + static_cast<std::ptrdiff_t>(result.influences_per_vertex);
     float sum = 0.0f;
