@@ -27,7 +27,7 @@ void on_signal(int number) {
 
 void end_on_interrupts(const char* last_words) {
   words = last_words;
-  signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
+  signal(SIGXFSZ, SIG_IGN);  // a file size limit becomes an ordinary error, like a full disk
   const int kNumbers[] = {SIGHUP, SIGINT, SIGTERM};
   for (int number : kNumbers) {
     struct sigaction before = {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods encode: frames become a video.
+// ods encode: encodes frames as a video.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -40,7 +40,7 @@ struct EncodeJob {
 ods::Layout video_layout(const std::string& word) {
   const ods::Layout layout = layout_by_name("--layout", word);
   if (layout == ods::Layout::kTopBottom || layout == ods::Layout::kSideBySide) return layout;
-  throw UsageError("--layout of a video is top-bottom or side-by-side");
+  throw UsageError("--layout of a video must be top-bottom or side-by-side");
 }
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
@@ -75,7 +75,7 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
 
 void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  encode_options(job.video, {256, 256}, job.threads);  // before the frames are looked at, which takes time
+  encode_options(job.video, {256, 256}, job.threads);  // fails early: examining the frames takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
   const ods::VideoPlan plan = ods::plan_video(files, job.known, job.layout);
   const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);

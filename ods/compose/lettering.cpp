@@ -63,7 +63,7 @@ std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   const bool added = FcConfigAppFontAddFile(fonts.config, name);
   const FcFontSet* own = added ? FcConfigGetFonts(fonts.config, FcSetApplication) : nullptr;
   if (!own || own->nfont == 0)
-    throw Error(ErrorKind::kInput, fmt::format("--font: '{}' is absent or not a font file", path));
+    throw Error(ErrorKind::kInput, fmt::format("--font: '{}' is missing or not a font file", path));
   PangoFontDescription* description = pango_fc_font_description_from_pattern(own->fonts[0], FALSE);
   char* text = pango_font_description_to_string(description);
   const std::string found = text;
@@ -79,7 +79,7 @@ class Text {
     const FcFontSet* installed = FcConfigGetFonts(fonts_.config, FcSetSystem);
     const bool has_fonts = installed && installed->nfont > 0;
     if (!has_fonts && !is_font_file(options.font)) {
-      throw Error(ErrorKind::kInput, "this machine has no fonts: install some (fonts-dejavu), or name a font file");
+      throw Error(ErrorKind::kInput, "this machine has no fonts: install some (fonts-dejavu), or give a font file");
     }
     const std::string font = is_font_file(options.font) ? add_font_file(fonts_, options.font) : options.font;
     pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map_.get()), fonts_.config);

@@ -104,7 +104,7 @@ Holder read_holder(int file, const std::string& path) {
   Holder holder;
   std::string line;
   if (!std::getline(text, line)) return holder;
-  if (line != kMark) throw cannot_claim(path, "a file of that name is there that is no claim of ods; remove it");
+  if (line != kMark) throw cannot_claim(path, "another kind of file has that name; remove it");
   while (std::getline(text, line)) {
     const size_t space = std::min(line.find(' '), line.size());
     const std::string key = line.substr(0, space), value = line.substr(std::min(space + 1, line.size()));
@@ -249,7 +249,8 @@ void Claim::renew_until_released(ClaimTimes times) {
 
 void Claim::check() const {
   if (!lost_) return;
-  throw Error(ErrorKind::kOutput, fmt::format("'{}' was taken over by another ods while this one stood still", path_));
+  throw Error(ErrorKind::kOutput,
+              fmt::format("'{}' was taken over by another ods while this one was suspended", path_));
 }
 
 }  // namespace ods

@@ -32,7 +32,7 @@ std::string FileInput::read(uint64_t offset, uint64_t count) const {
     const ssize_t got = pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw cannot_read(path_, std::strerror(errno));
-    if (got == 0) throw cannot_read(path_, "it became shorter");
+    if (got == 0) throw cannot_read(path_, "it was truncated while being read");
     done += static_cast<size_t>(got);
   }
   return bytes;

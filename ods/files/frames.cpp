@@ -38,7 +38,7 @@ struct Reader {
 
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::kUsage,
-                fmt::format("frames '{}': {}; they are written like 1-100, 1-100x2 or 1,5,10-20", whole, why));
+                fmt::format("frames '{}': {}; write them like 1-100, 1-100x2 or 1,5,10-20", whole, why));
   }
 
   bool take(std::string_view word) {
@@ -50,7 +50,7 @@ struct Reader {
   int number() {
     const size_t sign = rest.starts_with('-') ? 1 : 0;
     const size_t digits = digits_at(rest, sign);
-    if (digits == 0) fail(rest.empty() ? "a number is missing at the end" : fmt::format("'{}' is no number", rest));
+    if (digits == 0) fail(rest.empty() ? "a number is missing at the end" : fmt::format("'{}' is not a number", rest));
     if (digits > kMaxDigits) fail(fmt::format("a number has at most {} digits", kMaxDigits));
     int value = 0;
     std::from_chars(rest.data(), rest.data() + sign + digits, value);

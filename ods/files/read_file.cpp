@@ -56,7 +56,7 @@ std::vector<unsigned char> read_file(const std::string& path, size_t most) {
   const size_t size = file_size(path);
   if (size > most) {
     throw cannot_read(path,
-                      fmt::format("it has {}, {} are the limit for such a file", bytes_text(size), bytes_text(most)));
+                      fmt::format("it has {}; the limit for such a file is {}", bytes_text(size), bytes_text(most)));
   }
   return read_start(path, size);
 }

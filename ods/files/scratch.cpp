@@ -61,8 +61,9 @@ static std::string fault_of(int file, std::string_view mark) {
   if (info.st_uid != geteuid() && geteuid() != 0) return "it is another user's; remove it, or write to another folder";
   std::string start(mark.size(), '\0');
   const bool has_mark = pread(file, start.data(), start.size(), 0) == std::ssize(mark) && start == mark;
-  return has_mark || info.st_size == 0 ? ""
-                                       : "ods keeps its work there, and this file is not ods's; rename or remove it";
+  return has_mark || info.st_size == 0
+             ? ""
+             : "ods needs that name for its work, and this file is not its own; rename or remove it";
 }
 
 // Locks the file. Does not touch its contents.

@@ -70,8 +70,8 @@ static ColorSpace of_cicp(const std::string& data) {
       {6, srgb_curve},  {5, [](double code) { return std::pow(code, 2.8); }},
       {13, srgb_curve}, {8, [](double code) { return code; }},
       {14, srgb_curve}, {15, srgb_curve}};
-  if (!kPrimaries.contains(primaries)) return ignored(name, "has primaries that ods does not know");
-  if (!kCurves.contains(transfer)) return ignored(name, "has a transfer curve that ods does not know");
+  if (!kPrimaries.contains(primaries)) return ignored(name, "has primaries that ods does not support");
+  if (!kCurves.contains(transfer)) return ignored(name, "has a transfer curve that ods does not support");
   return of_curve(name, kCurves.at(transfer), kPrimaries.at(primaries));
 }
 

@@ -55,7 +55,7 @@ ColorSpace read_icc_profile(const std::string& bytes) {
   if (profile == nullptr) return faulty("ICC profile", "is damaged");
   const std::string name = description_of(profile);
   const cmsColorSpaceSignature space = cmsGetColorSpace(profile);
-  if (space != cmsSigRgbData && space != cmsSigGrayData) return faulty(name, "is neither of RGB nor of grey");
+  if (space != cmsSigRgbData && space != cmsSigGrayData) return faulty(name, "is neither RGB nor grey");
   glm::dmat3 to_rec709(1.0);
   std::array<const cmsToneCurve*, 3> curves{};
   if (space == cmsSigGrayData) {

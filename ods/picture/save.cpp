@@ -42,12 +42,12 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
   if (layout == Layout::kMultiview && !stereo) throw unfit(path, "multi-view needs both eyes");
   if (is_anaglyph(layout) && !stereo) throw unfit(path, "an anaglyph needs both eyes");
   if (is_anaglyph(layout) && is_scene_referred(format)) {
-    throw unfit(path, "an anaglyph is what a display shows, and this format holds the scene's light; use .png");
+    throw unfit(path, "an anaglyph is display-referred, but this format is scene-linear; use .png");
   }
   if (layout == Layout::kSeparate && stereo && !names_eye(path) && !names_photo(path)) {
     throw unfit(path, "separate eyes need %V (left, right) or %v (l, r) in the file name");
   }
-  if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v name an eye, and a mono picture has none");
+  if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v stand for an eye, but the picture is mono");
 
   const int count = static_cast<int>(eyes.size());
   const Extent squeeze = squeeze_of(layout, count);
@@ -354,7 +354,8 @@ static void write_picture(AtomicFile& out, const File& file, const StereoCamera*
 // Writes both eyes as temporary JPEGs, then combines them.
 static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const StereoCamera* camera,
                             const SaveOptions& options) {
-  if (camera == nullptr) throw unfit(out.path(), "a .vr.jpg says how it was taken, and of this nobody knows");
+  if (camera == nullptr)
+    throw unfit(out.path(), "a .vr.jpg needs camera metadata, but this picture's camera is unknown");
   check_photo(out.path(), camera->projection);
   std::list<AtomicFile> eyes;
   for (const int index : {0, 1}) {

@@ -153,7 +153,7 @@ static FileShare make_share(RowReader& reader, const std::string& path, View cha
   if (!light) throw unreadable(path, "it has no colour: no channels R, G and B");
   light->sample = info.samples[light->from[0]];
   for (size_t c : light->from) {
-    if (info.samples[c] != light->sample) throw unreadable(path, "its colours are not of one kind of number");
+    if (info.samples[c] != light->sample) throw unreadable(path, "its colour channels have different number types");
   }
   share.planes.push_back(*light);
   if (color_only || !info.is_float) return share;
@@ -174,7 +174,7 @@ static void keep_common(std::vector<FileShare>& shares, const std::string& path,
       share.planes[0].from.resize(3);
     }
     if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
-      throw unreadable(path, "its eyes are not of one kind of number; convert one of them first");
+      throw unreadable(path, "its eyes have different number types; convert one of them first");
     }
   }
   std::string lost;
@@ -373,7 +373,7 @@ static void check_pair(std::vector<RowReader>& readers, const std::string& path)
     throw unreadable(
         path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
   }
-  if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
+  if (one.is_float != other.is_float) throw unreadable(path, "one eye is scene-linear, the other display-encoded");
   const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
   if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // if one was converted to 16 bits, convert both
     for (RowReader& reader : readers) reader.widen();
@@ -446,9 +446,9 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
       for (const Plane& plane : share.planes) {
         if (std::find(plane.from.begin(), plane.from.end(), channel) == plane.from.end()) continue;
         if (std::find(lost.begin(), lost.end(), plane.channels) != lost.end()) continue;
-        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are whole numbers that no float can hold");
+        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are integers too large for a float");
         lost.push_back(plane.channels);
-        guesses.push_back(fmt::format("its channel {} has the number {}, which no float can hold: left out",
+        guesses.push_back(fmt::format("its channel {} has the integer {}, too large for a float: left out",
                                       share.reader->info().channels[channel], number));
       }
     }
@@ -480,7 +480,7 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
   const auto parts = info.numbers.find("oiio:subimages");
   if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
-    picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
+    picture.guesses.push_back(fmt::format("it has {} parts; only the first is read", parts->second[0]));
   }
   picture.size = eye_size(picture, info, path);
   std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);

@@ -138,7 +138,7 @@ std::string mark_difference(const std::string& mark, const std::string& expected
   for (const auto& [name, value] : words_of(mark)) {
     if (value_of(expected, name).empty()) compare(name);
   }
-  if (parts.empty()) return "the views stand or look elsewhere";
+  if (parts.empty()) return "the views have other positions or directions";
   const size_t more = parts.size() - std::min(parts.size(), kMaxSaid);
   parts.resize(parts.size() - more);
   return fmt::format("{}{}", fmt::join(parts, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
@@ -147,9 +147,9 @@ std::string mark_difference(const std::string& mark, const std::string& expected
 void check_rig_mark(const std::string& mark, const std::string& expected, const std::string& name) {
   const std::string difference = mark_difference(mark, expected);
   if (difference.empty()) return;
-  throw Error(
-      ErrorKind::kInput,
-      fmt::format("'{}': views of another rig ({}): render them with this rig, or use theirs", name, difference));
+  throw Error(ErrorKind::kInput,
+              fmt::format("'{}': the views belong to another rig ({}): render them with this rig, or use theirs", name,
+                          difference));
 }
 
 }  // namespace ods

@@ -104,7 +104,7 @@ ViewDepth depth_of(JsonReader& in) {
   for (const ViewDepth depth : kViewDepths) {
     if (word == view_depth_name(depth)) return depth;
   }
-  in.fail("depth", "is none, ray or plane");
+  in.fail("depth", "must be none, ray or plane");
 }
 
 // Orientation and position, if the matrix contains nothing else.
@@ -128,11 +128,11 @@ void read_view(const Json& json, const std::string& name, size_t index, std::vec
   JsonReader in(json, name, "rig", fmt::format("views[{}]", index), warnings);
   int number = 0;
   in.integer("number", number, 1, 1 << 30);
-  if (static_cast<size_t>(number) != index + 1) in.fail("number", fmt::format("is {} here", index + 1));
+  if (static_cast<size_t>(number) != index + 1) in.fail("number", fmt::format("must be {} here", index + 1));
   for (const char* known : {"eye", "slit", "pitch"}) in.find(known);
   std::vector<float> matrix;
   if (!in.numbers("matrix", matrix, 16, -kFarthest, kFarthest) || !set_pose(matrix, rig.views[index])) {
-    in.fail("matrix", "is a place and an attitude: 16 numbers in rows, without scale or mirroring");
+    in.fail("matrix", "must be a rigid transform: 16 numbers in rows, without scale or mirroring");
   }
   rig.matrices.push_back(std::move(matrix));
   in.finish();
@@ -159,16 +159,16 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   SlitOptions options;
   read_options(in, options);
   const Json* camera = in.find("camera");
-  if (!camera || !camera->is_object()) in.fail("camera", "is an object {...}: the picture's camera");
+  if (!camera || !camera->is_object()) in.fail("camera", "must be an object {...}: the picture's camera");
   const Sidecar file = read_sidecar(camera->dump(), name, warnings);
   const std::string fault = slit_fault(file.camera, file.eye, options);
-  if (!fault.empty()) in.fail("", "cannot be: " + fault);
+  if (!fault.empty()) in.fail("", "describes an impossible rig: " + fault);
   SlitRig rig = make_slit_rig(file.camera, file.eye, file.eyes, options);
   in.part("view", [&](JsonReader& view) {
     view.integer("width", rig.view.width, 1, kMaxSide);
     view.integer("height", rig.view.height, 1, kMaxSide);
     vec2 fov(0.0f);
-    if (!view.vector("fov", fov, 0.001f, 170.0f)) view.fail("fov", "are two numbers");
+    if (!view.vector("fov", fov, 0.001f, 170.0f)) view.fail("fov", "must be two numbers");
     for (StereoCamera& each : rig.views) {
       each.projection.fov = fov.x;
       each.projection.aspect = std::tan(0.5f * glm::radians(fov.x)) / std::tan(0.5f * glm::radians(fov.y));
@@ -176,8 +176,8 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   });
   const Json* views = in.find("views");
   if (!views || !views->is_array() || views->size() != rig.views.size()) {
-    in.fail("views", fmt::format("is a list of {}: {} eyes, {} slits, {} pitches", rig.views.size(), rig.eyes.size(),
-                                 options.slits, options.pitches));
+    in.fail("views", fmt::format("must be a list of {}: {} eyes, {} slits, {} pitches", rig.views.size(),
+                                 rig.eyes.size(), options.slits, options.pitches));
   }
   for (size_t i = 0; i < rig.views.size(); i++) read_view((*views)[i], name, i, warnings, rig);
   in.finish();

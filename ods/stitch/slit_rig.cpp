@@ -169,24 +169,24 @@ int pixels_for(float tangent, const SlitRig& rig) {
 
 std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions& options) {
   if (camera.projection.kind != kLatLong) {
-    return fmt::format("slits make a lat-long picture, whole or a part; ods convert makes {} of it",
+    return fmt::format("slits make a lat-long picture, whole or a part; ods convert can turn it into {}",
                        projection_name(camera.projection));
   }
-  if (camera.lens_radius > 0.0f) return "the views' own renderer makes the blur of a lens: leave --lens away";
+  if (camera.lens_radius > 0.0f) return "the views' renderer makes the depth of field: leave out --lens";
   if (options.slits < 3 || options.slits > eye.width) {
-    return fmt::format("{} slits: it takes 3, and more than the picture has columns ({}) make no sense", options.slits,
-                       eye.width);
+    return fmt::format("{} slits: there must be at least 3, and at most as many as the picture has columns ({})",
+                       options.slits, eye.width);
   }
-  if (options.pitches < 1 || options.pitches > 64) return "there are 1 to 64 views above each other";
-  if (options.caps && options.pitches < 3) return "caps are two of at least 3 pitches";
+  if (options.pitches < 1 || options.pitches > 64) return "there can be 1 to 64 views above each other";
+  if (options.caps && options.pitches < 3) return "caps need at least 3 pitches";
   const SlitRig rig{camera, eye, {kRight}, options, {}, {}, {}};
   const Window window = place_views(rig).window;
   if (!(window.x < kWidestTangent && window.y < kWidestTangent)) {
-    return "a view would have to see more than 170 degrees: more slits, more pitches, or eyes toed in on a farther "
-           "place";
+    return "a view would have to cover more than 170 degrees: use more slits or pitches, or converge the eyes farther "
+           "away";
   }
   if (pixels_for(window.x, rig) > kMaxSide || pixels_for(window.y, rig) > kMaxSide) {
-    return fmt::format("views would have more than {} pixels a side", kMaxSide);
+    return fmt::format("views would have more than {} pixels per side", kMaxSide);
   }
   return "";
 }

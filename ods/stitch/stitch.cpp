@@ -218,7 +218,7 @@ std::shared_ptr<const View> Stitcher::open_view(size_t index) {
                                                  rig_.view.width, rig_.view.height));
     }
     if (!same_layers(layers_of(picture), layers_))
-      throw Error(ErrorKind::kInput, "its layers are not those of the others");
+      throw Error(ErrorKind::kInput, "its layers differ from those of the other views");
     return std::make_shared<const View>(std::move(picture), rig_.views[index], rig_.options.depth);
   } catch (const Error& error) {
     if (!is_views_fault(error)) throw;

@@ -170,10 +170,10 @@ class Sheets {
 
 std::string names_fault(const SlitRig& rig, const ViewFiles& files) {
   if (!frame_names(files.names)) {
-    return fmt::format("'{}' has no place for the number of the view: views/####.exr", files.names);
+    return fmt::format("'{}' has no placeholder for the view's number, as in views/####.exr", files.names);
   }
   if (names_eye(files.names) && rig.eyes.size() < 2) {
-    return fmt::format("'{}' is for two eyes, and the rig has one", files.names);
+    return fmt::format("'{}' is for two eyes, but the rig has one", files.names);
   }
   if (views_of_sheet(files) > rig.views.size()) {
     return fmt::format("a sheet of {}x{} has more views than the rig ({})", files.columns, files.rows,
@@ -240,7 +240,7 @@ static std::string fault_of(const std::string& path, const StereoCamera& pose, E
                             bool thorough) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
-  if (error == std::errc::no_such_file_or_directory) return fmt::format("'{}' is not there", path);
+  if (error == std::errc::no_such_file_or_directory) return fmt::format("'{}' does not exist", path);
   if (error) return fmt::format("'{}' cannot be read: {}", path, error.message());
   if (bytes == 0) return fmt::format("'{}' is empty", path);
   if (!thorough) return "";

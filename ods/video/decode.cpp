@@ -76,12 +76,12 @@ static std::string read_format(AVPixelFormat format, VideoStream& stream) {
 static std::string read_color(const AVCodecParameters& stream, ColorCode& color) {
   const AVColorTransferCharacteristic curve = stream.color_trc;
   if (curve == AVCOL_TRC_SMPTE2084 || curve == AVCOL_TRC_ARIB_STD_B67) {
-    return fmt::format("it is HDR ({}); ods knows BT.709", av_color_transfer_name(curve));
+    return fmt::format("it is HDR ({}); ods supports BT.709", av_color_transfer_name(curve));
   }
   const AVColorSpace space = stream.color_space;
   const bool old = space == AVCOL_SPC_SMPTE170M || space == AVCOL_SPC_BT470BG || space == AVCOL_SPC_FCC;
   if (space != AVCOL_SPC_UNSPECIFIED && space != AVCOL_SPC_BT709 && !old) {
-    return fmt::format("the matrix of its colours is {}; ods knows BT.709 and BT.601", av_color_space_name(space));
+    return fmt::format("its colour matrix is {}; ods supports BT.709 and BT.601", av_color_space_name(space));
   }
   // Players choose an unspecified matrix by the size.
   color.is_601 = old || (space == AVCOL_SPC_UNSPECIFIED && stream.height < 720);
@@ -130,9 +130,10 @@ struct VideoDecoder::State {
     stream.size = {facts.width, facts.height};
     stream.codec = codec_of(facts.codec_id);
     const AVRational rate = rate_of(*source);
-    if (rate.num == 0) fail("it does not say how many pictures it has a second");
+    if (rate.num == 0) fail("it does not state its frame rate");
     stream.rate = {rate.num, rate.den};
-    if (is_turned(*source)) fail("its pictures lie turned; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them");
+    if (is_turned(*source))
+      fail("its pictures are stored rotated; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them upright");
     std::string fault = read_format(static_cast<AVPixelFormat>(facts.format), stream);
     if (fault.empty()) fault = read_color(facts, stream.color);
     if (!fault.empty()) fail(fault);
@@ -157,7 +158,7 @@ struct VideoDecoder::State {
     const AVDictionaryEntry* alpha = av_dict_get(source->metadata, "alpha_mode", nullptr, 0);
     const AVCodec* other = facts.codec_id == AV_CODEC_ID_VP9 ? avcodec_find_decoder_by_name("libvpx-vp9") : nullptr;
     if (alpha != nullptr && other != nullptr) codec = other;  // FFmpeg's own decoder drops alpha
-    if (codec == nullptr) fail(fmt::format("no decoder here knows {}", avcodec_get_name(facts.codec_id)));
+    if (codec == nullptr) fail(fmt::format("this machine has no decoder for {}", avcodec_get_name(facts.codec_id)));
     decoder.reset(made(avcodec_alloc_context3(codec)));
     checked(avcodec_parameters_to_context(decoder.get(), &facts), ErrorKind::kInput, what);
     decoder->pkt_timebase = source->time_base;
@@ -193,7 +194,7 @@ struct VideoDecoder::State {
     if (!fault.empty()) fail(fault);
     if (size.width != stream.size.width || size.height != stream.size.height || own.bits != stream.bits ||
         own.chroma != stream.chroma || own.has_alpha != stream.has_alpha) {
-      fail(fmt::format("picture {} is of another form than the first", count));
+      fail(fmt::format("picture {} has another format than the first", count));
     }
     if (frame.decode_error_flags != 0) fail(fmt::format("picture {} is damaged", count));
     if (frame.best_effort_timestamp == AV_NOPTS_VALUE) return;
@@ -202,7 +203,7 @@ struct VideoDecoder::State {
     const double due = stream.start + static_cast<double>(count) / stream.rate.value();
     if (std::abs(time - due) * stream.rate.value() < 0.75) return;
     fail(
-        fmt::format("its pictures come at uneven times: number {} at {:.3f} s, not {:.3f}; ffmpeg -i VIDEO -r {:.4g} "
+        fmt::format("its frame times are uneven: frame {} is at {:.3f} s, not {:.3f}; ffmpeg -i VIDEO -r {:.4g} "
                     "EVEN makes them even",
                     count, time, due, stream.rate.value()));
   }
@@ -234,7 +235,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   result.planes.chroma = state.stream.chroma;
   for (size_t i = 0; i < 3; i++) {
     result.planes.first[i] = reinterpret_cast<std::byte*>(frame->data[i]);
-    if (frame->linesize[i] < 0) state.fail("its rows lie upside down");
+    if (frame->linesize[i] < 0) state.fail("its rows are stored upside down");
     result.planes.stride[i] = static_cast<size_t>(frame->linesize[i]);
   }
   if (state.stream.has_alpha) {

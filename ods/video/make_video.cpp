@@ -24,7 +24,7 @@ namespace ods {
 static FrameNames names_in(const std::string& pattern) {
   if (const std::optional<FrameNames> names = frame_names(pattern)) return *names;
   throw Error(ErrorKind::kUsage,
-              fmt::format("'{}' has no place for the number of a frame; it is written like shot.####.exr", pattern));
+              fmt::format("'{}' has no placeholder for the frame number; write it like shot.####.exr", pattern));
 }
 
 std::string FrameFiles::path(size_t index) const {
@@ -66,7 +66,7 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
     missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", some_of(absent), patterns[i]);
   }
   if (missing.empty()) return files;
-  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, some_of(there)));
+  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (found {})", missing, some_of(there)));
 }
 
 // --- the plan --------------------------------------------------------------------------------------------------------
@@ -98,8 +98,8 @@ static void check_sizes(const FrameFiles& files) {
     if (others.empty()) continue;
     throw Error(
         ErrorKind::kInput,
-        fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
-                    some_of(others), pattern, others[0], other.width, other.height, sizes[0].width, sizes[0].height));
+        fmt::format("frames {} of '{}' differ in size from the first: {} has {}x{} pixels, not {}x{}", some_of(others),
+                    pattern, others[0], other.width, other.height, sizes[0].width, sizes[0].height));
   }
 }
 
@@ -107,8 +107,9 @@ static Layout wished_layout(Layout own, std::optional<Layout> wish) {
   if (!wish || *wish == own) return own;
   const Extent squeeze = squeeze_of(own, 2);
   if (squeeze.width * squeeze.height > 1) {
-    throw Error(ErrorKind::kUsage, fmt::format("the frames are {} and cannot become {}; ods convert unsqueezes them",
-                                               layout_name(own), layout_name(*wish)));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the frames are {} and cannot become {}; unsqueeze them with ods convert", layout_name(own),
+                            layout_name(*wish)));
   }
   return *wish;
 }
@@ -124,7 +125,7 @@ VideoPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSet
   try {
     set_projection(plan.metadata, projection);
   } catch (const Error& error) {
-    plan.notes.push_back(fmt::format("{}; it says only how its eyes lie", error.what()));
+    plan.notes.push_back(fmt::format("{}; it gets only its layout as metadata", error.what()));
   }
   return plan;
 }
@@ -147,8 +148,9 @@ VideoPlan plan_video(const FrameFiles& files, const FormatHint& known, std::opti
 void check_packing(const VideoPlan& plan, const Packing& packing) {
   const Extent block = chroma_block(packing.chroma);
   if (plan.eye.width % block.width == 0 && plan.eye.height % block.height == 0) return;
-  throw Error(ErrorKind::kUsage, fmt::format("eyes of {}x{} pixels cannot be a video of chroma {}: its sides are even",
-                                             plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
+  throw Error(ErrorKind::kUsage,
+              fmt::format("eyes of {}x{} pixels cannot become a video with chroma {}: their sides must be even",
+                          plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
 }
 
 // --- the video -------------------------------------------------------------------------------------------------------

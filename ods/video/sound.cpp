@@ -56,7 +56,7 @@ static SoundFile open_sound_file(const std::string& path) {
   }
   const int rate = sound.decoder->sample_rate;
   if (rate < kMinRate || rate > kMaxRate) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: it claims {} samples a second", what, rate));
+    throw Error(ErrorKind::kInput, fmt::format("{}: it claims {} samples per second", what, rate));
   }
   return sound;
 }
@@ -77,8 +77,8 @@ static Owned<AVCodecContext> open_sound_encoder(Container container, int channel
   const char* name = container == Container::kMp4 ? "aac" : container == Container::kMov ? "pcm_s24le" : "libopus";
   const AVCodec* codec = avcodec_find_encoder_by_name(name);
   if (codec == nullptr) {
-    throw Error(ErrorKind::kUsage, fmt::format("this machine's libavcodec has no {}, which sound in {} takes", name,
-                                               container_name(container)));
+    throw Error(ErrorKind::kUsage, fmt::format("this machine's libavcodec has no {} encoder, which sound in {} needs",
+                                               name, container_name(container)));
   }
   Owned<AVCodecContext> context(made(avcodec_alloc_context3(codec)));
   context->sample_rate = kSoundRate;
@@ -91,7 +91,8 @@ static Owned<AVCodecContext> open_sound_encoder(Container container, int channel
   av_channel_layout_default(&context->ch_layout, channels);
   if (channels == 4 && !has_boxes(container)) {
     // The ambisonics mapping (RFC 8486).
-    checked(av_opt_set(context->priv_data, "mapping_family", "2", 0), ErrorKind::kInput, "libopus knows no ambisonics");
+    checked(av_opt_set(context->priv_data, "mapping_family", "2", 0), ErrorKind::kInput,
+            "libopus does not support ambisonics");
   }
   checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kInput,
           fmt::format("{} cannot encode the sound", name));
@@ -185,7 +186,7 @@ class PackedSound final : public Sound {
     if (!ended_) checked_small_input(code, what());
     const bool is_other = !ended_ && (frame->format != format_ || frame->sample_rate != rate_ ||
                                       frame->ch_layout.nb_channels != encoder_->ch_layout.nb_channels);
-    if (is_other) throw Error(ErrorKind::kInput, what() + ": its channels or its rate change on the way");
+    if (is_other) throw Error(ErrorKind::kInput, what() + ": its channels or sample rate change midway");
     convert(ended_ ? nullptr : frame.get());
   }
 
@@ -221,8 +222,9 @@ class CopiedSound final : public Sound {
     const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
     const AVCodecID codec = source_->codecpar->codec_id;
     if (avformat_query_codec(format, codec, FF_COMPLIANCE_NORMAL) == 1) return;
-    throw Error(ErrorKind::kInput, fmt::format("{} holds no sound like that of '{}' ({}): --audio '{}' packs it anew",
-                                               container_name(container), path, avcodec_get_name(codec), path));
+    throw Error(ErrorKind::kInput,
+                fmt::format("{} cannot hold sound like that of '{}' ({}): add --audio '{}' to encode it anew",
+                            container_name(container), path, avcodec_get_name(codec), path));
   }
 
   void describe(AVStream& stream) const override {

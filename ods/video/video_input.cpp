@@ -26,15 +26,15 @@ static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::stri
   for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
     if (stereo == video_stereo(layout)) return layout;
   }
-  throw unusable(path, fmt::format("how its eyes share a picture is {}", stereo_name(stereo)));
+  throw unusable(path, fmt::format("its layout is {}", stereo_name(stereo)));
 }
 
 static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
   if (metadata.projection != VideoProjection::kEquirect) {
-    throw unusable(
-        path, fmt::format("it says that it is {}; videos are read in lat-long and parts of it (--from-projection says "
-                          "what it is in truth)",
-                          projection_name(*metadata.projection)));
+    throw unusable(path,
+                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--from-projection "
+                               "overrides a wrong claim)",
+                               projection_name(*metadata.projection)));
   }
   const auto part = [](uint32_t bound, double whole) { return static_cast<float>(bound / 4294967296.0 * whole); };
   ProjectionSetting projection;
@@ -90,8 +90,8 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
                                      layout_name(like.layout)));
   }
   if ((eye->width | eye->height) % 2 != 0) {
-    throw unusable(path,
-                   fmt::format("its eyes of {}x{} pixels share colours: their sides are odd", eye->width, eye->height));
+    throw unusable(path, fmt::format("its eyes of {}x{} pixels share chroma samples: their sides are odd", eye->width,
+                                     eye->height));
   }
   like.size = *eye;
   like.eyes.resize(like.layout == Layout::kSeparate ? 1 : 2);

@@ -37,7 +37,7 @@ ExrHeader read_exr_header(const FileInput& file) {
   const Error damaged = unusable(file, "the EXR is cut short or damaged");
   const std::string bytes = file.read(0, std::min(file.size(), kLongest));
   if (bytes.size() < kStart || !bytes.starts_with("\x76\x2f\x31\x01")) throw damaged;
-  if ((number_at<uint32_t>(bytes, 4) & kSeveralParts) != 0) throw unusable(file, "it is an EXR of several parts");
+  if ((number_at<uint32_t>(bytes, 4) & kSeveralParts) != 0) throw unusable(file, "it is a multi-part EXR");
   ExrHeader header;
   size_t at = kStart;
   const auto word = [&] {
@@ -123,7 +123,7 @@ ExrAttribute exr_attribute(const Attribute& attribute) {
 // The offset table ends where the earliest chunk starts, which need not be the first one in the table.
 static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
   constexpr uint64_t kPiece = 8192;  // offsets
-  const Error damaged = unusable(file, "the offsets in the EXR are damaged, as in one that was never finished");
+  const Error damaged = unusable(file, "the EXR's offsets are damaged, as if it was never finished");
   std::vector<uint64_t> offsets;
   uint64_t first = file.size();
   for (; at + kOffset * offsets.size() < first;) {

@@ -119,7 +119,7 @@ static void read_merge(AttributeReader& in, const std::string& name, PoleMergeSe
   merge.mode = *mode;
   if (merge.mode != kMergeMap) return;
   merge.mode = kMergeNone;
-  warnings.push_back("its merge map is only in its sidecar, which is not there: taken as without a pole merge");
+  warnings.push_back("its merge map is in a sidecar that is missing: using no pole merge");
 }
 
 static void read_projection(AttributeReader& in, const std::string& name, ProjectionSetting& setting) {
@@ -175,7 +175,7 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
   read_merge(in, "ods:poleMergeBottom", camera.bottom, warnings);
   read_extras(in, camera);
   if (in.bad().empty()) return camera;
-  warnings.push_back(fmt::format("its {} makes no sense: all that it says of its camera is left aside", in.bad()));
+  warnings.push_back(fmt::format("its {} is invalid: ignoring its camera metadata", in.bad()));
   return std::nullopt;
 }
 

@@ -157,14 +157,14 @@ static std::optional<Sidecar> find_sidecar(const FileInfo& info, const std::stri
   try {
     std::optional<Sidecar> sidecar = load_sidecar(beside, warnings);
     if (belongs_to(*sidecar, info)) return sidecar;
-    warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
+    warnings.push_back(fmt::format("'{}' seems to belong to another picture: its size or layout differs", beside));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
     const std::string why = error.what();
     if (!known.layout && !known.projection) {
-      throw Error(error.kind(), why + "; mend or remove it, or say what the picture's layout and projection are");
+      throw Error(error.kind(), why + "; fix or remove it, or give the picture's layout and projection");
     }
-    warnings.push_back(why + ": left aside");
+    warnings.push_back(why + ": ignored");
   }
   return std::nullopt;
 }
@@ -175,7 +175,7 @@ static bool is_taken_as_photo(const FileInfo& info, const std::string& path, con
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
                                const std::optional<Sidecar>& sidecar, bool photo) {
-  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo, with the right eye in it"};
+  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo with an embedded right eye"};
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
@@ -205,7 +205,7 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
     const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
     const std::optional<StereoCamera> camera = gpano_camera(xmp);
     if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
-      warnings.push_back(fmt::format("its GPano says {}, of which only whole lat-long and parts of it are understood",
+      warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
                                      xmp_property(xmp, "GPano:ProjectionType")));
     }
     return camera;
@@ -248,10 +248,10 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   format.eye = find_eye(info, sidecar);
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': nobody can take an anaglyph apart again", path));
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': the eyes of an anaglyph cannot be separated", path));
   }
   if (info.text.contains("ods:layout") && !said_layout(info)) {
-    format.guesses.push_back("its ods:layout is no layout: left aside");
+    format.guesses.push_back("its ods:layout is invalid: ignored");
   }
   if (is_guess(format.layout)) {
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
@@ -287,7 +287,7 @@ Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings)
   const StereoFormat format = find_format(info, path, {});
   if (!format.has_camera) {
     throw Error(ErrorKind::kInput,
-                fmt::format("cannot use '{}': it does not say how it was taken; name its .camera.json file", path));
+                fmt::format("cannot use '{}': it has no camera metadata; give its .camera.json file instead", path));
   }
   warnings.insert(warnings.end(), format.guesses.begin(), format.guesses.end());
   Sidecar file;
@@ -307,10 +307,10 @@ std::string name_fault(const std::string& path, std::optional<Layout> layout, co
   const bool packed = !layout || is_packing(*layout);
   if (!words.layout_word.empty() && packed && words.layout != layout) {
     const std::string_view is = layout ? layout_name(*layout) : "one eye";
-    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.layout_word, is);
+    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.layout_word, is);
   }
   if (words.projection != nullptr && words.projection->setting.kind != projection.kind) {
-    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.projection_word,
+    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.projection_word,
                        projection_name(projection));
   }
   return {};

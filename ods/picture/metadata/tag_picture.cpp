@@ -25,7 +25,7 @@ static FileFormat format_of(const FileInput& file) {
   const std::optional<FileFormat> format = format_of_file(file);
   if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
     throw unusable(file.path(),
-                   "it is neither a video (mp4, mov, mkv, webm) nor a picture that can say what it is "
+                   "it is neither a video (mp4, mov, mkv, webm) nor a picture with room for 360 metadata "
                    "(jpg, png, tif, exr)");
   }
   return *format;
@@ -73,7 +73,7 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
     const Extent squeeze = squeeze_of(layout, 2);
     if (natural_height(format.camera.projection, eye.width * squeeze.width) != eye.height * squeeze.height) {
       throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
-                                       "shows: say it with --layout and --projection",
+                                       "shows: give --layout and --projection",
                                        info.width, info.height));
     }
   }
@@ -85,13 +85,14 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
 
 static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format, const PictureTag& tag) {
   if (tag.layout && *tag.layout != Layout::kSeparate) {
-    throw unusable(file.path(), fmt::format("GPano knows no stereo, and viewers would wrap both eyes ({}) around one "
-                                            "sphere. Its name tells players (_360_TB, _180_LR ...); ods convert makes "
-                                            "a photo of both eyes of it: -o NAME.vr.jpg",
-                                            layout_name(*tag.layout)));
+    throw unusable(file.path(),
+                   fmt::format("GPano has no stereo, and viewers would wrap both eyes ({}) around one "
+                               "sphere. Players recognize it by its name (_360_TB, _180_LR ...); ods convert makes "
+                               "a photo with both eyes: -o NAME.vr.jpg",
+                               layout_name(*tag.layout)));
   }
   if (!fits_gpano(tag.camera.projection)) {
-    throw unusable(file.path(), fmt::format("GPano knows lat-long and parts of it that do not cross the seam, and has "
+    throw unusable(file.path(), fmt::format("GPano has lat-long and parts of it that do not cross the seam, but "
                                             "no word for {}",
                                             projection_name(tag.camera.projection)));
   }
@@ -131,7 +132,7 @@ static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, co
   const std::string old = read_xmp(file);
   if (!tag && old.empty()) return file.copy(0, file.size(), to);
   const std::optional<std::string> packet = tag ? tagged_packet(file, format, *tag, old) : replace_gpano(old, {});
-  if (!packet) throw unusable(file.path(), "its XMP cannot be understood; remove it first with another program");
+  if (!packet) throw unusable(file.path(), "its XMP cannot be parsed; remove it first with another program");
   write_xmp(file, to, says_something(*packet) ? *packet : "");
 }
 

@@ -61,11 +61,11 @@ static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, st
 static std::string join(const std::vector<Piece>& pieces, const std::string& path) {
   std::string packet;
   for (const Piece& piece : pieces) {
-    if (piece.at != packet.size()) throw damaged(path, "parts of it are missing or stand there twice");
+    if (piece.at != packet.size()) throw damaged(path, "parts of it are missing or duplicated");
     packet += piece.bytes;
   }
   for (const Piece& piece : pieces) {
-    if (piece.whole != packet.size()) throw damaged(path, "it is longer or shorter than it says");
+    if (piece.whole != packet.size()) throw damaged(path, "its length differs from the one stated");
   }
   return packet;
 }
@@ -81,7 +81,7 @@ static std::string extended_xmp(const std::vector<JpegSegment>& segments, std::s
   std::string capitals = id;
   std::transform(id.begin(), id.end(), capitals.begin(), [](char c) { return c >= 'a' && c <= 'f' ? c - 32 : c; });
   if (extended.empty()) throw damaged(path, "it is not there");
-  if (md5(extended) != capitals) throw damaged(path, "its bytes are not those that its MD5 was made of");
+  if (md5(extended) != capitals) throw damaged(path, "its MD5 does not match");
   return extended;
 }
 
@@ -131,8 +131,7 @@ std::string read_right_eye(const std::string& path) {
 
 void write_photo(const FileInput& left, const std::string& right, const StereoCamera& camera, Extent size,
                  AtomicFile& to) {
-  if (right.size() > kMaxRight)
-    throw damaged(left.path(), "it has more than 3 GiB, and such a photo has no room for it");
+  if (right.size() > kMaxRight) throw damaged(left.path(), "it has more than 3 GiB, the limit of such a photo");
   const std::string extended = make_xmp_body({{"GImage:Data", encode_base64(right)}});
   const std::string id = md5(extended);
   std::vector<Attribute> properties;

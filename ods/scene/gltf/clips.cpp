@@ -251,7 +251,7 @@ void read_clips(GltfFile& file, Scene& scene, const Places& places) {
                                                                   : property_width(target->property);
       auto keys = read_keys(file, channel, target->property, width);
       if (!keys) {
-        warn(scene, "animation channels whose keys make no sense are ignored");
+        warn(scene, "animation channels with invalid keys are ignored");
         continue;
       }
       clip.end = std::max(clip.end, static_cast<double>(keys->times.back()));

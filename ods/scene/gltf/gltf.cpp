@@ -74,8 +74,8 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
                              "compression",
                              name));
     }
-    fail(file,
-         fmt::format("needs the extension {}, which ods does not support; export it again without", printable(name)));
+    fail(file, fmt::format("needs the extension {}, which ods does not support; export it again without it",
+                           printable(name)));
   }
   constexpr size_t kMax = 50;
   for (const std::string& name : names_in(file, "extensionsUsed")) {
@@ -90,7 +90,7 @@ static void check_reach(Scene& scene) {
   const vec3 corner = max(abs(bounds.low), abs(bounds.high));
   const float reach = std::max({corner.x, corner.y, corner.z});
   if (reach <= kFirmReach) return;
-  warn(scene, fmt::format("the scene reaches {:.3g} km from the origin, where light seeps through walls thinner than "
+  warn(scene, fmt::format("the scene extends {:.3g} km from the origin, where light leaks through walls thinner than "
                           "{:.2g} m; move it nearer",
                           reach * 1e-3f, reach * kThinnestWall));
 }

@@ -80,7 +80,7 @@ TextureSlot TextureTable::slot(const JsonValue& parent, const char* key, bool sr
     slot.uv_set = integer(file_, transform, "texCoord", slot.uv_set);
   }
   if (slot.uv_set < 0 || slot.uv_set > 1) {
-    warn(scene_, "a material uses a third set of texture coordinates; the first is taken");
+    warn(scene_, "a material uses a third set of texture coordinates; using the first");
     slot.uv_set = 0;
   }
   return slot;
@@ -92,7 +92,7 @@ int TextureTable::texture(int index, bool srgb) {
   const JsonValue& source = record(file_, file_.textures, index, "texture");
   const int image = image_of(source);
   if (image == -1) {
-    warn(scene_, fmt::format("texture {} has no picture that ods can read; it is left white", index));
+    warn(scene_, fmt::format("texture {} has no picture that ods can read; using white", index));
     return made_[{index, srgb}] = -1;
   }
   const size_t first_image = element(file_, file_.images, image, "image").first;
@@ -166,7 +166,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
     if (value == 0.0 && !tinted) {
       material.ior = kMirrorIor;
     } else if (value < 1.0) {
-      warn(scene, "a material has an index of refraction below 1; 1.5 is taken");
+      warn(scene, "a material has an index of refraction below 1; using 1.5");
       material.ior = 1.5f;
     } else {
       material.ior = clamped(value, 1.0, 100.0, 1.5);

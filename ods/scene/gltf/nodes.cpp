@@ -262,11 +262,11 @@ void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dm
   const dmat4 matrix = world * local;
   if (!is_bounded(matrix)) fail(file_, "has an instance whose matrix is not finite, or too large");
   if (!is_invertible(matrix)) {
-    warn(scene_, "instances that are scaled to nothing are left out");
+    warn(scene_, "instances scaled to zero are left out");
     return;
   }
   if (!stays_near(matrix, mesh.bounds)) {
-    fail(file_, fmt::format("a mesh stands more than {:.0e} m from the origin; the file is damaged", kFarthest));
+    fail(file_, fmt::format("a mesh is more than {:.0e} m from the origin; the file is damaged", kFarthest));
   }
   add_instance(scene_, mesh.index, glm::mat4(matrix));
 }
@@ -283,7 +283,7 @@ std::vector<dmat4> Placer::instance_matrices(const JsonValue& node) {
   for (const AccessorView* attribute : {&translations, &rotations, &scales}) {
     if (attribute->count != 0 &&
         (attribute->count != count || attribute->components < (attribute == &rotations ? 4 : 3))) {
-      fail(file_, "has EXT_mesh_gpu_instancing attributes that do not fit each other; the file is damaged");
+      fail(file_, "has EXT_mesh_gpu_instancing attributes of different lengths; the file is damaged");
     }
   }
   spend(file_, count);

@@ -52,7 +52,7 @@ static Chunks split_container(const GltfFile& file, Bytes bytes) {
   if (read_uint32(bytes, 4) != 2) fail(file, "is not glTF version 2; convert it to glTF 2.0");
   const size_t length = read_uint32(bytes, 8);
   if (length > bytes.size()) {
-    fail(file, fmt::format("has {} bytes, but its header says {}; it was not written or copied to its end",
+    fail(file, fmt::format("has {} bytes, but its header says {}; it was not completely written or copied",
                            bytes.size(), length));
   }
   constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
@@ -92,7 +92,7 @@ static std::string uri_key(const std::string& uri) {
 
 static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
   const size_t comma = uri.find(";base64,");
-  if (comma == std::string::npos) fail(file, "has a data URI that is not in base64");
+  if (comma == std::string::npos) fail(file, "has a data URI that is not base64");
   const std::string bytes = decode_base64(std::string_view(uri).substr(comma + 8));
   return share({bytes.begin(), bytes.end()});
 }
@@ -125,7 +125,7 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
   } catch (const Error& error) {
     if (!file.confine.empty()) {  // reveals nothing about files outside the folder
       if (error.kind() != ErrorKind::kInput) throw;
-      fail(file, fmt::format("refers to {}, which is not there, lies outside of the folder that scenes are confined "
+      fail(file, fmt::format("refers to {}, which does not exist, lies outside the folder that scenes are confined "
                              "to, or cannot be read",
                              printable(uri)));
     }
@@ -246,7 +246,7 @@ std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& 
 
 static void check_version(const GltfFile& file) {
   const JsonValue& version = file.json.root()["asset"]["version"];
-  if (!version.is_text()) fail(file, "is not a glTF file: it does not say of which version it is");
+  if (!version.is_text()) fail(file, "is not a glTF file: it does not state its version");
   if (!version.text->starts_with("2.")) {
     fail(file, fmt::format("is glTF version {}, ods reads 2.0", printable(*version.text)));
   }

@@ -7,7 +7,7 @@
 namespace ods {
 
 uint64_t Move::operator()(uint64_t offset) const {
-  if (offset > file_size) throw MalformedFile("it is cut short: samples of it should lie behind its end");
+  if (offset > file_size) throw MalformedFile("it is truncated: its samples extend past its end");
   if (offset <= begin) return offset;
   if (offset < end) throw MalformedFile("its offsets point into its own header");
   return offset + static_cast<uint64_t>(growth);
@@ -89,7 +89,7 @@ static void move_fragment(Box& moof, const Move& move) {
     if (track.type != box_type("traf")) continue;
     open_box(track, 0);
     Box* header = find_child(track, box_type("tfhd"));
-    if (header == nullptr) throw MalformedFile("a fragment of it has no header");
+    if (header == nullptr) throw MalformedFile("one of its fragments has no header");
     const bool has_base = (get_number(header->body, 3, 1) & 1) != 0;
     if (has_base) set_number(header->body, 8, move(get_number(header->body, 8, 8)), 8);
   }
@@ -102,7 +102,7 @@ static void move_index(Box& sidx, const FileBox& place, const Move& move) {
   const size_t count = get_number(sidx.body, first + width + 2, 2);
   uint64_t at = place.end();
   const uint64_t skipped = get_number(sidx.body, first, width);
-  if (skipped > move.file_size) throw MalformedFile("its index points behind its end");
+  if (skipped > move.file_size) throw MalformedFile("its index points past its end");
   set_number(sidx.body, first, move(at + skipped) - move(at), width);
   at += skipped;
   for (size_t i = 0; i < count; i++) {
@@ -110,7 +110,7 @@ static void move_index(Box& sidx, const FileBox& place, const Move& move) {
     const uint64_t word = get_number(sidx.body, entry, 4);
     const uint64_t size = word & 0x7fffffff;
     const uint64_t moved = move(at + size) - move(at);
-    if (moved > 0x7fffffff) throw MalformedFile("a piece in its index would become too large for it");
+    if (moved > 0x7fffffff) throw MalformedFile("a piece in its index would become too large for its field");
     set_number(sidx.body, entry, (word & 0x80000000) | moved, 4);
     at += size;
   }
@@ -146,7 +146,7 @@ class ItemLocations {
     offset_width_ = sizes >> 12, length_width_ = sizes >> 8 & 15, base_width_ = sizes >> 4 & 15;
     index_width_ = version_ == 0 ? 0 : sizes & 15;
     for (size_t width : {offset_width_, length_width_, base_width_, index_width_}) {
-      if (width != 0 && width != 4 && width != 8) throw MalformedFile("its list of items makes no sense");
+      if (width != 0 && width != 4 && width != 8) throw MalformedFile("its list of items is invalid");
     }
     const uint64_t count = take(version_ < 2 ? 2 : 4);
     for (uint64_t i = 0; i < count; i++) move_item();
@@ -174,7 +174,7 @@ class ItemLocations {
       if (!in_this_file || base_width_ + offset_width_ == 0) continue;
       const int64_t moved = static_cast<int64_t>(move_(offset) - offset);
       if (base_width_ == 0) set_number(body_, offset_at, offset + static_cast<uint64_t>(moved), offset_width_);
-      if (base_width_ != 0 && i > 0 && moved != all) throw MalformedFile("an item in it would be torn apart");
+      if (base_width_ != 0 && i > 0 && moved != all) throw MalformedFile("an item in it would be split");
       all = moved;
     }
     if (base_width_ != 0) set_number(body_, base_at, base + static_cast<uint64_t>(all), base_width_);

@@ -41,17 +41,17 @@ static BoxHeader parse_header(std::string_view bytes) {
   }
   if (header.whole < header.size) {
     throw MalformedFile(
-        fmt::format("its box '{}' says that it has {} bytes, which no box can", type_text(header.type), header.whole));
+        fmt::format("its box '{}' claims an impossible size of {} bytes", type_text(header.type), header.whole));
   }
   return header;
 }
 
 static MalformedFile too_long(BoxType type) {
-  return MalformedFile(fmt::format("its box '{}' says that it is longer than what holds it", type_text(type)));
+  return MalformedFile(fmt::format("its box '{}' extends past the end of its parent", type_text(type)));
 }
 
 static MalformedFile too_many() {
-  return MalformedFile("a box of it holds more than a million others");
+  return MalformedFile("one of its boxes contains more than a million others");
 }
 
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
@@ -144,13 +144,13 @@ std::vector<FileBox> scan_boxes(const FileInput& file) {
     if (left < 8) throw MalformedFile("it is cut short");
     FileBox box = read_header(file, at, left);
     if (box.size > left) {
-      throw MalformedFile(fmt::format("it is cut short: its box '{}' should have {} bytes, and {} are there",
+      throw MalformedFile(fmt::format("it is cut short: its box '{}' should have {} bytes, but {} are left",
                                       type_text(box.type), box.size, left));
     }
     if (box.size == 0) box.size = left;
     boxes.push_back(box);
     at = box.end();
-    if (boxes.size() > kMax) throw MalformedFile("it consists of more than a million boxes");
+    if (boxes.size() > kMax) throw MalformedFile("it contains more than a million boxes");
   }
   return boxes;
 }

@@ -26,7 +26,7 @@ VideoStereo video_stereo(Layout layout) {
     case Layout::kCrossEyed:
       return VideoStereo::kRightLeft;
     default:
-      throw Error(ErrorKind::kUsage, fmt::format("videos have no word for eyes that are {}", layout_name(layout)));
+      throw Error(ErrorKind::kUsage, fmt::format("360 metadata of videos has no layout {}", layout_name(layout)));
   }
 }
 
@@ -38,7 +38,7 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
   }
   if (projection.kind != kLatLong || projection.longitude.x < -180.0f || projection.longitude.y > 180.0f) {
     throw Error(ErrorKind::kUsage,
-                fmt::format("videos have no word for the projection {}: they know lat-long, parts of it such as vr180, "
+                fmt::format("360 metadata of videos has no projection {}, only lat-long, parts of it such as vr180, "
                             "cubemap and flat",
                             projection_name(projection)));
   }
@@ -99,7 +99,7 @@ static void guess_projection(SphericalMetadata& known, const StereoFormat& forma
   if (!is_told && natural_height(format.camera.projection, eye.width) != eye.height) {
     throw Error(ErrorKind::kInput,
                 fmt::format("cannot tell what '{}' shows, from its name (_360_TB, _180_LR ...) or its shape "
-                            "({}x{}): say it with --layout and --projection",
+                            "({}x{}): give --layout and --projection",
                             path, track.size.width, track.size.height));
   }
   set_projection(known, format.camera.projection);
@@ -111,7 +111,7 @@ static StereoFormat found_format(const SphericalMetadata& known, const VideoTrac
   info.height = track.size.height;
   info.is_float = true;  // skips the search for a picture's XMP
   if (info.width == 0 || info.height == 0) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': its pictures have no size", path));
+    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': it does not give its picture size", path));
   }
   return find_format(info, path, as_picture(known));
 }
@@ -226,7 +226,7 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
   }
   if (known.projection) return;
   if (found.has_camera && !may_be_called(said, found.camera.projection)) {
-    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar says otherwise"));
+    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar disagrees"));
   } else if (!found.has_camera && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
     const std::string reason = fmt::format("its name ends in {}", words.projection_word);
     conflicts.push_back(projection_conflict(said, words.projection->setting, reason));
@@ -286,10 +286,10 @@ static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, 
   }
   if (will_be && !track.v1) plan.says_more = true;
   if (!will_be && may_be_new && metadata.projection != VideoProjection::kFlat) {
-    plan.notes.push_back("V1 cannot say that, and is left out: players that read only V1 show a flat video");
+    plan.notes.push_back("V1 cannot express that and is left out: players that read only V1 show a flat video");
   }
   if (will_be && !has_whole_angles(metadata)) {
-    plan.notes.push_back("V1 holds whole degrees: only V2 has the angles as they are");
+    plan.notes.push_back("V1 holds whole degrees: only V2 has the exact angles");
   }
 }
 
@@ -297,7 +297,7 @@ static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata
   if (track.has_layers || !metadata.for_apple) return;
   if (!says(track.vexu, metadata)) plan.says_more = true;
   if (!says(track.vexu, metadata) && !fits_vexu(metadata)) {
-    plan.notes.push_back(fmt::format("vexu has no words for {}, and {}: Apple's players show a flat video",
+    plan.notes.push_back(fmt::format("vexu cannot express {} and {}: Apple's players show a flat video",
                                      metadata_text(metadata), track.vexu ? "is taken out" : "is left out"));
     return;
   }

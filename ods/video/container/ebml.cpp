@@ -28,7 +28,7 @@ struct ElementHeader {
 
 // The length of a number, from its first byte; throws MalformedFile if that is 0.
 static size_t length_of(uint64_t first) {
-  if (first == 0) throw MalformedFile("a size in it makes no sense");
+  if (first == 0) throw MalformedFile("a size in it is invalid");
   return static_cast<size_t>(std::countl_zero(static_cast<uint8_t>(first))) + 1;
 }
 
@@ -51,9 +51,10 @@ void open_element(Element& element) {
     const ElementHeader header = parse_header(bytes);
     bytes.remove_prefix(header.length);
     if (header.is_endless || header.body > bytes.size()) {
-      throw MalformedFile(fmt::format("its element {:X} says that it is longer than what holds it", header.id));
+      throw MalformedFile(fmt::format("its element {:X} extends past the end of its parent", header.id));
     }
-    if (element.children.size() == kMaxChildren) throw MalformedFile("an element of it has more than a million parts");
+    if (element.children.size() == kMaxChildren)
+      throw MalformedFile("one of its elements contains more than a million others");
     element.children.push_back({header.id, header.size_width, std::string(bytes.substr(0, header.body)), {}});
     bytes.remove_prefix(header.body);
   }
@@ -161,7 +162,7 @@ FileElement scan_element(const FileInput& file, uint64_t offset, uint64_t end) {
   const uint64_t left = end - element.body();
   if (header.is_endless) return element;
   if (header.body > left) {
-    throw MalformedFile(fmt::format("it is cut short: its element {:X} should have {} bytes, and {} are there",
+    throw MalformedFile(fmt::format("it is cut short: its element {:X} should have {} bytes, but {} are left",
                                     header.id, header.body, left));
   }
   element.size = header.length + header.body;

@@ -67,9 +67,9 @@ static Matroska open_matroska(const FileInput& file) {
     video.parts.push_back(scan_element(file, at, video.segment.end()));
     const FileElement& part = video.parts.back();
     // Only its contents tell where such a part ends.
-    if (part.is_endless) throw MalformedFile("it is a live recording; mkvmerge makes a video of it");
+    if (part.is_endless) throw MalformedFile("it is a live recording; remux it with mkvmerge first");
     at = part.end();
-    if (video.parts.size() > kMax) throw MalformedFile("it consists of more than a million parts");
+    if (video.parts.size() > kMax) throw MalformedFile("it contains more than a million elements");
     if (part.id != kSeekHead && part.id != kTracks && part.id != kCues && part.id != kTags) continue;
     Element& opened = video.opened[video.parts.size() - 1] = read_element(file, part);
     open_part(opened);
@@ -136,13 +136,13 @@ static void tag_tracks(Matroska& video, uint64_t number, const std::optional<Sph
       Element* pictures = find_child(entry, kVideo);
       if (pictures == nullptr) continue;
       if (metadata && !can_say(Container::kMatroska, read_track(video, entry), *metadata)) {
-        throw MalformedFile(fmt::format("mkv and webm have no words for {}", metadata_text(*metadata)));
+        throw MalformedFile(fmt::format("mkv and webm cannot express {}", metadata_text(*metadata)));
       }
       tag_video(*pictures, metadata);
       tagged = &entry;
     }
   }
-  if (tagged == nullptr) throw MalformedFile("its video track does not say what its pictures are like");
+  if (tagged == nullptr) throw MalformedFile("its video track has no description of its pictures");
   for (auto& [index, part] : video.opened) {
     for (Element& tag : part.children) {
       if (part.id == kTags && is_about(tag, *tagged)) tag_v1(tag, metadata);
@@ -228,7 +228,7 @@ static std::map<size_t, Element> move_parts(const Matroska& video, Places& place
     if (again.sizes == places.sizes) return parts;
     places = again;
   }
-  throw MalformedFile("its index does not settle");
+  throw MalformedFile("its index cannot be updated");
 }
 
 // The position comes before the first block.

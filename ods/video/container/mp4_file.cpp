@@ -34,7 +34,7 @@ static Mp4 open_mp4(const FileInput& file) {
   video.boxes = scan_boxes(file);
   const auto is_header = [](const FileBox& box) { return box.type == box_type("moov"); };
   const auto found = std::find_if(video.boxes.begin(), video.boxes.end(), is_header);
-  if (found == video.boxes.end()) throw MalformedFile("it has no header (moov): its recording was not finished");
+  if (found == video.boxes.end()) throw MalformedFile("it has no header (moov): the recording was not finished");
   if (std::find_if(found + 1, video.boxes.end(), is_header) != video.boxes.end())
     throw MalformedFile("it has two headers");
   video.header = static_cast<size_t>(found - video.boxes.begin());
@@ -59,7 +59,7 @@ static bool is_video(Box& track) {
 
 static uint64_t id_of(const Box& track) {
   const Box* header = find_child(track, box_type("tkhd"));
-  if (header == nullptr) throw MalformedFile("a track of it has no header");
+  if (header == nullptr) throw MalformedFile("one of its tracks has no header");
   return get_number(header->body, get_number(header->body, 0, 1) == 0 ? 12 : 20, 4);
 }
 
@@ -159,7 +159,7 @@ bool is_mp4(std::string_view first_bytes) {
 static Container container_of(const FileInput& file, const std::vector<FileBox>& boxes) {
   const FileBox& first = boxes.front();
   if (first.type != box_type("ftyp")) return Container::kMov;  // QuickTime files may lack it
-  if (first.size < first.header + 4) throw MalformedFile("it does not say which kind of mp4 it is");
+  if (first.size < first.header + 4) throw MalformedFile("it does not state its kind of mp4 (ftyp)");
   return file.read(first.offset + first.header, 4) == "qt  " ? Container::kMov : Container::kMp4;
 }
 
@@ -276,7 +276,7 @@ static bool tag_v1(Box& track, const std::optional<SphericalMetadata>& metadata,
 static TagResult tag_track(Box& track, const std::optional<SphericalMetadata>& metadata, const VideoTrack& before) {
   TagResult result;
   if (metadata && !can_say(Container::kMp4, before, *metadata)) {
-    throw MalformedFile(fmt::format("mp4 and mov have no words for {}", metadata_text(*metadata)));
+    throw MalformedFile(fmt::format("mp4 and mov cannot express {}", metadata_text(*metadata)));
   }
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     open_box(entry, kVisualEntry);
@@ -288,7 +288,7 @@ static TagResult tag_track(Box& track, const std::optional<SphericalMetadata>& m
       untag_entry(entry);
     }
   }
-  if (metadata && !result.has_v2) throw MalformedFile("its video track does not say what its pictures are like");
+  if (metadata && !result.has_v2) throw MalformedFile("its video track has no description of its pictures");
   const std::optional<SphericalMetadata> said = said_metadata(before);
   result.has_v1 = tag_v1(track, metadata, metadata && said && said->source != metadata->source);
   return result;
@@ -313,7 +313,7 @@ static void refuse_other_files(Box& track) {
   open_box(*references, 8);
   for (const Box& reference : references->children) {
     if ((get_number(reference.body, 3, 1) & 1) == 0)
-      throw MalformedFile("its samples lie in other files; export it as one");
+      throw MalformedFile("its samples are in other files; export it as one file");
   }
 }
 

@@ -30,7 +30,7 @@ std::string_view stereo_name(VideoStereo stereo) {
     case VideoStereo::kOther:
       break;
   }
-  return "stereo of a rare kind";
+  return "stereo of an unusual kind";
 }
 
 std::string_view projection_name(VideoProjection projection) {
