@@ -30,7 +30,7 @@ struct EncodeJob {
   std::string pattern;
   std::optional<std::vector<int>> frames;
   ods::FormatHint known;
-  ods::DisplayTransform development;
+  ods::DisplayTransform display;
   VideoWishes video;
   std::optional<ods::Layout> layout;
   int threads = 0;
@@ -57,8 +57,8 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   add_layout_option(options, job.known.layout,
                     "the frames' layout, if neither the files nor their names tell; separate: one eye",
                     "--from-layout");
-  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
-  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name,
+  options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
+  options.choice("--tone", job.display.tone, ods::kToneCurves, ods::tone_curve_name,
                  "tone curve; ignored as --exposure is");
   add_video_options(options, job.video);
   options.custom(
@@ -87,7 +87,7 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   progress.report = [&](double done) {
     lines.report(done, seconds_since(start), video_step("encode", done, files.frames.size(), job.video.output));
   };
-  ods::make_video(files, plan, job.development, options, job.video.output, progress);
+  ods::make_video(files, plan, job.display, options, job.video.output, progress);
   lines.clear();
   announce_file(job.video.output);
   note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, files.frames.size()),

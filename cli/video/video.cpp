@@ -30,7 +30,7 @@ constexpr const char* kSummary =
 
 struct VideoJob {
   RenderJob render;
-  ods::DisplayTransform development;
+  ods::DisplayTransform display;
   VideoWishes video;
   std::string rig;  // a slit rig: stitch its views instead of rendering
   bool keep_frames = false, restart = false;
@@ -49,8 +49,8 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
-  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops");
-  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve");
+  options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops");
+  options.choice("--tone", job.display.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);
@@ -115,7 +115,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
     lines.report(kRendering + (1.0 - kRendering) * done, seconds_since(start),
                  video_step("encode", done, frames.size(), job.video.output));
   };
-  ods::make_video(files, plan, job.development, options, job.video.output, progress);
+  ods::make_video(files, plan, job.display, options, job.video.output, progress);
   lines.clear();
   announce_file(job.video.output);
   note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, frames.size()),

@@ -161,8 +161,8 @@ void Stitcher::choose_layers(const StitchOptions& options) {
     return;
   }
   picture_ = std::make_shared<Scratch>(size, options.journal, kMark);
-  constexpr uint64_t kForm = 3;  // version of the journal's layout; others are not resumed
-  const uint64_t key = options.journal_key + kForm;
+  constexpr uint64_t kJournalVersion = 3;  // changes with the layout of pixels; other versions are not resumed
+  const uint64_t key = options.journal_key + kJournalVersion;
   if (head().key != key) {
     std::memset(picture_->data() + sizeof(JournalHead), 0, pixels_from_ - sizeof(JournalHead));
     head().key = key;

@@ -58,18 +58,19 @@ static bool is_turned(const AVStream& stream) {
 
 // Reads the pixel format. Returns why it is unsupported; empty if it is supported.
 static std::string read_format(AVPixelFormat format, VideoStream& stream) {
-  const AVPixFmtDescriptor* metadata = av_pix_fmt_desc_get(format);
-  const std::string name = metadata == nullptr ? "unknown" : metadata->name;
+  const AVPixFmtDescriptor* descriptor = av_pix_fmt_desc_get(format);
+  const std::string name = descriptor == nullptr ? "unknown" : descriptor->name;
   const uint64_t kUnfit = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_FLOAT |
                           AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL;
-  const bool fits = metadata != nullptr && (metadata->flags & AV_PIX_FMT_FLAG_PLANAR) != 0 &&
-                    (metadata->flags & kUnfit) == 0 && metadata->nb_components >= 3 && metadata->comp[1].plane == 1 &&
-                    metadata->comp[2].plane == 2 && metadata->comp[0].shift == 0 && metadata->comp[0].depth >= 8;
-  const int shape = fits ? metadata->log2_chroma_w * 2 + metadata->log2_chroma_h : -1;
+  const bool fits = descriptor != nullptr && (descriptor->flags & AV_PIX_FMT_FLAG_PLANAR) != 0 &&
+                    (descriptor->flags & kUnfit) == 0 && descriptor->nb_components >= 3 &&
+                    descriptor->comp[1].plane == 1 && descriptor->comp[2].plane == 2 &&
+                    descriptor->comp[0].shift == 0 && descriptor->comp[0].depth >= 8;
+  const int shape = fits ? descriptor->log2_chroma_w * 2 + descriptor->log2_chroma_h : -1;
   if (shape != 3 && shape != 2 && shape != 0) return fmt::format("its pixels are {}, not planes of Y'CbCr", name);
   stream.chroma = shape == 3 ? Chroma::k420 : shape == 2 ? Chroma::k422 : Chroma::k444;
-  stream.bits = metadata->comp[0].depth;
-  stream.has_alpha = metadata->nb_components == 4;
+  stream.bits = descriptor->comp[0].depth;
+  stream.has_alpha = descriptor->nb_components == 4;
   return "";
 }
 

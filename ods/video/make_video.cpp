@@ -156,7 +156,7 @@ void check_packing(const VideoPlan& plan, const Packing& packing) {
 // --- the video -------------------------------------------------------------------------------------------------------
 
 static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const VideoPlan& plan,
-                                              const DisplayTransform& development, const Packing& packing) {
+                                              const DisplayTransform& display, const Packing& packing) {
   OpenOptions options;
   options.format = plan.known;
   options.color_only = true;
@@ -168,7 +168,7 @@ static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const Vid
                             picture.eyes.size(), size.width, size.height, plan.eyes, plan.eye.width, plan.eye.height));
   }
   auto frame = std::make_shared<VideoFrame>(plan.size, packing);
-  fill_frame(picture, plan.layout, development, *frame);
+  fill_frame(picture, plan.layout, display, *frame);
   return frame;
 }
 
@@ -180,7 +180,7 @@ static size_t frames_ahead(const VideoPlan& plan, const Packing& packing) {
   return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
 }
 
-static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& development,
+static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                           const EncodeOptions& options, VideoEncoder& encoder, const Progress& progress) {
   struct Work {
     size_t index = 0;
@@ -193,7 +193,7 @@ static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const 
   };
   const auto read = [&](Work& work) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    work.frame = read_frame(files.path(work.index), plan, development, options.packing);
+    work.frame = read_frame(files.path(work.index), plan, display, options.packing);
   };
   const auto encode = [&](const Work& work) {
     encoder.add(work.frame);
@@ -203,13 +203,13 @@ static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const 
   run_pipeline<Work>(frames_ahead(plan, options.packing), number, read, encode);
 }
 
-TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& development,
+TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                      const EncodeOptions& options, const std::string& path, const Progress& progress) {
   assert(!files.frames.empty() && container_of_path(path));
   check_packing(plan, options.packing);
   AtomicFile untagged(path);
   VideoEncoder encoder(untagged, *container_of_path(path), plan.size, options);
-  encode_frames(files, plan, development, options, encoder, progress);
+  encode_frames(files, plan, display, options, encoder, progress);
   encoder.finish();
   const VideoFile video = read_video_file(untagged.temporary());
   std::optional<Ambisonics> ambisonics;

@@ -48,7 +48,7 @@ void check_packing(const VideoPlan& plan, const Packing& packing);
 
 // Writes the video, complete or not at all. Reads ahead as many frames as fit into half of the free memory. Throws
 // Error: kInput, also for a frame unlike the first; kOutput, kMemory, kCancelled.
-TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& development,
+TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                      const EncodeOptions& options, const std::string& path, const Progress& progress = {});
 
 }  // namespace ods

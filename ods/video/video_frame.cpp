@@ -85,13 +85,13 @@ struct RowOfCodes {
 
 }  // namespace
 
-static void develop(const RowOfCodes& row, const DisplayTransform& development) {
+static void develop(const RowOfCodes& row, const DisplayTransform& display) {
   const std::byte* in = row.in;
   const size_t step = bytes_of(row.layer.sample);
   for (size_t x = 0; x < row.width(); x++, in += row.layer.pixel_stride) {
     vec3 light;
     for (size_t c = 0; c < 3; c++) light[static_cast<int>(c)] = sample_value(row.layer.sample, in + c * step);
-    const vec3 shown = tone_map(light, development.exposure, development.tone);
+    const vec3 shown = tone_map(light, display.exposure, display.tone);
     row.put(x, {video_code(shown.x), video_code(shown.y), video_code(shown.z)});
   }
 }
@@ -120,11 +120,11 @@ static void put_before_black(const RowOfCodes& row) {
   }
 }
 
-static void read_codes(const RowOfCodes& row, const DisplayTransform& development) {
+static void read_codes(const RowOfCodes& row, const DisplayTransform& display) {
   switch (row.layer.sample) {
     case SampleType::kHalf:
     case SampleType::kFloat:
-      return develop(row, development);
+      return develop(row, display);
     case SampleType::kUint8:
       copy_codes<uint8_t>(row, 255.0f);
       break;
@@ -150,7 +150,7 @@ Layout video_layout(const StoredPicture& picture) {
   }
 }
 
-void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& development, VideoFrame& frame) {
+void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& display, VideoFrame& frame) {
   const bool beside = layout == Layout::kSideBySide || layout == Layout::kSideBySideHalf;
   const Extent eye = picture.size;
   for (size_t i = 0; i < picture.eyes.size(); i++) {
@@ -158,7 +158,7 @@ void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransf
     const int place = static_cast<int>(i);
     const Planes planes = frame.planes().at(beside ? place * eye.width : 0, beside ? 0 : place * eye.height);
     const auto rows = [&](int y, std::span<float> row) {
-      read_codes({layer, layer.first + y * layer.row_stride, row}, development);
+      read_codes({layer, layer.first + y * layer.row_stride, row}, display);
     };
     put_ycbcr(rows, eye, planes);
   }

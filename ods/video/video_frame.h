@@ -45,6 +45,6 @@ Layout video_layout(const StoredPicture& picture);
 
 // Precondition: `frame` is packed_size() of the layout and the picture's eyes, which are multiples of the chroma block.
 // Alpha is composited over black.
-void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& development, VideoFrame& frame);
+void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& display, VideoFrame& frame);
 
 }  // namespace ods

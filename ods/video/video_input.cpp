@@ -53,7 +53,7 @@ static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& 
 }
 
 // V2's yaw turns the picture to the left, so the view moves to the right.
-static void set_attitude(StereoCamera& stereo, const SphericalMetadata& metadata) {
+static void set_orientation(StereoCamera& stereo, const SphericalMetadata& metadata) {
   stereo.yaw = -static_cast<float>(metadata.yaw);
   stereo.pitch = static_cast<float>(metadata.pitch);
   stereo.roll = static_cast<float>(metadata.roll);
@@ -77,7 +77,7 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
   all.projection = projection_of(video.metadata, path);
   like.camera = find_format(file, path, all).camera;
-  set_attitude(like.camera, video.metadata);
+  set_orientation(like.camera, video.metadata);
   if (video.metadata.ipd > 0.0) {
     like.camera.ipd = static_cast<float>(video.metadata.ipd);
     like.has_ipd = true;
