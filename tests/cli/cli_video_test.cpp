@@ -91,7 +91,7 @@ TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
   const std::string video = folder.read("a.mp4");
   EXPECT_EQ(run(words("a.mp4", "--samples 2")), 2);
   EXPECT_NE(err.find("--restart"), std::string::npos) << err;
-  EXPECT_NE(err.find("frames of other options: --samples was 1, now 2;"), std::string::npos) << err;
+  EXPECT_NE(err.find("frames rendered with other options: --samples was 1, now 2;"), std::string::npos) << err;
   EXPECT_EQ(folder.read("a.mp4"), video);
   ASSERT_EQ(run(words("a.mp4", "--samples 2 --restart")), 0) << err;
   EXPECT_NE(folder.read("a.mp4"), video);
@@ -307,7 +307,7 @@ TEST_F(Video, FramesThatNoJobOfOursMadeStay) {
   ASSERT_EQ(run(words("a.mp4", "--keep-frames --restart --samples 2")), 0) << err;
   EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
   EXPECT_EQ(run(words("a.mp4", "--samples 2 --frames 1-5")), 2);
-  EXPECT_NE(err.find("frame.000005.exr' is no frame of this video"), std::string::npos) << err;
+  EXPECT_NE(err.find("frame.000005.exr' is not a frame of this video"), std::string::npos) << err;
   ASSERT_EQ(run(words("a.mp4", "--samples 2")), 0) << err;
   EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
   // A folder without our note: nothing in it is taken for a frame, nothing is written through a link.
