@@ -27,7 +27,7 @@ bool stderr_is_terminal() {
 namespace {
 
 void print_json(const nlohmann::ordered_json& line) {
-  // A file's name may be no UTF-8.
+  // File names need not be valid UTF-8.
   std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
@@ -42,7 +42,7 @@ int fail(ExitCode code, const std::string& text) {
   return code;
 }
 
-// Without allocating.
+// Must not allocate.
 int fail_without_memory() {
   const std::string_view plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
   const std::string_view json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\"}\n";
@@ -52,8 +52,8 @@ int fail_without_memory() {
   return kExitFailure;
 }
 
-// Some functions of libraries promise not to throw and allocate all the same, destructors of theirs among them. When
-// memory runs out there, the process ends here.
+// Some library functions promise not to throw but allocate anyway, some destructors among them. If memory runs out
+// there, the process ends here.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
@@ -76,7 +76,7 @@ ExitCode exit_code(ods::ErrorKind kind) {
     case ods::ErrorKind::kOutput:
       return kExitOutput;
     case ods::ErrorKind::kMemory:
-    case ods::ErrorKind::kCancelled:  // by nobody: interrupts end the process themselves
+    case ods::ErrorKind::kCancelled:  // nobody cancels: interrupts end the process themselves
       return kExitFailure;
   }
   return kExitFailure;
@@ -99,14 +99,14 @@ void warn(const std::string& text) {
 void announce_file(const std::string& file) {
   if (console.quiet) return;
   std::puts(file.c_str());
-  std::fflush(stdout);  // a program may wait for it
+  std::fflush(stdout);  // a program may be waiting for it
 }
 
 int run_command(const std::function<void()>& body) {
   std::set_terminate(end_without_memory);
   try {
     body();
-    // A full disk behind stdout shows only now.
+    // Writing stdout to a full disk fails only now.
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       return fail(kExitOutput, "standard output could not be written");
     return kExitOk;
@@ -116,7 +116,7 @@ int run_command(const std::function<void()>& body) {
     return fail_without_memory();
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitFailure, error.what());
-    return fail(kExitFailure, "cannot start a thread: the memory or the number of processes allowed is used up");
+    return fail(kExitFailure, "cannot start a thread: the limit on memory or processes is reached");
   } catch (const std::exception& error) {
     return fail(kExitFailure, error.what());
   }

@@ -1,27 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the command says to people: on stderr, one line each. stdout is for results only.
+// Messages for people: one line each, on stderr. stdout is for results only.
 #pragma once
 #include <functional>
 #include <string>
 
 #include "ods/base/error.h"
 
-// The command line makes no sense. what() is one line.
+// The command line is invalid. what() is one line.
 struct UsageError : ods::Error {
   explicit UsageError(const std::string& message) : Error(ods::ErrorKind::kUsage, message) {}
 };
 
 struct Console {
   bool quiet = false;     // prints only errors, and text that is a command's result
-  bool no_color = false;  // NO_COLOR, TERM=dumb and a stderr that is no terminal do the same
-  bool json = false;      // every line is a JSON object, as given below
+  bool no_color = false;  // NO_COLOR, TERM=dumb and a stderr that is not a terminal have the same effect
+  bool json = false;      // every line is a JSON object, as described below
 };
 
 extern Console console;
 
-// stderr is a terminal that can move its cursor.
+// Whether stderr is a terminal that can move its cursor.
 bool stderr_is_terminal();
 
 // "ods: text" or {"note":"text"}, unless quiet.
@@ -30,9 +30,9 @@ void note(const std::string& text);
 // "ods: warning: text" or {"warning":"text"}, unless quiet.
 void warn(const std::string& text);
 
-// The name of a file that was written, on stdout, unless quiet.
+// Prints the name of a written file on stdout, unless quiet.
 void announce_file(const std::string& file);
 
-// Runs a command's body. What it throws becomes one line on stderr, "ods: error: text" or
-// {"error":"text","exit_code":3}, and that exit code (cli/console/exit_code.h).
+// Runs a command's body. An exception becomes one line on stderr, "ods: error: text" or {"error":"text","exit_code":3},
+// and the matching exit code (cli/console/exit_code.h).
 int run_command(const std::function<void()>& body);

@@ -32,7 +32,7 @@ const char* plain_last_words(int) {
 
 void end_on_interrupts(LastWords last_words) {
   words_of = last_words;
-  signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
+  signal(SIGXFSZ, SIG_IGN);  // a file size limit becomes an ordinary error, like a full disk
   const int kNumbers[] = {SIGHUP, SIGINT, SIGTERM};
   for (int number : kNumbers) {
     struct sigaction before = {};

@@ -24,7 +24,7 @@ void add_progress_options(Options& options, ProgressMode& mode) {
   options.choice("--progress", names, std::string(progress_mode_name(mode)), set,
                  "how to report progress: deadline, openjd and tractor print their lines on stdout; json makes every "
                  "line on stderr a JSON object");
-  options.at_once("--progress");  // or errors in other options would not be JSON
+  options.at_once("--progress");  // so that errors in other options are JSON, too
   add_console_options(options);
 }
 

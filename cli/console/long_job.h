@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What commands that take long share: progress, interrupts, a limit of threads.
+// Shared by long-running commands: progress, interrupts, thread limit.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -11,9 +11,9 @@
 
 double seconds_since(std::chrono::steady_clock::time_point start);
 
-// --progress, --quiet, --no-color, in a group that is open already.
+// Adds --progress, --quiet and --no-color to the current group.
 void add_progress_options(Options& options, ProgressMode& mode);
 
-// Runs the work with its lines, on so many threads (0: all), until it is done, fails or is interrupted. A failure is
-// told to the farm, and thrown on.
+// Runs the work with this many threads (0: all) until it is done, fails or is interrupted. A failure is reported to the
+// farm and rethrown.
 void run_long_job(ProgressMode mode, int threads, const std::function<void(ProgressLines& lines)>& work);

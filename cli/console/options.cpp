@@ -15,7 +15,7 @@
 
 namespace {
 
-// The whole word as a number.
+// Parses the whole word as a number.
 template <class T>
 std::optional<T> parse_number(std::string_view word) {
   T value{};
@@ -56,7 +56,7 @@ Options::Options(const std::string& command, const std::string& summary, const s
 
 Options::~Options() = default;
 
-// One row of help: the name, and beside it the text in lines that fit a terminal.
+// A row of help: the name, and beside it the text, wrapped to fit a terminal.
 void Options::explain(const std::string& name, const std::string& unit, const std::string& text) {
   const size_t kTextColumn = 30, kLineWidth = 100;
   std::string line = "  " + name + (unit.empty() ? "" : " " + unit);
@@ -79,7 +79,7 @@ void Options::explain(const std::string& name, const std::string& unit, const st
 void Options::custom(const std::string& name, const std::string& unit, const std::string& fallback,
                      const std::function<void(const std::string&)>& set, const std::string& text) {
   explain(name, unit, fallback.empty() ? text : text + " [" + fallback + "]");
-  // The last one wins, so that a script can append to a command line.
+  // The last value wins, so that a script can append to a command line.
   app_->add_option_function<std::string>(name, set)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
@@ -117,7 +117,7 @@ void Options::text(const std::string& name, const std::string& unit, std::string
   custom(
       name, unit, value,
       [=, &value](const std::string& word) {
-        if (word.empty()) throw UsageError(name + " is given nothing");
+        if (word.empty()) throw UsageError(name + " has an empty value");
         value = word;
       },
       text);
@@ -125,7 +125,7 @@ void Options::text(const std::string& name, const std::string& unit, std::string
 
 void Options::texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
                     const std::string& text) {
-  explain(name, unit, text + "; may be given again");
+  explain(name, unit, text + "; may be given several times");
   app_->add_option(name, values)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
 }
 
@@ -188,7 +188,7 @@ std::string Options::describe_extras() const {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   if (first.starts_with("-")) return fmt::format("there is no option '{}'{}", first, ods::did_you_mean(first, names));
-  return fmt::format("'{}' is one argument too many", first);
+  return fmt::format("'{}' is an extra argument", first);
 }
 
 bool Options::parse(int argc, char** argv) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options of one command: names bound to variables, whose values are the defaults that help prints. Hides CLI11.
-// A value that is out of range, not a number or not in a list becomes a UsageError of one line.
+// The options of one command: names bound to variables, whose values are the defaults shown in help. Wraps CLI11. An
+// invalid value becomes a UsageError of one line.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,10 +25,10 @@ class Options {
   Options(const std::string& command, const std::string& summary, const std::string& examples);
   ~Options();
 
-  // Options added from here on stand under this heading in help.
+  // Starts a group: options added from here on are under this heading in help.
   void group(const std::string& heading) { help_ += "\n" + heading + ":\n"; }
 
-  // Words that are no options, in their order.
+  // Positional arguments, in order.
   void argument(const std::string& name, std::string& value, const std::string& text);
   // The options that were added before it are set by then, those after it are not yet.
   void argument(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& text);
@@ -36,7 +36,7 @@ class Options {
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
   void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
-  // One that may be given several times: every word counts.
+  // An option that may be given several times; collects all values.
   void texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
              const std::string& text);
   void number(const std::string& name, int& value, int low, int high, const std::string& text);
@@ -45,7 +45,7 @@ class Options {
   void number(const std::string& name, std::optional<float>& value, float low, float high, const std::string& text);
   void number(const std::string& name, uint32_t& value, const std::string& text);
 
-  // One of a closed set, by its name in the set's table (ods/base/names.h).
+  // One member of a closed set, by name.
   template <class Row, size_t kCount>
   void choice(const std::string& name, ods::MemberOf<Row[kCount]>& value, const Row (&table)[kCount],
               const std::string& text) {
@@ -56,11 +56,11 @@ class Options {
         text);
   }
 
-  // The same, by its place in the list of names.
+  // The same by index in the list of names.
   void choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
               const std::function<void(size_t)>& set, const std::string& text);
 
-  // The same where nobody need choose.
+  // The same without a default.
   template <class Row, size_t kCount>
   void choice(const std::string& name, std::optional<ods::MemberOf<Row[kCount]>>& value, const Row (&table)[kCount],
               const std::string& text) {
@@ -70,16 +70,16 @@ class Options {
         name, names, "", [&value, &table](size_t i) { value = table[i].member; }, text);
   }
 
-  // Whatever set makes of the word; it throws UsageError.
+  // Passes the word to `set`, which throws UsageError if it is invalid.
   void custom(const std::string& name, const std::string& unit, const std::string& fallback,
               const std::function<void(const std::string&)>& set, const std::string& text);
 
-  // Sets this option while the command line is read, before the values of others are judged.
+  // Applies this option immediately during parsing, before other options are validated.
   void at_once(const std::string& name);
 
   bool given(const std::string& name) const;
 
-  // False when help was asked for: it has been printed. Throws UsageError.
+  // False if help was requested; it has been printed. Throws UsageError.
   bool parse(int argc, char** argv);
 
  private:
@@ -87,12 +87,12 @@ class Options {
   std::string describe_extras() const;
 
   std::unique_ptr<CLI::App> app_;
-  std::string usage_;  // what help starts with, up to the arguments
-  std::string help_;   // their explanation and the options'
+  std::string usage_;  // the start of help, up to the arguments
+  std::string help_;   // the arguments and options in help
 };
 
-// --quiet and --no-color, which every command has, under their heading.
+// Adds --quiet and --no-color, which every command has, under their own heading.
 void add_console_options(Options& options);
 
-// "1.5" or "1,0.5,2": numbers between commas, NaN and infinity among them; empty when it is anything else.
+// "1.5" or "1,0.5,2": comma-separated numbers, including NaN and infinity; empty if the text is anything else.
 std::vector<float> parse_numbers(const std::string& text);

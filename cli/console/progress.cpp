@@ -58,7 +58,7 @@ std::string frame_text(const ProgressStep& step) {
   return step.frames > 1 ? fmt::format(", frame {} of {}", step.frame, step.frames) : "";
 }
 
-// A long video is below one percent for a long time.
+// With a decimal, because a long video is below one percent for a long time.
 std::string percent_text(double done) {
   const double percent = std::floor(1000.0 * done + 1e-9) / 10.0;
   return percent < 10.0 && percent > 0.0 ? fmt::format("{:.1f}", percent)
@@ -70,7 +70,7 @@ std::string json_line(double done, double seconds, const ProgressStep& step) {
                                  seconds_left(done, seconds));
   if (!step.kind.empty()) line += fmt::format(",\"kind\":\"{}\"", step.kind);
   if (step.frames > 0) line += fmt::format(",\"frame\":{},\"frames\":{}", step.frame, step.frames);
-  // A file's name may be no UTF-8.
+  // File names need not be valid UTF-8.
   const auto lenient = nlohmann::json::error_handler_t::replace;
   if (!step.file.empty()) line += ",\"file\":" + nlohmann::json(step.file).dump(-1, ' ', false, lenient);
   return line + "}\n";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far a long job is, for people, logs and render farms.
+// Reports the progress of a long job to people, logs and render farms.
 #pragma once
 #include <functional>
 #include <iosfwd>
@@ -14,8 +14,8 @@
 enum class ProgressMode {
   kAuto,      // the bar on a terminal, plain lines elsewhere
   kBar,       // one line that redraws itself
-  kPlain,     // a line after 1, 10 and 30 seconds, then every 30, and for every tenth, at most one a second
-  kJson,      // an object for every hundredth, and whenever kPlain has a line; docs/console.md has its keys
+  kPlain,     // a line after 1, 10 and 30 seconds, then every 30, and at every tenth, at most one per second
+  kJson,      // an object at every hundredth, and with every line of kPlain; docs/console.md has its keys
   kNone,      //
   kDeadline,  // "Progress: 42%"           AWS Thinkbox Deadline
   kOpenJd,    // "openjd_progress: 42"     Open Job Description
@@ -33,30 +33,30 @@ constexpr std::string_view progress_mode_name(ProgressMode mode) {
   return ods::name_in(kProgressModeTable, mode);
 }
 
-// A farm reads stdout; everything else is for stderr.
+// Farms read stdout; all other modes use stderr.
 bool progress_is_for_farm(ProgressMode mode);
 
-// The last line on stderr of a job that a signal ends; a bar is taken off the screen.
+// The last line on stderr after a signal; clears the bar first.
 LastWords interrupted_line(ProgressMode mode);
 
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);
 
-// What a job is at. A job that makes one picture has no frames.
+// What a job is working on. A job that makes one picture has no frames.
 struct ProgressStep {
-  std::string_view kind;  // render, stitch, encode, ...: a word that outlives the call
+  std::string_view kind;  // render, stitch, encode, ...; must outlive the call
   int frame = 0;          // counted from 1
   int frames = 0;         // in all; 0: not a video
-  std::string file;       // that is being made
+  std::string file;       // the file being made
 };
 
-// The share done of all, 0..1, and what it is at.
+// Receives the fraction done of the whole job, 0..1, and the current step.
 using StepReport = std::function<void(double done, const ProgressStep& step)>;
 
-// The step of a job that has done this share of a video's frames.
+// The step of a job that has completed this fraction of a video's frames.
 ProgressStep video_step(std::string_view kind, double done, size_t frames, const std::string& file);
 
-// Writes one job's progress; kAuto is the caller's to resolve.
+// Writes one job's progress. The caller must resolve kAuto.
 class ProgressLines {
  public:
   ProgressLines(ProgressMode mode, std::ostream& out) : mode_(mode), out_(out) {}
@@ -64,13 +64,13 @@ class ProgressLines {
   ProgressLines(const ProgressLines&) = delete;
   ProgressLines& operator=(const ProgressLines&) = delete;
 
-  // The share done, 0..1, after so many seconds.
+  // The fraction done, 0..1, after this many seconds.
   void report(double done, double seconds, const ProgressStep& step = {});
 
-  // Tells the farm why the job failed, where there is a way to.
+  // Reports the failure to the farm, if it has a way to.
   void fail(const std::string& why);
 
-  // Takes the bar off the screen.
+  // Clears the bar.
   void clear();
 
  private:
@@ -80,7 +80,7 @@ class ProgressLines {
   ProgressMode mode_;
   std::ostream& out_;
   int last_step_ = -1;
-  double due_ = 1.0;         // seconds: when the next line comes, whatever is done
+  double due_ = 1.0;         // seconds: when the next line is due, regardless of the fraction
   double last_drawn_ = 0.0;  // seconds
   bool drawn_ = false;       // the bar is on the screen
 };

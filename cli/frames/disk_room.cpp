@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of a pixel of one eye.
+// Bytes per pixel of one eye.
 double pixel_bytes(ods::FileFormat format, const ods::RenderOptions& options) {
   const int channels = options.transparent ? 4 : 3;
   switch (format) {
@@ -27,12 +27,12 @@ double pixel_bytes(ods::FileFormat format, const ods::RenderOptions& options) {
     case ods::FileFormat::kHdr:
       return 4.0;
     case ods::FileFormat::kExr:
-      return 2.0 * channels + (options.layers ? 4.0 + 6.0 + 6.0 : 0.0);  // Z of 32 bits, normals, albedo
+      return 2.0 * channels + (options.layers ? 4.0 + 6.0 + 6.0 : 0.0);  // 32-bit Z, normals, albedo
   }
   return 0.0;
 }
 
-// The nearest folder that exists.
+// The nearest existing folder.
 fs::path folder_of(const std::string& path) {
   std::error_code ignored;
   fs::path folder = fs::absolute(path, ignored).parent_path();

@@ -28,7 +28,7 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::strin
                         const std::function<void(size_t index)>& make) {
   std::vector<size_t> open(frames.size());
   std::iota(open.begin(), open.end(), size_t{0});
-  size_t said = 0;  // how many were waited for when it was last said
+  size_t said = 0;  // the number of frames in the last message
   while (!open.empty()) {
     std::vector<size_t> others;
     std::string holder, first;
@@ -38,7 +38,7 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::strin
         continue;
       }
       if (const std::unique_ptr<ods::Claim> own = ods::try_claim(frames[i].path, holder)) {
-        if (!ods::is_saved(frames[i].path)) make(i);  // whoever had it before may just have saved it
+        if (!ods::is_saved(frames[i].path)) make(i);  // its previous owner may have saved it just now
         continue;
       }
       if (others.empty()) first = holder;

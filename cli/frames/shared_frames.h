@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames that several processes make together, on one machine or many: each frame is made by the process that claims it
+// Frames rendered by several processes together, on one machine or many: the process that claims a frame makes it
 // (ods/files/claim.h).
 #pragma once
 #include <functional>
@@ -10,15 +10,14 @@
 
 struct SharedFrame {
   int number = 0;
-  std::string path;  // as ods::is_saved() takes it
+  std::string path;  // as for ods::is_saved()
 };
 
-// Calls `make` with the index of every frame that is not saved yet and that no other process makes. Then names the
-// frames (`noun`: "frame", or what they are) that others are still making, and waits until they are saved; a frame
-// whose process died is made here. So all frames are there when it returns. Throws ods::Error(kOutput), and what `make`
-// throws.
+// Calls `make` with the index of every frame that is not saved yet and not claimed by another process. Then lists the
+// frames (`noun`: "frame", or what they are) that others are still making, and waits until those are saved; a frame
+// whose process died is made here. So all frames exist on return. Throws ods::Error(kOutput), and what `make` throws.
 void make_shared_frames(const std::vector<SharedFrame>& frames, const std::string& noun,
                         const std::function<void(size_t index)>& make);
 
-// Removes the claim that a process left on a frame when it was killed just after saving it.
+// Removes a stale claim from a frame whose process was killed just after saving it.
 void remove_dead_claim(const std::string& path);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods compare: how far one picture is from another.
+// ods compare: measures the difference between two pictures.
 #include "ods/image/compare.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ namespace {
 constexpr const char* kExamples =
     "  ods compare reference.exr picture.exr\n"
     "  ods compare a_%V.png b_TB.png --diff difference.exr\n"
-    "  ods compare reference.png picture.jpg --min-psnr 40 || echo too far off";
+    "  ods compare reference.png picture.jpg --min-psnr 40 || echo too different";
 
 constexpr const char* kSummary =
     "Measures the difference between pictures A and B: RMSE, PSNR, WS-PSNR (rows weighted by their area on the "
@@ -79,13 +79,13 @@ CompareReport compare(const CompareJob& job) {
     if (!fault.empty()) warn(fmt::format("'{}': {}", report.paths[i], fault));
   }
   if (a.projection != b.projection) {
-    note(fmt::format("'{}' is taken for {}, '{}' for {}: pixels are compared as they lie", job.a, a.projection, job.b,
+    note(fmt::format("'{}' is {}, '{}' is {}: comparing pixel by pixel anyway", job.a, a.projection, job.b,
                      b.projection));
   }
   report.in_code_values = !a.is_float && !b.is_float;
   if (a.is_float != b.is_float) {
     note(
-        "one file holds light, the other what a display shows: a tone curve between them counts as a difference "
+        "one file is scene-linear, the other display-encoded: a tone curve between them counts as a difference "
         "(render with --tone linear to leave it out)");
   }
   if (report.in_code_values) {
@@ -107,7 +107,7 @@ void write_difference(const CompareReport& report, const std::string& path) {
     ods::EyeImage eye;
     eye.eye = count == 1 ? ods::kMono : i == 0 ? ods::kLeft : ods::kRight;
     eye.radiance = ods::difference(report.files[0].eyes[i], report.files[1].eyes[i]);
-    // Scaled in code values, which saving encodes again.
+    // Scaled in code values; saving encodes it again.
     for (float& value : eye.radiance.pixels) value = is_signed ? value : ods::srgb_decode(scale * std::abs(value));
     picture.eyes.push_back(std::move(eye));
   }
@@ -116,7 +116,7 @@ void write_difference(const CompareReport& report, const std::string& path) {
   save_picture(picture, options, path);
 }
 
-// Becomes exit code 1. NaN, where nothing could be compared, is beyond every limit.
+// A failure becomes exit code 1. NaN, if nothing could be compared, exceeds every limit.
 void check_limits(const CompareJob& job, const ods::Errors& whole) {
   auto fail = [](const std::string& text) { throw std::runtime_error(text); };
   if (job.max_rmse && !(whole.rmse <= *job.max_rmse)) {

@@ -25,7 +25,7 @@ std::string layout_word(const ods::LoadedEyes& file) {
   return std::string(file.guess.layout ? ods::layout_name(*file.guess.layout) : "one eye");
 }
 
-// Degrees to the right of the middle, and up.
+// Degrees to the right of the centre, and up.
 struct Direction {
   double azimuth;
   double elevation;
@@ -49,7 +49,7 @@ void print_row(const CompareReport& report, const char* name, const ods::Errors&
              is_lat_long(report) ? direction : "-", errors.not_finite);
 }
 
-// JSON has no infinity: equal pictures have null.
+// JSON has no infinity: equal pictures give null.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -77,14 +77,14 @@ void print_text(const CompareReport& report) {
   for (size_t i = 0; i < 2; i++) {
     fmt::print("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]), report.files[i].guess.reason);
   }
-  fmt::print("in {}\n\n", report.in_code_values ? "code values 0..1, as a display gets them" : "linear light");
+  fmt::print("in {}\n\n", report.in_code_values ? "code values 0..1, display-encoded" : "linear light");
   fmt::print("{:<6} {:>10} {:>7} {:>7} {:>10}  {:<18} {:<13} {}\n", "eye", "RMSE", "PSNR", "WS-PSNR", "largest",
              "at x,y", "degrees", "not finite");
   const std::vector<ods::Errors>& eyes = report.comparison.eyes;
   for (size_t i = 0; i < eyes.size(); i++) print_row(report, eye_word(report, i), eyes[i]);
   if (eyes.size() > 1) print_row(report, "both", report.comparison.whole);
   if (!report.z) {
-    fmt::print("\nnoise: unknown, as not both files carry variance.R, G and B\n");
+    fmt::print("\nnoise: unknown, because not both files have variance.R, G and B\n");
     return;
   }
   fmt::print("\nnoise: z has mean {:.4f} (0 expected), rms {:.4f} (1), beyond 3 {:.3g} % (0.27), largest {:.3g}",
@@ -107,6 +107,6 @@ void print_json(const CompareReport& report) {
                  {"rms", report.z->rms},         {"beyond_3", report.z->beyond_3},
                  {"largest", report.z->largest}, {"sure_differences", report.z->sure_differences}};
   }
-  // A file's name may be no UTF-8.
+  // File names need not be valid UTF-8.
   std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }

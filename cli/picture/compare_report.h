@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods compare prints.
+// Prints the results of ods compare.
 #pragma once
 #include <array>
 #include <optional>
@@ -15,7 +15,7 @@ struct CompareReport {
   std::array<ods::LoadedEyes, 2> files;
   bool in_code_values = false;  // else in linear light
   ods::Comparison comparison;
-  std::optional<ods::ZTest> z;  // where both files carry variance
+  std::optional<ods::ZTest> z;  // if both files have variance
 };
 
 void print_text(const CompareReport& report);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods lint: what is wrong with a stereo 360 picture.
+// ods lint: finds faults in a stereo 360 picture.
 #include "ods/lint/lint.h"
 
 #include <fmt/format.h>
@@ -117,7 +117,7 @@ void print_json(const LintJob& job, const LintReport& report) {
                                 {"evidence", finding.evidence},
                                 {"cure", finding.cure}});
   }
-  // A file's name may be no UTF-8.
+  // File names need not be valid UTF-8.
   std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods over: a picture with alpha before another.
+// ods over: composites a picture with alpha over another.
 #include "ods/compose/over.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ using ods::Footage, ods::FootageKind, ods::StoredPicture;
 
 namespace {
 
-// One frame. Without a foreground the background goes through.
+// Composites one frame. Without a foreground the background passes through.
 void lay(const OverJob& job, const std::optional<StoredPicture>& front, const StoredPicture& back,
          const std::string& output, bool is_first) {
   ods::SaveOptions save = job.save;
@@ -42,12 +42,12 @@ void lay(const OverJob& job, const std::optional<StoredPicture>& front, const St
   if (is_first && !behind.empty()) warn(behind);
 }
 
-// False behind the last frame of a video.
+// False at the end of a video.
 bool lay_frame(const OverJob& job, Footage& back, Footage& front, int frame, const std::string& output, bool is_first) {
   for (const Footage* input : {&front, &back}) refuse_overwriting(output, input->path_of(frame));
   const std::optional<StoredPicture> before = front.picture(frame), behind = back.picture(frame);
   if (!behind && back.kind() == FootageKind::kVideo) return false;
-  if (!behind) throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no '{}'", back.path_of(frame)));
+  if (!behind) throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' does not exist", back.path_of(frame)));
   if (is_first && before) note_guesses(front.path_of(frame), *before);
   if (is_first) note_guesses(back.path_of(frame), *behind);
   lay(job, before, *behind, output, is_first);
@@ -76,15 +76,15 @@ void lay_frames(const OverJob& job, Footage& back, Footage& front, ProgressLines
   }
 }
 
-// Frames of a title that are numbered otherwise than the footage would be left out without a word.
+// Title frames with other numbers than the footage would otherwise be skipped silently.
 void warn_of_no_cover(const OverJob& job, const Footage& back, const Footage& front) {
   if (front.kind() != FootageKind::kFrames || back.kind() == FootageKind::kPicture) return;
   const std::vector<int> covers = front.frames(), frames = job.frames ? *job.frames : back.frames();
   if (covers.empty() || frames.empty()) return;
   const auto is_covered = [&](int frame) { return std::binary_search(covers.begin(), covers.end(), frame); };
   if (std::any_of(frames.begin(), frames.end(), is_covered)) return;
-  warn(fmt::format("no frame of '{}' ({}) has the number of one of '{}' ({}): nothing lies over it", job.foreground,
-                   ods::frames_text(covers), job.background, ods::frames_text(frames)));
+  warn(fmt::format("no frame of '{}' ({}) has the same number as one of '{}' ({}): nothing is composited",
+                   job.foreground, ods::frames_text(covers), job.background, ods::frames_text(frames)));
 }
 
 void lay_all(const OverJob& job, ProgressLines& lines) {
@@ -93,12 +93,13 @@ void lay_all(const OverJob& job, ProgressLines& lines) {
   const bool to_video = ods::container_of_path(job.output).has_value();
   if (back.kind() == FootageKind::kVideo && to_video) return lay_over_video(job, back, front, lines);
   if (to_video) {
-    throw UsageError("a video is made over a video; lay these over each other, -o 'x.####.png', and ods encode them");
+    throw UsageError("a video output needs a video as background; composite to -o 'x.####.png', then use ods encode");
   }
   if (back.kind() != FootageKind::kPicture) return lay_frames(job, back, front, lines);
   if (front.kind() != FootageKind::kPicture) {
-    throw UsageError(fmt::format("'{}' is one picture, '{}' are many: only the background says how many there will be",
-                                 job.background, job.foreground));
+    throw UsageError(
+        fmt::format("'{}' is one picture, '{}' are many: the background decides how many pictures are made",
+                    job.background, job.foreground));
   }
   lay_frame(job, back, front, 0, job.output, true);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods over is asked to do.
+// The options of ods over.
 #pragma once
 #include <optional>
 #include <string>
@@ -26,8 +26,9 @@ struct OverJob {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// False when help was asked for. Throws UsageError and ods::Error.
+// False if help was requested. Throws UsageError and ods::Error.
 bool read_over_job(OverJob& job, int argc, char** argv);
 
-// Throws UsageError where this cannot be laid over that. `first` is its first picture, or what a video's are like.
+// Throws UsageError if the two cannot be composited. `first` is the foreground's first picture, or a template of a
+// video's.
 void check_over(const OverJob& job, const ods::StoredPicture& first, const ods::StoredPicture& background);

@@ -23,13 +23,13 @@ struct Range {
   int first = 0, last = kLast;
 };
 
-// A video's sound runs through: so do its frames.
+// Frames must be consecutive because a video's sound is continuous.
 Range range_of(const OverJob& job) {
   if (!job.frames) return {};
   check_rising(*job.frames);
   const Range range{job.frames->front(), job.frames->back()};
   if (static_cast<size_t>(range.last - range.first) + 1 == job.frames->size()) return range;
-  throw UsageError("--frames of a video that becomes a video follow each other, as 30-120: its sound does");
+  throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, like its sound");
 }
 
 VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream, const Range& range) {
@@ -61,9 +61,9 @@ ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
 
 void check_job(const OverJob& job, const VideoInput& video) {
   if (job.has_tone || job.has_exposure)
-    throw UsageError("--exposure and --tone are for frames of light, not for videos");
+    throw UsageError("--exposure and --tone are for scene-linear frames, not for videos");
   if (job.layout && *job.layout != video.like.layout) {
-    throw UsageError(fmt::format("the video stays {}; over frames (-o 'x.####.png') --layout changes that",
+    throw UsageError(fmt::format("the video stays {}; --layout needs frames as output (-o 'x.####.png')",
                                  layout_name(video.like.layout)));
   }
   refuse_overwriting(job.output, job.background);
@@ -71,11 +71,11 @@ void check_job(const OverJob& job, const VideoInput& video) {
   const Container container = container_for(job.output);
   if (has_boxes(container) && !ods::fits_v2(video.metadata)) {
     throw UsageError(
-        fmt::format("{} has no word for {}; .mkv has", container_name(container), metadata_text(video.metadata)));
+        fmt::format("{} cannot express {}; .mkv can", container_name(container), metadata_text(video.metadata)));
   }
 }
 
-// What is in front, or the first of it.
+// The foreground, or its first frame.
 ods::StoredPicture first_of(Footage& front) {
   if (front.kind() == FootageKind::kPicture) return *front.picture(0);
   if (front.kind() == FootageKind::kVideo) {
@@ -93,7 +93,7 @@ ods::StoredPicture first_of(Footage& front) {
 
 void check_rising(const std::vector<int>& frames) {
   if (std::is_sorted(frames.begin(), frames.end()) && frames.front() >= 0) return;
-  throw UsageError("--frames of a video rise, from 0 on: it is read from its start to its end");
+  throw UsageError("--frames of a video must be ascending, from 0 on: it is read from start to end");
 }
 
 void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressLines& lines) {
@@ -106,7 +106,7 @@ void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressL
   check_over(job, first, video.like);
   for (const std::string& warning : over_warnings(first, video.like)) warn(warning);
   if (front.kind() == FootageKind::kVideo && front.stream().rate.value() != back.stream().rate.value()) {
-    warn(fmt::format("the foreground has {:.4g} frames a second, the background {:.4g}: they go frame by frame",
+    warn(fmt::format("the foreground has {:.4g} frames per second, the background {:.4g}: frames are paired by number",
                      front.stream().rate.value(), back.stream().rate.value()));
   }
   const Range range = range_of(job);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods over where a video is laid over and a video is made.
+// ods over with a video as background and output.
 #pragma once
 #include "cli/console/progress.h"
 #include "cli/picture/over_job.h"
@@ -9,5 +9,5 @@
 
 void lay_over_video(const OverJob& job, ods::Footage& back, ods::Footage& front, ProgressLines& lines);
 
-// Throws UsageError: frames of a video that do not rise from 0 on.
+// Throws UsageError if frames of a video are not ascending from 0.
 void check_rising(const std::vector<int>& frames);

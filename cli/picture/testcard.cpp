@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods testcard: a picture that judges players.
+// ods testcard: makes a picture or video for judging players.
 #include "ods/testcard/testcard.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ constexpr const char* kExamples =
 
 constexpr const char* kSummary =
     "Makes a picture that shows at a glance what a player does with stereo 360: each eye sees its own name, plates "
-    "stand\n"
+    "are\n"
     "at the distances written on them, rings are round, and every direction has its degrees. A video also shows "
     "dropped\n"
     "frames and whether sound and picture are in sync.";
@@ -58,8 +58,8 @@ bool read_options(TestcardJob& job, int argc, char** argv) {
   job.video.is_video = job.video.is_video || ods::container_of_path(job.output).has_value();
   job.video.video.output = job.output;
   if (job.video.is_video && job.save.sidecar)
-    throw UsageError("--sidecar is for pictures; a video says itself what it shows");
-  job.save.tone = ods::ToneCurve::kLinear;  // the codes of the greys are what they say
+    throw UsageError("--sidecar is for pictures; a video carries its own metadata");
+  job.save.tone = ods::ToneCurve::kLinear;  // so that the greys have exactly the code values on their labels
   return true;
 }
 
@@ -76,7 +76,8 @@ void warn_if_illegible(const ods::ProjectionSetting& projection, int width) {
   const double height = ods::letter_height(projection, width);
   if (height >= ods::kLegible) return;
   const int enough = static_cast<int>(std::ceil(width * ods::kLegible / height / 128.0)) * 128;
-  warn(fmt::format("its small letters are {:.2g} pixels high and cannot be read: --width {} or more", height, enough));
+  warn(fmt::format("its small letters are {:.2g} pixels high and cannot be read: use --width {} or more", height,
+                   enough));
 }
 
 void draw(const TestcardJob& job, const ods::StereoCamera& stereo, ods::Extent eye, const std::vector<int>& eyes) {

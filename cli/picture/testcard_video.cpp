@@ -26,12 +26,12 @@ void add_testcard_video_options(Options& options, TestcardVideoWishes& wishes) {
   add_packing_options(options, wishes.video);
 }
 
-// As it will lie in the video.
+// The eyes as they are placed in the video.
 static ods::VideoPlan plan_card(ods::Extent eye, size_t eyes, Layout layout, const ods::ProjectionSetting& projection,
                                 Container container) {
   if (eyes == 2 && !ods::arrangement_of(layout).is_halves()) {
     throw UsageError(
-        fmt::format("a video's layout is top-bottom, bottom-top, side-by-side or cross-eyed, perhaps -half, "
+        fmt::format("a video's layout must be top-bottom, bottom-top, side-by-side or cross-eyed, possibly -half, "
                     "not {}",
                     layout_name(layout)));
   }
@@ -39,7 +39,7 @@ static ods::VideoPlan plan_card(ods::Extent eye, size_t eyes, Layout layout, con
       ods::plan_eyes(ods::squeezed_eye(layout, eye, static_cast<int>(eyes)), eyes, layout, projection);
   if (has_boxes(container) && !ods::fits_v2(plan.metadata)) {
     throw UsageError(
-        fmt::format("{} has no word for {}; .mkv has", container_name(container), metadata_text(plan.metadata)));
+        fmt::format("{} cannot express {}; .mkv can", container_name(container), metadata_text(plan.metadata)));
   }
   return plan;
 }

@@ -18,10 +18,10 @@ struct TestcardVideoWishes {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// In groups of their own; --progress and its like in one that is open already.
+// Adds the options in groups of their own; --progress and related ones go to the current group.
 void add_testcard_video_options(Options& options, TestcardVideoWishes& wishes);
 
-// Where the card goes that is drawn for eyes of this layout. Throws UsageError and ods::Error.
+// Makes the video of a card for eyes of this layout. Throws UsageError and ods::Error.
 void make_video_of_card(const ods::StereoCamera& camera, ods::Extent eye, const std::vector<int>& eyes,
                         ods::Layout layout, const std::vector<std::string>& lines, const TestcardVideoWishes& wishes,
                         ProgressLines& progress_lines);

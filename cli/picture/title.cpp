@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods title: text that stands in the world of a stereo 360 picture.
+// ods title: makes text with depth for a stereo 360 picture.
 #include "ods/compose/title.h"
 
 #include <fmt/format.h>
@@ -19,10 +19,10 @@ namespace {
 ods::Lettering letter(const TitleJob& job, const ods::StereoCamera& stereo, ods::Extent eye) {
   ods::Lettering lettering = ods::draw_lettering(job.text, ods::lettering_em(stereo, eye, job.title), job.lettering);
   if (lettering.characters_lost > 0) {
-    warn(fmt::format("no font here has {} of its characters; --font FILE may", lettering.characters_lost));
+    warn(fmt::format("no installed font has {} of its characters; try --font FILE", lettering.characters_lost));
   }
   if (lettering.stands_in) {
-    note(fmt::format("there is no font '{}' here: {} stands in", job.lettering.font, lettering.font));
+    note(fmt::format("the font '{}' is not installed: using {}", job.lettering.font, lettering.font));
   }
   return lettering;
 }
@@ -30,8 +30,8 @@ ods::Lettering letter(const TitleJob& job, const ods::StereoCamera& stereo, ods:
 void warn_if_too_near(const TitleJob& job, const ods::StereoCamera& stereo) {
   const float nearest = ods::nearest_comfortable(stereo, job.title.pitch);
   if (job.title.distance >= nearest) return;
-  warn(fmt::format("at {:g} m it strains the eyes: {:.2g} m or more are comfortable there", job.title.distance,
-                   nearest));
+  warn(
+      fmt::format("at {:g} m it strains the eyes: {:.2g} m or more is comfortable there", job.title.distance, nearest));
 }
 
 void warn_if_too_wide(const ods::Title& title) {
@@ -43,7 +43,7 @@ void warn_if_too_wide(const ods::Title& title) {
       width, ods::kComfortableWidth, ods::comfortable_height(title)));
 }
 
-// Of a frame's middle, from the first one's beginning.
+// The opacity at the middle of a frame, timed from the start of the first.
 float fade(const TitleJob& job, int frame) {
   const auto [first, last] = std::minmax_element(job.frames->begin(), job.frames->end());
   const float at = (static_cast<float>(frame - *first) + 0.5f) / job.fps;

@@ -20,18 +20,19 @@ constexpr const char* kExamples =
     "  ods title 'Chapter 2' --frames 1-120 --fps 30 --fade-in 0.5 --fade-out 1 -o title.####.exr";
 
 constexpr const char* kSummary =
-    "Makes a transparent picture of text that stands at a given distance in stereo 360; .exr has depth, too. ods over\n"
+    "Makes a transparent picture of text at a given distance in stereo 360; .exr has depth, too. ods over\n"
     "composites it over pictures and videos. Use the same --ipd, --merge, ... as for the footage.";
 
 void parse_place(const std::string& text, ods::TitleSetting& title) {
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 3 && std::abs(numbers[0]) <= 36000.0f && std::abs(numbers[1]) <= 90.0f &&
                      numbers[2] >= 0.01f && numbers[2] <= 1e6f;
-  if (!legal) throw UsageError(fmt::format("--at is YAW,PITCH in degrees and metres, as 0,10,3, not '{}'", text));
+  if (!legal)
+    throw UsageError(fmt::format("--at must be degrees right, degrees up and metres, as 0,10,3, not '{}'", text));
   title.yaw = numbers[0], title.pitch = numbers[1], title.distance = numbers[2];
 }
 
-// #rrggbb as a display shows it, or R,G,B of light.
+// #rrggbb in sRGB, or R,G,B in linear light.
 void parse_color(const std::string& text, ods::vec3& color) {
   if (text.size() == 7 && text[0] == '#' && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
     const long code = std::strtol(text.c_str() + 1, nullptr, 16);
@@ -41,11 +42,12 @@ void parse_color(const std::string& text, ods::vec3& color) {
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 3 &&
                      std::all_of(numbers.begin(), numbers.end(), [](float n) { return n >= 0.0f && n <= 1e4f; });
-  if (!legal) throw UsageError(fmt::format("--color is #rrggbb or R,G,B of light, not '{}'", text));
+  if (!legal) throw UsageError(fmt::format("--color must be #rrggbb, or R,G,B in linear light, not '{}'", text));
   color = ods::vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-// What shells make hard to type.
+// Replaces
+// , because shells make newlines hard to type.
 std::string with_newlines(std::string text) {
   for (size_t at = 0; (at = text.find("\\n", at)) != std::string::npos; at++) text.replace(at, 2, 1, '\n');
   return text;
@@ -97,12 +99,12 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o title.exr");
-  if (!ods::has_alpha(job.output)) throw UsageError("a title needs alpha: .exr, .png, .tif and .webp have it");
+  if (!ods::has_alpha(job.output)) throw UsageError("a title needs a format with alpha: .exr, .png, .tif or .webp");
   const bool fades = options.given("--fps") || options.given("--fade-in") || options.given("--fade-out");
-  if (fades && !job.frames) throw UsageError("--fps and fades are for videos: --frames 1-100");
+  if (fades && !job.frames) throw UsageError("--fps and fades need --frames, as 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
-  job.save.tone = ods::ToneCurve::kLinear;  // a colour is shown as it is given
+  job.save.tone = ods::ToneCurve::kLinear;  // so that a colour is shown as given
   finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
   return true;

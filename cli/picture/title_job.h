@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods title is asked to do.
+// The options of ods title.
 #pragma once
 #include <optional>
 #include <string>
@@ -26,5 +26,5 @@ struct TitleJob {
   CameraOptions camera;
 };
 
-// False when help was asked for. Throws UsageError and ods::Error.
+// False if help was requested. Throws UsageError and ods::Error.
 bool read_title_job(TitleJob& job, int argc, char** argv);

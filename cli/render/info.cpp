@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods info: what is in a scene, for people or as JSON.
+// ods info: shows what is in a scene, as text or JSON.
 #include "ods/scene/info.h"
 
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ void print_json(const SceneInfo& info, vec3 position) {
   for (const auto& [name, seconds] : info.animations) {
     json["animations"].push_back({{"name", name}, {"seconds", seconds}});
   }
-  // A file's names may be no UTF-8.
+  // Names in files need not be valid UTF-8.
   std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
@@ -102,7 +102,7 @@ void info(int argc, char** argv) {
   options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
-  console.quiet = true;  // what notes would say stands in the result
+  console.quiet = true;  // notes would repeat the result
   const ods::Scene scene = open_scene(source);
   const vec3 position = place_camera(camera, scene).position;
   const SceneInfo info = describe(scene, position);

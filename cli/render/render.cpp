@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods render: a scene becomes a stereo 360 picture, or the frames of a video.
+// ods render: renders a scene as a stereo 360 picture, or as the frames of a video.
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/render/render_frames.h"

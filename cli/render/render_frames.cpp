@@ -51,7 +51,7 @@ std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) 
       frames.push_back(std::move(frame));
     }
   }
-  if (skipped > 0) note(fmt::format("{} of {} frames are there already", skipped, skipped + frames.size()));
+  if (skipped > 0) note(fmt::format("{} of {} frames exist already", skipped, skipped + frames.size()));
   return frames;
 }
 
@@ -69,7 +69,7 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
   note(fmt::format("{} in {}, {:.3g} Msamples/s", what, duration_text(seconds), samples / seconds * 1e-6));
 }
 
-// The scene as a frame has it, and where the camera is while the shutter is open.
+// The scene at a frame's time, and the camera's motion during the shutter.
 struct Shot {
   ods::SceneChange change;
   std::vector<ods::StereoCamera> cameras;
@@ -102,7 +102,7 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
 
 using Saved = std::function<void(const std::vector<std::string>& files)>;
 
-// Renders frames one after the other. The trees of what stands still stay from frame to frame.
+// Renders frames one after the other. Acceleration structures of static meshes are kept between frames.
 class FrameRenderer {
  public:
   FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
@@ -114,7 +114,7 @@ class FrameRenderer {
     if (renderer_) {
       renderer_->update(shot.change);
     } else {
-      place_camera(job_.camera, scene_);  // says where
+      place_camera(job_.camera, scene_);  // prints a note with the position
       renderer_.emplace(scene_, job_.render.threads);
     }
     ods::RenderOptions options = job_.render;
@@ -132,7 +132,7 @@ class FrameRenderer {
   std::optional<ods::CpuRenderer> renderer_;
 };
 
-// Renders the frames and saves each; `shared`: but those that other processes render. Returns how many it rendered.
+// Renders and saves the frames; `shared`: except those claimed by other processes. Returns how many it rendered.
 size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
                   bool shared, const StepReport& report, const Saved& saved) {
   FrameRenderer renderer(job, time, scene);
@@ -196,7 +196,7 @@ std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
   planned(numbers);
   const std::vector<Frame> frames = choose_frames(job, time);
   if (!frames.empty()) {
-    note(fmt::format("to render: {} frame{}, {}x{} an eye, {} samples a pixel", frames.size(),
+    note(fmt::format("to render: {} frame{}, {}x{} per eye, {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     say_room(job, frames);
     render_all(job, scene, time, frames, false, report, [](const std::vector<std::string>&) {});

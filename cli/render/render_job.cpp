@@ -37,12 +37,12 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
 }
 
-// A rig has cameras and a size of its own.
+// A rig has its own cameras and size.
 void check_rig(const Options& options, const RenderJob& job) {
   if (job.rig.empty()) return;
   for (const char* own : {"--width", "--height", "--size", "--eyes", "--layout", "--position", "--camera", "--yaw",
                           "--pitch", "--roll", "--ipd", "--projection", "--frames", "--shutter"}) {
-    if (options.given(own)) throw UsageError(fmt::format("{} is not for --rig", own));
+    if (options.given(own)) throw UsageError(fmt::format("{} cannot be used with --rig", own));
   }
 }
 
@@ -90,12 +90,12 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
   if (options.given("--exposure") && keeps_light(job.output))
-    note("--exposure leaves .exr and .hdr as the scene is lit");
+    note("--exposure does not change .exr and .hdr, which are scene-linear");
   if (job.render.transparent && !ods::has_alpha(job.output)) {
-    throw UsageError("--transparent is for .exr, .png, .tif and .webp: no other has alpha");
+    throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
   }
   if (!job.scene.catchers.empty() && !job.render.transparent) {
-    throw UsageError("--shadow-catcher leaves shadows to lay over something: it needs --transparent");
+    throw UsageError("--shadow-catcher needs --transparent");
   }
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);

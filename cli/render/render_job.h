@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods render is asked to do.
+// The options of ods render.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,22 +19,22 @@ struct RenderJob {
   TimeOptions time;
   ods::RenderOptions render;
   ods::SaveOptions save;
-  bool has_layout = false;  // said by an option
+  bool has_layout = false;  // given by an option
   std::string output;
-  std::string rig;  // of slits: its views are rendered, in place of the camera's picture
+  std::string rig;  // a slit rig: render its views instead of the camera's picture
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// What --quality sets; --width and --samples go before it.
+// A preset of --quality; --width and --samples take precedence.
 struct Quality {
   std::string_view name;
   int width;
   int samples;
 };
 
-// Those that ods video has too, in a group of their own, and what is left to do when they were read.
+// Options shared with ods video, in a group of their own, and what remains to be done after parsing.
 void add_quality_options(Options& options, RenderJob& job, Quality& quality);
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 
-// False when help was asked for. Throws UsageError and ods::Error.
+// False if help was requested. Throws UsageError and ods::Error.
 bool read_render_job(RenderJob& job, int argc, char** argv);

@@ -34,7 +34,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::CpuRenderer renderer(scene, options.threads);
   const auto render_view = [&](size_t i) {
     const std::string path = view_path(rig, files, i);
-    options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // or noise would repeat, slit by slit
+    options.seed = ods::hash_pair(job.render.seed, static_cast<ods::uint>(i));  // else every slit has the same noise
     ods::Progress progress;
     const int number = static_cast<int>(i) + 1, count = static_cast<int>(rig.views.size());
     const ProgressStep step{"render", number, count, path};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods scenes: the built-in scenes, one line each.
+// ods scenes: lists the built-in scenes.
 #include <cstdio>
 
 #include "cli/console/console.h"

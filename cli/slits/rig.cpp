@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods rig: the perspective cameras that any renderer can take an ODS picture with, and how far it would be off.
+// ods rig: plans perspective cameras from which any renderer's pictures can be stitched to ODS, and reports the error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kExamples =
     "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
     "  ods rig --scene room --max-error 0.25 -o rig.json --for blender,povray   scripts for these, beside it\n"
-    "  ods rig --from picture.camera.json --slits 360      says how far that would be off";
+    "  ods rig --from picture.camera.json --slits 360      reports its error";
 
 struct RigJob {
   CameraSource source;
@@ -51,7 +51,9 @@ void add_slit_options(Options& options, RigJob& job) {
 }
 
 bool read_options(RigJob& job, int argc, char** argv) {
-  Options options("rig", "Plans the perspective cameras that other renderers can make an ODS picture with.", kExamples);
+  Options options("rig",
+                  "Plans perspective cameras for other renderers; ods stitch combines their views into an ODS picture.",
+                  kExamples);
   options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; by default only prints the plan");
   add_script_option(options, job.targets);
   add_slit_options(options, job);
@@ -59,13 +61,13 @@ bool read_options(RigJob& job, int argc, char** argv) {
   options.group("Console");
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;
-  if (job.count && options.given("--max-error")) throw UsageError("--slits is instead of --max-error");
-  if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes beside the rig: where? -o rig.json");
-  if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest is instead of --scene");
+  if (job.count && options.given("--max-error")) throw UsageError("--slits and --max-error exclude each other");
+  if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes next to the rig: add -o rig.json");
+  if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest and --scene exclude each other");
   return true;
 }
 
-// The depth of the nearest thing, as the eyes see it.
+// The nearest depth, as the eyes see it.
 float measure(const ods::Scene& scene, ods::StereoCamera camera) {
   ods::RenderOptions options;
   options.width = 1024, options.height = 512, options.samples = 1, options.bounces = 0;
@@ -74,7 +76,7 @@ float measure(const ods::Scene& scene, ods::StereoCamera camera) {
   for (const ods::EyeImage& eye : render_cpu(scene, camera, options).eyes) {
     for (const float depth : eye.depth.pixels) nearest = std::min(nearest, depth > 0.0f ? depth : nearest);
   }
-  if (nearest >= ods::kFarDepth) throw UsageError("--scene: the camera sees nothing there; say --nearest M");
+  if (nearest >= ods::kFarDepth) throw UsageError("--scene: the camera sees nothing there; give --nearest M");
   return nearest;
 }
 
@@ -91,7 +93,7 @@ void rig(int argc, char** argv) {
   RigJob job;
   if (!read_options(job, argc, argv)) return;
   const auto [file, nearest] = survey(job);
-  if (!job.scene.name.empty()) note(fmt::format("the nearest thing is {:.3g} m away", nearest));
+  if (!job.scene.name.empty()) note(fmt::format("the nearest surface is {:.3g} m away", nearest));
   job.slits.slits = job.count ? *job.count : ods::slits_for(file.camera, file.eye, job.slits, nearest, job.max_error);
   const std::string fault = slit_fault(file.camera, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);

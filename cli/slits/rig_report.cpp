@@ -12,7 +12,7 @@ namespace {
 
 void print_errors(const ods::SlitRig& rig, float nearest) {
   const float distances[] = {nearest, 2.0f * nearest, 10.0f * nearest};
-  std::string line = "at most, in pixels (minutes of arc):\n  elevation";
+  std::string line = "largest error in pixels (arc minutes):\n  elevation";
   for (const float distance : distances) {
     line += fmt::format("   {:>31}", fmt::format("at {:.3g} m: across  up/down  step", distance));
   }
@@ -33,7 +33,7 @@ void print_errors(const ods::SlitRig& rig, float nearest) {
 }
 
 void print_detail(const ods::SlitRig& rig) {
-  std::string elevations = "  elevation      ", columns = "  columns        ", minutes = "  minutes of arc ";
+  std::string elevations = "  elevation      ", columns = "  columns        ", minutes = "  arc minutes    ";
   const ods::vec2 seen = rig.camera.projection.latitude;
   for (const float elevation : {85.0f, 75.0f, 60.0f, 30.0f, 0.0f, -30.0f, -60.0f, -75.0f, -85.0f}) {
     if (elevation < seen.x || elevation > seen.y) continue;
@@ -43,7 +43,7 @@ void print_detail(const ods::SlitRig& rig) {
     minutes += fmt::format("{:7.2f}", ods::arc_minutes(detail.angle));
   }
   fmt::print(
-      "width of a view's pixel in columns of the picture; several columns: less detail sideways than rendered "
+      "width of a view's pixel in columns of the picture; above 1, less horizontal detail than when rendered "
       "directly\n"
       "{}\n{}\n{}\n",
       elevations, columns, minutes);
@@ -64,7 +64,7 @@ void print_plan(const ods::SlitRig& rig, float nearest) {
   print_errors(rig, nearest);
   print_detail(rig);
   if (rig.options.depth != ods::ViewDepth::kNone) {
-    fmt::print("these are errors where one thing hides another; depth puts the things themselves right\n");
+    fmt::print("these are errors at occlusion edges; depth corrects the surfaces themselves\n");
   }
   ods::SlitOptions every = rig.options;
   every.slits = rig.eye.width;

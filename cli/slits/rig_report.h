@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods rig prints about a plan.
+// Prints the plan of ods rig.
 #pragma once
 #include "ods/stitch/slit_rig.h"
 
-// To stdout: the number and size of the views, how far off and how sharp the stitched picture is. `nearest`: metres to
-// the nearest thing.
+// Prints to stdout the number and size of the views, and the error and sharpness of the stitched picture. `nearest`:
+// metres to the nearest surface.
 void print_plan(const ods::SlitRig& rig, float nearest);

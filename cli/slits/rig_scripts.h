@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods rig writes: the rig, and scripts for other renderers beside it.
+// Writes the output of ods rig: the rig, and scripts for other renderers beside it.
 #pragma once
 #include <vector>
 
@@ -11,5 +11,5 @@
 // --for NAME,NAME,...
 void add_script_option(Options& options, std::vector<ods::RigTarget>& targets);
 
-// The rig as JSON, then every script under its name without .json and an ending of its own; says what was written.
+// Writes the rig as JSON, then every script as the same name without .json plus its own ending; prints the file names.
 void write_rig(const ods::SlitRig& rig, const std::vector<ods::RigTarget>& targets, const std::string& output);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods stitch: the views of a rig become its picture, or those of every frame a video's.
+// ods stitch: combines the views of a rig into its picture, or the views of every frame into a video's frames.
 #include <chrono>
 #include <iostream>
 

@@ -33,12 +33,12 @@ ods::SlitRig open_rig(const std::string& path) {
 void tell_faults(const std::vector<ViewFault>& faults, const std::function<void(const std::string&)>& say) {
   constexpr size_t kMaxSaid = 5;
   for (size_t i = 0; i < std::min(faults.size(), kMaxSaid); i++) say(faults[i].what);
-  if (faults.size() > kMaxSaid) say(fmt::format("and {} views more", faults.size() - kMaxSaid));
+  if (faults.size() > kMaxSaid) say(fmt::format("and {} more views", faults.size() - kMaxSaid));
 }
 
 [[noreturn]] static void refuse(const ods::SlitRig& rig, const ViewFiles& views, const std::vector<ViewFault>& faults) {
   tell_faults(faults, warn);
-  throw Error(ErrorKind::kInput, fmt::format("{} of {} views cannot be used: render {} again, or --partial",
+  throw Error(ErrorKind::kInput, fmt::format("{} of {} views cannot be used: render {} again, or use --partial",
                                              faults.size(), rig.views.size(), view_ranges(rig, views, faults)));
 }
 
@@ -53,7 +53,7 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   }
   ods::StitchOptions options;
   const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-  std::error_code ignored;  // it is said when the journal cannot be made
+  std::error_code ignored;  // making the journal reports it
   if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
   options.journal = output + ".stitching";
   options.journal_key = views_key(rig, views);
@@ -78,10 +78,10 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   }
   if (!stitched.faults.empty()) {
     tell_faults(stitched.faults, note);
-    note(fmt::format("{} of {} views are missing: black", stitched.faults.size(), rig.views.size()));
+    note(fmt::format("{} of {} views are missing and stay black", stitched.faults.size(), rig.views.size()));
   }
   if (unmarked && job.says_unmarked) {
-    note(fmt::format("nothing says which rig the views are of: no {} in their folder", ods::kRigMarkFile));
+    note(fmt::format("cannot check which rig the views belong to: no {} in their folder", ods::kRigMarkFile));
   }
   if (!color_fault.empty()) warn("the views: " + color_fault);
   ods::SaveOptions save = job.save;
@@ -89,14 +89,14 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
   const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);
   if (stitched.unseen > 0) {
-    note(fmt::format("{} pixels show what is far behind: no view sees what is hidden there", stitched.unseen));
+    note(fmt::format("{} pixels show the far background: what belongs there is hidden in every view", stitched.unseen));
   }
   std::filesystem::remove(options.journal);
   if (!job.says_files) return;
   for (const std::string& file : files) announce_file(file);
   if (job.report.empty()) return;
   const ods::SeamReport seams = measure_seams(rig, stitched.rows);
-  note(fmt::format("borders of slits show {:.3f} of what the rest does; 1 is as much", seams.ratio));
+  note(fmt::format("seam visibility {:.3f}; at 1, slit borders are no more visible than the rest", seams.ratio));
   for (const std::string& file : save_picture(seams.picture, {}, job.report)) announce_file(file);
 }
 
@@ -130,7 +130,7 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
     const ProgressStep step{"stitch", number, count, output};
     stitch_picture(each, rig, views, output,
                    [&](double part, const ProgressStep&) { report((static_cast<double>(i) + part) / count, step); });
-    each.says_unmarked = false;  // once is enough
+    each.says_unmarked = false;  // one note is enough
   };
   std::vector<SharedFrame> files;
   for (const int frame : frames) files.push_back({frame, outputs.path(frame)});

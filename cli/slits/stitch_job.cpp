@@ -10,8 +10,8 @@
 
 static constexpr const char* kExamples =
     "  ods stitch rig.json 'views/####.exr' -o picture.exr\n"
-    "  ods stitch rig.json 'views/####.exr' --list-missing       what is to be rendered (again)\n"
-    "  ods stitch rig.json 'views/####.png' -o look.png --partial\n"
+    "  ods stitch rig.json 'views/####.exr' --list-missing       which views to render (again)\n"
+    "  ods stitch rig.json 'views/####.png' -o preview.png --partial\n"
     "  ods stitch rig.json 'views/####/####.exr' -o 'shot.####.exr' --frames 1-100   folders are frames";
 
 static void set_sheet(const std::string& word, ods::ViewFiles& views) {
@@ -23,7 +23,7 @@ static void set_sheet(const std::string& word, ods::ViewFiles& views) {
 
 bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kExamples);
-  options.argument("RIG", job.rig_file, "the rig file that ods rig wrote");
+  options.argument("RIG", job.rig_file, "the rig file written by ods rig");
   options.argument("VIEWS", job.views.names, "the views' file names, with #### for the view's number; %V is the eye");
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output,
@@ -54,6 +54,6 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   if (!options.parse(argc, argv)) return false;
   job.has_tone = options.given("--tone");
   if (job.output.empty() && !job.list_missing) throw UsageError("no output file: add -o picture.exr");
-  if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing is for --frames");
+  if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing needs --frames");
   return true;
 }

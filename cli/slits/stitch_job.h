@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods stitch is asked to do.
+// The options of ods stitch.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,19 +15,19 @@ struct StitchJob {
   ods::ViewFiles views;
   std::string output;
   std::string report;
-  ods::SaveOptions save;              // but for its layout
+  ods::SaveOptions save;              // except its layout
   std::optional<ods::Layout> layout;  // none: default_layout() of the rig's projection
   std::string frames;
   bool has_tone = false;
   bool partial = false;
   bool says_files = true;
-  bool says_unmarked = true;  // notes views that do not say which rig they are of
-  bool claims = true;         // false: the caller holds a claim on what the frames are for
+  bool says_unmarked = true;  // print a note if views do not identify their rig
+  bool claims = true;         // false: the caller already holds a claim
   bool list_missing = false;
   bool skip_existing = false;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// False when help was asked for. Throws UsageError.
+// False if help was requested. Throws UsageError.
 bool read_stitch_job(StitchJob& job, int argc, char** argv);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods encode: frames become a video.
+// ods encode: encodes frames as a video.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -30,7 +30,7 @@ struct EncodeJob {
   std::string pattern;
   std::optional<std::vector<int>> frames;
   ods::FormatHint known;
-  ods::DisplayTransform development;
+  ods::DisplayTransform display;
   VideoWishes video;
   std::optional<ods::Layout> layout;
   int threads = 0;
@@ -40,7 +40,7 @@ struct EncodeJob {
 ods::Layout video_layout(const std::string& word) {
   const ods::Layout layout = layout_by_name("--layout", word);
   if (layout == ods::Layout::kTopBottom || layout == ods::Layout::kSideBySide) return layout;
-  throw UsageError("--layout of a video is top-bottom or side-by-side");
+  throw UsageError("--layout of a video must be top-bottom or side-by-side");
 }
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
@@ -57,8 +57,8 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   add_layout_option(options, job.known.layout,
                     "the frames' layout, if neither the files nor their names tell; separate: one eye",
                     "--from-layout");
-  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
-  options.choice("--tone", job.development.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
+  options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
+  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
   add_video_options(options, job.video);
   options.custom(
       "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); }, "frames per second");
@@ -74,7 +74,7 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
 
 void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  encode_options(job.video, {256, 256}, job.threads);  // before the frames are looked at, which takes time
+  encode_options(job.video, {256, 256}, job.threads);  // fails early: examining the frames takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
   const ods::VideoPlan plan = ods::plan_video(files, job.known, job.layout);
   const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);
@@ -86,7 +86,7 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   progress.report = [&](double done) {
     lines.report(done, seconds_since(start), video_step("encode", done, files.frames.size(), job.video.output));
   };
-  ods::make_video(files, plan, job.development, options, job.video.output, progress);
+  ods::make_video(files, plan, job.display, options, job.video.output, progress);
   lines.clear();
   announce_file(job.video.output);
   note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, files.frames.size()),

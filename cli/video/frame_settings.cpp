@@ -38,7 +38,7 @@ std::string text_of(const ods::vec3& point) {
   return fmt::format("{},{},{}", point.x, point.y, point.z);
 }
 
-// Whoever reads a file that is not there says so.
+// A missing file is reported by whatever reads it.
 void add_file(Settings& settings, const std::string& option, const std::string& path, const std::string& confine = {}) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
@@ -98,7 +98,7 @@ void add_merge_map(Settings& settings, const std::shared_ptr<const ods::Image>& 
                       ods::one_line(path)});
 }
 
-// The rig's own place and angles stand for those of every scene: place_camera() replaces them.
+// The rig's position and angles are those that place_camera() replaces for every scene.
 void add_camera(Settings& settings, const CameraOptions& camera) {
   const auto& [rig, merge_map, merge_map_inverted, view_point, position, yaw, pitch, roll] = camera;
   const auto& [rig_position, rig_yaw, rig_pitch, rig_roll, ipd, top, bottom, map, projection, convergence,
@@ -136,7 +136,7 @@ void add_time(Settings& settings, const TimeOptions& options) {
   std::vector<std::string> places;
   for (const ods::vec3& place : fly_to) places.push_back(text_of(place));
   add(settings, "--fly-to", places.empty() ? "nowhere" : fmt::format("{}", fmt::join(places, ";")));
-  const bool lasts = duration && ods::moves(move);  // else it only says how many frames there are
+  const bool lasts = duration && ods::moves(move);  // otherwise it only sets the number of frames
   add(settings, "--duration", lasts ? fmt::format("{}", *duration) : "of the scene");
 }
 
@@ -154,7 +154,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add(settings, "--seed", fmt::format("{}", seed));
 }
 
-// A frame keeps the scene's light: exposure, tone and quality are the video's.
+// A frame is scene-linear: exposure, tone and quality belong to the video.
 void add_save(Settings& settings, const ods::SaveOptions& save) {
   const auto& [layout, exposure, tone, jpeg_quality, attributes, sidecar] = save;
   add(settings, "--layout", std::string(ods::layout_name(layout)));
@@ -162,7 +162,7 @@ void add_save(Settings& settings, const ods::SaveOptions& save) {
 
 std::string change(const std::string& option, const Setting* was, const Setting* is) {
   if (!was) return fmt::format("{} is new", option);
-  if (!is) return fmt::format("{} is gone", option);
+  if (!is) return fmt::format("{} is no longer given", option);
   if (!was->path.empty() && was->path == is->path) {
     return is->value == "missing" ? fmt::format("{} '{}' is missing", option, is->path)
                                   : fmt::format("{} '{}' has changed", option, is->path);

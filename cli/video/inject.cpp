@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods inject: makes a video or a picture say what it is, without encoding it again.
+// ods inject: writes 360 metadata into a video or a picture, without encoding it again.
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
@@ -14,7 +14,7 @@
 namespace {
 
 constexpr const char* kExamples =
-    "  ods inject video_360_TB.mp4                 as its name says\n"
+    "  ods inject video_360_TB.mp4                 as its name implies\n"
     "  ods inject video.mp4 -o tagged.mp4 --layout top-bottom --projection lat-long\n"
     "  ods inject video.mov --projection vr180 --layout side-by-side\n"
     "  ods inject video.mp4 --remove\n"
@@ -53,7 +53,7 @@ bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
   add_progress_options(options, mode);
   if (!options.parse(argc, argv)) return false;
   for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics", "--apple"}) {
-    if (job.remove && options.given(other)) throw UsageError(fmt::format("--remove leaves nothing for {}", other));
+    if (job.remove && options.given(other)) throw UsageError(fmt::format("--remove excludes {}", other));
   }
   job.is_mono = layout == "mono";
   if (!layout.empty() && !job.is_mono) job.layout = layout_by_name("--layout", layout);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods inject was asked for: what videos and pictures share, and what only one of them knows.
+// The options of ods inject, common to videos and pictures or specific to one.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,14 +13,14 @@ struct InjectJob {
   std::string file, output;
   bool is_mono = false;
   std::optional<ods::Layout> layout;
-  std::string projection;  // by its name; empty: nobody said
+  std::string projection;  // by name; empty: not given
   std::optional<float> yaw, pitch, roll;
   bool remove = false;
   std::optional<int> track;  // of a video
-  bool ambisonics = false;   // likewise
-  bool for_apple = false;    // likewise
+  bool ambisonics = false;   // videos only
+  bool for_apple = false;    // videos only
 };
 
-// Each throws UsageError, and what the library throws.
+// Both throw UsageError, and what the library throws.
 void inject_video(const InjectJob& job, ProgressLines& lines);
 void inject_picture(const InjectJob& job);

@@ -26,22 +26,21 @@ ods::FormatHint known_format(const InjectJob& job) {
   return known;
 }
 
-// A picture whose name contradicts its own words is not tagged on the name's word, nor silently against it.
+// If a picture's name contradicts its metadata, the user must decide.
 void settle_name(const InjectJob& job, const ods::PictureTag& tag) {
   const std::string fault = ods::name_fault(job.file, tag.layout, tag.camera.projection);
   if (fault.empty()) return;
   const bool asks = job.is_mono || job.layout || !job.projection.empty() || job.yaw || job.pitch || job.roll;
   if (asks) return warn(fmt::format("'{}': {}", job.file, fault));
-  throw ods::Error(
-      ods::ErrorKind::kInput,
-      fmt::format("'{}' contradicts itself: {}. Say which is true with --layout or --projection", job.file, fault));
+  throw ods::Error(ods::ErrorKind::kInput,
+                   fmt::format("'{}' contradicts itself: {}. Decide with --layout or --projection", job.file, fault));
 }
 
 }  // namespace
 
 void inject_picture(const InjectJob& job) {
   if (job.track || job.ambisonics || job.for_apple)
-    throw UsageError(fmt::format("--track, --ambisonics and --apple are of videos, and '{}' is a picture", job.file));
+    throw UsageError(fmt::format("--track, --ambisonics and --apple are for videos, but '{}' is a picture", job.file));
   if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
   std::vector<std::string> guesses;
   ods::PictureTag tag = ods::complete_tag(known_format(job), job.file, guesses);

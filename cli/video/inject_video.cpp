@@ -22,7 +22,7 @@ void parse_projection(const std::string& name, SphericalMetadata& metadata) {
     metadata.projection = name == "flat" ? VideoProjection::kFlat : VideoProjection::kCubemap;
   } else if (const ods::NamedProjection* named = ods::find_projection(name); named && name.starts_with("cube-3x2")) {
     throw UsageError(
-        "--projection cube-3x2 has its faces in another order than the cubemap of videos: right, left, up over down, "
+        "--projection cube-3x2 orders its faces unlike the cubemap of videos: right, left, up over down, "
         "front, back");
   } else if (named) {
     set_projection(metadata, named->setting);
@@ -41,7 +41,7 @@ void say_what_is_written(const SphericalMetadata& metadata, const ods::TagResult
 void set_angles(const InjectJob& job, SphericalMetadata& metadata) {
   const bool is_asked = job.yaw || job.pitch || job.roll;
   if (is_asked && metadata.projection == VideoProjection::kFlat) {
-    throw UsageError(fmt::format("'{}' is flat: there is no place for --yaw, --pitch and --roll", job.file));
+    throw UsageError(fmt::format("'{}' is flat, so it cannot have --yaw, --pitch or --roll", job.file));
   }
   const auto set = [](const std::optional<float>& wish, double& angle) {
     if (wish) angle = static_cast<double>(*wish);
@@ -54,7 +54,7 @@ bool asks_for_something(const InjectJob& job) {
          job.for_apple;
 }
 
-// A video whose name or shape contradicts its own words is not tagged further before somebody says which is true.
+// If a video's name or shape contradicts its metadata, the user must decide.
 void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, const ods::VideoTrack& track,
                       bool matters) {
   std::string texts, options;
@@ -65,10 +65,10 @@ void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, cons
   if (texts.empty()) return;
   if (!matters) return warn(texts);
   throw ods::Error(ods::ErrorKind::kInput,
-                   fmt::format("'{}' contradicts itself: {}. Say which is true: {}", job.file, texts, options));
+                   fmt::format("'{}' contradicts itself: {}. Decide: {}", job.file, texts, options));
 }
 
-// The form that the video gets; what is not asked for is as the video has it. Says what its places cannot hold.
+// The metadata that the video gets; what was not requested stays as it is. Prints what the format cannot express.
 SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container, const ods::VideoTrack& track,
                                   std::vector<std::string>& guesses) {
   SphericalMetadata known;
@@ -88,29 +88,29 @@ SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container
   }
   if (job.for_apple && !fits_vexu(metadata)) {
     throw ods::Error(ods::ErrorKind::kUsage,
-                     fmt::format("--apple: vexu has no words for {} ('{}')", metadata_text(metadata), job.file));
+                     fmt::format("--apple: vexu cannot express {} ('{}')", metadata_text(metadata), job.file));
   }
   if (!can_say(container, track, metadata)) {
     const auto kind = asks_for_something(job) ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;
-    throw ods::Error(kind, fmt::format("cannot use '{}': {} has no words for {}", job.file, container_name(container),
+    throw ods::Error(kind, fmt::format("cannot use '{}': {} cannot express {}", job.file, container_name(container),
                                        metadata_text(metadata)));
   }
   for (const std::string& each : plan.notes) note(each);
   return metadata;
 }
 
-// What the sound is to say; nothing where it is left as it is.
+// The sound's new metadata; nothing if it stays as it is.
 std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::VideoFile& video) {
   if (!job.ambisonics) return std::nullopt;
   if (!has_boxes(video.container))
-    throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus says it by itself");
+    throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus describes its own channels");
   const bool is_alone = video.sound.size() == 1;
   if (!is_alone)
-    throw UsageError(fmt::format("--ambisonics: '{}' has {} tracks of sound, not one", job.file, video.sound.size()));
+    throw UsageError(fmt::format("--ambisonics: '{}' has {} sound tracks, not one", job.file, video.sound.size()));
   const int channels = video.sound[0].channels;
   if (channels != 4) {
-    const std::string has = channels > 0 ? fmt::format("has {}", channels) : "does not say how many it has";
-    throw UsageError(fmt::format("--ambisonics takes sound of 4 channels; '{}' {}", job.file, has));
+    const std::string has = channels > 0 ? fmt::format("has {}", channels) : "has an unknown number";
+    throw UsageError(fmt::format("--ambisonics needs sound with 4 channels; '{}' {}", job.file, has));
   }
   return ods::Ambisonics();
 }
@@ -127,7 +127,7 @@ void inject_video(const InjectJob& job, ProgressLines& lines) {
   if (!job.remove) metadata = wished_metadata(job, video.container, track, guesses);
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](double done) {
-    const double kSoon = 1.0;  // seconds: what takes less needs no lines
+    const double kSoon = 1.0;  // seconds: shorter jobs need no progress
     if (const double seconds = seconds_since(start); seconds > kSoon)
       lines.report(done, seconds, {"inject", 0, 0, job.output});
   };
@@ -135,5 +135,5 @@ void inject_video(const InjectJob& job, ProgressLines& lines) {
   lines.clear();
   for (const std::string& guess : guesses) note(guess);
   if (metadata) say_what_is_written(*metadata, result, video.container);
-  if (job.ambisonics) note("its sound: written as ambisonics of first order (SA3D)");
+  if (job.ambisonics) note("sound: written as first-order ambisonics (SA3D)");
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods probe: what a video or a picture says of itself, and what players will take it for.
+// ods probe: shows a video's or a picture's metadata, and how players will interpret it.
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
@@ -26,7 +26,7 @@ constexpr const char* kSummary =
     "camera;\n"
     "how each kind of player will interpret it, and why; and what is wrong with it.";
 
-// A photo whose right eye is damaged is still a picture of the left one.
+// A photo with a damaged right eye is still a picture of the left one.
 void probe_right_eye(PictureReport& report, const std::string& path, std::vector<std::string>& warnings) {
   try {
     const ods::MemoryFile file(ods::read_right_eye(path));

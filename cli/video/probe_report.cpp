@@ -12,7 +12,7 @@ using ods::SphericalMetadata;
 
 namespace {
 
-// What stands in a file may hold anything, also what a terminal would obey.
+// Text from a file may contain anything, including terminal escapes.
 std::string printable(std::string text) {
   for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? '.' : c;
   return text;
@@ -43,7 +43,7 @@ std::string sound_text(const ods::SoundTrack& track) {
 void print_views(const ProbeReport& report, size_t index) {
   fmt::print("\nA player that\n");
   for (const ods::PlayerView& view : report.views[index]) {
-    fmt::print("  {:<18} takes it for {}: {}\n", view.player == "ods" ? "is ods" : view.player,
+    fmt::print("{:<18} takes it for {}: {}\n", view.player == "ods" ? "is ods" : view.player,
                printable(view.takes_it_for), printable(view.reason));
   }
   if (!report.warnings[index].empty()) fmt::print("\n");
@@ -52,11 +52,11 @@ void print_views(const ProbeReport& report, size_t index) {
 
 void print_video(const ProbeReport& report) {
   const ods::VideoFile& video = *report.video;
-  row("container", fmt::format("{}{}", container_name(video.container), video.is_fragmented ? ", in fragments" : ""));
+  row("container", fmt::format("{}{}", container_name(video.container), video.is_fragmented ? ", fragmented" : ""));
   for (const ods::SoundTrack& track : video.sound) row("sound", sound_text(track));
   for (size_t i = 0; i < video.tracks.size(); i++) {
     const ods::VideoTrack& track = video.tracks[i];
-    std::string rate = track.fps > 0.0 ? fmt::format(", {:.5g} pictures a second", track.fps) : "";
+    std::string rate = track.fps > 0.0 ? fmt::format(", {:.5g} frames per second", track.fps) : "";
     row("pictures",
         fmt::format("track {}: {}, {}x{}{}", track.id, track.codec, track.size.width, track.size.height, rate));
     if (!is_matroska(video) || track.v1) row("Spherical Video V1", said(track.v1));
@@ -80,12 +80,12 @@ std::string camera_text(const ods::StereoCamera& stereo) {
 void print_picture(const ProbeReport& report) {
   const PictureReport& picture = *report.picture;
   row("picture", fmt::format("{}x{}, {}", picture.info.width, picture.info.height,
-                             picture.info.is_float ? "light" : "code values of a display"));
+                             picture.info.is_float ? "light" : "display-encoded"));
   row("colour space", !picture.info.color.empty() ? picture.info.color : picture.info.is_float ? "none" : "none: sRGB");
   row("ods:projection", picture.info.text.contains("ods:projection") ? picture.info.text.at("ods:projection") : "none");
   if (!picture.info.is_float) row("GPano", picture.gpano ? camera_text(*picture.gpano) : "none");
   if (picture.info.is_float) row("envmap", picture.info.text.contains("textureformat") ? "lat-long" : "none");
-  if (!picture.right_eye.empty()) row("right eye in it", picture.right_eye);
+  if (!picture.right_eye.empty()) row("embedded right eye", picture.right_eye);
   for (const std::string& guess : picture.format.guesses) row("guess", guess);
   print_views(report, 0);
 }
@@ -167,6 +167,6 @@ void print_text(const ProbeReport& report) {
 void print_json(const ProbeReport& report) {
   Json json = {{"path", report.path}};
   json[report.video ? "video" : "picture"] = report.video ? video_to_json(report) : picture_to_json(report);
-  // A file's name may be no UTF-8.
+  // File names need not be valid UTF-8.
   std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods probe prints.
+// Prints the results of ods probe.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@ struct PictureReport {
   ods::FileInfo info;
   ods::StereoFormat format;
   std::optional<ods::StereoCamera> gpano;
-  std::string right_eye;  // of a Cardboard photo: "64x32", or what is wrong with it
+  std::string right_eye;  // of a Cardboard photo: "64x32", or its fault
 };
 
 // Of a video or a picture.
@@ -21,7 +21,7 @@ struct ProbeReport {
   std::string path;
   std::optional<ods::VideoFile> video;
   std::optional<PictureReport> picture;
-  std::vector<std::vector<ods::PlayerView>> views;  // of every video track, or of the picture
+  std::vector<std::vector<ods::PlayerView>> views;  // per video track, or of the picture
   std::vector<std::vector<std::string>> warnings;   // likewise
 };
 

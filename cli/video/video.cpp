@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods video: a scene becomes a video.
+// ods video: renders a scene as a video.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,9 +30,9 @@ constexpr const char* kSummary =
 
 struct VideoJob {
   RenderJob render;
-  ods::DisplayTransform development;
+  ods::DisplayTransform display;
   VideoWishes video;
-  std::string rig;  // of slits: frames are stitched of its views, in place of being rendered
+  std::string rig;  // a slit rig: stitch its views instead of rendering
   bool keep_frames = false, restart = false;
 };
 
@@ -49,16 +49,16 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
-  options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops");
-  options.choice("--tone", job.development.tone, ods::kToneCurveTable, "tone curve");
+  options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops");
+  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);
   options.group("Console");
   add_progress_options(options, render.progress);
   if (!options.parse(argc, argv)) return false;
-  if (render.time.time) throw UsageError("--time is for one picture; --frames says which of a video");
-  if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a video says itself what it shows");
+  if (render.time.time) throw UsageError("--time is for single pictures; choose a video's frames with --frames");
+  if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a video carries its own metadata");
   finish_render_job(options, quality, render);
   render.render.layers = false;
   render.time.is_video = render.time.skip_existing = true;
@@ -67,7 +67,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   return true;
 }
 
-// Frames of the views of a rig.
+// Stitches frames from the views of a rig.
 std::vector<int> stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
                               const StepReport& report) {
   StitchJob stitch;
@@ -77,13 +77,13 @@ std::vector<int> stitch_views(const VideoJob& job, const ods::SlitRig& rig, Vide
   stitch.save = job.render.save;
   stitch.layout = job.render.save.layout;
   stitch.skip_existing = true, stitch.claims = false, stitch.says_files = false;
-  if (stitch.frames.empty()) throw UsageError("--rig: --frames says which folders of views there are");
+  if (stitch.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
   journal.plan(ods::parse_frames(stitch.frames));
   return stitch_frames(stitch, rig, report);
 }
 
 void make_video(VideoJob job, ProgressLines& lines) {
-  const double kRendering = 0.95;  // of the time
+  const double kRendering = 0.95;  // share of the total time
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
@@ -115,7 +115,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
     lines.report(kRendering + (1.0 - kRendering) * done, seconds_since(start),
                  video_step("encode", done, frames.size(), job.video.output));
   };
-  ods::make_video(files, plan, job.development, options, job.video.output, progress);
+  ods::make_video(files, plan, job.display, options, job.video.output, progress);
   lines.clear();
   announce_file(job.video.output);
   note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, frames.size()),

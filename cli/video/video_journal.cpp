@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kNote = "job.txt";
 constexpr const char* kFrame = "frame.######.exr";
-constexpr const char* kMark = "omnistereo video frames, 1";  // another number: another way to write it
+constexpr const char* kMark = "omnistereo video frames, 1";  // the number is the version of the note's format
 constexpr const char* kFrames = "frames";
 
 fs::file_type type_of(const std::string& path) {
@@ -29,7 +29,7 @@ fs::file_type type_of(const std::string& path) {
   return fs::symlink_status(path, ignored).type();
 }
 
-// The parts of a line of the note: tabs stand between them, and never in them.
+// Splits a line of the note at tabs; the parts themselves contain none.
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> parts;
   std::istringstream stream(line);
@@ -38,12 +38,12 @@ std::vector<std::string> split(const std::string& line) {
   return parts;
 }
 
-// Whether a file of the folder is what a killed run left of this one.
+// Whether a file in the folder is a partial copy of this one, left by a killed run.
 bool is_half(const std::string& name, const std::string& of) {
   return name.starts_with("." + of + ".tmp.");
 }
 
-// Whether there is nothing in a folder but what a process left that was killed while it wrote the first note.
+// Whether a folder holds at most what a process left that was killed while writing the first note.
 bool is_empty(const std::string& folder) {
   std::error_code ignored;
   return std::all_of(fs::directory_iterator(folder, ignored), fs::directory_iterator(),
@@ -56,8 +56,8 @@ VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>&
     : claim_(ods::claim(video)), folder_(video + ".frames"), settings_(settings) {
   const fs::file_type type = type_of(folder_);
   if (type != fs::file_type::directory && type != fs::file_type::not_found) {
-    throw UsageError(fmt::format("'{}' is where the frames would lie, and it is {}; remove it, or choose another -o",
-                                 folder_, type == fs::file_type::symlink ? "a link" : "no folder"));
+    throw UsageError(fmt::format("the frames belong in '{}', but it is {}; remove it, or choose another -o", folder_,
+                                 type == fs::file_type::symlink ? "a link" : "no folder"));
   }
   begin(restart);
   write_note();
@@ -72,7 +72,7 @@ void VideoJournal::begin(bool restart) {
                       note_path(), folder_));
     }
     if (type_of(folder_) == fs::file_type::directory && !is_empty(folder_) && !restart) {
-      throw UsageError(fmt::format("'{}' is where the frames would lie, and it is not empty", folder_));
+      throw UsageError(fmt::format("the frames belong in '{}', but it is not empty", folder_));
     }
     return;
   }
@@ -81,8 +81,8 @@ void VideoJournal::begin(bool restart) {
     remove();
     frames_.clear();
   } else if (!difference.empty()) {
-    throw UsageError(
-        fmt::format("'{}' has frames of other options: {}; --restart renders them anew", folder_, difference));
+    throw UsageError(fmt::format("'{}' has frames rendered with other options: {}; --restart renders them again",
+                                 folder_, difference));
   }
 }
 
@@ -98,7 +98,7 @@ std::string VideoJournal::pattern() const {
   return folder_ + "/" + kFrame;
 }
 
-// False where there is none of ours.
+// False if there is no note of ours.
 bool VideoJournal::read_note(std::vector<Setting>& settings) {
   if (type_of(note_path()) != fs::file_type::regular) return false;
   const std::vector<unsigned char> bytes = ods::read_file(note_path(), size_t{64} << 20);
@@ -129,7 +129,8 @@ void VideoJournal::plan(const std::vector<int>& frames) {
   for (const int frame : frames) {
     const fs::file_type type = type_of(names.path(frame));
     if (type == fs::file_type::not_found || (type == fs::file_type::regular && frames_.contains(frame))) continue;
-    throw UsageError(fmt::format("'{}' is no frame of this video; remove it, or choose another -o", names.path(frame)));
+    throw UsageError(
+        fmt::format("'{}' is not a frame of this video; remove it, or choose another -o", names.path(frame)));
   }
   frames_.insert(frames.begin(), frames.end());
   write_note();
@@ -151,7 +152,7 @@ bool VideoJournal::has_frames() const {
 }
 
 void VideoJournal::remove() const {
-  if (claim_->is_lost()) return;  // it is another's
+  if (claim_->is_lost()) return;  // it now belongs to another process
   const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (folder < 0) return;
   const std::set<std::string> own = frame_files();
@@ -164,7 +165,7 @@ void VideoJournal::remove() const {
     const bool is_half_frame = own.contains(of) && is_half(name, of);
     if (own.contains(name) || own.contains(stitched) || is_half_frame || is_half(name, kNote)) gone.push_back(name);
   }
-  gone.push_back(kNote);  // last: until then the rest is known as ours
+  gone.push_back(kNote);  // last: until then the note identifies the rest as ours
   for (const std::string& name : gone) unlinkat(folder, name.c_str(), 0);
   close(folder);
   rmdir(folder_.c_str());

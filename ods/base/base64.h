@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bytes as letters. RFC 4648.
+// Base64 encoding and decoding (RFC 4648).
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@ namespace ods {
 
 std::string encode_base64(std::string_view bytes);
 
-// What is not of the alphabet ends the text.
+// Stops at the first character outside the alphabet.
 std::string decode_base64(std::string_view text);
 
 }  // namespace ods

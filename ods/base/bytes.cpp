@@ -25,8 +25,7 @@ void append_number(std::string& bytes, uint64_t value, size_t count) {
 
 void set_number(std::string& bytes, size_t at, uint64_t value, size_t count) {
   check_place(bytes, at, count);
-  if (count < 8 && value >> (8 * count) != 0)
-    throw MalformedFile("a place in it that holds an offset is too small for it");
+  if (count < 8 && value >> (8 * count) != 0) throw MalformedFile("an offset in it no longer fits its field");
   for (size_t i = 0; i < count; i++) bytes[at + i] = byte_of(value, count - 1 - i);
 }
 

@@ -1,21 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one exception of the library: the outside world did not give what was needed, or the caller asked for what
-// cannot be.
+// The library's only exception type: bad input from outside, or a request that cannot be fulfilled.
 #pragma once
 #include <stdexcept>
 #include <string>
 
 namespace ods {
 
-// What was wrong decides the command's exit code.
+// The kind decides the command's exit code.
 enum class ErrorKind {
-  kUsage,      // what was asked for makes no sense, contradicts itself or is not in the file that was named
-  kInput,      // a file that is absent, broken or not supported
-  kOutput,     // a file that could not be written
-  kMemory,     // the machine has not enough
-  kCancelled,  // Progress::cancelled said so
+  kUsage,      // the request makes no sense, contradicts itself, or names something that the file does not contain
+  kInput,      // a file is missing, malformed or unsupported
+  kOutput,     // a file could not be written
+  kMemory,     // not enough memory
+  kCancelled,  // Progress::cancelled returned true
 };
 
 // what() is one line: what happened, which file, what to try.

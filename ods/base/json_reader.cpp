@@ -16,7 +16,8 @@ namespace ods {
 Json parse_json(std::string_view text, const std::string& name, const std::string& noun) {
   constexpr int kDeepest = 16;  // levels of brackets; our own files have four
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw Error(ErrorKind::kInput, fmt::format("'{}' is no {}: too many brackets", name, noun));
+    if (depth > kDeepest)
+      throw Error(ErrorKind::kInput, fmt::format("'{}' is not a valid {}: too many brackets", name, noun));
     return true;
   };
   try {
@@ -24,27 +25,28 @@ Json parse_json(std::string_view text, const std::string& name, const std::strin
   } catch (const nlohmann::json::parse_error& error) {
     throw Error(ErrorKind::kInput, fmt::format("'{}' is not JSON (byte {} of {})", name, error.byte, text.size()));
   } catch (const nlohmann::json::exception&) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' is no {}: a number in it is too large", name, noun));
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' is not a valid {}: it contains a number that is too large", name, noun));
   }
 }
 
 JsonReader::JsonReader(const Json& json, std::string file, std::string noun, std::string place,
                        std::vector<std::string>& warnings)
     : json_(json), file_(std::move(file)), noun_(std::move(noun)), place_(std::move(place)), warnings_(warnings) {
-  if (!json_.is_object()) fail("", "is an object {...}");
+  if (!json_.is_object()) fail("", "must be an object {...}");
 }
 
 void JsonReader::fail(const std::string& key, const std::string& wanted) const {
   const std::string name = place_ + (place_.empty() || key.empty() ? "" : ".") + key;
   const bool is_null = json_.is_object() && json_.contains(key) && json_.at(key).is_null();
-  throw Error(ErrorKind::kInput, fmt::format("'{}' is no {}: {} {}{}", file_, noun_, name.empty() ? "the file" : name,
-                                             wanted, is_null ? ", not null" : ""));
+  throw Error(ErrorKind::kInput, fmt::format("'{}' is not a valid {}: {} {}{}", file_, noun_,
+                                             name.empty() ? "the file" : name, wanted, is_null ? ", not null" : ""));
 }
 
 void JsonReader::version(const std::string& mark, int newest) {
   int version = 0;
   integer(mark, version, 1, 1 << 30);
-  if (version == 0) fail("", fmt::format("lacks its mark, \"{}\": 1", mark));
+  if (version == 0) fail("", fmt::format("lacks \"{}\": 1", mark));
   if (version <= newest) return;
   throw Error(ErrorKind::kInput, fmt::format("'{}' was written by a newer ods ({} version {}, this one reads {})",
                                              file_, noun_, version, newest));
@@ -62,9 +64,9 @@ bool JsonReader::is_null(const std::string& key) {
 }
 
 float JsonReader::checked(const Json& json, const std::string& key, float low, float high) const {
-  // As a float: 0.001 is less than the float that is nearest to it, which is the limit.
+  // Compares as float: the limit is the float nearest to 0.001, which may lie above 0.001.
   const float value = json.is_number() ? static_cast<float>(json.get<double>()) : NAN;
-  if (!(value >= low && value <= high)) fail(key, fmt::format("is a number from {:g} to {:g}", low, high));
+  if (!(value >= low && value <= high)) fail(key, fmt::format("must be a number from {:g} to {:g}", low, high));
   return value;
 }
 
@@ -76,20 +78,20 @@ void JsonReader::integer(const std::string& key, int& value, int low, int high) 
   const Json* json = find(key);
   if (!json) return;
   const bool legal = json->is_number_integer() && *json >= low && *json <= high;
-  if (!legal) fail(key, fmt::format("is a whole number from {} to {}", low, high));
+  if (!legal) fail(key, fmt::format("must be a whole number from {} to {}", low, high));
   value = json->get<int>();
 }
 
 void JsonReader::flag(const std::string& key, bool& value) {
   const Json* json = find(key);
-  if (json && !json->is_boolean()) fail(key, "is true or false");
+  if (json && !json->is_boolean()) fail(key, "must be true or false");
   if (json) value = json->get<bool>();
 }
 
 bool JsonReader::numbers(const std::string& key, std::vector<float>& values, size_t count, float low, float high) {
   const Json* json = find(key);
   if (!json) return false;
-  if (!json->is_array() || json->size() != count) fail(key, fmt::format("is a list of {} numbers", count));
+  if (!json->is_array() || json->size() != count) fail(key, fmt::format("must be a list of {} numbers", count));
   values.clear();
   for (const Json& value : *json) values.push_back(checked(value, key, low, high));
   return true;
@@ -111,16 +113,16 @@ bool JsonReader::vector(const std::string& key, glm::vec3& value, float low, flo
 
 std::string JsonReader::word(const std::string& key) {
   const Json* json = find(key);
-  if (json && (!json->is_string() || *json == "")) fail(key, "is a word in quotes");
+  if (json && (!json->is_string() || *json == "")) fail(key, "must be a word in quotes");
   return json ? json->get<std::string>().substr(0, 64) : "";
 }
 
-// They may be anything: shown short.
+// Keys can be any text, so they are shown shortened.
 void JsonReader::finish() {
   for (const auto& [key, value] : json_.items()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     if (warnings_.size() == 16) break;
-    warnings_.push_back(fmt::format("'{}': nothing is known of '{}{}{}'{}", file_, place_, place_.empty() ? "" : ".",
+    warnings_.push_back(fmt::format("'{}': unknown key '{}{}{}'{}", file_, place_, place_.empty() ? "" : ".",
                                     key.substr(0, 64), did_you_mean(key.substr(0, 64), known_)));
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads JSON that people may have edited: every value is checked where it is read, and what is wrong is an Error that
-// names the file, the place in it and what should stand there. Keys that nobody asks for are named in a warning.
+// Reads JSON that people may have edited. Every value is checked as it is read; an invalid one is an Error that names
+// the file, the key's path and the expected value. Unknown keys produce a warning.
 #pragma once
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
@@ -14,12 +14,12 @@ namespace ods {
 
 using Json = nlohmann::ordered_json;
 
-// Brackets may lie 16 deep. Throws Error(kInput): `name`, which stands for the text in messages, is not JSON. `noun`:
-// what it should be, "camera".
+// Throws Error(kInput) if the text is not JSON or nests deeper than 16 levels. `name` stands for the text in messages;
+// `noun` is what it should be: "camera".
 Json parse_json(std::string_view text, const std::string& name, const std::string& noun);
 
-// One object of a file, and where it lies in it: "merge_top". Everything throws Error(kInput). A key that is missing
-// leaves its variable as it is; one that is null is a value of the wrong type.
+// One object of a file, and its path: "merge_top". All functions throw Error(kInput). A missing key leaves its variable
+// unchanged; null counts as a value of the wrong type.
 class JsonReader {
  public:
   JsonReader(const Json& json, std::string file, std::string noun, std::string place,
@@ -27,29 +27,29 @@ class JsonReader {
   JsonReader(const JsonReader&) = delete;
   JsonReader& operator=(const JsonReader&) = delete;
 
-  // "'file' is no noun: place.key wanted"; where the key is null: "place.key wanted, not null"
+  // "'file' is no noun: place.key wanted"; if the key is null, "place.key wanted, not null".
   [[noreturn]] void fail(const std::string& key, const std::string& wanted) const;
 
-  // A file's mark and version, which stand first: "omnistereo_camera": 1. Refuses what is newer than `newest`.
+  // Checks the file's mark and version: "omnistereo_camera": 1. Rejects versions above `newest`.
   void version(const std::string& mark, int newest);
 
-  // The value of a key; nullptr: it is missing.
+  // The value of a key; nullptr if it is missing.
   const Json* find(const std::string& key);
 
-  // Whether a key is null: for keys to which null is a value.
+  // Whether a key is null, for keys that allow null.
   bool is_null(const std::string& key);
 
   void number(const std::string& key, float& value, float low, float high);
   void integer(const std::string& key, int& value, int low, int high);
   void flag(const std::string& key, bool& value);
-  bool vector(const std::string& key, glm::vec2& value, float low, float high);  // whether it is there
+  bool vector(const std::string& key, glm::vec2& value, float low, float high);  // returns whether the key is present
   bool vector(const std::string& key, glm::vec3& value, float low, float high);
   bool numbers(const std::string& key, std::vector<float>& values, size_t count, float low, float high);
 
-  // At most 64 letters: what stands in messages. Empty: there is none.
+  // At most 64 characters, short enough for a message. Empty if the key is missing.
   std::string word(const std::string& key);
 
-  // The object under a key, read by `read(reader)`, if it is there.
+  // If the key is present, calls `read(reader)` with its object.
   template <class Read>
   void part(const std::string& key, const Read& read) {
     const Json* found = find(key);
@@ -59,7 +59,7 @@ class JsonReader {
     reader.finish();
   }
 
-  // Names the keys that nobody asked for.
+  // Warns about every key that was not read.
   void finish();
 
  private:

@@ -16,14 +16,14 @@
 
 namespace ods {
 
-// The number in a file that holds one; nothing where there is none ("max" means that there is no limit).
+// The number in a file; nothing if it holds none ("max" means no limit).
 static std::optional<size_t> read_number(const std::string& path) {
   size_t number = 0;
   std::ifstream stream(path);
   return stream >> number ? std::optional(number) : std::nullopt;
 }
 
-// The sum of the numbers behind these words, each of which starts a line.
+// The sum of the numbers that follow these words at the start of a line.
 static size_t read_numbers(const std::string& path, std::initializer_list<std::string> words) {
   std::ifstream stream(path);
   size_t sum = 0;
@@ -40,7 +40,7 @@ static size_t left_of(size_t limit, size_t used) {
   return limit > used ? limit - used : 0;
 }
 
-// What one control group leaves. Cached files in it are given up when memory gets scarce.
+// What one control group still allows. Page cache counts as free, because the kernel reclaims it.
 static size_t left_in_group(const std::string& folder, bool version_2) {
   const auto limit = read_number(folder + (version_2 ? "/memory.max" : "/memory.limit_in_bytes"));
   const auto used = read_number(folder + (version_2 ? "/memory.current" : "/memory.usage_in_bytes"));
@@ -51,7 +51,8 @@ static size_t left_in_group(const std::string& folder, bool version_2) {
   return left_of(*limit, left_of(*used, cached));
 }
 
-// Every group from the process's own up to the root may have a limit. In a container its own may stand at the root.
+// The process's own group and all its ancestors may have limits. In a container its own group may be mounted at the
+// root.
 static size_t left_in_groups(const std::string& root) {
   std::ifstream stream(root + "/proc/self/cgroup");
   size_t left = SIZE_MAX;

@@ -10,7 +10,7 @@ void run_ring(size_t most, const std::function<bool(size_t place)>& make, const 
               const std::function<void(size_t place)>& take) {
   size_t next = 0;
   const auto first = [&](tbb::flow_control& control) {
-    const size_t place = next++ % most;  // its last use is over: items are taken in their order
+    const size_t place = next++ % most;  // free again: items are taken in order
     if (!make(place)) control.stop();
     return place;
   };

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Items that are made one by one, worked on at once, and taken in their order.
+// Produces items one by one, processes them in parallel, and consumes them in order.
 //
-// They live in a ring of ours, and oneTBB passes only their places: it destroys nothing that is on its way when a
-// stage throws.
+// The items live in our own ring buffer and oneTBB passes only indices, because it does not destroy items in flight
+// when a stage throws.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -12,13 +12,13 @@
 
 namespace ods {
 
-// The same of the places of a ring of `most` items, by their index.
+// As run_pipeline(), over the slots of a ring of `most` items.
 void run_ring(size_t most, const std::function<bool(size_t place)>& make, const std::function<void(size_t place)>& work,
               const std::function<void(size_t place)>& take);
 
-// `make(item)` fills an empty item, one at a time, and returns false when there are no more; `work(item)` runs for many
-// items at once; `take(item)` gets them one at a time in the order in which they were made. At most `most` items exist
-// at once. What a stage throws ends all of it, and comes out of here.
+// `make(item)` fills an empty item, one call at a time, and returns false at the end; `work(item)` runs on many items
+// in parallel; `take(item)` receives them one at a time in the order they were made. At most `most` items exist at
+// once. An exception from any stage stops the pipeline and is rethrown here.
 template <typename Item, typename Make, typename Work, typename Take>
 void run_pipeline(size_t most, const Make& make, const Work& work, const Take& take) {
   std::vector<Item> ring(most);

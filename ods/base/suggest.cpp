@@ -7,7 +7,7 @@
 
 namespace ods {
 
-// The number of letters to insert, delete or replace (Levenshtein).
+// Levenshtein distance: insertions, deletions and replacements.
 static size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Did you mean?
+// Suggestions for mistyped words.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace ods {
 
-// "; did you mean 'room'?", ready to stand at the end of a message; empty when no word is near.
+// "; did you mean 'room'?", to append to a message; empty if no word is close.
 std::string did_you_mean(const std::string& typed, const std::vector<std::string>& words);
 
 }  // namespace ods

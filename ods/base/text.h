@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Words of files and command lines.
+// Text from files and command lines.
 #pragma once
 #include <string>
 
 namespace ods {
 
-// A to Z become a to z; all else stays.
+// A-Z become a-z; other bytes are unchanged.
 std::string small_letters(std::string text);
 
-// Every control character becomes a space: a file's name may hold line breaks and what a terminal would obey.
-// Spaces at the end go.
+// Replaces control characters by spaces and trims trailing spaces: a file name may hold line breaks or terminal
+// escapes.
 std::string one_line(std::string text);
 
-// What a library says went wrong, in one line. Some put every exception into words: one of memory is thrown as
-// std::bad_alloc again.
+// A library's error message in one line. Some libraries turn every exception into text: if the text reports
+// std::bad_alloc, throws std::bad_alloc.
 std::string library_words(const std::string& text);
 
 }  // namespace ods

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The direction of a vector that may have none.
+// Normalizes vectors that may be zero.
 #pragma once
 #include <cmath>
 #include <glm/glm.hpp>
 
 namespace ods {
 
-// v at unit length; `fallback` where v has no length, or none that a double can hold.
+// v normalized; `fallback` if its length is zero or overflows a double.
 inline glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& fallback) {
   const double size = glm::length(v);
   return std::isfinite(size) && size > 1e-100 ? v / size : fallback;

@@ -35,7 +35,7 @@ struct Fontconfig {
   ~Fontconfig() { FcConfigDestroy(config); }
 };
 
-// A misspelt file must not pass for the name of a font, for which another one would stand in.
+// A mistyped file name must not count as a font name, which would be silently substituted.
 bool is_font_file(const std::string& font) {
   const std::string extension = small_letters(std::filesystem::path(font).extension().native());
   for (const char* known : {".ttf", ".otf", ".ttc", ".otc", ".pfb", ".woff", ".woff2"}) {
@@ -45,13 +45,13 @@ bool is_font_file(const std::string& font) {
   return font.find('/') != std::string::npos || std::filesystem::is_regular_file(font, ignored);
 }
 
-// The name by which a file's first font goes, once fontconfig knows it.
+// The name of the file's first font, after adding it to fontconfig.
 std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   const auto* name = reinterpret_cast<const FcChar8*>(path.c_str());
   const bool added = FcConfigAppFontAddFile(fonts.config, name);
   const FcFontSet* own = added ? FcConfigGetFonts(fonts.config, FcSetApplication) : nullptr;
   if (!own || own->nfont == 0)
-    throw Error(ErrorKind::kInput, fmt::format("--font: '{}' is absent or not a font file", path));
+    throw Error(ErrorKind::kInput, fmt::format("--font: '{}' is missing or not a font file", path));
   PangoFontDescription* description = pango_fc_font_description_from_pattern(own->fonts[0], FALSE);
   char* text = pango_font_description_to_string(description);
   const std::string found = text;
@@ -60,14 +60,14 @@ std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   return found;
 }
 
-// A layout and what it stands on.
+// A Pango layout and the objects it depends on.
 class Text {
  public:
   Text(const std::string& text, const LetteringOptions& options) : map_(pango_ft2_font_map_new()) {
     const FcFontSet* installed = FcConfigGetFonts(fonts_.config, FcSetSystem);
     const bool has_fonts = installed && installed->nfont > 0;
     if (!has_fonts && !is_font_file(options.font)) {
-      throw Error(ErrorKind::kInput, "this machine has no fonts: install some (fonts-dejavu), or name a font file");
+      throw Error(ErrorKind::kInput, "this machine has no fonts: install some (fonts-dejavu), or give a font file");
     }
     const std::string font = is_font_file(options.font) ? add_font_file(fonts_, options.font) : options.font;
     pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map_.get()), fonts_.config);
@@ -87,7 +87,7 @@ class Text {
     pango_layout_set_font_description(layout_.get(), description_);
   }
 
-  // All that is drawn, in pixels.
+  // The bounds of everything drawn, in pixels.
   PangoRectangle ink() const {
     PangoRectangle ink;
     pango_layout_get_pixel_extents(layout_.get(), &ink, nullptr);
@@ -165,7 +165,7 @@ Lettering draw_lettering(const std::string& text, float em, const LetteringOptio
   if (ink.width < 1 || ink.height < 1) throw Error(ErrorKind::kUsage, "the text has no visible characters");
   lettering.coverage = drawn.draw();
   lettering.font = drawn.family();
-  const bool is_any = options.font.starts_with("Sans");  // no family's name
+  const bool is_any = options.font.starts_with("Sans");  // a generic name, not a family
   lettering.stands_in = !is_any && !is_font_file(options.font) && !options.font.starts_with(lettering.font);
   lettering.characters_lost = drawn.characters_lost();
   return lettering;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Text in any script as a picture: Pango lays it out (HarfBuzz shapes it, fontconfig finds what a font lacks in others)
-// and FreeType draws it. lettering.cpp alone knows them.
+// Renders text in any script to a picture: Pango does the layout (HarfBuzz shapes, fontconfig finds fallback fonts) and
+// FreeType draws. Only lettering.cpp uses these libraries.
 #pragma once
 #include <string>
 #include <string_view>
@@ -25,21 +25,21 @@ constexpr std::string_view text_align_name(TextAlign align) {
 }
 
 struct LetteringOptions {
-  std::string font = "Sans";  // as fontconfig knows it ("DejaVu Serif Bold Italic"), or a file (.ttf, .otf, .ttc ...)
+  std::string font = "Sans";  // a fontconfig name ("DejaVu Serif Bold Italic"), or a file (.ttf, .otf, .ttc ...)
   TextAlign align = TextAlign::kCentered;
-  float spacing = 1.0f;  // between lines, of what the font asks for
+  float spacing = 1.0f;  // line spacing, as a multiple of the font's own
 };
 
 struct Lettering {
-  Image coverage;           // 1 channel, 0..1, just large enough
-  float em = 0.0f;          // pixels: the font's size, about the distance of two lines
-  std::string font;         // the family that is the first choice
-  bool stands_in = false;   // for one of the name asked for, which is not here
-  int characters_lost = 0;  // no font on this machine has a sign for them
+  Image coverage;           // 1 channel, 0..1, cropped to the text
+  float em = 0.0f;          // pixels: the font size, about the distance between two lines
+  std::string font;         // the family used first
+  bool stands_in = false;   // the requested font is missing, and this is a substitute
+  int characters_lost = 0;  // characters without a glyph in any font on this machine
 };
 
-// Lines are parted by newlines. The font's size is `em` pixels, or less where the picture would have more than 2^26.
-// Throws Error(kUsage): text that is not UTF-8 or has no visible characters; Error(kInput): a file that is no font, a
+// Lines are separated by newlines. The font size is `em` pixels, or less if the picture would exceed 2^26 pixels.
+// Throws Error(kUsage): text that is not UTF-8 or has no visible characters; Error(kInput): an invalid font file, a
 // machine without fonts.
 Lettering draw_lettering(const std::string& text, float em, const LetteringOptions& options = {});
 

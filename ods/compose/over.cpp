@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// The foreground as if its eyes were the background's.
+// The foreground, pretending that its eyes are the background's.
 static StoredPicture with_eyes_of(StoredPicture foreground, const StereoCamera& camera) {
   StereoCamera& own = foreground.camera;
   own.ipd = camera.ipd, own.neck = camera.neck, own.axis = camera.axis, own.mirrored = camera.mirrored;
@@ -27,10 +27,10 @@ static bool has_alpha(const StoredPicture& picture) {
 
 std::string over_fault(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
   if (!has_alpha(foreground) && !options.by_depth) {
-    return "the foreground has no alpha: it would hide all that is behind it (--by-depth needs none)";
+    return "the foreground has no alpha and would hide the whole background (--by-depth needs no alpha)";
   }
   if (options.by_depth && (!depth_layer(foreground) || !depth_layer(background))) {
-    return "by depth, both need a depth layer: .exr of ods render and ods title have one";
+    return "by depth, both need a depth layer, as in an .exr of ods render or ods title";
   }
   if (foreground.eyes.size() != background.eyes.size()) {
     return fmt::format("the foreground has {} and the background {}",
@@ -40,22 +40,20 @@ std::string over_fault(const StoredPicture& foreground, const StoredPicture& bac
   return conversion_fault(with_eyes_of(foreground, background.camera), same_format(background));
 }
 
-// --- what is suspicious ----------------------------------------------------------------------------------------------
+// --- warnings --------------------------------------------------------------------------------------------------------
 
 static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back, std::vector<std::string>& warnings) {
-  const float micrometre = 1e-6f;  // finer than videos have it
+  const float micrometre = 1e-6f;  // finer than videos store it
   if (std::abs(front.ipd - back.ipd) > micrometre) {
     warnings.push_back(
         fmt::format("the foreground was made for eyes {:g} mm apart, the background for {:g}: make it with "
-                    "--ipd {:g}, or it stands at other distances",
+                    "--ipd {:g}, or it appears at other distances",
                     1000.0f * front.ipd, 1000.0f * back.ipd, back.ipd));
   }
   if (!same_merge(front.top, back.top) || !same_merge(front.bottom, back.bottom) || front.merge_map != back.merge_map) {
-    warnings.push_back(
-        "the foreground's eyes are merged otherwise towards the poles: it floats off what it stands on there");
+    warnings.push_back("the foreground has another pole merge: near the poles it does not stay on what it stands on");
   }
-  if (front.neck != back.neck)
-    warnings.push_back("the foreground's eyes stand otherwise before the neck (--eye-to-neck)");
+  if (front.neck != back.neck) warnings.push_back("the foreground has another --eye-to-neck");
 }
 
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
@@ -64,15 +62,15 @@ std::vector<std::string> over_warnings(const StoredPicture& foreground, const St
   return warnings;
 }
 
-// --- laying over -----------------------------------------------------------------------------------------------------
+// --- compositing -----------------------------------------------------------------------------------------------------
 
 namespace {
 
-// A row of a picture as another's form has it: which channel is what.
+// Rows of a picture in another's format, and which channel is which.
 struct Rows {
   PictureRows rows;
   size_t channels = 0;
-  int alpha = -1;  // below 0: there is none
+  int alpha = -1;  // below 0: none
   int depth = -1;
 
   Rows(const StoredPicture& picture, const ConvertTarget& target) : rows(convert(picture, target).rows) {
@@ -90,7 +88,7 @@ struct Rows {
   }
 };
 
-// Of a row's pixels, as Overlay has them.
+// Pixel counts for a row, as in Overlay.
 struct Count {
   int covered = 0, behind = 0;
 };
@@ -153,8 +151,9 @@ PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPictu
 
 std::string behind_warning(const Overlay& overlay) {
   if (*overlay.behind == 0) return {};
-  return fmt::format("{:.3g} % of the foreground stands behind what it covers: bring it nearer, or --by-depth",
-                     100.0 * static_cast<double>(*overlay.behind) / static_cast<double>(*overlay.covered));
+  return fmt::format(
+      "{:.3g} % of the foreground is farther away than what it covers: bring it nearer, or use --by-depth",
+      100.0 * static_cast<double>(*overlay.behind) / static_cast<double>(*overlay.covered));
 }
 
 }  // namespace ods

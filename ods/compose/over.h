@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture with alpha before another: titles and computer graphics over live action, in linear light.
+// Composites a picture with alpha over another, in linear light: titles and computer graphics over live action.
 //
-// The foreground comes into the background's form first, as convert() has it, but its eyes stay where they were: seen
-// from other places than the background's, it would stand at other distances than it was made for. That is said.
+// The foreground is first converted to the background's projection, layout and size, as by convert(), but its eyes do
+// not move: from the background's eyes it would appear at wrong distances. over_warnings() reports that.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -17,33 +17,33 @@
 namespace ods {
 
 struct OverOptions {
-  bool by_depth = false;  // what is farther than the background is behind it; else all is before it
+  bool by_depth = false;  // decide per pixel by depth; else the foreground is in front
   float opacity = 1.0f;   // of the foreground
 };
 
-// Why it cannot be laid over, in words for a message; empty: it can.
+// Why the pictures cannot be composited, for messages; empty if they can.
 std::string over_fault(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options);
 
-// What is suspicious of their eyes, in words for people: they stand elsewhere, or are merged otherwise.
+// Differences between the two cameras, for messages: eye positions or pole merges.
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background);
 
 struct Overlay {
-  PictureRows rows;  // of the background's form, with its layers; Z is that of what is seen
-  // Pixels filled so far that the foreground covers by more than half, and those of them that stand behind what they
-  // cover; counted where both have depth and it does not decide.
+  PictureRows rows;  // in the background's format and with its layers; Z is that of the visible surface
+  // Counts of the pixels filled so far that the foreground covers by more than half, and of those where it is farther
+  // away than what it covers. Counted only if both have depth and by_depth is off.
   std::shared_ptr<std::atomic<int64_t>> covered = std::make_shared<std::atomic<int64_t>>(0);
   std::shared_ptr<std::atomic<int64_t>> behind = std::make_shared<std::atomic<int64_t>>(0);
 };
 
-// Both pictures stay where they are until the last row is filled. Precondition: no over_fault().
+// Both pictures must outlive the last row. Precondition: no over_fault().
 Overlay lay_over(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options);
 
-// The foreground alone as it comes before the background, of which only the form counts: R, G, B, A, light multiplied
-// by alpha, and both by the opacity. Likewise; the background's pixels are not asked for.
+// The foreground alone, fitted to the background: R, G, B, A, premultiplied linear light, scaled by the opacity. Same
+// preconditions; the background's pixels are not read, only its format.
 PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPicture& background,
                               const OverOptions& options);
 
-// In words for people, once its rows are filled; empty: nothing stands behind what it covers.
+// For messages, after all rows are filled; empty if nothing is farther away than what it covers.
 std::string behind_warning(const Overlay& overlay);
 
 }  // namespace ods

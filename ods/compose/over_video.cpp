@@ -17,7 +17,7 @@
 
 namespace ods {
 
-// --- what covers -----------------------------------------------------------------------------------------------------
+// --- the cover -------------------------------------------------------------------------------------------------------
 
 Cover make_cover(const StoredPicture& foreground, const StoredPicture& video, const OverOptions& options) {
   const PictureRows rows = fitted_foreground(foreground, video, options);
@@ -80,7 +80,7 @@ std::shared_ptr<VideoFrame> copied_frame(const DecodedFrame& frame, const VideoS
 
 namespace {
 
-// The rows of one eye that share colours, while the cover is laid over them.
+// The rows of one eye that share chroma, while the cover is composited.
 template <typename T>
 class BlockRows {
  public:
@@ -129,7 +129,7 @@ class BlockRows {
     }
   }
 
-  // A shared colour is the mean of its pixels', as put_ycbcr() has it.
+  // Shared chroma is the mean over its pixels, as in put_ycbcr().
   void put_color(int block_row) {
     const auto at = [&](size_t which, int x) {
       return x < first_ || x >= last_ ? 0.0f : sums_[which][static_cast<size_t>(x - first_)];
@@ -154,8 +154,8 @@ class BlockRows {
   ColorCode color_;
   Planes from_, to_;
   Extent block_;
-  int first_ = 0, last_ = 0;                // columns that are covered in any of the rows
-  std::array<std::vector<float>, 3> sums_;  // of them: blue and red difference of the covered pixels, and their share
+  int first_ = 0, last_ = 0;                // columns covered in any of the rows
+  std::array<std::vector<float>, 3> sums_;  // per column: sums of Cb and Cr of the covered pixels, and their share
   std::vector<float> back_;
 };
 
@@ -179,8 +179,7 @@ void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& 
   }
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 std::optional<Packing> packing_like(const VideoStream& stream, Container container) {
   const int bits = stream.bits > 8 ? 10 : 8;
@@ -196,7 +195,7 @@ namespace {
 struct Work {
   int number = 0;
   DecodedFrame back;
-  std::optional<StoredPicture> front;  // of a video, which only one at a time can read
+  std::optional<StoredPicture> front;  // of a video, which is read by one thread at a time
   std::shared_ptr<VideoFrame> frame;
 };
 
@@ -207,7 +206,7 @@ class VideoOver {
     if (front_.kind() == FootageKind::kPicture) still_ = cover_of(*front_.picture(0));
   }
 
-  // False behind the last one.
+  // False at the end of the video.
   bool decode(int number, Work& work) {
     std::optional<DecodedFrame> decoded = back_.decode(number);
     if (!decoded) return false;
@@ -254,7 +253,7 @@ class VideoOver {
 
 }  // namespace
 
-// Frames that may be in memory at once; one in front may have four floats a pixel, and its cover as many.
+// How many frames may be in memory at once; a foreground frame may take four floats per pixel, and its cover as much.
 static size_t frames_at_once(const VideoStream& stream, FootageKind front) {
   const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
   const size_t bytes = pixels * (front == FootageKind::kPicture ? 12 : 12 + 32);

@@ -12,7 +12,8 @@
 
 namespace ods {
 
-constexpr float kPixelsPerPixel = 2.0f;  // of the lettering in one of the picture: its own edges are to be no wider
+// Lettering pixels per picture pixel: its edges must be no wider than the picture's.
+constexpr float kPixelsPerPixel = 2.0f;
 
 float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& setting) {
   const double angle = static_cast<double>(setting.height / setting.distance);
@@ -33,7 +34,7 @@ Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& set
       orientation(glm::radians(double{setting.yaw}), glm::radians(double{setting.pitch}), 0.0);
   title.right = vec3(right), title.up = vec3(up), title.middle = -vec3(back);
   title.pixels = lettering.em / setting.height;
-  // The corner, as much as the eye stands beside the middle, and some pixels.
+  // Covers the corner, the eye's offset from the centre, and some pixels of margin.
   const vec2 half = vec2(title.coverage.width, title.coverage.height) * (0.5f / title.pixels / setting.distance);
   const float across = setting.curved ? half.x : std::atan(half.x);
   const float away = std::hypot(0.5f * stereo.ipd, stereo.neck) / setting.distance;
@@ -48,13 +49,13 @@ Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& set
 namespace {
 
 struct Spot {
-  vec2 at;      // pixels of the coverage, from its left and top edge
+  vec2 at;      // pixels of the coverage, from its top left corner
   float depth;  // along the ray
 };
 
 }  // namespace
 
-// Where a ray meets the card from its hollow or front side.
+// Intersects a ray with the card, from its concave or front side.
 static std::optional<Spot> meet(const Title& title, const Ray& ray) {
   const auto local = [&](vec3 v) { return vec3(dot(v, title.right), dot(v, title.up), dot(v, title.middle)); };
   const vec3 o = local(ray.origin), d = local(ray.direction);
@@ -64,7 +65,7 @@ static std::optional<Spot> meet(const Title& title, const Ray& ray) {
   if (title.setting.curved) {
     const float a = d.x * d.x + d.z * d.z, b = o.x * d.x + o.z * d.z;
     const float c = o.x * o.x + o.z * o.z - distance * distance;
-    if (!(a > 0.0f) || c > 0.0f) return std::nullopt;  // an eye behind the letters
+    if (!(a > 0.0f) || c > 0.0f) return std::nullopt;  // the eye is behind the letters
     t = (-b + std::sqrt(b * b - a * c)) / a;
     metres = vec2(distance * std::atan2(o.x + t * d.x, o.z + t * d.z), o.y + t * d.y);
   } else {
@@ -106,7 +107,7 @@ void fill_title_row(const Title& title, int eye, int y, std::span<float> row) {
     const vec2 uv = (vec2(x, y) + 0.5f) * pixel;
     const Ray ray = camera_ray(title.camera, eye, uv);
     if (ray.direction == vec3(0.0f) || dot(ray.direction, title.middle) < title.reach) continue;
-    if (std::abs(dot(ray.direction, title.up)) > title.rise) continue;  // a long line covers a narrow band
+    if (std::abs(dot(ray.direction, title.up)) > title.rise) continue;  // a long line of text covers a narrow band
     const auto beside = [&](vec2 step) {
       return meet(title, camera_ray(title.camera, eye, uv, uv + step, vec2(0.0f)));
     };
@@ -121,7 +122,7 @@ void fill_title_row(const Title& title, int eye, int y, std::span<float> row) {
   }
 }
 
-// Metres from the text's middle to its end over its distance: the angle on a curved card, its tangent on a flat one.
+// Half the text's width over its distance: the angle on a curved card, its tangent on a flat one.
 static float half_width(const Title& title) {
   return static_cast<float>(title.coverage.width) * 0.5f / title.pixels / title.setting.distance;
 }
@@ -139,7 +140,7 @@ float comfortable_height(const Title& title) {
 
 float nearest_comfortable(const StereoCamera& stereo, float pitch) {
   const float kAlongHorizon = 0.6f, kOverhead = 3.5f, kSourcesIpd = 0.065f;
-  const float kSteep = 58.6f;  // degrees: where both rules allow the same difference in height between the eyes
+  const float kSteep = 58.6f;  // degrees: where both rules allow the same vertical disparity
   const Camera camera = make_camera(stereo);
   const float phi = glm::radians(pitch);
   const float merged = merge_at(camera, vec3(0.0f, std::sin(phi), -std::cos(phi)), phi);

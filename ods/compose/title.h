@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lettering that stands in the world of a stereo 360 picture, to be laid over it: each pixel's ray meets the card that
-// the text is written on, so that it has the parallax of its distance in every projection, merge and convergence.
+// Lettering placed in the world of a stereo 360 picture, to be composited over it. Each pixel's ray is intersected with
+// the card that carries the text, so the parallax is right for its distance in every projection, merge and convergence.
 //
-// Source: Google, "Rendering Omni-directional Stereo Content": titles over live action, objects at 60 cm or more, at
-// 3.5 m or more straight above and below (for 6.5 cm between the eyes).
+// Source: Google, "Rendering Omni-directional Stereo Content": keep titles over live action, and objects, at 60 cm or
+// more, and at 3.5 m or more straight above and below (for 6.5 cm between the eyes).
 #pragma once
 #include <span>
 
@@ -16,11 +16,11 @@
 namespace ods {
 
 struct TitleSetting {
-  float yaw = 0.0f;  // degrees to the right, and up, of the direction that the text's middle lies in; the world's
+  float yaw = 0.0f;  // degrees to the right, and up: the direction of the text's centre, in world space
   float pitch = 0.0f;
-  float distance = 3.0f;  // metres from the viewing circle's middle
-  float height = 0.2f;    // metres: the font's size, about the distance of two lines
-  bool curved = true;     // about the viewer, so that all letters are equally far; else flat
+  float distance = 3.0f;  // metres from the centre of the viewing circle
+  float height = 0.2f;    // metres: the font size, about the distance between two lines
+  bool curved = true;     // bent around the viewer, so that all letters are equally far; else flat
   vec3 color{1.0f};       // linear light
   float opacity = 1.0f;
 };
@@ -30,33 +30,33 @@ struct Title {
   Extent eye;
   Image coverage;
   TitleSetting setting;
-  vec3 right, up, middle;  // of the card, unit vectors
-  float pixels = 0.0f;     // of the coverage to a metre
-  float reach = -1.0f;     // cosine of the angle from its middle that no ray to it exceeds
-  float rise = 1.0f;       // sine of the angle above or below its middle line that no ray to it exceeds
+  vec3 right, up, middle;  // the card's axes, unit vectors
+  float pixels = 0.0f;     // of the coverage per metre
+  float reach = -1.0f;     // cosine of the largest angle between its centre and a ray that hits it
+  float rise = 1.0f;       // sine of the largest angle above or below its centre line of a ray that hits it
 };
 
-// How many of the lettering's pixels an em should have, so that it is as sharp as the picture.
+// The lettering's pixels per em that match the picture's resolution.
 float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& setting);
 
-// The camera is at the centre of the title's world, whatever its position.
-// Precondition: as of make_camera(); sides, distance and height above 0.
+// The camera is at the origin of the title's world, whatever its position. Precondition: as make_camera(); sides,
+// distance and height above 0.
 Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& setting, const Lettering& lettering);
 
-// Row y of one eye: R, G, B multiplied by A, A, and Z (metres along the ray, kFarDepth where there is no letter) of
-// every pixel.
+// Fills row y of one eye with R, G, B (premultiplied), A, and Z (metres along the ray, kFarDepth where there is no
+// letter).
 void fill_title_row(const Title& title, int eye, int y, std::span<float> row);
 
-// Degrees that the text spans, seen from the viewing circle's middle.
+// The text's angular width in degrees, from the centre of the viewing circle.
 float title_width(const Title& title);
 
-// Degrees. A wider text cannot be read without turning the head: eyes turn some 30 degrees to either side with ease.
+// Degrees. Reading a wider text takes turning the head: eyes turn some 30 degrees to either side with ease.
 inline constexpr float kComfortableWidth = 60.0f;
 
-// Metres. The setting's height, or what makes the text no wider than is comfortable.
+// Metres: the setting's height, or less if the text would be wider than kComfortableWidth.
 float comfortable_height(const Title& title);
 
-// Metres. What is nearer strains the eyes, by the source's two rules and this camera's ipd.
+// Metres: anything nearer strains the eyes, by the source's two rules and this camera's ipd.
 float nearest_comfortable(const StereoCamera& stereo, float pitch);
 
 }  // namespace ods

@@ -31,7 +31,7 @@ static fs::path folder_of(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-// The names of temporary files, where a signal handler may read them. The strings outlast their entries.
+// The names of temporary files, readable from a signal handler. The strings outlive their entries.
 static std::array<std::atomic<const char*>, 16> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
@@ -67,20 +67,20 @@ void remove_unfinished_files() {
   }
 }
 
-// What the temporary names of a file begin with on this machine, before the number of the process; cut short because a
-// name has at most 255 bytes.
+// The common prefix of this machine's temporary names for a file, up to the process number; shortened because a name
+// has at most 255 bytes.
 static std::string temporary_prefix(const std::string& path) {
   char host[64] = "";
   gethostname(host, sizeof(host) - 1);
   return fmt::format(".{}.tmp.{}.", fs::path(path).filename().native().substr(0, 120), host);
 }
 
-// A new file with a name that is unique on this host and process, locked for as long as it is open. Null, with errno,
-// where there can be none.
+// Creates a file with a name unique to this host and process, locked while it is open. Null, with errno set, on
+// failure.
 static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
   static std::atomic<unsigned> counter{0};
   const std::string prefix = temporary_prefix(path);
-  // A name already taken is what a killed process with our number left, or another machine's of our name.
+  // A name is taken if a killed process with our number left it, or another machine has our host name.
   const int kTries = 100;
   std::FILE* stream = nullptr;
   for (int i = 0; i < kTries; i++) {
@@ -97,7 +97,7 @@ static std::FILE* create_temporary(const fs::path& folder, const std::string& pa
   return stream;
 }
 
-// Nobody has it open: not even a process of another container, whose numbers are others.
+// Nobody has it open. The lock also sees processes in other containers, which have other process numbers.
 static bool is_left_alone(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) return false;
@@ -106,7 +106,7 @@ static bool is_left_alone(const fs::path& file) {
   return is_free;
 }
 
-// What processes that were killed left of the same file.
+// Removes what killed processes left of the same file.
 static void remove_leftovers(const fs::path& folder, const std::string& path) {
   const std::string prefix = temporary_prefix(path);
   std::error_code error;
@@ -135,7 +135,7 @@ void check_writable(const std::string& path) {
   }
   if (!fs::is_directory(folder, ignored))
     throw cannot_write(path, fmt::format("'{}' is not a folder", folder.native()));
-  // Only trying tells: permissions let root write everywhere, and in /proc nobody can.
+  // Only trying tells: root may write anywhere by its permissions, but nobody can write in /proc.
   std::string temporary;
   std::FILE* stream = create_temporary(folder, path, temporary);
   if (stream == nullptr) {
@@ -145,7 +145,7 @@ void check_writable(const std::string& path) {
   remove_temporary(temporary);
 }
 
-// A link stays one, and what it stands for is replaced.
+// Follows links, so that the link stays and its target is replaced.
 static std::string behind_links(const std::string& path) {
   const int kMaxLinks = 40;  // as Linux has it
   fs::path target = path;

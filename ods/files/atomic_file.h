@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file that exists is complete: it is written beside its final name, flushed to the disk, then renamed.
+// Atomic writes: a file is written beside its final name, flushed to disk, then renamed, so a file that exists is
+// complete.
 #pragma once
 #include <cstdio>
 #include <list>
@@ -10,49 +11,49 @@
 
 namespace ods {
 
-// Throws Error(kOutput) when a file could not be written there: the name is a folder or a device or too long, no file
-// can be made in the folder (or the nearest one that exists above it). Leaves nothing on the disk.
+// Throws Error(kOutput) if a file cannot be written there: the name is a folder or a device or too long, or the folder
+// (or its nearest existing ancestor) is not writable. Leaves nothing on the disk.
 void check_writable(const std::string& path);
 
-// Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and whatever stood under the final name is untouched;
-// destruction without commit() removes it, and the next of that name what a killed process left. Paths are bytes.
+// Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and a file with the final name is untouched. Destruction
+// without commit() removes it. The next AtomicFile with that name removes what a killed process left. Paths are bytes.
 class AtomicFile {
  public:
-  // Creates the folders above the file and the file under its temporary name. Throws as check_writable().
+  // Creates the parent folders and the temporary file. Throws as check_writable().
   explicit AtomicFile(const std::string& path);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
-  // Where to write. A failed write need not be noticed by who made it: finish() does.
+  // Where to write. Callers need not check for write errors: finish() does.
   std::FILE* stream() const { return stream_; }
   const std::string& path() const { return path_; }  // the final name
-  // The same file for libraries that insist on opening it themselves.
+  // The temporary file, for libraries that must open it themselves.
   const std::string& temporary() const { return temporary_; }
 
-  // Everything is on the disk, or Error(kOutput) (full disk, quota, lost share). Closes the stream.
+  // Flushes to disk and closes the stream. Throws Error(kOutput): full disk, quota, lost share.
   void finish();
-  // finish(), then the final name. Throws Error(kOutput).
+  // finish(), then renames to the final name. Throws Error(kOutput).
   void commit();
 
  private:
   std::string path_;
-  std::string target_;  // path_, or what it links to
+  std::string target_;  // path_, or the target of its link
   std::string temporary_;
   std::FILE* stream_ = nullptr;
 };
 
-// A whole file of these bytes. Throws as AtomicFile.
+// Writes a whole file. Throws as AtomicFile.
 void write_file(const std::string& path, std::string_view bytes);
 
-// Files that belong together: none gets its final name before the last one is on the disk.
+// Commits files that belong together: renames none until all are on disk.
 void commit_all(std::list<AtomicFile>& files);
 
-// Removes every temporary file that this process has at this moment. For a signal handler that ends the process:
-// async-signal-safe. (Of files open at once it knows the first 16.)
+// Removes the temporary files of this process (of those open at once, the first 16). Async-signal-safe, for a signal
+// handler that ends the process.
 void remove_unfinished_files();
 
-// Has it remove one more file, until that is forgotten. The name must stay where it is in memory until then.
+// Adds a file to that list until forget_unfinished(). The string must stay at its address until then.
 void remember_unfinished(const char* path);
 void forget_unfinished(const char* path);
 

@@ -32,7 +32,7 @@ namespace {
 
 constexpr const char* kMark = "omnistereo claim";
 
-// A descriptor that is closed, and with it unlocked, unless it is handed on.
+// Closes, and thereby unlocks, a descriptor unless it is released first.
 class File {
  public:
   explicit File(int number) : number_(number) {}
@@ -48,7 +48,7 @@ class File {
   int number_;
 };
 
-// Who holds a claim, as its file says.
+// The holder that a claim file names.
 struct Holder {
   std::string host, boot, process, since;
   bool empty() const { return process.empty(); }
@@ -66,7 +66,7 @@ std::string host_name() {
   return name;
 }
 
-// The same for all processes that share a kernel, another one after each start of the machine.
+// Identifies the running kernel: the same for all its processes, different after each boot.
 std::string boot_name() {
   std::string name;
   std::ifstream("/proc/sys/kernel/random/boot_id") >> name;
@@ -96,7 +96,7 @@ void write_holder(int file, const std::string& path) {
   throw cannot_claim(path, code == 0 ? "the disk is full" : std::strerror(code));
 }
 
-// Nothing yet where its maker has not come to writing.
+// Empty if the claimant has not written it yet.
 Holder read_holder(int file, const std::string& path) {
   std::array<char, 1024> bytes{};
   const ssize_t size = pread(file, bytes.data(), bytes.size(), 0);
@@ -104,7 +104,7 @@ Holder read_holder(int file, const std::string& path) {
   Holder holder;
   std::string line;
   if (!std::getline(text, line)) return holder;
-  if (line != kMark) throw cannot_claim(path, "a file of that name is there that is no claim of ods; remove it");
+  if (line != kMark) throw cannot_claim(path, "another kind of file has that name; remove it");
   while (std::getline(text, line)) {
     const size_t space = std::min(line.find(' '), line.size());
     const std::string key = line.substr(0, space), value = line.substr(std::min(space + 1, line.size()));
@@ -120,7 +120,7 @@ std::chrono::nanoseconds in_ns(const timespec& time) {
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-// For how long nobody renewed the claim, by the clock of the disk that it lies on: machines' clocks differ.
+// How long the claim has gone without an update, by the clock of the disk it is on, because machines' clocks differ.
 std::chrono::nanoseconds silence_of(int file, const std::string& path) {
   struct stat claim, now;
   if (fstat(file, &claim) != 0) return {};
@@ -142,7 +142,7 @@ std::string words_for(const Holder& holder, const ClaimTimes& times) {
   return words;
 }
 
-// A new claim file, locked and written; closed where there is one already.
+// Creates, locks and writes a claim file; a closed File if one exists already.
 File make_claim(const std::string& path) {
   File file(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (file.number() < 0 && errno != EEXIST) throw cannot_claim(path, std::strerror(errno));
@@ -153,7 +153,7 @@ File make_claim(const std::string& path) {
 }
 
 File open_claim(const std::string& path) {
-  for (const int mode : {O_RDWR, O_RDONLY}) {  // another user's is only read
+  for (const int mode : {O_RDWR, O_RDONLY}) {  // another user's claim can only be read
     const int file = open(path.c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file >= 0 || errno == ENOENT) return File(file);
     if (errno != EACCES && errno != EROFS) break;
@@ -163,8 +163,8 @@ File open_claim(const std::string& path) {
 
 enum class Verdict { kGone, kEmpty, kHeld, kDied, kSilent };
 
-// What has become of the claim of another process. One whose holder is dead is removed, and one that is still empty:
-// its maker died before it wrote, or writes as soon as we let go of the lock, and then finds that it lost the claim.
+// Decides what another process's claim is worth. Removes it if its holder is dead. An empty one is removed, too: its
+// maker died before writing, or will write once we release the lock, and then find that it lost the claim.
 Verdict judge(const std::string& path, const ClaimTimes& times, bool was_empty, std::string& words) {
   const File file = open_claim(path);
   if (file.number() < 0) return Verdict::kGone;
@@ -196,7 +196,7 @@ std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, C
   const fs::path folder = fs::path(claim).parent_path();
   std::error_code ignored;  // making the file reports it
   if (!folder.empty()) fs::create_directories(folder, ignored);
-  const int kLooks = 4;  // another process may just be taking over what a dead one left
+  const int kLooks = 4;  // another process may be taking over a dead claim right now
   bool was_silent = false, was_empty = false;
   for (int looks = 0; looks < kLooks;) {
     File file = make_claim(claim);
@@ -249,7 +249,8 @@ void Claim::renew_until_released(ClaimTimes times) {
 
 void Claim::check() const {
   if (!lost_) return;
-  throw Error(ErrorKind::kOutput, fmt::format("'{}' was taken over by another ods while this one stood still", path_));
+  throw Error(ErrorKind::kOutput,
+              fmt::format("'{}' was taken over by another ods while this one was suspended", path_));
 }
 
 }  // namespace ods

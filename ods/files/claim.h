@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A claim on a file: while one process makes FILE, others that would make it too leave it alone. The claim is a small
-// text file beside it, `.FILE.claim`, which says who made it and since when.
+// A claim on a file: while one process makes FILE, other processes leave it alone. The claim is a small text file
+// beside it, `.FILE.claim`, which names its holder and the time.
 //
-// What is promised:
-//   - Of processes on one machine (one running kernel, containers too) only one holds a claim, and the claim of a
-//     process that died, however it died, is free at once: the claim file is locked with flock().
-//   - Between machines that share a disk nothing relies on flock(). The claim file is made with O_EXCL, and its holder
-//     renews its time every ten seconds. A claim that was silent for a minute, by the disk's own clock, is free. Until
-//     then the claim of a machine that died blocks the others. Two machines that find the same dead claim wait a second
-//     to see which of them got it; a disk that takes longer than that to show one machine what another did may let both
-//     have it.
-//   - A process that was suspended for more than a minute may lose its claim to another machine. check() finds out.
+// Guarantees:
+//   - On one machine (one running kernel, including its containers) only one process holds a claim. The claim of a dead
+//     process is free at once, because the claim file is locked with flock().
+//   - Between machines that share a disk nothing relies on flock(). The claim file is created with O_EXCL, and its
+//     holder updates its time every ten seconds. A claim not updated for a minute, by the disk's own clock, is free.
+//     Until then the claim of a machine that died blocks the others. Two machines that find the same dead claim wait a
+//     second to see which of them got it; if the disk takes longer than that to show one machine's changes to the
+//     other, both may hold the claim.
+//   - A process suspended for more than a minute may lose its claim to another machine. check() detects this.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -25,23 +25,23 @@
 namespace ods {
 
 struct ClaimTimes {
-  std::chrono::milliseconds beat{10'000};     // how often the holder renews it
-  std::chrono::milliseconds silence{60'000};  // after which another machine's claim is free
-  std::chrono::milliseconds settle{1'000};    // how long two machines wait that took over the same one
+  std::chrono::milliseconds beat{10'000};     // how often the holder updates it
+  std::chrono::milliseconds silence{60'000};  // after this, another machine's claim is free
+  std::chrono::milliseconds settle{1'000};    // how long two machines wait that took over the same claim
 };
 
 class Claim {
  public:
-  // Takes over an open and locked claim file: for try_claim() alone.
+  // Adopts an open, locked claim file. Only try_claim() calls this.
   Claim(int file, std::string path, ClaimTimes times);
   Claim(const Claim&) = delete;
   Claim& operator=(const Claim&) = delete;
-  // Gives the claim back. A signal handler that calls remove_unfinished_files() does so, too.
+  // Releases the claim. So does a signal handler that calls remove_unfinished_files().
   ~Claim();
 
-  // Whether another machine took the claim over.
+  // Whether another machine has taken the claim over.
   bool is_lost() const { return lost_; }
-  // Throws Error(kOutput) where that is so.
+  // Throws Error(kOutput) if the claim is lost.
   void check() const;
 
  private:
@@ -56,15 +56,15 @@ class Claim {
   std::thread beat_;
 };
 
-// The claim file of a file.
+// The claim file of `path`.
 std::string claim_path(const std::string& path);
 
-// Null where another process holds the claim; `holder` then says who: "process 812 on 'render7', since 2026-11-22
-// 08:45:44 UTC". Makes the folders above the file. Throws Error(kOutput): the claim file cannot be made, or something
-// else has its name.
+// Null if another process holds the claim; `holder` then says who: "process 812 on 'render7', since 2026-11-22 08:45:44
+// UTC". Creates the parent folders. Throws Error(kOutput): the claim file cannot be created, or another kind of file
+// has its name.
 std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, ClaimTimes times = {});
 
-// The same, but another holder is an Error(kOutput) that names it.
+// As try_claim(), but throws an Error(kOutput) that names the other holder.
 std::unique_ptr<Claim> claim(const std::string& path);
 
 }  // namespace ods

@@ -22,7 +22,7 @@ static bool lies_within(const fs::path& file, const std::string& folder) {
 
 ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder) : path_(path) {
   if (folder.empty()) return;
-  const Error outside = cannot_read(path, fmt::format("it lies outside of '{}'", folder));
+  const Error outside = cannot_read(path, fmt::format("it lies outside '{}'", folder));
   std::error_code error;
   if (!lies_within(fs::weakly_canonical(fs::absolute(path), error), folder)) throw outside;
   file_size(path);  // says what is wrong with it by this name

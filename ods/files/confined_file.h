@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files that strangers name: only those in one folder may be read.
+// Files named by untrusted input: only those inside one folder may be read.
 #pragma once
 #include <string>
 
 namespace ods {
 
-// A file held open, so that nobody can put another one in its place between the check and the reading.
+// Holds the file open, so that nobody can replace it between the check and the read.
 class ConfinedFile {
  public:
-  // folder: an absolute path without links, as std::filesystem::canonical() returns it; empty: any file will do.
-  // Throws Error(kInput), as read_file.h. It throws the same for all that lies outside of the folder once every link in
-  // the path is followed, whether it is there or not.
+  // folder: an absolute path without links, as std::filesystem::canonical() returns it; empty: any file is allowed.
+  // Throws Error(kInput), as read_file.h. Follows every link, and throws the same error for every path outside the
+  // folder, whether or not that file exists.
   ConfinedFile(const std::string& path, const std::string& folder);
   ConfinedFile(const ConfinedFile&) = delete;
   ConfinedFile& operator=(const ConfinedFile&) = delete;
   ~ConfinedFile();
 
-  // A path that leads to this very file as long as the object is there. Without a folder it is the one given.
+  // A path to this very file, valid while the object lives. Without a folder it is the path given.
   const std::string& path() const { return path_; }
 
  private:

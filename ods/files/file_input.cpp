@@ -32,7 +32,7 @@ std::string FileInput::read(uint64_t offset, uint64_t count) const {
     const ssize_t got = pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw cannot_read(path_, std::strerror(errno));
-    if (got == 0) throw cannot_read(path_, "it became shorter");
+    if (got == 0) throw cannot_read(path_, "it was truncated while being read");
     done += static_cast<size_t>(got);
   }
   return bytes;
@@ -65,7 +65,7 @@ void FileInput::copy(uint64_t offset, uint64_t count, AtomicFile& file) const {
   while (count > 0) {
     const ssize_t done =
         copy_file_range(descriptor_, &from, fileno(file.stream()), nullptr, std::min(count, kAtOnce), 0);
-    if (done <= 0) break;  // other file systems, old kernels, a full disk: the buffer's way, which says what is wrong
+    if (done <= 0) break;  // other file systems, old kernels, a full disk: the copy below reports it
     advance(static_cast<uint64_t>(done));
   }
   constexpr uint64_t kBuffer = uint64_t{4} << 20;

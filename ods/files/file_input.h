@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file that is too large for memory: read here and there, copied in ranges.
+// A file too large for memory: random reads, and copies of ranges.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -22,17 +22,17 @@ class FileInput {
   const std::string& path() const { return path_; }
   uint64_t size() const { return size_; }
 
-  // Bytes offset .. offset + count. Throws Error(kInput) where the file has not so many (any more).
+  // Bytes [offset, offset + count). Throws Error(kInput) if the file is, or has become, too short.
   std::string read(uint64_t offset, uint64_t count) const;
 
-  // Appends a range of it to a file; in the file system where that can copy, else through a buffer of a few MiB. Never
-  // through the file's stream. Throws Error(kInput), Error(kOutput).
+  // Appends a range of this file to another: a file system copy where supported, else through a buffer of a few MiB.
+  // Bypasses the target's stream. Throws Error(kInput), Error(kOutput).
   void copy(uint64_t offset, uint64_t count, AtomicFile& file) const;
 
-  // Calls this after every piece that copy() has copied, with the bytes that it has copied in all.
+  // Calls `watcher` after every piece that copy() writes, with the total number of bytes copied.
   void watch(std::function<void(uint64_t copied)> watcher) { watcher_ = std::move(watcher); }
 
-  // The file is to be as readable as this one.
+  // Gives the new file the permissions of this one.
   void give_mode(AtomicFile& file) const;
 
  private:
@@ -43,7 +43,7 @@ class FileInput {
   mutable uint64_t copied_ = 0;
 };
 
-// Appends bytes where FileInput::copy() does. Throws Error(kOutput).
+// Appends bytes where FileInput::copy() appends. Throws Error(kOutput).
 void append(AtomicFile& file, const std::string& bytes);
 
 }  // namespace ods

@@ -31,14 +31,14 @@ size_t digits_at(std::string_view text, size_t start) {
   return count;
 }
 
-// Takes words off the front of a text.
+// Consumes tokens from the front of a text.
 struct Reader {
   const std::string& whole;  // for messages
   std::string_view rest;
 
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::kUsage,
-                fmt::format("frames '{}': {}; they are written like 1-100, 1-100x2 or 1,5,10-20", whole, why));
+                fmt::format("frames '{}': {}; write them like 1-100, 1-100x2 or 1,5,10-20", whole, why));
   }
 
   bool take(std::string_view word) {
@@ -50,7 +50,7 @@ struct Reader {
   int number() {
     const size_t sign = rest.starts_with('-') ? 1 : 0;
     const size_t digits = digits_at(rest, sign);
-    if (digits == 0) fail(rest.empty() ? "a number is missing at the end" : fmt::format("'{}' is no number", rest));
+    if (digits == 0) fail(rest.empty() ? "a number is missing at the end" : fmt::format("'{}' is not a number", rest));
     if (digits > kMaxDigits) fail(fmt::format("a number has at most {} digits", kMaxDigits));
     int value = 0;
     std::from_chars(rest.data(), rest.data() + sign + digits, value);
@@ -73,7 +73,7 @@ Range read_range(Reader& reader) {
   range.step = direction;
   if (!reader.take("x") && !reader.take(":")) return range;
   const int step = reader.number();
-  if (step == 0) reader.fail("a step of 0 leads nowhere");
+  if (step == 0) reader.fail("the step is 0");
   if (step < 0 && direction > 0) {
     reader.fail(fmt::format("a step of {} does not lead from {} to {}", step, range.first, range.last));
   }
@@ -81,7 +81,7 @@ Range read_range(Reader& reader) {
   return range;
 }
 
-// The length of the mark that starts there, 0 for none, and how many digits it asks for.
+// The length of the frame mark that starts here, 0 if there is none, and its number of digits.
 size_t mark_at(std::string_view name, size_t start, int& digits) {
   const std::string_view rest = name.substr(start);
   for (char mark : {'#', '@'}) {
@@ -117,7 +117,7 @@ std::vector<int> parse_frames(const std::string& text) {
     const Range range = read_range(reader);
     const auto count = static_cast<size_t>((int64_t{range.last} - range.first) / range.step) + 1;
     if (count > kMaxFrames || frames.size() + count > kMaxFrames) {
-      reader.fail(fmt::format("that are more than {} frames", kMaxFrames));
+      reader.fail(fmt::format("it has more than {} frames", kMaxFrames));
     }
     for (size_t i = 0; i < count; ++i) {
       const int frame = range.first + static_cast<int>(i) * range.step;
@@ -160,7 +160,7 @@ std::vector<int> gaps(const std::vector<int>& frames) {
 }
 
 std::string FrameNames::path(int frame) const {
-  // The sign is one of the digits, as printf has it.
+  // The sign counts as a digit, as in printf.
   return fmt::format("{}{:0{}}{}", before, frame, digits, after);
 }
 

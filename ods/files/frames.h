@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames by their numbers, and the names of their files.
+// Frame numbers, and the file names of frames.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,31 +10,31 @@
 namespace ods {
 
 // "1-100", "1-100x2" or "1-100:2" (every second), "1..10", "1,5,10-20", "-10-5", "10-1" and "10-1x-2" (backwards), and
-// commas between any of these. Spaces do not matter. In the order given, every frame once, at most a million; numbers
-// have at most nine digits. In some programs ':' staggers; here it is a step, as in Open Job Description.
-// Throws Error(kUsage): which part of the text makes no sense.
+// comma-separated lists of these. Spaces are ignored. Returns the frames in the order given, without duplicates, at
+// most a million; numbers have at most nine digits. In some programs ':' staggers; here it is a step, as in Open Job
+// Description. Throws Error(kUsage), naming the part that does not parse.
 std::vector<int> parse_frames(const std::string& text);
 
-// The shortest such text: "1-7,9-19x2". Precondition: no frame twice.
+// The shortest text for these frames: "1-7,9-19x2". Precondition: no duplicates.
 std::string frames_text(const std::vector<int>& frames);
 
-// The numbers that are missing between the first and the last: of 1 2 3 5, 4; of 1 3 5 9, 7. The
-// first million of them. Precondition: rising.
+// The missing numbers between the first and the last: of 1 2 3 5, 4; of 1 3 5 9, 7. At most the first million.
+// Precondition: ascending.
 std::vector<int> gaps(const std::vector<int>& frames);
 
-// Where the number stands in a file name: ####, one mark for a digit (@ does, too), %04d or %d, $F4 or $F, {frame}. Of
-// several the last one counts. Marks in the names of folders are no marks, and %V is left alone.
+// The frame number's placeholder in a file name: ####, one mark for a digit (@ does, too), %04d or %d, $F4 or $F,
+// {frame}. If there are several, the last one counts. Marks in folder names are ignored, and %V is left alone.
 struct FrameNames {
   std::string before, after;
-  int digits = 1;  // at least; missing ones are zeros
+  int digits = 1;  // minimum; padded with zeros
 
   std::string path(int frame) const;
 };
-// Nothing where the name has no such place.
+// Nothing if the name has no placeholder.
 std::optional<FrameNames> frame_names(const std::string& path);
 
-// The frames of which there are files, rising. A file counts if path() gives its very name. Throws Error(kInput): the
-// folder cannot be read.
+// The frames that exist as files, ascending. A file counts only if path() gives exactly its name. Throws Error(kInput):
+// the folder cannot be read.
 std::vector<int> frames_on_disk(const FrameNames& names);
 
 }  // namespace ods

@@ -26,7 +26,7 @@ uint32_t little_endian(std::string_view bytes, size_t at) {
   return word;
 }
 
-// RFC 1321, 3.4. Its table is the fractions of sines.
+// RFC 1321, 3.4: a table of fractions of sines.
 std::array<uint32_t, 64> make_sines() {
   std::array<uint32_t, 64> sines{};
   for (size_t i = 0; i < sines.size(); i++) {
@@ -43,7 +43,7 @@ class Md5 {
     size_ += bytes.size();
   }
 
-  // The last bytes, fewer than a block. Returns the digits.
+  // The last bytes, less than a block. Returns the digits.
   std::string finish(std::string_view bytes) {
     const uint64_t bits = (size_ + bytes.size()) * 8;
     std::string end(bytes);
@@ -88,7 +88,7 @@ std::string md5(std::string_view bytes) {
 }
 
 std::string md5_of_file(const std::string& path) {
-  size_t left = file_size(path);  // which says why not
+  size_t left = file_size(path);  // throws if it cannot be read
   std::ifstream stream(path, std::ios::binary);
   std::string part(size_t{1} << 20, '\0');
   Md5 sum;

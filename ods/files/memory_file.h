@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bytes in memory under a name that every reader of files opens.
+// Bytes in memory under a path that any file reader can open.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,7 +16,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
   ~MemoryFile();
 
-  // Good while the object is there; who has opened it may go on reading.
+  // Valid while the object lives; readers that have opened it may keep reading.
   std::string path() const;
 
  private:

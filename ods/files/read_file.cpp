@@ -24,7 +24,7 @@ size_t file_size(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw cannot_read(path, "no such file");
   if (error) throw cannot_read(path, error.message());
-  // A folder opens as if it were endless, a pipe waits for ever.
+  // Opening a folder reads without end, and a pipe blocks.
   if (!std::filesystem::is_regular_file(status)) throw cannot_read(path, "it is not a file");
   const uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw cannot_read(path, error.message());
@@ -56,7 +56,7 @@ std::vector<unsigned char> read_file(const std::string& path, size_t most) {
   const size_t size = file_size(path);
   if (size > most) {
     throw cannot_read(path,
-                      fmt::format("it has {}, {} are the limit for such a file", bytes_text(size), bytes_text(most)));
+                      fmt::format("it has {}; the limit for such a file is {}", bytes_text(size), bytes_text(most)));
   }
   return read_start(path, size);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file's bytes. What does not say otherwise throws Error(kInput): there is no such file, it is a folder or a device,
-// or it may not be read.
+// Reads a file's bytes. Unless stated otherwise, throws Error(kInput): no such file, a folder, a device, or no
+// permission.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -13,22 +13,23 @@
 
 namespace ods {
 
-// The Error(kInput) of a file that cannot be read.
+// The Error(kInput) for a file that cannot be read.
 Error cannot_read(const std::string& path, const std::string& why);
 
 size_t file_size(const std::string& path);
 
-// What would have to change with a file's contents, "517 bytes, of 1700000000123"; empty: there is no such file.
+// Size and modification time, "517 bytes, of 1700000000123"; they change with the contents. Empty if there is no such
+// file.
 std::string file_identity(const std::string& path);
 
-// The whole file. One with more than `most` bytes is an Error before it is read; one that does not fit in memory is an
-// Error(kMemory).
+// The whole file. Throws Error(kInput) before reading if it has more than `most` bytes, Error(kMemory) if it does not
+// fit in memory.
 std::vector<unsigned char> read_file(const std::string& path, size_t most);
 
-// Its first `count` bytes, or all where it has fewer; likewise.
+// The first `count` bytes, or the whole file if it is shorter. Throws as read_file().
 std::vector<unsigned char> read_start(const std::string& path, size_t count);
 
-// Copies `size` bytes of a file, or of what stands for one, from an offset on; false: it has not so many.
+// Copies `size` bytes at an offset of a file, or of a source like one; false if it is too short.
 using ByteReader = std::function<bool(size_t offset, void* to, size_t size)>;
 
 }  // namespace ods

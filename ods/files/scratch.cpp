@@ -24,7 +24,7 @@ static Error no_room(const std::string& folder, size_t size, int code) {
                                                bytes_text(size), folder, std::strerror(code)));
 }
 
-// Not every file system makes files without a name.
+// Not every file system supports files without a name.
 static int open_unlinked(const std::string& folder) {
   const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (file >= 0) return file;
@@ -34,7 +34,7 @@ static int open_unlinked(const std::string& folder) {
   return named;
 }
 
-// Every block is there before it is mapped: on a full disk a write to the mapping would end the process.
+// Allocates every block before mapping: a write to the mapping on a full disk would kill the process.
 static void* map_file(const std::string& folder, size_t size) {
   const int file = open_unlinked(folder);
   if (file < 0) throw no_room(folder, size, errno);
@@ -53,7 +53,7 @@ static Error cannot_write(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
 }
 
-// What stands in the way of using an open file; empty: nothing. An empty file is what a killed process left.
+// Why an open file cannot be used; empty if it can. An empty file is what a killed process left.
 static std::string fault_of(int file, std::string_view mark) {
   struct stat info;
   if (fstat(file, &info) != 0) return std::strerror(errno);
@@ -61,11 +61,12 @@ static std::string fault_of(int file, std::string_view mark) {
   if (info.st_uid != geteuid() && geteuid() != 0) return "it is another user's; remove it, or write to another folder";
   std::string start(mark.size(), '\0');
   const bool has_mark = pread(file, start.data(), start.size(), 0) == std::ssize(mark) && start == mark;
-  return has_mark || info.st_size == 0 ? ""
-                                       : "ods keeps its work there, and this file is not ods's; rename or remove it";
+  return has_mark || info.st_size == 0
+             ? ""
+             : "ods needs that name for its work, and this file is not its own; rename or remove it";
 }
 
-// Locked. Nothing in it has been touched.
+// Locks the file. Does not touch its contents.
 static int open_marked(const std::string& path, std::string_view mark) {
   int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file < 0 && errno == EEXIST) file = open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -78,7 +79,7 @@ static int open_marked(const std::string& path, std::string_view mark) {
   throw cannot_write(path, fault);
 }
 
-// A file of zeros behind the mark, unless it has the size already.
+// Unless the file has the right size already, clears it to zeros after the mark.
 static int make_room(int file, off_t length, std::string_view mark) {
   struct stat info;
   if (fstat(file, &info) != 0) return errno;
@@ -89,7 +90,7 @@ static int make_room(int file, off_t length, std::string_view mark) {
   return posix_fallocate(file, 0, length);
 }
 
-// By the heap, which has the pages of pictures that are gone for the next ones.
+// From the heap, which reuses the pages of freed pictures.
 static void* allocate(size_t size) {
   check_memory(size, "the picture", "use a machine with more, or a smaller picture");
   void* memory = std::calloc(size, 1);

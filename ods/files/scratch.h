@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A large block of bytes that does not count as memory for long: small ones are memory, large ones an unlinked file,
-// of which only what was touched lately is in memory.
+// A large block of bytes that does not fill memory: small blocks are memory, large ones an unlinked file of which only
+// the recently used pages stay in memory.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -12,15 +12,14 @@ namespace ods {
 
 class Scratch {
  public:
-  // Zeros. More than `most_in_memory` bytes lie in `folder`, which no other process sees and nothing is left of; with
-  // no folder all is memory. Throws Error(kOutput) where the disk has not the room, Error(kMemory) where the memory has
-  // not.
+  // Zero-initialized. A block above `most_in_memory` bytes goes into an unlinked file in `folder`; without a folder it
+  // stays in memory. Throws Error(kOutput) if the disk is too small, Error(kMemory) if memory is.
   Scratch(size_t size, const std::string& folder, size_t most_in_memory);
-  // The same in a file that stays when the process ends: its bytes as another process left them where they are as many,
-  // else zeros behind `mark`, with which the file begins. Which of the bytes had reached the disk when the machine lost
-  // its power is for the caller to find out. Throws Error(kOutput) as above, where another process has it open, and
-  // where something else has that name, which is left as it is: a link, another user's file, one that does not begin
-  // with the mark. Precondition: size >= mark.size().
+  // The same in a file that outlives the process. Keeps the bytes that an earlier process left if the size matches;
+  // otherwise zeros after `mark`, with which the file begins. After a power loss the caller must find out which bytes
+  // had reached the disk. Throws Error(kOutput) as above, if another process has the file open, and if the name belongs
+  // to something else, which is left untouched: a link, another user's file, a file that does not begin with the mark.
+  // Precondition: size >= mark.size().
   Scratch(size_t size, const std::string& file, std::string_view mark);
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
@@ -30,7 +29,7 @@ class Scratch {
   size_t size() const { return size_; }
   bool on_disk() const { return on_disk_; }
 
-  // What lies on the disk leaves the process's memory and comes back when it is touched. Any thread, at any time.
+  // Evicts the pages that are backed by the disk; they are read back on access. Thread-safe.
   void release() const;
 
  private:

@@ -58,7 +58,7 @@ ColorSpace make_color_space(const std::string& name, const std::array<ColorCurve
     return true;
   };
   for (size_t c = 0; c < 3; c++) {
-    if (c > 0 && is_first_again(c)) {  // making a table takes as long as decoding a small picture
+    if (c > 0 && is_first_again(c)) {  // building a table takes as long as decoding a small picture
       color.light[c] = color.light[0];
       continue;
     }
@@ -75,7 +75,7 @@ static glm::dvec3 xyz_of(glm::dvec2 xy) {
   return {xy.x / xy.y, 1.0, (1.0 - xy.x - xy.y) / xy.y};
 }
 
-// From XYZ under one white to XYZ under another (Lindbloom, "Chromatic Adaptation").
+// Adapts XYZ from one white to another (Lindbloom, "Chromatic Adaptation").
 static glm::dmat3 bradford(glm::dvec3 from, glm::dvec3 to) {
   const glm::dmat3 cones =
       glm::transpose(glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
@@ -84,7 +84,7 @@ static glm::dmat3 bradford(glm::dvec3 from, glm::dvec3 to) {
   return glm::inverse(cones) * scaled * cones;
 }
 
-// To XYZ (Lindbloom, "RGB/XYZ Matrices").
+// RGB to XYZ (Lindbloom, "RGB/XYZ Matrices").
 static glm::dmat3 xyz_matrix(const Chromaticities& from) {
   const glm::dmat3 primaries(xyz_of(from.red), xyz_of(from.green), xyz_of(from.blue));
   const glm::dvec3 share = glm::inverse(primaries) * xyz_of(from.white);
@@ -108,7 +108,7 @@ std::optional<glm::dmat3> to_rec709(const Chromaticities& from) {
 }
 
 glm::dmat3 rec709_of_d50_xyz() {
-  const glm::dvec3 d50(0.9642, 1.0, 0.8249);  // as ICC.1 has it
+  const glm::dvec3 d50(0.9642, 1.0, 0.8249);  // as ICC.1 defines it
   return glm::inverse(xyz_matrix(kRec709)) * bradford(d50, xyz_of(kRec709.white));
 }
 

@@ -41,7 +41,7 @@ static ColorSpace of_curve(const std::string& name, const ColorCurve& curve, con
 
 // --- PNG -------------------------------------------------------------------------------------------------------------
 
-// The chunks that stand before the pixels and are of use here, by their names.
+// The colour chunks before the pixels, by name.
 static std::map<std::string, std::string> color_chunks(const FileInput& file) {
   std::map<std::string, std::string> chunks;
   for (uint64_t at = 8; at + 12 <= file.size();) {
@@ -55,7 +55,7 @@ static std::map<std::string, std::string> color_chunks(const FileInput& file) {
   return chunks;
 }
 
-// ITU-T H.273. Curves of television count as sRGB: that is what their code values are shown as, here and in videos.
+// ITU-T H.273. Television curves count as sRGB, because their code values are shown as such, here and in videos.
 static ColorSpace of_cicp(const std::string& data) {
   if (data.size() != 4) return ignored("cICP", "is damaged");
   const uint64_t primaries = get_number(data, 0, 1), transfer = get_number(data, 1, 1);
@@ -70,12 +70,12 @@ static ColorSpace of_cicp(const std::string& data) {
       {6, srgb_curve},  {5, [](double code) { return std::pow(code, 2.8); }},
       {13, srgb_curve}, {8, [](double code) { return code; }},
       {14, srgb_curve}, {15, srgb_curve}};
-  if (!kPrimaries.contains(primaries)) return ignored(name, "has primaries that ods does not know");
-  if (!kCurves.contains(transfer)) return ignored(name, "has a transfer curve that ods does not know");
+  if (!kPrimaries.contains(primaries)) return ignored(name, "has primaries that ods does not support");
+  if (!kCurves.contains(transfer)) return ignored(name, "has a transfer curve that ods does not support");
   return of_curve(name, kCurves.at(transfer), kPrimaries.at(primaries));
 }
 
-// How long the data is once unpacked is known afterwards.
+// The unpacked size is known only after unpacking.
 static std::string unpacked(std::string_view packed) {
   libdeflate_decompressor* const state = libdeflate_alloc_decompressor();
   std::string bytes;
@@ -90,7 +90,7 @@ static std::string unpacked(std::string_view packed) {
   return bytes;
 }
 
-// A name up to a zero, the method of compression (0), the profile.
+// A name ended by a zero, the compression method (0), the profile.
 static ColorSpace of_iccp(const std::string& data) {
   const size_t end = data.find('\0');
   if (end == std::string::npos || end + 2 > data.size()) return ignored("ICC profile", "is damaged");
@@ -118,7 +118,7 @@ static ColorSpace of_gama_and_chrm(const std::string& gama, const std::string& c
   return of_curve(name, curve, {xy(1), xy(2), xy(3), xy(0)});
 }
 
-// What cannot be used leaves its place to the next in rank; where there is none, it is named.
+// A tag that cannot be used gives way to the next in rank; if there is none, it is reported.
 static ColorSpace read_png(const FileInput& file) {
   std::map<std::string, std::string> chunks = color_chunks(file);
   ColorSpace color;
@@ -138,7 +138,7 @@ static ColorSpace read_png(const FileInput& file) {
 
 // --- JPEG ------------------------------------------------------------------------------------------------------------
 
-// A profile may be cut into pieces: its marker is followed by the piece's number, from 1, and how many there are.
+// A profile may be split: after its marker comes the piece's number, from 1, and the number of pieces.
 static ColorSpace read_jpeg(const FileInput& file) {
   constexpr unsigned char kApp2 = 0xE2;
   constexpr std::string_view kMarker{"ICC_PROFILE\0", 12};
@@ -169,7 +169,7 @@ static std::vector<uint64_t> numbers_of(const std::string& bytes, size_t size, b
   return numbers;
 }
 
-// Light of every code value, 0..65535: of one channel for all, or of each.
+// The light of each code value 0..65535: one curve for all channels, or one each.
 static std::array<ColorCurve, 3> tiff_curves(const std::vector<uint64_t>& values) {
   if (values.empty()) return {srgb_curve, srgb_curve, srgb_curve};
   const bool is_one = (values.size() & (values.size() - 1)) == 0;
@@ -262,7 +262,7 @@ ColorSpace read_color_space(const std::string& path, FileFormat format, const Fi
   try {
     color = read_said(path, format, info);
   } catch (const Error&) {
-    return {};  // whoever reads the pixels says what is wrong
+    return {};  // reading the pixels reports the fault
   }
   const bool is_linear = color.curve == ColorSpace::Curve::kDefault || color.curve == ColorSpace::Curve::kLinear;
   if (info.is_float && !is_linear) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a picture file says of its colours, wherever its format says it:
+// Reads the colour space of a picture file from wherever its format stores it:
 //
 //   PNG    the first of cICP, iCCP, sRGB, gAMA with cHRM, as the PNG specification (third edition) ranks them
 //   JPEG   an ICC profile in APP2
@@ -20,8 +20,8 @@ namespace ods {
 
 struct FileInfo;
 
-// The default colour space where nothing is said, and for files that cannot be read: reading their pixels tells why.
-// Floats are light: of what a file of floats says, only the primaries are used, and a curve is a fault.
+// The default colour space if the file does not specify one, or cannot be read: reading its pixels reports why. Floats
+// are always linear: only the primaries of a float file are used, and a transfer curve is a fault.
 ColorSpace read_color_space(const std::string& path, FileFormat format, const FileInfo& info);
 
 }  // namespace ods

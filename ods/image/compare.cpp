@@ -21,7 +21,7 @@ static void check_same_shape(const std::vector<Image>& a, const std::vector<Imag
   if (a.size() != b.size()) throw differ("eyes", a.size(), b.size());
   for (size_t i = 0; i < a.size(); i++) {
     if (a[i].width != b[i].width || a[i].height != b[i].height) {
-      throw Error(ErrorKind::kInput, fmt::format("the pictures have eyes of {}x{} and {}x{} pixels", a[i].width,
+      throw Error(ErrorKind::kInput, fmt::format("the pictures' eyes have {}x{} and {}x{} pixels", a[i].width,
                                                  a[i].height, b[i].width, b[i].height));
     }
     if (a[i].channels != b[i].channels) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far one picture is from another. e is what b has more than a, in one channel of one pixel.
+// How different two pictures are. e = b - a, per channel and pixel.
 //
-// Pixels that hold NaN or infinity in either picture are counted and left out of everything else.
+// Pixels that hold NaN or infinity in either picture are counted, and excluded from everything else.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,20 +13,21 @@
 namespace ods {
 
 struct LargestError {
-  double error = 0.0;  // |e|; the first one in reading order
+  double error = 0.0;  // |e|; on ties the first in reading order
   int eye = 0;         // index in the picture
   int x = 0;
   int y = 0;
   int channel = 0;
 };
 
-// RMSE is sqrt(mean e^2), PSNR is 20 log10(1 / RMSE) dB: the signal's peak is 1, and equal pictures have infinity.
+// RMSE is sqrt(mean e^2). PSNR is 20 log10(1 / RMSE) dB, for a peak signal of 1; infinity for equal pictures.
 //
-// WS-PSNR weighs row y of a lat-long picture of H rows by what it covers of the sphere, cos((y + 1/2 - H/2) pi / H), in
-// place of the plain mean. Source: Y. Sun, A. Lu, L. Yu, "Weighted-to-Spherically-Uniform Quality Evaluation for
-// Omnidirectional Video", IEEE Signal Processing Letters 24(9), 2017. It means nothing for other projections.
+// WS-PSNR replaces the plain mean by one that weights row y of a lat-long picture of H rows by the area it covers on
+// the sphere, cos((y + 1/2 - H/2) pi / H). Source: Y. Sun, A. Lu, L. Yu, "Weighted-to-Spherically-Uniform Quality
+// Evaluation for Omnidirectional Video", IEEE Signal Processing Letters 24(9), 2017. Not meaningful for other
+// projections.
 //
-// NaN where no pixel could be compared.
+// NaN if no pixel could be compared.
 struct Errors {
   double rmse = 0.0;
   double psnr = 0.0;
@@ -40,26 +41,26 @@ struct Comparison {
   Errors whole;  // every pixel of every eye
 };
 
-// Throws Error(kInput) in one line when the pictures differ in eyes, size or channels.
+// Throws Error(kInput), one line, if the pictures differ in number of eyes, size or channels.
 Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b);
 
-// b - a; 0 where a pixel is not finite. Precondition: one size.
+// b - a; 0 where a pixel is not finite. Precondition: equal sizes.
 Image difference(const Image& a, const Image& b);
 
-// Whether e is no more than noise, for estimates whose variance is known: z = e / sqrt(variance of a + of b). Of
-// unbiased pictures with independent noise mean is 0, rms 1 and beyond_3 0.0027 (for a normal distribution). Pixels of
-// one picture are not quite independent where its filter is wider than a pixel; the three expectations still hold.
-// Values that neither picture has variance for are left out, but counted where they differ.
+// Tests whether e is only noise, for estimates with known variance: z = e / sqrt(variance of a + of b). For unbiased
+// pictures with independent noise, mean is 0, rms 1 and beyond_3 0.0027 (normal distribution). A filter wider than a
+// pixel correlates neighbouring pixels, but these three expectations still hold. Values without variance in either
+// picture are excluded, but counted if they differ.
 struct ZTest {
   int64_t values = 0;
   double mean = 0.0;
   double rms = 0.0;
-  double beyond_3 = 0.0;         // share of |z| > 3
+  double beyond_3 = 0.0;         // fraction with |z| > 3
   double largest = 0.0;          // |z|
-  int64_t sure_differences = 0;  // no variance, yet e is not 0
+  int64_t sure_differences = 0;  // without variance, yet e is not 0
 };
 
-// Precondition: four lists of one length, all images of one size.
+// Precondition: four lists of equal length, all images of equal size.
 ZTest z_test(const std::vector<Image>& a, const std::vector<Image>& b, const std::vector<Image>& variance_a,
              const std::vector<Image>& variance_b);
 

@@ -23,7 +23,7 @@ std::string description_of(cmsHPROFILE profile) {
   return line.empty() ? "ICC profile" : fmt::format("ICC profile '{}'", line);
 }
 
-// Little CMS keeps what it returns until the profile is closed.
+// Little CMS owns what it returns until the profile is closed.
 const cmsToneCurve* curve_of(cmsHPROFILE profile, cmsTagSignature tag) {
   return static_cast<const cmsToneCurve*>(cmsReadTag(profile, tag));
 }
@@ -55,7 +55,7 @@ ColorSpace read_icc_profile(const std::string& bytes) {
   if (profile == nullptr) return faulty("ICC profile", "is damaged");
   const std::string name = description_of(profile);
   const cmsColorSpaceSignature space = cmsGetColorSpace(profile);
-  if (space != cmsSigRgbData && space != cmsSigGrayData) return faulty(name, "is neither of RGB nor of grey");
+  if (space != cmsSigRgbData && space != cmsSigGrayData) return faulty(name, "is neither RGB nor grey");
   glm::dmat3 to_rec709(1.0);
   std::array<const cmsToneCurve*, 3> curves{};
   if (space == cmsSigGrayData) {

@@ -9,8 +9,8 @@
 
 namespace ods {
 
-// The colour space that a profile describes, if it is grey or made of three curves and a matrix, as those of displays,
-// cameras and working spaces are. For others (CMYK, look-up tables) and for damaged ones ColorSpace::fault says why.
+// The colour space of a profile that is grey or consists of three curves and a matrix, as those of displays, cameras
+// and working spaces do. For others (CMYK, look-up tables) and for damaged ones ColorSpace::fault says why not.
 ColorSpace read_icc_profile(const std::string& profile);
 
 }  // namespace ods

@@ -6,7 +6,7 @@ namespace ods {
 
 namespace {
 
-// Polylines of points (x 0..4, y 0..6), two digits a point, polylines parted by spaces.
+// Polylines of points (x 0..4, y 0..6): two digits per point, polylines separated by spaces.
 struct Glyph {
   char letter;
   const char* strokes;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Capitals, digits and a few signs as straight strokes: lettering for what is made in code.
+// Capitals, digits and a few signs as straight strokes: lettering for generated geometry.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -15,8 +15,8 @@ struct Stroke {
   vec2 to;
 };
 
-// One line of text centred at the origin, x to the right and y up. A letter is 6 high and 4 wide, the next begins 6
-// further on. Knows A-Z, 0-9, space and + - . : /; any other character leaves a gap.
+// One line of text centred at the origin, x to the right and y up. A letter is 6 high and 4 wide; letters are 6 apart.
+// Supports A-Z, 0-9, space and + - . : /; any other character leaves a gap.
 std::vector<Stroke> text_strokes(std::string_view text);
 
 }  // namespace ods

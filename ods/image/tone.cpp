@@ -8,7 +8,7 @@
 namespace ods {
 
 static vec3 neutral(vec3 color) {
-  const float kFresnel = 0.04f;  // what a dielectric reflects straight on, taken off so that base colours come back
+  const float kFresnel = 0.04f;  // reflectance of a dielectric at normal incidence; keeps base colours unchanged
   const float kStart = 0.8f - kFresnel;
   const float kRoom = 1.0f - kStart;
   const float kDesaturation = 0.15f;
@@ -22,7 +22,7 @@ static vec3 neutral(vec3 color) {
 }
 
 vec3 tone_map(vec3 light, float exposure, ToneCurve curve) {
-  // Far above any light and far enough from the largest float that the curve cannot overflow.
+  // Far above any light, and far enough from the largest float that the curve cannot overflow.
   const float kBrightest = 1e30f;
   const float scale = std::exp2(exposure);
   for (int i = 0; i < 3; i++) {

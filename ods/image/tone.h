@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the scene's light to a display: exposure, tone curve, sRGB.
+// From scene-linear light to a display: exposure, tone curve, sRGB.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -12,11 +12,11 @@
 namespace ods {
 
 enum class ToneCurve {
-  kNeutral,  // Khronos PBR Neutral: colours below 0.76 nearly as they are, highlights rolled off towards white
-  kLinear,   // as it is, cut off at 1
+  kNeutral,  // Khronos PBR Neutral: colours below 0.76 nearly unchanged, highlights rolled off towards white
+  kLinear,   // unchanged, clipped at 1
 };
 
-// `neutral`, `linear`: the words of the command line.
+// `neutral`, `linear`: the names on the command line.
 inline constexpr NameRow<ToneCurve> kToneCurveTable[] = {
     {ToneCurve::kNeutral, "neutral"},
     {ToneCurve::kLinear, "linear"},
@@ -27,16 +27,16 @@ constexpr std::string_view tone_curve_name(ToneCurve curve) {
   return name_in(kToneCurveTable, curve);
 }
 
-// Any number in, 0..1 out, both linear Rec. 709. The light is first multiplied by 2^exposure.
-// NaN and negative light become 0; infinite light is treated as the largest number.
-// Source of neutral: Khronos, "PBR Neutral Tone Mapper Specification" (github.com/KhronosGroup/ToneMapping).
+// Multiplies the light by 2^exposure, then applies the curve. Input and output are linear Rec. 709; the output is 0..1.
+// NaN and negative light become 0; infinite light counts as the largest number. Source of neutral: Khronos, "PBR
+// Neutral Tone Mapper Specification" (github.com/KhronosGroup/ToneMapping).
 vec3 tone_map(vec3 light, float exposure, ToneCurve curve);
 
 // IEC 61966-2-1: linear 0..1 <-> encoded 0..1.
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-// The light of every code value 0..largest.
+// A table of the linear light of each code value 0..largest.
 std::vector<float> linear_from_encoded(int largest);
 
 }  // namespace ods

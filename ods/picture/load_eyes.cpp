@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// The first three channels of a layer, as light; `put` makes what it wants of a pixel.
+// Decodes the first three channels of a layer to linear light and passes each pixel to `put`.
 template <class Put>
 static void read_pixels(const LayerPixels& layer, Extent size, bool is_float, Put put) {
   const size_t step = bytes_of(layer.sample);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture file, ours or another program's, into one image per eye: the way back from save.h.
+// Reads any picture file into one image per eye: the inverse of save.h.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,19 +15,19 @@
 namespace ods {
 
 struct LoadedEyes {
-  std::vector<Image> eyes;              // linear light, 3 channels; left and right, or the only one
-  std::vector<Image> variance;          // of the noise in eyes, where an EXR has variance.R, G and B; else empty
-  LayoutGuess guess;                    // how the file was understood
-  std::string projection = "lat-long";  // by its name, as find_format() has it
-  bool is_float = false;                // the file holds light; else what a display shows, which is decoded
+  std::vector<Image> eyes;              // linear light, 3 channels; left and right, or just one
+  std::vector<Image> variance;          // of the noise in `eyes`, if an EXR has variance.R, G and B; else empty
+  LayoutGuess guess;                    // by name, as find_format() finds it
+  std::string projection = "lat-long";  // scene-linear file; else display-encoded, and decoded here
+  bool is_float = false;                // as in StoredPicture
   std::string color_fault;              // as StoredPicture has it
 };
 
-// %V or %v in the path stands for two files. A layout that is given is not guessed; kSeparate without %V takes the file
-// as one eye. Squeezed eyes stay as they are stored; alpha is left out. Throws as open_picture().
+// %V or %v in the path stands for two files. A given layout is not guessed; kSeparate without %V reads the file as one
+// eye. Squeezed eyes stay squeezed; alpha is dropped. Throws as open_picture().
 LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout = {});
 
-// The luminance of a picture's eyes, 1 channel of linear light; NaN and infinity as they are there.
+// The luminance of a picture's eyes: 1 channel, linear; NaN and infinity are kept.
 std::vector<Image> grey_eyes(const StoredPicture& picture);
 
 }  // namespace ods

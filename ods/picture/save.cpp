@@ -20,7 +20,7 @@
 
 namespace ods {
 
-// --- what will be written ------------------------------------------------------------------------------------------
+// --- checks ----------------------------------------------------------------------------------------------------------
 
 static bool is_photo_of(const std::string& path, size_t eye_count) {
   return eye_count == 2 && names_photo(path) && !names_eye(path);
@@ -42,12 +42,12 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
   if (layout == Layout::kMultiview && !stereo) throw unfit(path, "multi-view needs both eyes");
   if (is_anaglyph(layout) && !stereo) throw unfit(path, "an anaglyph needs both eyes");
   if (is_anaglyph(layout) && is_scene_referred(format)) {
-    throw unfit(path, "an anaglyph is what a display shows, and this format holds the scene's light; use .png");
+    throw unfit(path, "an anaglyph is display-referred, but this format is scene-linear; use .png");
   }
   if (layout == Layout::kSeparate && stereo && !names_eye(path) && !names_photo(path)) {
     throw unfit(path, "separate eyes need %V (left, right) or %v (l, r) in the file name");
   }
-  if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v name an eye, and a mono picture has none");
+  if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v stand for an eye, but the picture is mono");
 
   const int count = static_cast<int>(eyes.size());
   const Extent squeeze = squeeze_of(layout, count);
@@ -91,7 +91,7 @@ void check_output(const std::string& path, const SaveOptions& options, const std
   for (int each : eyes) check_writable(names_eye(path) ? path_for_eye(path, each) : path);
 }
 
-// --- what stands in the header -------------------------------------------------------------------------------------
+// --- the header ----------------------------------------------------------------------------------------------------
 
 static void add_exr(std::vector<Attribute>& attributes, const StereoCamera* camera, Layout layout,
                     const std::vector<int>& eyes) {
@@ -104,7 +104,7 @@ static void add_exr(std::vector<Attribute>& attributes, const StereoCamera* came
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
   }
   if (eyes.size() == 1 && camera != nullptr && is_full_lat_long(camera->projection)) {
-    // OpenImageIO writes envmap for textures only, and would keep the file open for their smaller levels.
+    // OpenImageIO writes envmap only for textures, and would keep the file open to add mip levels.
     text("textureformat", "LatLong Environment");
     attributes.push_back({"openexr:levelmode", 0});
   }
@@ -118,7 +118,7 @@ static bool carries_gpano(FileFormat format) {
   return format == FileFormat::kPng || format == FileFormat::kJpeg || format == FileFormat::kTiff;
 }
 
-// The view stands before the last word, unless it is the default one and the word stands alone.
+// The view comes before the last word, except for bare names of the default view.
 static std::string channel_name(const std::string& channel, std::string_view view, bool is_default) {
   const size_t point = channel.rfind('.');
   const size_t last = point == std::string::npos ? 0 : point + 1;
@@ -164,15 +164,15 @@ bool has_alpha(const std::string& path) {
 
 namespace {
 
-// One file of some eyes of a picture.
+// One output file, with some eyes of a picture.
 struct File {
   const PictureRows& picture;
-  std::vector<int> indices;  // of its eyes
+  std::vector<int> indices;  // of the eyes in this file
   FileFormat format;
   Layout layout;
   const SaveOptions& options;
-  size_t channels;  // of all layers
-  Extent squeeze;   // so many pixels of the eye become one
+  size_t channels;  // over all layers
+  Extent squeeze;   // eye pixels per stored pixel
 
   std::vector<int> eyes() const {
     std::vector<int> which;
@@ -189,7 +189,7 @@ size_t count_channels(const std::vector<RowLayer>& layers) {
   return count;
 }
 
-// `pixels` are those that become one, a row of the eye apart, `first` the layer's first channel.
+// `pixels` are one row of the eye apart and are combined into one; `first` is the layer's first channel.
 static void squeeze_layer(const RowLayer& layer, const std::vector<const float*>& pixels, size_t first, float* out) {
   const size_t count = layer.channels.size();
   if (layer.rule == LayerRule::kNearest) {
@@ -208,7 +208,7 @@ static void squeeze_layer(const RowLayer& layer, const std::vector<const float*>
   }
 }
 
-// Row y of an eye as the file has it: squeezed.
+// Row y of an eye as stored: squeezed.
 static std::vector<float> read_row(const File& file, int index, int y) {
   const Extent eye = file.picture.eye, squeeze = file.squeeze;
   const size_t length = static_cast<size_t>(eye.width) * file.channels;
@@ -233,7 +233,7 @@ static std::vector<float> read_row(const File& file, int index, int y) {
   return squeezed;
 }
 
-// All layers; `stride` floats from pixel to pixel. Halves have a limit of their own, where they are made.
+// Writes all layers, `stride` floats per pixel. Halves are clamped later, on conversion.
 static void put_exr_row(const File& file, const std::vector<float>& row, float* out, size_t stride) {
   const float kLimit = std::numeric_limits<float>::max();
   for (size_t at = 0; at < row.size(); at += file.channels, out += stride) {
@@ -242,7 +242,7 @@ static void put_exr_row(const File& file, const std::vector<float>& row, float* 
 }
 
 static void put_hdr_row(const File& file, const std::vector<float>& row, float* out) {
-  const float kLimit = 1e38f;  // the shared exponent of RGBE ends before that of a float
+  const float kLimit = 1e38f;  // RGBE's shared exponent has a smaller range than a float's
   for (size_t at = 0; at < row.size(); at += file.channels) {
     for (size_t c = 0; c < 3; c++) *out++ = finite(row[at + c], 0.0f, kLimit);
   }
@@ -289,7 +289,7 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   header.format = format;
   header.width = size.width;
   header.height = size.height;
-  // Or OpenImageIO would write the time of day, and the same picture would not be the same bytes.
+  // Otherwise OpenImageIO writes the time of day, and equal pictures would not be equal files.
   if (format == FileFormat::kTiff || format == FileFormat::kExr)
     header.attributes.push_back({"DateTime", std::string()});
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
@@ -368,10 +368,11 @@ static void write_picture(AtomicFile& out, const File& file, const StereoCamera*
   write_image(out, header, fill, file.picture.band_done);
 }
 
-// Both eyes as JPEGs of their own, which are not kept.
+// Writes both eyes as temporary JPEGs, then combines them.
 static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const StereoCamera* camera,
                             const SaveOptions& options) {
-  if (camera == nullptr) throw unfit(out.path(), "a .vr.jpg says how it was taken, and of this nobody knows");
+  if (camera == nullptr)
+    throw unfit(out.path(), "a .vr.jpg needs camera metadata, but this picture's camera is unknown");
   check_photo(out.path(), camera->projection);
   std::list<AtomicFile> eyes;
   for (const int index : {0, 1}) {
@@ -408,7 +409,7 @@ std::vector<std::string> save_picture(const PictureRows& picture, const StereoCa
   } else {
     write(path, all);
   }
-  // One that is there already would from now on tell of a picture that is gone.
+  // An existing sidecar is rewritten, too: it would describe a picture that is gone.
   std::error_code ignored;
   if (camera && (options.sidecar || std::filesystem::exists(sidecar_path(path), ignored))) {
     names.push_back(sidecar_path(path));
@@ -449,7 +450,7 @@ static PictureRows rows_of(const Picture& picture, bool all_layers) {
     images.push_back(each.image);
     rows.layers.push_back(each.layer);
     if (images.size() > 1 || picture.eyes[0].alpha.pixels.empty()) continue;
-    images.push_back(&EyeImage::alpha);  // behind the colour, whose fourth channel it is
+    images.push_back(&EyeImage::alpha);  // follows the colour as its fourth channel
     rows.layers[0].channels.push_back("A");
   }
   for (const EyeImage& eye : picture.eyes) rows.eyes.push_back(eye.eye);

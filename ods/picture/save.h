@@ -1,25 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A rendered picture into files. The extension decides the format.
+// Saves a rendered picture. The file extension selects the format.
 //
-// png, jpg, jpeg, tif, tiff, webp hold what a display shows: exposure, tone curve, sRGB, 8 bits. hdr and exr hold the
-// light of the scene as it was rendered: linear, Rec. 709, neither exposed nor toned. Squeezed eyes are squeezed in the
-// scene's light, as if rendered with larger pixels; of two depths the nearer stays. No file holds NaN (it becomes 0)
-// or infinity (it becomes the largest number of the format).
+// png, jpg, jpeg, tif, tiff and webp are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr hold the
+// scene-linear light as rendered: Rec. 709, without exposure or tone curve. Eyes are squeezed in scene-linear light, as
+// if rendered with larger pixels; of two depths the nearer is kept. No file holds NaN (it becomes 0) or infinity (it
+// becomes the largest number of the format).
 //
 // exr holds 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and
-// albedo.R G B, or whatever layers a picture made by rows has. It says how it was taken: chromaticities, ods:version,
-// ods:layout, ods:depthType and the camera (ods/picture/metadata/metadata.h); a file of one eye also envmap and view.
-// Multi-view follows "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with R G B Z
-// bare, and the view stands before the last word elsewhere: right.R, N.left.X, albedo.right.G.
+// albedo.R G B, or the layers of a picture made by rows. Its header has chromaticities, ods:version, ods:layout,
+// ods:depthType and the camera (ods/picture/metadata/metadata.h); for one eye also envmap and view. Multi-view follows
+// "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with bare R G B Z; in other
+// channels the view comes before the last word: right.R, N.left.X, albedo.right.G.
 //
-// Alpha goes into png, tif and webp with colours not multiplied by it, into exr with colours that are; jpg, hdr and
-// anaglyphs have the picture before black.
+// Alpha: png, tif and webp store unpremultiplied colours, exr premultiplied ones; jpg, hdr and anaglyphs show the
+// picture over black.
 //
-// A file of one eye that can carry GPano (png, jpg, tif) does; a stereo one does not, because GPano knows no stereo and
-// viewers would wrap both eyes around one sphere. But NAME.vr.jpg of two eyes is a Cardboard photo: the left eye with
-// GPano, the right one in it (ods/picture/metadata/vr_photo.h), whatever the layout.
+// A png, jpg or tif of one eye carries GPano. A stereo one does not, because GPano has no stereo and viewers would wrap
+// both eyes around one sphere. But NAME.vr.jpg with two eyes is a Cardboard photo: the left eye with GPano and the
+// right one embedded (ods/picture/metadata/vr_photo.h), whatever the layout.
 #pragma once
 #include <functional>
 #include <span>
@@ -36,62 +36,61 @@
 namespace ods {
 
 struct SaveOptions {
-  Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name means kSeparate, whatever stands here
+  Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name overrides it with kSeparate
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
-  int jpeg_quality = 95;              // of jpg and webp, 1..100
-  std::vector<Attribute> attributes;  // more words for the header of exr and png
-  bool sidecar = false;               // also write picture.camera.json; an existing one is always rewritten
+  int jpeg_quality = 95;              // jpg and webp, 1..100
+  std::vector<Attribute> attributes;  // extra attributes for exr and png headers
+  bool sidecar = false;               // also write picture.camera.json; an existing one is rewritten anyway
 };
 
-// Throws what save_picture() would, as far as that can be known before rendering. Error(kUsage): an unknown extension,
-// a layout that does not fit, a size too large for the format, a projection (where it is known) that a Cardboard photo
-// cannot hold. Error(kOutput): a folder without write permission, a name that is a folder. `eyes` as in EyeImage, `eye`
-// the size of one. Leaves nothing on the disk.
+// Throws what save_picture() would throw, as far as it is known before rendering. Error(kUsage): an unknown extension,
+// an unsuitable layout, a size too large for the format, a projection (if known) that a Cardboard photo cannot hold.
+// Error(kOutput): a folder without write permission, a name that is a folder. `eyes` as in EyeImage, `eye` the size of
+// one. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
                   const ProjectionSetting* projection = nullptr);
 
-// Whether a file of this name would hold depth, normal and albedo: exr does.
+// Whether a file of this name can hold depth, normal and albedo: only exr.
 bool keeps_layers(const std::string& path);
 
-// Whether a file of this name can hold alpha: not of jpg and hdr.
+// Whether a file of this name can hold alpha: all but jpg and hdr.
 bool has_alpha(const std::string& path);
 
-// Whether a picture's files, one or one per eye, are there and not empty: some farms make empty ones beforehand.
+// Whether a picture's files, one or one per eye, exist and are not empty: some farms create empty ones beforehand.
 bool is_saved(const std::string& path);
 
-// Writes one file, or one per eye, and the sidecar behind them; all of them complete, or none. Creates missing folders.
-// Returns the names written.
-// Layers that are empty are left out. Throws as check_output(), and Error(kOutput). Precondition: one eye or two, all
-// of one size, with light.
+// Writes one file, or one per eye, then the sidecar; either all of them complete or none. Creates missing folders.
+// Returns the names written. Skips empty layers. Throws as check_output(), and Error(kOutput). Precondition: one or two
+// eyes of equal size, with radiance.
 std::vector<std::string> save_picture(const Picture& picture, const StereoCamera& camera, const SaveOptions& options,
                                       const std::string& path);
 
-// The same of a picture whose camera is not known: the file says nothing of one.
+// The same without a known camera: the file has no camera metadata.
 std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path);
 
-// A picture whose rows are made while it is written, so that it is never in memory as a whole.
+// A picture whose rows are generated while it is written, so that it is never in memory as a whole.
 struct RowLayer {
-  std::vector<std::string> channels;  // without a view: R, G, B, perhaps A; Z; N.X, N.Y, N.Z
+  std::vector<std::string> channels;  // without a view prefix: R, G, B, perhaps A; Z; N.X, N.Y, N.Z
   LayerRule rule = LayerRule::kLight;
   SampleType sample = SampleType::kHalf;  // in an exr; kHalf or kFloat
 };
 
 struct PictureRows {
   Extent eye;
-  std::vector<int> eyes;         // as EyeImage has them
-  std::vector<RowLayer> layers;  // the first is the colour, RGB or RGBA; formats without layers take only it
-  // Row y of one eye (of the vector above): all channels of all layers, pixel by pixel; linear light, multiplied by its
-  // alpha. Called by several threads at once; of anaglyphs, pairs and squeezed eyes not in the order of the rows.
+  std::vector<int> eyes;         // as in EyeImage
+  std::vector<RowLayer> layers;  // the first is the colour, RGB or RGBA; formats without layers write only it
+  // Fills row y of the eye with this index: all channels of all layers, pixel by pixel; linear light, premultiplied.
+  // Called concurrently; for anaglyphs, pairs and squeezed eyes, rows may be out of order.
   std::function<void(int index, int y, std::span<float> row)> fill;
-  std::function<void()> band_done;  // called between some rows, to give memory back; may be empty
+  std::function<void()> band_done;  // called between bands of rows, to free memory; may be empty
 };
 
-// Of a pixel of a row.
+// The channels per pixel of a row.
 size_t count_channels(const std::vector<RowLayer>& layers);
 
-// The same of such a picture. No camera: the file says nothing of one. Squeezed eyes take of a kNearest layer, of the
-// pixels that become one, that whose first channel is least. Throws as above, and what `fill` throws.
+// The same for a picture made by rows. Without a camera the file has no camera metadata. When eyes are squeezed, a
+// kNearest layer takes the pixel whose first channel is least. Throws as above, and what `fill` throws.
 std::vector<std::string> save_picture(const PictureRows& picture, const StereoCamera* camera,
                                       const SaveOptions& options, const std::string& path);
 

@@ -55,7 +55,7 @@ static FileShare make_share(RowReader& reader, const std::string& path, ViewChan
   if (!light) throw unreadable(path, "it has no colour: no channels R, G and B");
   light->sample = info.samples[light->from[0]];
   for (size_t c : light->from) {
-    if (info.samples[c] != light->sample) throw unreadable(path, "its colours are not of one kind of number");
+    if (info.samples[c] != light->sample) throw unreadable(path, "its colour channels have different number types");
   }
   share.planes.push_back({*light});
   if (color_only || !info.is_float) return share;
@@ -67,7 +67,7 @@ static bool same_layer(const Plane& a, const Plane& b) {
   return a.channels == b.channels && a.sample == b.sample && a.rule == b.rule;
 }
 
-// Both eyes have the same layers.
+// Keeps the layers that both eyes have.
 static void keep_common(std::vector<FileShare>& shares, const std::string& path, std::vector<std::string>& guesses) {
   if (shares.size() < 2) return;
   if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
@@ -76,7 +76,7 @@ static void keep_common(std::vector<FileShare>& shares, const std::string& path,
       share.planes[0].from.resize(3);
     }
     if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
-      throw unreadable(path, "its eyes are not of one kind of number; convert one of them first");
+      throw unreadable(path, "its eyes have different number types; convert one of them first");
     }
   }
   std::string lost;
@@ -133,7 +133,7 @@ static void gather(const std::byte* in, size_t stride, const std::vector<size_t>
 
 namespace {
 
-// The channels of a file that are read at all, as they lie behind each other.
+// The channels that are read, packed in this order.
 struct Packing {
   size_t count = 0;
   std::vector<size_t> offsets;
@@ -170,7 +170,7 @@ static void put_rows(const Plane& plane, const Packing& packing, const std::byte
   });
 }
 
-// R, G and B first, or of one layer: albedo.R, ...
+// R, G and B come first, possibly in a named layer: albedo.R, ...
 static bool is_color(const Plane& plane) {
   if (plane.rule == LayerRule::kNearest || plane.channels.size() < 3 || bytes_of(plane.sample) == 1) return false;
   constexpr const char* kNames[] = {"R", "G", "B"};
@@ -180,7 +180,7 @@ static bool is_color(const Plane& plane) {
   return true;
 }
 
-// Light of the file's primaries becomes that of Rec. 709, in place.
+// Converts light of the file's primaries to Rec. 709, in place.
 static void convert_rows(const Plane& plane, const ColorSpace& color, int begin, int end, int width) {
   const size_t pixel = plane.pixel_size(), size = bytes_of(plane.sample), columns = static_cast<size_t>(width);
   tbb::parallel_for(begin, end, [&](int y) {
@@ -199,9 +199,9 @@ static void convert_rows(const Plane& plane, const ColorSpace& color, int begin,
   });
 }
 
-// Straight to its place where a file is nothing but one layer; by way of a band where it has to be taken apart.
+// Reads directly into place if the file is a single layer, else band by band.
 static void read_file(RowReader& reader, const std::vector<FileShare>& shares, const Scratch& memory) {
-  const size_t kOften = size_t{64} << 20;  // bytes between two releases
+  const size_t kOften = size_t{64} << 20;  // bytes between calls of release()
   const FileInfo& info = reader.info();
   const Packing packing = packing_of(info, shares, &reader);
   std::vector<const Plane*> planes;
@@ -232,7 +232,7 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
 
 namespace {
 
-// The first row and column of an eye in a packed image, and how many of the image's it is to the next.
+// The first row and column of each eye in a packed image.
 struct EyeView {
   int x = 0;
   int y = 0;
@@ -274,7 +274,7 @@ static void check_pair(Readers& readers, const std::string& path) {
     throw unreadable(
         path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
   }
-  if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
+  if (one.is_float != other.is_float) throw unreadable(path, "one eye is scene-linear, the other display-encoded");
   const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
   if (!is_ours(*readers[0]) || !is_ours(*readers[1])) {  // both become 16 bits if one has been converted to them
     for (const auto& reader : readers) reader->widen();
@@ -348,9 +348,9 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
       for (const Plane& plane : share.planes) {
         if (std::find(plane.from.begin(), plane.from.end(), channel) == plane.from.end()) continue;
         if (std::find(lost.begin(), lost.end(), plane.channels) != lost.end()) continue;
-        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are whole numbers that no float can hold");
+        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are integers too large for a float");
         lost.push_back(plane.channels);
-        guesses.push_back(fmt::format("its channel {} has the number {}, which no float can hold: left out",
+        guesses.push_back(fmt::format("its channel {} has the integer {}, too large for a float: left out",
                                       share.reader->info().channels[channel], number));
       }
     }
@@ -382,7 +382,7 @@ static StoredPicture open_picture(const std::string& path, const OpenOptions& op
   if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
   const auto parts = info.numbers.find("oiio:subimages");
   if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
-    picture.guesses.push_back(fmt::format("it has {} parts, of which only the first is read", parts->second[0]));
+    picture.guesses.push_back(fmt::format("it has {} parts; only the first is read", parts->second[0]));
   }
   picture.size = eye_size(picture, info, path);
   std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);

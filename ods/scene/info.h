@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is in a scene, in numbers: for `ods info`.
+// Statistics of a scene, for `ods info`.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -17,9 +17,9 @@ struct SceneInfo {
   size_t meshes = 0;
   size_t instances = 0;
   size_t triangles = 0;            // stored
-  size_t instanced_triangles = 0;  // met by rays
-  size_t emissive_triangles = 0;   // of those, how many glow
-  size_t materials = 0;            // that a mesh uses
+  size_t instanced_triangles = 0;  // counted once per instance
+  size_t emissive_triangles = 0;   // instanced triangles that emit light
+  size_t materials = 0;            // used by a mesh
   size_t textures = 0;
   size_t texel_bytes = 0;
   size_t point_lights = 0;
@@ -27,17 +27,17 @@ struct SceneInfo {
   size_t directional_lights = 0;
   bool has_environment = false;
   Bounds bounds;                  // metres
-  float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1: there is none
+  float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1: none
   std::vector<ViewPoint> view_points;
-  std::vector<std::pair<std::string, double>> animations;  // and how many seconds they last
+  std::vector<std::pair<std::string, double>> animations;  // with their length in seconds
   std::vector<std::string> warnings;
 };
 
-// Looks at every instanced triangle whose mesh may hold the nearest one: exact, and brute force.
+// Brute force over every instanced triangle whose mesh may contain the nearest one; exact.
 SceneInfo describe(const Scene& scene, vec3 camera_position);
 
-// The distance from a point to a triangle, edges and corners included.
-// Source: Ericson, Real-Time Collision Detection, 5.1.5 (regions of the nearest point).
+// The distance from a point to a triangle, edges and corners included. Source: Ericson, Real-Time Collision Detection,
+// 5.1.5 (regions of the nearest point).
 double point_triangle_distance(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c);
 
 }  // namespace ods

@@ -15,13 +15,13 @@ using glm::dmat4, glm::dvec2, glm::dvec3, glm::dvec4;
 
 namespace {
 
-// Everything that tracks write, as it is at one time.
+// All animated values at one time.
 struct Pose {
   std::vector<MovingNode> nodes;
   std::vector<std::vector<double>> weights;
   std::vector<Lamp> lamps;
   std::vector<MovingMaterial> materials;
-  std::vector<dmat4> world;  // of each node
+  std::vector<dmat4> world;  // per node
 };
 
 dvec3 three(const std::vector<double>& v) {

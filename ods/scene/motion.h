@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene at a time.
+// Sets a scene to a time.
 #pragma once
 #include <vector>
 
@@ -9,20 +9,19 @@
 
 namespace ods {
 
-// What of a scene is not as it was: rows of its lists.
+// What changed in a scene: indices into its lists.
 struct SceneChange {
-  std::vector<int> instances;  // stand elsewhere, appeared or are hidden
-  std::vector<int> meshes;     // have other vertices
-  bool lights = false;         // punctual ones
+  std::vector<int> instances;  // moved, appeared or were hidden
+  std::vector<int> meshes;     // with new vertices
+  bool lights = false;         // punctual lights
   bool materials = false;
   bool view_points = false;
 };
 
-// Writes what the playing clips of scene.animation move, as it is at a time; what they do not move, and with no clip
-// playing everything, is at rest. The
-// result depends on the time alone, not on what was set before. All that ods/scene/gltf/gltf.h promises of a scene
-// holds at every time, but for triangles of a mesh that is bent: those may have no area for a while, and no ray meets
-// them. Instances that are scaled to nothing, or would stand more than 1e9 m from the origin, are hidden
+// Evaluates the playing clips of scene.animation at a time and updates the scene. What they do not animate, and
+// everything if no clip plays, is at rest. The result depends on the time alone, not on earlier calls. All guarantees
+// of ods/scene/gltf/gltf.h hold at every time, except that triangles of a deformed mesh may temporarily have no area;
+// no ray hits those. Instances that are scaled to zero or further than 1e9 m from the origin are hidden
 // (Scene::hidden).
 SceneChange set_time(Scene& scene, double seconds);
 

@@ -83,7 +83,7 @@ void place_light(PunctualLight& light, const dmat4& node) {
 void place_view(ViewPoint& view, const dmat4& node) {
   view.position = vec3(node[3]);
   const dvec3 forward = unit(-dvec3(node[2]), dvec3(0.0, 0.0, -1.0));
-  // A scaled parent may have sheared the axes: up is what is left of it across the line of sight.
+  // A scaled parent may have sheared the axes: up is made perpendicular to the line of sight.
   const dvec3 up(node[1]);
   const dvec3 any_across = std::abs(forward.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(0.0, 0.0, 1.0);
   const dvec3 fallback = unit(any_across - forward * glm::dot(forward, any_across), any_across);

@@ -14,7 +14,7 @@ namespace ods {
 static constexpr int kMaxHalvings = 3;
 static constexpr int kEnoughTexels = 65536;
 
-using Curve = std::array<float, 256>;  // what a stored value means
+using Curve = std::array<float, 256>;  // decodes a stored value
 
 static Curve make_curve(bool srgb) {
   Curve curve;

@@ -113,7 +113,7 @@ ViewPoint default_view(const Scene& scene) {
   if (inside(view.position)) return view;
   const vec3 size = high - low;
   view.position = vec3(middle.x, middle.y, high.z + std::max({size.x, size.y, size.z}));
-  view.name = "before the scene";
+  view.name = "in front of the scene";
   return view;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is rendered. A Scene is the kernel's own records (ods/kernel/scene_data.h) in vectors, plus what people want to
-// know of it; loaders and built-in scenes fill it, renderers read it.
+// The scene to render: the kernel's own records (ods/kernel/scene_data.h) in vectors, plus information for people.
+// Loaders and built-in scenes fill it, renderers read it.
 #pragma once
 #include <string>
 #include <vector>
@@ -24,15 +24,15 @@ struct PunctualLight {
   float outer_cone = 0.7853982f;
 };
 
-// Light from infinitely far away: the same everywhere, or a lat-long picture whose centre looks along -Z.
+// Light from infinity: uniform, or a lat-long picture whose centre looks along -Z.
 struct Environment {
-  vec3 radiance{0.0f};  // multiplies the picture where there is one
+  vec3 radiance{0.0f};  // multiplies the picture, if there is one
   int width = 0;        // 0: uniform
   int height = 0;
   std::vector<vec3> texels;  // rows from the top
 };
 
-// A place the scene itself proposes to look from (a camera of the file, or a built-in scene's own).
+// A viewpoint that the scene itself proposes: a camera of the file, or a built-in scene's own.
 struct ViewPoint {
   std::string name;
   vec3 position{0.0f};
@@ -41,13 +41,13 @@ struct ViewPoint {
   float roll = 0.0f;
 };
 
-// Rays start off their surface, by up to this share of its distance from the origin: single precision asks for it.
-// Walls thinner than that (1 cm at 330 m, 10 cm at 3.3 km) let a little light through where they meet. A scene belongs
-// near the origin; files that reach further than kFirmReach get a warning.
+// Rays are offset from their surface by up to this fraction of its distance from the origin, because of single
+// precision. Walls thinner than that (1 cm at 330 m, 10 cm at 3.3 km) leak a little light where they meet. So a scene
+// belongs near the origin; files that extend further than kFirmReach get a warning.
 inline constexpr float kThinnestWall = 1.0f / 32768.0f;
 inline constexpr float kFirmReach = 3000.0f;  // metres: walls of 10 cm are safe
 
-// What stands at a node of the file: a run of instances.
+// The instances of a named node of the file.
 struct NamedObject {
   std::string name;
   size_t first_instance = 0;
@@ -64,7 +64,7 @@ struct Scene {
   std::vector<Material> materials;  // never empty once a mesh exists
   std::vector<Texture> textures;
   std::vector<uint> texels;
-  std::vector<Texture> reduced_textures;  // made by reduce_textures(); empty: the textures themselves serve
+  std::vector<Texture> reduced_textures;  // made by reduce_textures(); empty: the full textures are used
   std::vector<uint> reduced_texels;
 
   std::vector<PunctualLight> lights;
@@ -72,31 +72,31 @@ struct Scene {
 
   std::vector<ViewPoint> view_points;
 
-  std::vector<NamedObject> objects;         // those that have a name, which several may share
-  std::vector<std::string> material_names;  // by material; empty, or left out at the end: it has none
+  std::vector<NamedObject> objects;         // named objects; several may share a name
+  std::vector<std::string> material_names;  // by material; may be shorter than `materials`
 
-  Animation animation;       // what moves: set_time() (ods/scene/motion.h) writes the lists above anew
-  std::vector<char> hidden;  // 1: the instance is not there at this time; empty: all are
-  int motion_keys = 0;       // of an open shutter, made by open_shutter() (ods/scene/shutter.h); 0: none
+  Animation animation;       // rewrites the lists above through set_time() (ods/scene/motion.h)
+  std::vector<char> hidden;  // 1: the instance is hidden at this time; empty: all are visible
+  int motion_keys = 0;       // keys within an open shutter, made by open_shutter() (ods/scene/shutter.h); 0: none
   std::vector<MotionPose> motion_poses;
   std::vector<MotionVertex> motion_vertices;
 
-  std::vector<std::string> warnings;  // what of the file is not rendered, or not as it should be, one line each
+  std::vector<std::string> warnings;  // features of the file that are not rendered, or only approximated; one line each
 };
 
-// A white, rough, opaque dielectric with no textures: glTF's defaults, and where every material starts.
+// A white, rough, opaque dielectric without textures: glTF's default and every material's starting point.
 Material default_material();
 
-// A slot that reads nothing.
+// A slot without a texture.
 TextureSlot no_texture();
 
-// Whether an instance is not there at this time.
+// Whether an instance is hidden at this time.
 bool is_hidden(const Scene& scene, size_t instance);
 
 // Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
 int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material);
 
-// Stands a mesh in the world. Precondition: mesh exists; the matrix is finite (columns as in glTF).
+// Adds an instance of a mesh. Precondition: the mesh exists; the matrix is finite (columns as in glTF).
 void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world);
 
 struct Bounds {
@@ -104,18 +104,17 @@ struct Bounds {
   vec3 high{0.0f};  // low > high on no axis; both 0 for an empty scene
 };
 
-// The box around every instanced vertex that is not hidden.
+// The box around all visible instances' vertices.
 Bounds scene_bounds(const Scene& scene);
 
-// Where to look from when nobody says: the first view point; without one at eye height in the scene, looking along -Z,
-// or before it.
+// The default viewpoint: the scene's first; otherwise at eye height, in the scene or in front of it, looking along -Z.
 ViewPoint default_view(const Scene& scene);
 
-// Whether a surface of it is a lamp. Unlit surfaces are not: they show a colour and light nothing.
+// Whether its surfaces emit light. Unlit materials do not: they show a colour but light nothing.
 bool is_emissive(const Material& material);
 
-// Whether there is anything to see without a sky of one's own. Glowing textures do not count: most are the little lamps
-// of a gadget, which leave its picture black.
+// Whether anything is visible without a user's environment. Emissive textures do not count: most are indicator lamps on
+// a gadget, too dim to light its picture.
 bool has_light(const Scene& scene);
 
 }  // namespace ods

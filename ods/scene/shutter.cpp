@@ -8,7 +8,7 @@
 
 namespace ods {
 
-// Rows for everything that may move, in the order of the scene's animation.
+// Creates rows for everything that may move, in the order of the scene's animation.
 static void reserve_rows(Scene& scene) {
   scene.motion_keys = kShutterKeys;
   size_t poses = 0, vertices = 0;
@@ -46,7 +46,7 @@ static bool differ(const std::vector<Row>& a, const std::vector<Row>& b, int fir
   return std::memcmp(a.data() + at, b.data() + at, count * sizeof(Row)) != 0;
 }
 
-// Adds what moves otherwise than in the shutter before.
+// Reports what moves differently than in the previous shutter.
 static void compare_rows(const Scene& scene, const std::vector<MotionPose>& poses,
                          const std::vector<MotionVertex>& vertices, SceneChange& change) {
   for (const MovingInstance& moving : scene.animation.instances) {

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene while the shutter is open.
+// A scene during an open shutter.
 #pragma once
 #include "ods/scene/motion.h"
 
 namespace ods {
 
-// Between two keys everything goes straight: of a turn by 60 degrees within the shutter the radius is short by 0.9 % in
-// the middle between two of these.
+// Motion between keys is linear: for a rotation by 60 degrees during the shutter, the radius is 0.9 % too short half
+// way between two keys.
 inline constexpr int kShutterKeys = 5;
 
-// set_time() at the middle of the times, and what moves between them into the scene's motion rows, at kShutterKeys
-// times. Vertices and matrices move within the shutter; lights, materials and view points are those of the middle. What
-// is hidden at one of the keys is hidden. Precondition: opens <= closes.
+// Calls set_time() for the middle of the interval, and stores the motion during it in the scene's motion rows, at
+// kShutterKeys times. Vertices and matrices move during the shutter; lights, materials and view points stay as at the
+// middle. An instance hidden at one of the keys is hidden. Precondition: opens <= closes.
 SceneChange open_shutter(Scene& scene, double opens, double closes);
 
 }  // namespace ods

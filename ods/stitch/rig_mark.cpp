@@ -20,7 +20,7 @@ namespace ods {
 
 static constexpr const char* kVersion = "1";
 
-// Without -0, which a file may have where memory has 0.
+// Turns -0, which a file may contain, into 0.
 static double number(float value) {
   return decimal(value) + 0.0;
 }
@@ -39,8 +39,8 @@ static std::string numbers(vec3 v) {
   return numbers(std::vector{v.x, v.y, v.z});
 }
 
-// The height of a view's pixels over their width. Rounded: the angle across is the file's own number, but the aspect
-// is computed from two of them.
+// The pixel aspect (height over width) of a view. Rounded, because the file stores the angle across, but the aspect is
+// computed from two such numbers.
 static double pixel_aspect(const SlitRig& rig) {
   const double wide = static_cast<double>(rig.view.width) / static_cast<double>(rig.view.height);
   return std::round(1e3 * wide / static_cast<double>(rig.views[0].projection.aspect)) * 1e-3;
@@ -89,7 +89,7 @@ std::string rig_mark(const SlitRig& rig) {
 
 // --- comparing ------------------------------------------------------------------------------------------------------
 
-// In their order; names have no values twice.
+// Key-value pairs in order; a repeated key is ignored.
 static std::vector<std::pair<std::string, std::string>> words_of(const std::string& mark) {
   std::vector<std::pair<std::string, std::string>> words;
   std::istringstream stream(mark);
@@ -138,7 +138,7 @@ std::string mark_difference(const std::string& mark, const std::string& expected
   for (const auto& [name, value] : words_of(mark)) {
     if (value_of(expected, name).empty()) compare(name);
   }
-  if (parts.empty()) return "the views stand or look elsewhere";
+  if (parts.empty()) return "the views have other positions or directions";
   const size_t more = parts.size() - std::min(parts.size(), kMaxSaid);
   parts.resize(parts.size() - more);
   return fmt::format("{}{}", fmt::join(parts, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
@@ -147,9 +147,9 @@ std::string mark_difference(const std::string& mark, const std::string& expected
 void check_rig_mark(const std::string& mark, const std::string& expected, const std::string& name) {
   const std::string difference = mark_difference(mark, expected);
   if (difference.empty()) return;
-  throw Error(
-      ErrorKind::kInput,
-      fmt::format("'{}': views of another rig ({}): render them with this rig, or use theirs", name, difference));
+  throw Error(ErrorKind::kInput,
+              fmt::format("'{}': the views belong to another rig ({}): render them with this rig, or use theirs", name,
+                          difference));
 }
 
 }  // namespace ods

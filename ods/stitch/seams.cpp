@@ -6,7 +6,7 @@
 
 namespace ods {
 
-// Brightness as a display would show it: evenly over dark and light.
+// Display-encoded brightness, perceptually about uniform.
 static std::vector<float> brightness_of(const std::vector<float>& row, size_t channels) {
   std::vector<float> brightness(row.size() / channels);
   for (size_t x = 0; x < brightness.size(); x++) {
@@ -17,7 +17,7 @@ static std::vector<float> brightness_of(const std::vector<float>& row, size_t ch
   return brightness;
 }
 
-// The columns on either side of a border.
+// Marks the columns on either side of each border.
 static std::vector<char> border_columns(const SlitRig& rig) {
   std::vector<char> borders(static_cast<size_t>(rig.eye.width));
   const auto slit_of = [&](int x) { return static_cast<int>((x + 0.5) * rig.options.slits / rig.eye.width); };

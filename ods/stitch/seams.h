@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether the borders of slits show in a stitched picture.
+// Measures whether slit borders are visible in a stitched picture.
 #pragma once
 #include "ods/picture/picture.h"
 #include "ods/picture/save.h"
@@ -10,13 +10,13 @@
 namespace ods {
 
 struct SeamReport {
-  // By how much brightness bends from pixel to pixel sideways (the second difference), on the borders of slits, over
-  // the same elsewhere; each the mean. 1: borders show no more than anything else.
+  // The mean absolute second difference of brightness between horizontal neighbours, at slit borders, divided by the
+  // same elsewhere. 1: borders are no more visible than anything else.
   double ratio = 1.0;
-  Picture picture;  // of that, eight times as bright; borders are tinted red
+  Picture picture;  // the second difference, times eight; borders are tinted red
 };
 
-// Reads all rows. Precondition: they are the rig's picture.
+// Reads all rows. Precondition: they are a picture of this rig.
 SeamReport measure_seams(const SlitRig& rig, const PictureRows& rows);
 
 }  // namespace ods

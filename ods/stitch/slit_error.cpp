@@ -27,7 +27,7 @@ float picture_pixels(const SlitRig& rig, float angle) {
 
 namespace {
 
-// What of a place is square to a ray, in the ray's own frame: sideways and up.
+// The component of an offset perpendicular to a ray, in the ray's frame: horizontal and vertical.
 vec2 square_to(const Ray& ray, vec3 axis, vec3 offset) {
   const vec3 right = normalize(cross(ray.direction, axis));
   return {dot(offset, right), dot(offset, cross(right, ray.direction))};
@@ -46,7 +46,7 @@ struct Judge {
     return rig.views[view_index(rig, eye, slit, pitch)].position;
   }
 
-  // Of what the eye's slit shows there, `off` beside its middle.
+  // The error of the eye's slit at an angle `off` from its centre.
   SlitError error(size_t eye, int slit, int pitch, float off, float latitude, float distance) const {
     const Ray ray = ray_at(camera, rig.eyes[eye], slit_longitude(rig, slit) + off, latitude);
     const vec3 moved = ray.origin - origin(eye, slit, pitch);
@@ -57,12 +57,12 @@ struct Judge {
     return error;
   }
 
-  // Between two views that both show a place.
+  // The step between two views that both show a point.
   float step(size_t eye, float longitude, float latitude, float distance, vec3 a, vec3 b) const {
     return std::atan(length(square_to(ray_at(camera, rig.eyes[eye], longitude, latitude), axis, a - b)) / distance);
   }
 
-  // `beyond`: as much farther from its middle than the slit and its fade reach.
+  // `beyond`: how far past the slit and its fade.
   SlitError at_slit(size_t eye, int slit, int pitch, float latitude, float distance, float beyond) const {
     const float middle = slit_longitude(rig, slit), half = 0.5f * slit_width(rig);
     const float reach = half * (1.0f + rig.options.blend) + beyond;
@@ -73,7 +73,7 @@ struct Judge {
   }
 };
 
-// Those that show a latitude of the picture; two, where one fades into the next.
+// The pitches that show a latitude of the picture; two where one fades into the other.
 std::vector<int> pitches_at(const SlitRig& rig, float latitude) {
   std::vector<int> found;
   for (int pitch = 0; pitch < rig.options.pitches; pitch++) {
@@ -122,14 +122,14 @@ static SlitError error_at(const Judge& judge, float latitude, float distance, fl
   return worst;
 }
 
-// A point is shown that much beside, above or below where it should be, and the error is the one that it has there; and
-// what is off by an angle e is that much nearer or farther, too: 1 + e.
+// The error is that of the point actually shown, which lies that much to the side, above or below. An error of angle e
+// also changes the distance, by a factor of up to 1 + e.
 SlitError slit_error(const SlitRig& rig, float latitude, float distance) {
   const Judge judge(rig);
   SlitError worst = error_at(judge, latitude, distance);
   const float off = std::max(worst.whole, worst.step), top = pitch_border(rig, -1);
   const float bottom = pitch_border(rig, rig.options.pitches - 1);
-  // Nobody sees what lies above or below the circle's inside.
+  // Points above or below the inside of the circle are never seen.
   const float radius = length(vec2(0.5f * rig.camera.ipd, rig.camera.neck));
   const float beyond = worst.across / std::max({std::cos(latitude), radius / distance, 1e-6f});
   for (const float other : {latitude - off, latitude + off}) {
@@ -152,7 +152,7 @@ SlitError largest_slit_error(const SlitRig& rig, float distance) {
   return worst;
 }
 
-// Wherever the rig stands: near the middle of the world numbers tell places apart best.
+// Independent of the rig's position: near the origin floats resolve positions best.
 static float pixels_off(StereoCamera camera, Extent eye, const SlitOptions& options, float nearest) {
   camera.position = vec3(0.0f);
   const SlitRig rig = make_slit_rig(camera, eye, {kRight}, options);
@@ -176,7 +176,7 @@ int slits_for(const StereoCamera& camera, Extent eye, const SlitOptions& options
         ErrorKind::kUsage,
         fmt::format(
             "even a slit for every column is off by {:.3g} pixels at {:g} m: the pole merge moves the eyes from "
-            "one pitch to the next. More --pitches, --merge none, or views with depth",
+            "one pitch to the next. Use more --pitches, --merge none, or views with depth",
             pixels_off(camera, eye, tried, nearest), nearest));
   }
   int few = 2;

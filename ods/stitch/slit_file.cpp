@@ -79,7 +79,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                  {"fov", {decimal(rig.views[0].projection.fov), decimal(vertical_fov(rig.views[0]))}}}},
                {"camera", Json::parse(write_sidecar(camera))}};
   std::string text = json.dump(2);
-  text.resize(text.size() - 2);  // the closing bracket: one view a line
+  text.resize(text.size() - 2);  // the closing bracket; views follow, one per line
   text += ",\n  \"views\": [";
   for (size_t i = 0; i < rig.views.size(); i++) {
     const size_t pitch = i % static_cast<size_t>(options.pitches), column = i / static_cast<size_t>(options.pitches);
@@ -102,10 +102,10 @@ ViewDepth depth_of(JsonReader& in) {
   if (!in.find("depth")) return ViewDepth::kNone;
   const std::string word = in.word("depth");
   if (const std::optional<ViewDepth> depth = find_in(kViewDepthTable, word)) return *depth;
-  in.fail("depth", "is none, ray or plane");
+  in.fail("depth", "must be none, ray or plane");
 }
 
-// Attitude and place, if the matrix has no more than these.
+// Orientation and position, if the matrix contains nothing else.
 bool set_pose(const std::vector<float>& m, StereoCamera& view) {
   const auto column = [&](size_t i) { return glm::dvec3(m[i], m[4 + i], m[8 + i]); };
   const glm::dvec3 right = column(0), up = column(1), back = column(2);
@@ -126,11 +126,11 @@ void read_view(const Json& json, const std::string& name, size_t index, std::vec
   JsonReader in(json, name, "rig", fmt::format("views[{}]", index), warnings);
   int number = 0;
   in.integer("number", number, 1, 1 << 30);
-  if (static_cast<size_t>(number) != index + 1) in.fail("number", fmt::format("is {} here", index + 1));
+  if (static_cast<size_t>(number) != index + 1) in.fail("number", fmt::format("must be {} here", index + 1));
   for (const char* known : {"eye", "slit", "pitch"}) in.find(known);
   std::vector<float> matrix;
   if (!in.numbers("matrix", matrix, 16, -kFarthest, kFarthest) || !set_pose(matrix, rig.views[index])) {
-    in.fail("matrix", "is a place and an attitude: 16 numbers in rows, without scale or mirroring");
+    in.fail("matrix", "must be a rigid transform: 16 numbers in rows, without scale or mirroring");
   }
   rig.matrices.push_back(std::move(matrix));
   in.finish();
@@ -157,17 +157,17 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   SlitOptions options;
   read_options(in, options);
   const Json* camera = in.find("camera");
-  if (!camera || !camera->is_object()) in.fail("camera", "is an object {...}: the picture's camera");
+  if (!camera || !camera->is_object()) in.fail("camera", "must be an object {...}: the picture's camera");
   const Sidecar file = read_sidecar(camera->dump(), name, warnings);
   const std::string fault = slit_fault(file.camera, file.eye, options);
-  if (!fault.empty()) in.fail("", "cannot be: " + fault);
+  if (!fault.empty()) in.fail("", "describes an impossible rig: " + fault);
   SlitRig rig = make_slit_rig(file.camera, file.eye, file.eyes, options);
   rig.layout = file.layout;
   in.part("view", [&](JsonReader& view) {
     view.integer("width", rig.view.width, 1, kMaxSide);
     view.integer("height", rig.view.height, 1, kMaxSide);
     vec2 fov(0.0f);
-    if (!view.vector("fov", fov, 0.001f, 170.0f)) view.fail("fov", "are two numbers");
+    if (!view.vector("fov", fov, 0.001f, 170.0f)) view.fail("fov", "must be two numbers");
     for (StereoCamera& each : rig.views) {
       each.projection.fov = fov.x;
       each.projection.aspect = std::tan(0.5f * glm::radians(fov.x)) / std::tan(0.5f * glm::radians(fov.y));
@@ -175,8 +175,8 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   });
   const Json* views = in.find("views");
   if (!views || !views->is_array() || views->size() != rig.views.size()) {
-    in.fail("views", fmt::format("is a list of {}: {} eyes, {} slits, {} pitches", rig.views.size(), rig.eyes.size(),
-                                 options.slits, options.pitches));
+    in.fail("views", fmt::format("must be a list of {}: {} eyes, {} slits, {} pitches", rig.views.size(),
+                                 rig.eyes.size(), options.slits, options.pitches));
   }
   for (size_t i = 0; i < rig.views.size(); i++) read_view((*views)[i], name, i, warnings, rig);
   in.finish();

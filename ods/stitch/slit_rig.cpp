@@ -28,7 +28,7 @@ float slit_longitude(const SlitRig& rig, int slit) {
   return glm::radians(rig.camera.projection.longitude).x + (static_cast<float>(slit) + 0.5f) * slit_width(rig);
 }
 
-// Pitches as high as the picture; two caps are one.
+// The pitches that the picture's height divides into; two caps count as one.
 static float whole_pitches(const SlitRig& rig) {
   return static_cast<float>(rig.options.pitches - (rig.options.caps ? 1 : 0));
 }
@@ -78,13 +78,13 @@ namespace {
 
 constexpr float kWidestTangent = 11.4f;  // of half of 170 degrees
 
-// The tangents of half the angles that a view must see.
+// The tangents of the half angles that a view must cover.
 struct Window {
   float x = 0.0f;
   float y = 0.0f;
 };
 
-// `ray`: of the middle of what the view shows. `ahead`: where it looks; a cap, along the axis.
+// `ray`: the centre of what the view shows. `ahead`: where it looks; for a cap, along the axis.
 StereoCamera view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
   StereoCamera view;
   view.ipd = 0.0f;
@@ -98,7 +98,7 @@ StereoCamera view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
   return view;
 }
 
-// Widens the window to what a view shows of its slit: the corners and edges of its part of the picture.
+// Widens the window to cover the view's part of the picture: corners and edges.
 void widen(const SlitRig& rig, const Camera& camera, int eye, int slit, int pitch, const StereoCamera& view,
            Window& window) {
   constexpr int kSteps = 8;
@@ -139,7 +139,7 @@ Views place_views(const SlitRig& rig) {
   return all;
 }
 
-// The picture's pixel in the middle of a view, as the tangent of its angle.
+// The size of a picture pixel at a view's centre, as a tangent.
 float pixel_of(const SlitRig& rig) {
   const ProjectionSetting& setting = rig.camera.projection;
   const vec2 across = glm::radians(setting.longitude), up = glm::radians(setting.latitude);
@@ -157,24 +157,24 @@ int pixels_for(float tangent, const SlitRig& rig) {
 
 std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions& options) {
   if (camera.projection.kind != kLatLong) {
-    return fmt::format("slits make a lat-long picture, whole or a part; ods convert makes {} of it",
+    return fmt::format("slits make a lat-long picture, whole or a part; ods convert can turn it into {}",
                        projection_name(camera.projection));
   }
-  if (camera.lens_radius > 0.0f) return "the views' own renderer makes the blur of a lens: leave --lens away";
+  if (camera.lens_radius > 0.0f) return "the views' renderer makes the depth of field: leave out --lens";
   if (options.slits < 3 || options.slits > eye.width) {
-    return fmt::format("{} slits: it takes 3, and more than the picture has columns ({}) make no sense", options.slits,
-                       eye.width);
+    return fmt::format("{} slits: there must be at least 3, and at most as many as the picture has columns ({})",
+                       options.slits, eye.width);
   }
-  if (options.pitches < 1 || options.pitches > 64) return "there are 1 to 64 views above each other";
-  if (options.caps && options.pitches < 3) return "caps are two of at least 3 pitches";
+  if (options.pitches < 1 || options.pitches > 64) return "there can be 1 to 64 views above each other";
+  if (options.caps && options.pitches < 3) return "caps need at least 3 pitches";
   const SlitRig rig{camera, eye, {kRight}, options, {}, {}, {}};
   const Window window = place_views(rig).window;
   if (!(window.x < kWidestTangent && window.y < kWidestTangent)) {
-    return "a view would have to see more than 170 degrees: more slits, more pitches, or eyes toed in on a farther "
-           "place";
+    return "a view would have to cover more than 170 degrees: use more slits or pitches, or converge the eyes farther "
+           "away";
   }
   if (pixels_for(window.x, rig) > kMaxSide || pixels_for(window.y, rig) > kMaxSide) {
-    return fmt::format("views would have more than {} pixels a side", kMaxSide);
+    return fmt::format("views would have more than {} pixels per side", kMaxSide);
   }
   return "";
 }

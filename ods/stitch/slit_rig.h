@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rotating slits: an omni-directional stereo picture put together from perspective ones, for renderers that know no
-// other camera. Each eye walks its circle in steps, and at every step looks along the circle's tangent: what it sees
-// straight ahead, a narrow upright slit, is its part of the picture. Source: Google, "Rendering Omni-directional Stereo
-// Content", the rotating slit approach.
+// Rotating slits: stitches an omni-directional stereo picture from perspective views, for renderers without an ODS
+// camera. Each eye moves along its circle in steps and looks along the tangent; a narrow vertical slit straight ahead
+// is its part of the picture. Source: Google, "Rendering Omni-directional Stereo Content", the rotating slit approach.
 //
-// A slit is the columns around one longitude, seen from the one place that is right for the middle of them. So many
-// perspective views, one above another, reach from the bottom of the picture to its top. Where the poles are merged,
-// each of them stands where the merge has the middle of its own elevations.
+// A slit is the columns around one longitude, seen from the position that is exact for its centre. `pitches`
+// perspective views, one above another, cover it from the bottom of the picture to the top. With a pole merge, each
+// view is at the position that the merge gives for the middle of its elevations.
 //
-// A place on the circle serves both eyes, but in opposite directions: the left eye of heading H stands where the right
-// eye of heading H + 180 degrees does. No perspective view sees both, so none is shared.
+// A point on the circle serves both eyes, but in opposite directions: the left eye at heading H is where the right eye
+// is at heading H + 180 degrees. No perspective view covers both, so eyes share no views.
 #pragma once
 #include <string>
 #include <string_view>
@@ -23,11 +22,11 @@
 
 namespace ods {
 
-// How far away a view's depth is.
+// How a view measures depth.
 enum class ViewDepth {
   kNone,
-  kRay,    // metres from the view's own place, as our pictures have it
-  kPlane,  // metres along the view's axis, as depth buffers have it
+  kRay,    // metres from the view's own position, as in our pictures
+  kPlane,  // metres along the view's axis, as in depth buffers
 };
 inline constexpr NameRow<ViewDepth> kViewDepthTable[] = {
     {ViewDepth::kNone, "none"},
@@ -41,59 +40,58 @@ constexpr std::string_view view_depth_name(ViewDepth depth) {
 }
 
 struct SlitOptions {
-  int slits = 360;     // of each eye, evenly over the picture's longitudes
+  int slits = 360;     // per eye, evenly over the picture's longitudes
   int pitches = 2;     // views above each other; 2 look 45 degrees up and down
-  bool caps = false;   // the first pitch looks straight up, the last straight down; they show half as much as others
-  float blend = 0.5f;  // 0..1: the part of a slit over which it fades into its neighbours
-  int padding = 4;     // pixels of a view on every side beyond what is used, for filters and effects after the render
-  float scale = 1.0f;  // a view's pixels over the picture's, in the middle of the view where they are largest
+  bool caps = false;   // the first pitch looks straight up, the last straight down; each covers half as much height
+  float blend = 0.5f;  // 0..1: the fraction of a slit over which it fades into its neighbours
+  int padding = 4;     // extra view pixels on every side, for filters and effects after rendering
+  float scale = 1.0f;  // view pixels per picture pixel, at the view's centre, where they are largest
   ViewDepth depth = ViewDepth::kNone;
 };
 
 struct SlitRig {
-  StereoCamera camera;  // of the picture that is put together: lat-long, whole or a part
-  Extent eye;           // of one of its eyes
+  StereoCamera camera;  // of the stitched picture: lat-long, whole or a part
+  Extent eye;           // size of one eye of it
   std::vector<int> eyes{kLeft, kRight};
   SlitOptions options;
-  Extent view;  // pixels of every view
-  // One perspective picture each, without ipd; where it looks is its pose. Eye by eye; of each, slit by slit from the
-  // left; of each, from the top.
+  Extent view;  // pixels of each view
+  // One perspective camera per view, without ipd; its pose gives the direction. Ordered by eye, then slit from the
+  // left, then pitch from the top.
   std::vector<StereoCamera> views;
-  // Of a rig that was read from a file: each view's matrix as it stands there, 16 numbers, row by row. `views` are the
-  // same places and directions, but angles round them.
+  // For a rig read from a file: each view's matrix as in the file, 16 numbers, row by row. `views` has the same
+  // positions and directions, with rounded angles.
   std::vector<std::vector<float>> matrices;
   Layout layout = default_layout(camera.projection);  // how the eyes of the picture share a file
 };
 
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);
 
-// Why there is no such rig, in words for a message; empty: there is one.
+// Why no such rig is possible, for messages; empty if one is.
 std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions& options);
 
-// The views are wide enough for the slit, its blend and the padding, and all of one size.
-// Precondition: no slit_fault().
+// Views cover the slit, its blend and the padding, and all have one size. Precondition: no slit_fault().
 SlitRig make_slit_rig(const StereoCamera& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options);
 
-// Radians. The longitude in the middle of a slit, and how wide it is; the latitude between a pitch and the one below it
-// (pitch -1: the top edge).
+// Radians. The longitude of a slit's centre, and a slit's width; the latitude of the border between a pitch and the one
+// below it (pitch -1: the top edge).
 float slit_longitude(const SlitRig& rig, int slit);
 float slit_width(const SlitRig& rig);
 float pitch_border(const SlitRig& rig, int pitch);
 
-// Where a pitch looks, and how much of the picture it shows; a cap shows half of that, on one side of where it looks.
+// Where a pitch looks, and the height it covers; a cap covers half of that, on one side of where it looks.
 float pitch_latitude(const SlitRig& rig, int pitch);
 float pitch_height(const SlitRig& rig);
 
-// Over so many radians on either side of their border pitches fade into each other.
+// Adjacent pitches fade into each other over this many radians on either side of their border.
 float pitch_fade(const SlitRig& rig);
 
-// The lowest and the highest latitude that a pitch shows, with what of it fades.
+// The lowest and the highest latitude that a pitch contributes to, including its fades.
 vec2 pitch_reach(const SlitRig& rig, int pitch);
 
-// The slits go round: the last one's neighbour is the first.
+// Whether the slits wrap around: the last one's neighbour is the first.
 bool goes_round(const SlitRig& rig);
 
-// The picture's ray, of a longitude and a latitude of the picture, as an eye sees it.
+// The picture's ray for an eye at this longitude and latitude.
 Ray ray_at(const Camera& camera, int eye, float longitude, float latitude);
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the rays of a picture lie in the views of its rig.
+// Maps the rays of a picture to pixels in the views of its rig.
 #pragma once
 #include <vector>
 
@@ -10,34 +10,34 @@
 
 namespace ods {
 
-// The rays of one eye of the picture that is put together.
+// The rays of one eye of the stitched picture.
 struct PictureRays {
   Camera camera;
   int eye = kMono;
   vec2 size{1.0f};  // pixels
 
-  // Places in pixels from the left and top edge; the middle of the first is 0.5.
+  // Positions in pixels from the top left corner; the centre of the first pixel is 0.5.
   Ray at(float x, float y) const { return camera_ray(camera, eye, vec2(x, y) / size); }
-  // The way to the next row that is further from the picture's nearer edge: 1 or -1.
+  // The direction to the next row away from the picture's nearer edge: 1 or -1.
   float way(float y) const { return 2.0f * y < size.y ? 1.0f : -1.0f; }
 };
 
-// A ray of the picture in a view, and the one beside it a pixel on the way(), as places in the view's pixels.
+// A ray of the picture in a view, and the ray one pixel along way(), as positions in the view's pixels.
 struct RayInView {
   vec2 at{0.0f};
   vec2 beside{0.0f};
-  float nearer = 0.0f;  // metres by which the view stands nearer than the ray's origin to what it meets
+  float nearer = 0.0f;  // metres by which the view is nearer than the ray's origin to the point hit
 };
 RayInView ray_in_view(const Camera& view, Extent size, const PictureRays& rays, float x, float y);
 
-// A row of a slit: its left end, middle and right end. Rays between them lie on the parabola.
+// A row of a slit: its left end, centre and right end. Rays between them are interpolated by a parabola.
 struct RowInView {
   RayInView rays[3];
   float middle = 0.0f;  // column
-  float reach = 0.0f;   // columns from there to either end
+  float reach = 0.0f;   // columns from the centre to either end
 };
 
-// That of a place along the row, by the parabola.
+// Interpolates the row's parabola at column x.
 inline RayInView ray_along(const RowInView& row, float x) {
   const float t = (x - row.middle) / row.reach + 1.0f;
   const RayInView &a = row.rays[0], &b = row.rays[1], &c = row.rays[2];
@@ -45,16 +45,16 @@ inline RayInView ray_along(const RowInView& row, float x) {
           on_parabola(a.nearer, b.nearer, c.nearer, t)};
 }
 
-// The rows of all slits of an eye. Views that stand to their slits as those of the first slit do, which all are that
-// nobody has moved, share them.
+// The rows of all slits of an eye. Views with the same pose relative to their slit as in the first slit share rows;
+// unless somebody edited the rig, that is all of them.
 class SlitRows {
  public:
-  // The rig stays where it is.
+  // The rig must outlive this object.
   SlitRows(const SlitRig& rig, size_t eye);
 
   const PictureRays& rays() const { return rays_; }
 
-  // `place`: the slit's along the picture, whose last slit's neighbour is the first.
+  // `place`: the slit's index along the picture, before wrapping around.
   RowInView row(int place, int slit, int pitch, int y) const;
 
  private:
@@ -66,9 +66,9 @@ class SlitRows {
   const SlitRig& rig_;
   PictureRays rays_;
   float reach_;
-  std::vector<Camera> cameras_;  // of every slit's pitches
+  std::vector<Camera> cameras_;  // per slit and pitch
   std::vector<char> alike_;
-  std::vector<RowInView> rows_;  // of the first slit's pitches
+  std::vector<RowInView> rows_;  // per pitch of the first slit
 };
 
 }  // namespace ods

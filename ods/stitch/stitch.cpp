@@ -25,42 +25,42 @@ namespace ods {
 
 namespace {
 
-// The views of one slit of an eye, from the top; none where one is at fault.
+// The views of one slit of an eye, from the top; empty if one is at fault.
 using Slit = std::vector<std::shared_ptr<const View>>;
 
-// The columns of a batch that a slit shows, and how much it counts in each.
+// The columns of a batch that a slit contributes to, and its weight in each.
 struct Part {
-  int place;  // along the picture, beyond whose last slit is its first
+  int place;  // index along the picture, before wrapping around
   int left;
   std::vector<float> weights;
-  std::vector<float> channel_weights;  // the same of each column's channels, but 0 of those that are never averaged
+  std::vector<float> channel_weights;  // the weights per channel; 0 for channels that are never averaged
 };
 
-// Columns of an eye, as they lie in the journal: row behind row, for who writes them goes from page to page.
+// Columns of an eye in the journal, stored row-major, so that writes are sequential.
 struct Strip {
-  size_t first_pixel;  // of both eyes'
-  int left;            // those beyond the picture's last go on at its first
-  int right;           // one behind
+  size_t first_pixel;  // counted over both eyes
+  int left;            // columns past the right edge wrap around
+  int right;           // one past the last
 
   size_t pixel(int y) const { return first_pixel + static_cast<size_t>(y) * static_cast<size_t>(right - left); }
 };
 
-// Places along the picture that are filled at once, each from the middle of a slit to that of the next one.
+// Columns that are filled at once, each range from the centre of a slit to that of the next.
 struct Batch {
-  size_t index;  // of both eyes' batches
+  size_t index;  // counted over both eyes
   int first;
-  int last;  // one behind
+  int last;  // one past the last
   Strip strip;
   std::vector<Part> parts;
 };
 
-// What the views add up to for a part of a row.
+// Weighted sums of the views over a part of a row.
 struct RowSums {
   int left = 0;
   int right = 0;
-  std::vector<float> sums;   // of every pixel's channels
-  std::vector<float> whole;  // of every pixel: the views' weights
-  std::vector<float> most;   // the largest of them, whose view the channels come from that are not averaged
+  std::vector<float> sums;   // per pixel and channel
+  std::vector<float> whole;  // per pixel: the sum of the views' weights
+  std::vector<float> most;   // per pixel: the largest weight, whose view gives the channels that are not averaged
 
   void start(int from, int to, size_t channels) {
     const size_t count = static_cast<size_t>(to - from);
@@ -69,18 +69,18 @@ struct RowSums {
   }
 };
 
-// What a journal begins with. Behind it lie marks, one of every batch, then pixels: eyes, batches, rows, pixels,
-// channels.
+// The start of a journal. After it come the marks, one per batch, then pixels, ordered by eye, batch, row, pixel,
+// channel.
 constexpr std::string_view kMark = "omnistereo stitching journal\n";
 struct JournalHead {
   char mark[32];
   uint64_t key;
 };
 
-// The checksum is that of the batch's pixels, the key and `done`: when the machine loses its power, marks may reach the
-// disk before the pixels that they speak of, and a new key before old marks are gone.
+// The checksum covers the batch's pixels, the key and `done`: after a power loss, marks may have reached the disk
+// before their pixels, and a new key before old marks were cleared.
 struct BatchMark {
-  int64_t done;  // 0, or 1 + the batch's pixels that are unseen
+  int64_t done;  // 0, or 1 + the batch's number of unseen pixels
   uint64_t checksum;
 };
 
@@ -115,19 +115,19 @@ class Stitcher {
 
   const SlitRig& rig_;
   const OpenView& open_;
-  LayerSet layers_;                      // what all views have
-  std::optional<StoredPicture> sample_;  // the view that told it
+  LayerSet layers_;                      // shared by all views
+  std::optional<StoredPicture> sample_;  // the view that it came from
   size_t sample_index_ = 0;
   std::vector<std::vector<Batch>> batches_;  // of each eye
-  std::shared_ptr<Scratch> picture_;         // a journal, or in memory as one
+  std::shared_ptr<Scratch> picture_;         // a journal file, or memory
   size_t pixels_from_ = 0;                   // bytes
   std::mutex mutex_;
   std::vector<ViewFault> faults_;
-  std::atomic<int64_t> unseen_{0};  // pixels of the batch
+  std::atomic<int64_t> unseen_{0};  // of the current batch
   int64_t unseen_all_ = 0;
 };
 
-// Bytes of a picture that stays in memory as a whole: what returns to it costs a page fault.
+// A picture up to this many bytes stays in memory: evicting it would only cost page faults.
 constexpr size_t kMaxResident = size_t{256} << 20;
 
 // --- views ----------------------------------------------------------------------------------------------------------
@@ -136,7 +136,7 @@ bool is_views_fault(const Error& error) {
   return error.kind() == ErrorKind::kInput;
 }
 
-// The first view that can be read tells what all of them have.
+// The first readable view determines the layers.
 void Stitcher::choose_layers(const StitchOptions& options) {
   std::string fault;
   for (size_t i = 0; i < rig_.views.size() && !sample_; i++) {
@@ -161,8 +161,8 @@ void Stitcher::choose_layers(const StitchOptions& options) {
     return;
   }
   picture_ = std::make_shared<Scratch>(size, options.journal, kMark);
-  constexpr uint64_t kForm = 3;  // how pixels lie in a journal: one of another form is not gone on with
-  const uint64_t key = options.journal_key + kForm;
+  constexpr uint64_t kJournalVersion = 3;  // changes with the layout of pixels; other versions are not resumed
+  const uint64_t key = options.journal_key + kJournalVersion;
   if (head().key != key) {
     std::memset(picture_->data() + sizeof(JournalHead), 0, pixels_from_ - sizeof(JournalHead));
     head().key = key;
@@ -202,7 +202,7 @@ bool Stitcher::was_done(const Batch& batch) {
   return true;
 }
 
-// One with views at fault is done again by who comes after us.
+// A batch with faulty views is done again by the next run.
 void Stitcher::set_done(const Batch& batch) {
   unseen_all_ += unseen_;
   if (!faults_.empty() || !picture_->on_disk()) return;
@@ -218,7 +218,7 @@ std::shared_ptr<const View> Stitcher::open_view(size_t index) {
                                                  rig_.view.width, rig_.view.height));
     }
     if (!same_layers(layers_of(picture), layers_))
-      throw Error(ErrorKind::kInput, "its layers are not those of the others");
+      throw Error(ErrorKind::kInput, "its layers differ from those of the other views");
     return std::make_shared<const View>(std::move(picture), rig_.views[index], rig_.options.depth);
   } catch (const Error& error) {
     if (!is_views_fault(error)) throw;
@@ -228,13 +228,13 @@ std::shared_ptr<const View> Stitcher::open_view(size_t index) {
   }
 }
 
-// The slit at a place along the picture, which may lie beyond its edges.
+// The slit at an index along the picture, which may be past its edges.
 int Stitcher::slit_of(int place) const {
   const int slits = rig_.options.slits;
   return goes_round(rig_) ? (place + slits) % slits : std::clamp(place, 0, slits - 1);
 }
 
-// Those of a range of places, of which some are open already.
+// The slits of a range, reusing those that are open already.
 std::map<int, Slit> Stitcher::open_slits(size_t eye, int first, int last, const std::map<int, Slit>& open) {
   std::map<int, Slit> slits;
   std::vector<std::pair<int, int>> wanted;  // slit, pitch
@@ -260,19 +260,19 @@ int Stitcher::slits_at_once() const {
 
 // --- pixels ----------------------------------------------------------------------------------------------------------
 
-// How much a slit, or a pitch, counts at a distance from its middle, if they are 1 apart and fade over `blend`.
-// What lies on the very border of two belongs to both, or it might belong to none.
+// The weight of a slit or pitch at a distance from its centre, in units of their spacing, when they fade over `blend`.
+// A point exactly on a border belongs to both sides, so that it never belongs to none.
 float weight_at(float distance, float blend) {
   constexpr float kSharpest = 1e-4f;
   return std::clamp((0.5f - distance) / std::max(blend, kSharpest) + 0.5f, 0.0f, 1.0f);
 }
 
-// Where a column lies, in slits from the middle of the first.
+// A column's position, in slits from the centre of the first.
 float Stitcher::place_of(int x) const {
   return static_cast<float>((x + 0.5) * rig_.options.slits / rig_.eye.width - 0.5);
 }
 
-// The first column at or behind a place.
+// The first column at or after a position.
 int Stitcher::column_at(double place) const {
   return static_cast<int>(std::ceil((place + 0.5) * rig_.eye.width / rig_.options.slits - 0.5));
 }
@@ -311,7 +311,7 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
   return parts;
 }
 
-// What one view adds to a row of a batch.
+// Adds one view's contribution to a row of a batch.
 void Stitcher::add_part(const Part& part, const float* seen, float share, RowSums& row) const {
   const size_t channels = layers_.channels, from = static_cast<size_t>(part.left - row.left);
   float *sums = &row.sums[from * channels], *whole = &row.whole[from], *most = &row.most[from];
@@ -355,7 +355,7 @@ void Stitcher::fill_row(const SlitRows& rows, const std::map<int, Slit>& slits, 
   }
 }
 
-// From the middle of one slit to that of another at a time; while these are filled, the next are read.
+// Fills the range from one slit's centre to the next while the next views are read.
 void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
   std::vector<Batch> batches = batches_[eye];
   batches.erase(std::remove_if(batches.begin(), batches.end(), [&](const Batch& batch) { return was_done(batch); }),
@@ -363,7 +363,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
   if (batches.empty()) return;
   const SlitRows rows(rig_, eye);
   std::map<int, Slit> slits = open_slits(eye, batches.front().first, batches.front().last, {});
-  const std::map<int, Slit> start(slits.begin(), std::next(slits.begin()));  // the last one's neighbour, too
+  const std::map<int, Slit> start(slits.begin(), std::next(slits.begin()));  // also the last one's neighbour
   for (size_t i = 0; i < batches.size(); i++) {
     std::map<int, Slit> open = slits, next;
     open.insert(start.begin(), start.end());

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The views of a rig of slits become its picture. Every pixel looks along its own ray, into the views that stand
-// nearest to where that ray starts, and averages what it covers there (ods/convert/resample.h). Where two slits or
-// pitches meet, one fades into the other, over a part of a slit that the rig states: their edges stand apart by
-// slit_error()'s step, no more.
+// Stitches the views of a rig of slits into its picture. Every pixel follows its own ray into the views nearest to the
+// ray's origin, and averages its footprint there (ods/convert/resample.h). Where two slits or pitches meet, one fades
+// into the other over a part of a slit set by the rig; their edges differ by no more than slit_error()'s step.
 //
-// Views with depth are seen through as by ods/convert/reproject.h: what the ray meets is looked for on the views'
-// surfaces, and so stands where it belongs, at any width of slits. Where one thing hides another for both views
-// that might show it, what is far behind stands in.
+// Views with depth are reprojected as by ods/convert/reproject.h: each ray is traced against the views' surfaces, so
+// points are exact at any slit width. Where something occludes the point in both candidate views, the far background
+// replaces it.
 //
-// Layers follow their rules: light and means are filtered, others the nearest pixel's. Depth becomes that along the
-// picture's own rays. Normals are means of vectors along the world's axes, which is for who opens the views to see to.
+// Layers follow their rules: light and means are filtered; others take the nearest pixel. Depth is converted to metres
+// along the picture's own rays. Normals are averaged in world space; `open` must deliver them so.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -25,30 +24,30 @@
 namespace ods {
 
 struct StitchOptions {
-  // Empty: the picture is in memory until it is saved. Else a file in which it lies until then, so that a process that
-  // was killed is gone on with by the next one that has the same key: whatever says what the picture is made of. Who
-  // has saved the picture removes it.
+  // Empty: the picture is in memory until it is saved. Otherwise a journal file that holds it until then, so that after
+  // a crash the next process with the same key resumes; the key must identify everything that the picture is made of.
+  // The caller removes the file after saving the picture.
   std::string journal;
   uint64_t journal_key = 0;
 };
 
 struct ViewFault {
   size_t view;       // its index in the rig
-  std::string what;  // in words for people
+  std::string what;  // for messages
 };
 
 struct Stitched {
-  PictureRows rows;               // empty where a view at fault was to be seen
-  std::vector<ViewFault> faults;  // of views that could not be read, in their order
-  int64_t unseen = 0;             // pixels for which something hid what they should show
+  PictureRows rows;               // empty if a needed view is at fault
+  std::vector<ViewFault> faults;  // views that could not be read, in order
+  int64_t unseen = 0;             // pixels whose point was occluded in every view
 };
 
-// A view by its index in the rig, of one eye, in its own size and form. Called by several threads at once, once a view,
-// about in their order; what it throws is the view's fault, but for Error(kMemory) and what is no Error.
+// Opens a view by its index in the rig: one eye, in the view's own size and projection. Called concurrently, once per
+// view, roughly in order. An exception is that view's fault, except Error(kMemory) and anything that is not an Error.
 using OpenView = std::function<StoredPicture(size_t view)>;
 
-// Reads all views; few are in memory at a time. `done` hears of every slit that is done, as a part of 1; it may throw,
-// which ends it. Throws Error(kOutput), Error(kMemory) as Scratch; Error(kInput): no view can be read.
+// Reads all views, with few in memory at a time. Calls `done` after every slit with the fraction done; it may throw to
+// stop. Throws Error(kOutput), Error(kMemory) as Scratch; Error(kInput): no view can be read.
 Stitched stitch(const SlitRig& rig, const OpenView& open, const StitchOptions& options,
                 const std::function<void(double part)>& done = {});
 

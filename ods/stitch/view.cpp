@@ -46,7 +46,7 @@ View::View(StoredPicture picture, const StereoCamera& pose, ViewDepth depth)
   surfaces_ = make_reprojection(source_);
 }
 
-// A depth buffer's metres are those along the view's axis.
+// Converts a depth buffer's metres, along the view's axis, to metres along rays.
 void View::measure_along_rays(size_t index) {
   LayerPixels& layer = picture_.eyes[0].layers[index];
   const Extent size = picture_.size;
@@ -82,7 +82,7 @@ void View::sum_points(const Footprint& footprint, const Place& place, float* out
   }
 }
 
-// Pixels beside each other that share a footprint.
+// Adds adjacent pixels that share a footprint.
 void View::add_pixels(PixelRun& run, const Footprint& footprint, std::span<const vec2> places, float* pixels) const {
   const std::optional<TexelTents> tents = texel_tents(footprint);
   const bool together = run.add(tents, places, pixels);
@@ -99,7 +99,7 @@ static Footprint footprint_in(const RowInView& row, float x, float way) {
   return {ray_along(row, x + 0.5f).at - ray_along(row, x - 0.5f).at, (seen.beside - seen.at) * way};
 }
 
-// Footprints change so slowly along a row that a few pixels share that of their middle.
+// Footprints change slowly along a row, so a few pixels share that of their centre.
 void View::fill_alike(const RowInView& row, float way, int left, std::span<float> out) const {
   const size_t count = out.size() / layers_.channels;
   PixelRun run(resampler_, 0, all_of(picture_));
@@ -122,7 +122,7 @@ void View::fill_alike(const RowInView& row, float way, int left, std::span<float
   run.fill();
 }
 
-// Through the view's surfaces if they are known. Whether the view shows what the ray meets.
+// Traces the view's surfaces if it has depth. Returns whether the view shows the point that the ray hits.
 bool View::fill_pixel(const Ray& ray, const RayInView& seen, const Footprint& footprint, float* out) const {
   const SurfaceHit met =
       surfaces_ ? meet_surface(*surfaces_, 0, {ray.origin - camera_.center, ray.direction}) : SurfaceHit{{}, kFarDepth};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A rendered view of a rig of slits, looked into along rays of the picture that is put together.
+// A rendered view of a rig of slits, sampled along rays of the stitched picture.
 #pragma once
 #include <optional>
 #include <span>
@@ -14,27 +14,28 @@
 
 namespace ods {
 
-// What all views of a rig have: their layers, channel behind channel.
+// The layers that all views of a rig share, with their channels concatenated.
 struct LayerSet {
   std::vector<RowLayer> layers;
   size_t channels = 0;
-  std::vector<char> is_nearest;  // of every channel: never averaged
-  size_t first_nearest = 0;      // that channel; all, if none is
-  int depth = -1;                // the channel of metres; below 0: there is none
+  std::vector<char> is_nearest;  // per channel: never averaged
+  size_t first_nearest = 0;      // index of that channel; the channel count if there is none
+  int depth = -1;                // the depth channel in metres; below 0: none
 };
 LayerSet layers_of(const StoredPicture& picture);
 bool same_layers(const LayerSet& a, const LayerSet& b);
 
 class View {
  public:
-  // `pose`: where it stood and looked. Its depth, if it has any and the rig says which, becomes that along its rays.
+  // `pose`: the view's position and direction. Depth, if the view has it and the rig says which kind, is converted to
+  // depth along rays.
   View(StoredPicture picture, const StereoCamera& pose, ViewDepth depth);
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  // All channels of the picture's pixels in row y from column `left` on, as many as `out` has room for: what their rays
-  // meet, averaged over them; depth is along their rays. Columns beyond the last one go on at the first. Returns the
-  // number of those that the view does not show what their ray meets; what is far behind stands in.
+  // Fills `out` with all channels of the picture's pixels in row y from column `left` on: what their rays hit,
+  // filtered; depth is along their rays. Columns wrap around. Returns the number of pixels whose point is occluded in
+  // this view; the far background replaces it.
   int fill(const PictureRays& rays, const RowInView& row, int y, int left, std::span<float> out) const;
 
  private:
@@ -46,7 +47,7 @@ class View {
 
   StoredPicture picture_;
   LayerSet layers_;
-  std::vector<float> distances_;  // in place of the depth that the file has
+  std::vector<float> distances_;  // replaces the file's depth
   Source source_;
   Resampler resampler_;
   std::optional<Reprojection> surfaces_;

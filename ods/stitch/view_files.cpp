@@ -28,7 +28,7 @@ namespace ods {
 
 namespace {
 
-// The eye and the number in the name of a view's file.
+// The eye and the number that select a view's file.
 struct Named {
   int eye = kMono;
   int number = 0;
@@ -38,7 +38,7 @@ size_t views_of_sheet(const ViewFiles& files) {
   return static_cast<size_t>(files.columns) * static_cast<size_t>(files.rows);
 }
 
-// A view's place among those that are numbered together: all, or its eye's.
+// A view's index among those numbered together: all, or its eye's.
 size_t place_of(const SlitRig& rig, const ViewFiles& files, size_t view) {
   return names_eye(files.names) ? view % (rig.views.size() / rig.eyes.size()) : view;
 }
@@ -48,7 +48,7 @@ Named named(const SlitRig& rig, const ViewFiles& files, size_t view) {
   return {rig.eyes[view / of_eye], static_cast<int>(place_of(rig, files, view) / views_of_sheet(files)) + 1};
 }
 
-// Blender's files of many layers call the depth ViewLayer.Depth.Z, in others it is Z.
+// Blender's multilayer files name the depth ViewLayer.Depth.Z; in other files it is Z.
 void call_depth_z(StoredPicture& picture) {
   if (depth_layer(picture)) return;
   for (LayerPixels& layer : picture.eyes[0].layers) {
@@ -58,7 +58,7 @@ void call_depth_z(StoredPicture& picture) {
   }
 }
 
-// N.X, N.Y, N.Z; so end those of many layers, too.
+// N.X, N.Y, N.Z; names in multilayer files end likewise.
 bool is_normal(const LayerPixels& layer) {
   if (layer.channels.size() != 3 || (layer.sample != SampleType::kHalf && layer.sample != SampleType::kFloat))
     return false;
@@ -67,7 +67,7 @@ bool is_normal(const LayerPixels& layer) {
   return name == "N" || name == "Normal" || name.ends_with(".N") || name.ends_with(".Normal");
 }
 
-// In place: nobody else reads a view's pixels.
+// In place: nothing else reads the view's pixels.
 void turn_normals(const StoredPicture& picture, const Camera& camera) {
   for (const LayerPixels& layer : picture.eyes[0].layers) {
     if (!is_normal(layer)) continue;
@@ -91,7 +91,7 @@ void turn_normals(const StoredPicture& picture, const Camera& camera) {
   }
 }
 
-// `mark`: of the rig that the file should be of.
+// `mark`: of the rig that the file should belong to.
 StoredPicture open_file(const std::string& path, const StereoCamera& pose, const std::string& mark) {
   OpenOptions options;
   options.format.one_eye = true;
@@ -108,7 +108,7 @@ void check_size(Extent is, Extent should, const std::string& path) {
               fmt::format("'{}' is {}x{}, not {}x{}", path, is.width, is.height, should.width, should.height));
 }
 
-// The part of a sheet that is its view of an index.
+// The view with this index in a sheet.
 StoredPicture part_of(StoredPicture sheet, const ViewFiles& files, Extent view, size_t index) {
   const size_t across = static_cast<size_t>(files.columns), down = static_cast<size_t>(files.rows);
   const size_t column = files.by_columns ? index / down : index % across;
@@ -121,7 +121,7 @@ StoredPicture part_of(StoredPicture sheet, const ViewFiles& files, Extent view, 
   return sheet;
 }
 
-// Sheets of which some views are still to come.
+// Sheets with views that are still to be read.
 class Sheets {
  public:
   Sheets(const SlitRig& rig, ViewFiles files) : rig_(rig), mark_(rig_mark(rig)), files_(std::move(files)) {}
@@ -170,10 +170,10 @@ class Sheets {
 
 std::string names_fault(const SlitRig& rig, const ViewFiles& files) {
   if (!frame_names(files.names)) {
-    return fmt::format("'{}' has no place for the number of the view: views/####.exr", files.names);
+    return fmt::format("'{}' has no placeholder for the view's number, as in views/####.exr", files.names);
   }
   if (names_eye(files.names) && rig.eyes.size() < 2) {
-    return fmt::format("'{}' is for two eyes, and the rig has one", files.names);
+    return fmt::format("'{}' is for two eyes, but the rig has one", files.names);
   }
   if (views_of_sheet(files) > rig.views.size()) {
     return fmt::format("a sheet of {}x{} has more views than the rig ({})", files.columns, files.rows,
@@ -219,7 +219,7 @@ void mark_folders(const SlitRig& rig, const ViewFiles& files) {
   if (has_rig_marks(rig, files)) return;
   const std::string text = mark_file_text(rig_mark(rig));
   for (const std::string& folder : view_folders(rig, files)) {
-    std::error_code ignored;  // writing says what is wrong
+    std::error_code ignored;  // writing reports the fault
     if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
     write_file(folder + kRigMarkFile, text);
   }
@@ -235,12 +235,12 @@ OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
   };
 }
 
-// What is wrong with a file, in words; empty: nothing.
+// What is wrong with a file, for messages; empty if nothing is.
 static std::string fault_of(const std::string& path, const StereoCamera& pose, Extent size, const std::string& mark,
                             bool thorough) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
-  if (error == std::errc::no_such_file_or_directory) return fmt::format("'{}' is not there", path);
+  if (error == std::errc::no_such_file_or_directory) return fmt::format("'{}' does not exist", path);
   if (error) return fmt::format("'{}' cannot be read: {}", path, error.message());
   if (bytes == 0) return fmt::format("'{}' is empty", path);
   if (!thorough) return "";
@@ -254,7 +254,7 @@ static std::string fault_of(const std::string& path, const StereoCamera& pose, E
 }
 
 std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough) {
-  std::map<std::string, std::vector<size_t>> views_of;  // a file's
+  std::map<std::string, std::vector<size_t>> views_of;  // of each file
   for (size_t i = 0; i < rig.views.size(); i++) views_of[view_path(rig, files, i)].push_back(i);
   const Extent size{rig.view.width * files.columns, rig.view.height * files.rows};
   const std::string mark = rig_mark(rig);

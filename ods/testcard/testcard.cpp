@@ -13,11 +13,11 @@
 
 namespace ods {
 
-// --- what stands on the card -----------------------------------------------------------------------------------------
+// --- the cards -------------------------------------------------------------------------------------------------------
 
 constexpr float kSmallPlate = 2.4f;  // degrees high
 
-// Each line is for one eye alone.
+// Each line is visible to one eye alone.
 static void add_eyes(CardView& view, float y) {
   view.letter("LEFT EYE", 0.0f, y + 2.4f, 26.0f, 4.4f, kLeftColor).eye = kLeft;
   view.letter("RIGHT EYE", 0.0f, y - 2.4f, 26.0f, 4.4f, kRightColor).eye = kRight;
@@ -65,7 +65,7 @@ static void add_pole(std::vector<Card>& cards, float pitch, const std::string& n
   add_depths(view, 0.0f, kDistances, 3.5f);
 }
 
-// The degrees of the grid, every 30 along the horizon between the quarters and up and down all around.
+// Degree labels: every 30 along the horizon between the quarters, and up and down all around.
 static void add_degrees(std::vector<Card>& cards) {
   for (int yaw = -180; yaw < 180; yaw += 30) {
     CardView view(cards, static_cast<float>(yaw), 0.0f);
@@ -78,7 +78,7 @@ static void add_degrees(std::vector<Card>& cards) {
 }
 
 void set_reach(std::vector<Card>& cards, const StereoCamera& stereo, Extent eye) {
-  // A pixel more than the corner, and as much as the eye stands beside the middle.
+  // Covers a pixel beyond the corner, and the eye's offset from the centre.
   const float step = 2.0f * kPi / static_cast<float>(std::max(8, std::min(eye.width, eye.height)));
   const float away = std::hypot(0.5f * stereo.ipd, stereo.neck);
   for (Card& each : cards) {
@@ -119,16 +119,16 @@ Testcard make_testcard(const StereoCamera& stereo, Extent eye, const std::vector
 
 namespace {
 
-// Where a pixel meets the card. Lengths are the card's: tangents.
+// Where a pixel hits the card. Lengths are in the card's units: tangents.
 struct Spot {
   vec2 at;
-  float pixel;  // the size of a pixel there
+  float pixel;  // the pixel's size there
   int x, y;     // the pixel
 };
 
 }  // namespace
 
-// How much of a pixel lies inside an edge that is this far away, positive within.
+// A pixel's coverage by an edge at this signed distance, positive inside.
 static float inside(float distance, float pixel) {
   return std::clamp(distance / pixel + 0.5f, 0.0f, 1.0f);
 }
@@ -158,7 +158,7 @@ static void paint_star(const Card& card, const Spot& spot, vec3& color) {
   const int spokes = 24;
   const float radius = length(spot.at);
   const float turn = std::atan2(spot.at.y, spot.at.x) / (2.0f * kPi) * static_cast<float>(spokes);
-  const float off = turn - std::floor(turn);  // bright in the first half
+  const float off = turn - std::floor(turn);  // the first half is bright
   const float from_edge = (off < 0.5f ? std::min(off, 0.5f - off) : -std::min(off - 0.5f, 1.0f - off));
   const float spoke = inside(from_edge * radius * 2.0f * kPi / static_cast<float>(spokes), spot.pixel);
   color = mix(color, mix(kBlack, kWhite, spoke), inside(card.half.x - radius, spot.pixel));
@@ -217,7 +217,7 @@ static void paint(const Card& card, const Spot& spot, int eye, vec3& color) {
   }
 }
 
-// Sky above, earth below, and every ten degrees a line, all at infinity.
+// Sky above, ground below, and a line every ten degrees, all at infinity.
 static vec3 background(vec3 d, float pixel) {
   const float level = std::sqrt(d.x * d.x + d.z * d.z);
   const float phi = std::atan2(d.y, level), theta = std::atan2(d.x, -d.z);
@@ -247,7 +247,7 @@ static vec3 testcard_color(const Testcard& testcard, const Ray& ray, int eye, fl
   for (const Card& card : testcard.cards) {
     const float toward = dot(ray.direction, card.middle);
     if (toward < card.reach) continue;
-    // p dot middle = distance: everything is divided by the distance, which may be infinite.
+    // p dot middle = distance, divided by the distance, which may be infinite.
     const float t = (1.0f - card.inverse_depth * dot(ray.origin, card.middle)) / toward;
     const vec3 p = ray.origin * card.inverse_depth + ray.direction * t;
     const Spot spot{vec2(dot(p, card.right), dot(p, card.up)), angle * t, x, y};

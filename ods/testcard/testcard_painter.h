@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the makers of test cards share: colours, and cards placed in a view; only ods/image/testcard*.cpp include this.
+// Shared by the code that makes test cards: colours, and cards placed in a view. Only ods/testcard/testcard*.cpp
+// include this.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -25,9 +26,9 @@ inline const vec3 kWhite(1.0f), kBlack(0.0f), kPlateColor = code(24, 26, 32);
 inline const vec3 kLeftColor = code(90, 190, 255), kRightColor = code(255, 120, 90);
 inline const vec3 kSafe = code(110, 220, 120), kNotSafe = code(255, 80, 70), kAmber = code(255, 200, 80);
 
-constexpr double kCapital = 0.6;  // the height of a capital letter over that of its plate
+constexpr double kCapital = 0.6;  // the height of a capital letter relative to its plate
 
-// One view: what somebody sees who looks that way. Places and sizes are degrees in it.
+// The view in one direction. Positions and sizes are degrees in it.
 class CardView {
  public:
   CardView(std::vector<Card>& cards, float yaw, float pitch)
@@ -47,7 +48,7 @@ class CardView {
     return card;
   }
 
-  // The letters fill the plate's height, or its width where they would be wider.
+  // Scales the letters to the plate's height, or to its width if they would be wider.
   Card& letter(std::string_view text, float x, float y, float width, float height, vec3 color = kWhite) {
     Card& card = add(CardPattern::kPlate, x, y, width, height);
     const float letters = 6.0f * static_cast<float>(text.size());

@@ -122,7 +122,7 @@ std::string testcard_sound(int frames, double fps) {
   for (int second = 0; first_frame_of(second, fps) < frames; second++) {
     const auto start = static_cast<int>(std::lround(first_frame_of(second, fps) / fps * rate));
     for (int i = 0; i < length && start + i < count; i++) {
-      const double edge = std::min({1.0, i / 48.0, (length - i) / 48.0});  // a millisecond, so that it does not click
+      const double edge = std::min({1.0, i / 48.0, (length - i) / 48.0});  // fades over a millisecond to avoid clicks
       const double value = 12000.0 * edge * std::sin(2.0 * std::numbers::pi * 1000.0 * i / rate);
       samples[static_cast<size_t>(start + i)] = static_cast<int16_t>(std::lround(value));
     }
@@ -134,8 +134,7 @@ std::string testcard_sound(int frames, double fps) {
   return wav;
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 static void encode_frames(const TestcardVideo& video, int frames, VideoEncoder& encoder, const Progress& progress) {
   struct Work {
@@ -168,7 +167,7 @@ void write_testcard_video(const TestcardVideo& video, const VideoPlan& plan, int
     const std::string wav = testcard_sound(frames, video.rate.value());
     std::fwrite(wav.data(), 1, wav.size(), sound.stream());
     sound.finish();
-    options.sound = sound.temporary();  // which goes when it is not needed any more
+    options.sound = sound.temporary();  // removed when no longer needed
   }
   VideoEncoder encoder(untagged, *container_of_path(path), plan.size, options);
   encode_frames(video, frames, encoder, progress);

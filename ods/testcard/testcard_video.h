@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The test card as a video: what stands still is drawn once, and what moves (testcard.h) over it in every frame.
+// The test card as a video: the static cards are drawn once, the moving marks (testcard.h) in every frame.
 #pragma once
 #include <array>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace ods {
 
-// Columns from [0] to [1], the latter not one of them.
+// Half-open column ranges: [0] up to, but not including, [1].
 using ColumnRuns = std::vector<std::array<int, 2>>;
 
 struct TestcardVideo {
@@ -24,20 +24,20 @@ struct TestcardVideo {
   Packing packing;
   StoredPicture like;                         // eyes without layers
   std::shared_ptr<VideoFrame> still;          // without marks
-  std::vector<std::vector<ColumnRuns>> runs;  // where marks are: of each eye its rows
+  std::vector<std::vector<ColumnRuns>> runs;  // where marks are: rows of each eye
 };
 
-// eyes as EyeImage has them; plan: of plan_eyes() for them. Precondition: eyes of whole blocks, that stand apart.
+// eyes as in EyeImage; plan: from plan_eyes() for them. Precondition: eyes that do not overlap and are multiples of the
+// chroma block.
 TestcardVideo make_testcard_video(const Testcard& card, const StereoCamera& camera, const std::vector<int>& eyes,
                                   const VideoPlan& plan, FrameRate rate, const Packing& packing);
 
 std::shared_ptr<VideoFrame> testcard_frame(const TestcardVideo& video, int number);
 
-// A wav file of one channel: a beep of 1 kHz while the flash is seen, as long as the video. 48 kHz, 16 bits.
+// A mono wav file as long as the video, 48 kHz, 16 bits: a beep of 1 kHz during each flash.
 std::string testcard_sound(int frames, double fps);
 
-// Draws and encodes so many frames, with the beeps unless options.sound is something else. Throws Error as
-// make_video().
+// Draws and encodes the frames, with beeps unless options.sound names another file. Throws Error as make_video().
 void write_testcard_video(const TestcardVideo& video, const VideoPlan& plan, int frames, EncodeOptions options,
                           const std::string& path, const Progress& progress = {});
 

@@ -39,8 +39,8 @@ void Free::operator()(AVFormatContext* context) const {
   avformat_free_context(context);
 }
 
-// The last complaint of the library, which would go to the console. Without the name and address of who complains: the
-// same failure is the same message.
+// The library's last log message, captured instead of printed. Without the sender's name and address, so that the same
+// failure gives the same text.
 static std::mutex complaint_mutex;
 static std::string complaint;
 
@@ -79,7 +79,7 @@ int checked_small_input(int code, const std::string& what) {
 
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what) {
   keep_complaints();
-  static_cast<void>(file_size(path));  // that it is a file
+  static_cast<void>(file_size(path));  // throws if it is not a regular file
   AVFormatContext* file = nullptr;
   AVDictionary* only_files = nullptr;
   av_dict_set(&only_files, "protocol_whitelist", "file", 0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the few files share that know FFmpeg's libraries: handles that let go by themselves, and errors of one line.
+// Shared by the few files that use FFmpeg: owning handles, and one-line errors.
 #pragma once
 #include <memory>
 #include <new>
@@ -35,18 +35,18 @@ T* made(T* object) {
   return object;
 }
 
-// What the libraries complain of is kept for the next message, not printed.
+// Captures the libraries' log for the next error message instead of printing it.
 void keep_complaints();
 
-// Returns the code where it is well, zero and above. Throws Error: what, in the library's words; kMemory where it is
-// out of memory, whatever `kind` is.
+// Returns the code if it is zero or above. Otherwise throws Error with `what` and the library's reason; out of memory
+// is always kMemory, whatever `kind` is.
 int checked(int code, ErrorKind kind, const std::string& what);
 
-// The same while reading something that takes little memory, as a header or sound: if that runs out of memory, the file
-// claims what cannot be. Throws Error(kInput).
+// The same for reads that need little memory, such as a header or sound: if they run out of it, the file makes
+// impossible claims. Throws Error(kInput).
 int checked_small_input(int code, const std::string& what);
 
-// Opens a file, and no address, and finds out what is in it. Throws Error(kInput) that starts with `what`.
+// Opens a local file, never a URL, and probes its streams. Throws Error(kInput) that starts with `what`.
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what);
 
 }  // namespace ods::av

@@ -20,8 +20,7 @@ namespace ods {
 
 using av::checked, av::made, av::Owned;
 
-// --- what the video says
-// ----------------------------------------------------------------------------------------------
+// --- what the video says ---------------------------------------------------------------------------------------------
 
 static std::optional<VideoCodec> codec_of(AVCodecID id) {
   switch (id) {
@@ -57,34 +56,35 @@ static bool is_turned(const AVStream& stream) {
   return std::isfinite(angle) && std::abs(angle) > 0.5;
 }
 
-// The form of its numbers. Empty words: it is one that we know.
+// Reads the pixel format. Returns why it is unsupported; empty if it is supported.
 static std::string read_format(AVPixelFormat format, VideoStream& stream) {
-  const AVPixFmtDescriptor* metadata = av_pix_fmt_desc_get(format);
-  const std::string name = metadata == nullptr ? "unknown" : metadata->name;
+  const AVPixFmtDescriptor* descriptor = av_pix_fmt_desc_get(format);
+  const std::string name = descriptor == nullptr ? "unknown" : descriptor->name;
   const uint64_t kUnfit = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE | AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_FLOAT |
                           AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL;
-  const bool fits = metadata != nullptr && (metadata->flags & AV_PIX_FMT_FLAG_PLANAR) != 0 &&
-                    (metadata->flags & kUnfit) == 0 && metadata->nb_components >= 3 && metadata->comp[1].plane == 1 &&
-                    metadata->comp[2].plane == 2 && metadata->comp[0].shift == 0 && metadata->comp[0].depth >= 8;
-  const int shape = fits ? metadata->log2_chroma_w * 2 + metadata->log2_chroma_h : -1;
+  const bool fits = descriptor != nullptr && (descriptor->flags & AV_PIX_FMT_FLAG_PLANAR) != 0 &&
+                    (descriptor->flags & kUnfit) == 0 && descriptor->nb_components >= 3 &&
+                    descriptor->comp[1].plane == 1 && descriptor->comp[2].plane == 2 &&
+                    descriptor->comp[0].shift == 0 && descriptor->comp[0].depth >= 8;
+  const int shape = fits ? descriptor->log2_chroma_w * 2 + descriptor->log2_chroma_h : -1;
   if (shape != 3 && shape != 2 && shape != 0) return fmt::format("its pixels are {}, not planes of Y'CbCr", name);
   stream.chroma = shape == 3 ? Chroma::k420 : shape == 2 ? Chroma::k422 : Chroma::k444;
-  stream.bits = metadata->comp[0].depth;
-  stream.has_alpha = metadata->nb_components == 4;
+  stream.bits = descriptor->comp[0].depth;
+  stream.has_alpha = descriptor->nb_components == 4;
   return "";
 }
 
 static std::string read_color(const AVCodecParameters& stream, ColorCode& color) {
   const AVColorTransferCharacteristic curve = stream.color_trc;
   if (curve == AVCOL_TRC_SMPTE2084 || curve == AVCOL_TRC_ARIB_STD_B67) {
-    return fmt::format("it is HDR ({}); ods knows BT.709", av_color_transfer_name(curve));
+    return fmt::format("it is HDR ({}); ods supports BT.709", av_color_transfer_name(curve));
   }
   const AVColorSpace space = stream.color_space;
   const bool old = space == AVCOL_SPC_SMPTE170M || space == AVCOL_SPC_BT470BG || space == AVCOL_SPC_FCC;
   if (space != AVCOL_SPC_UNSPECIFIED && space != AVCOL_SPC_BT709 && !old) {
-    return fmt::format("the matrix of its colours is {}; ods knows BT.709 and BT.601", av_color_space_name(space));
+    return fmt::format("its colour matrix is {}; ods supports BT.709 and BT.601", av_color_space_name(space));
   }
-  // Where nothing is said, players go by the size.
+  // Players choose an unspecified matrix by the size.
   color.is_601 = old || (space == AVCOL_SPC_UNSPECIFIED && stream.height < 720);
   color.has_full_range = stream.color_range == AVCOL_RANGE_JPEG || stream.format == AV_PIX_FMT_YUVJ420P ||
                          stream.format == AV_PIX_FMT_YUVJ422P || stream.format == AV_PIX_FMT_YUVJ444P;
@@ -104,13 +104,13 @@ struct VideoDecoder::State {
   Owned<AVFormatContext> file;
   const AVStream* source = nullptr;
   Owned<AVCodecContext> decoder;
-  int64_t count = 0;  // of frames so far
+  int64_t count = 0;  // frames so far
 
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, why));
   }
 
-  // Some demuxers know tracks by other numbers: then it is the one that they think best, which is the largest.
+  // Some demuxers number tracks differently: then use the stream that FFmpeg ranks best, which is the largest.
   void find_stream(uint64_t track) {
     const int best =
         checked(av_find_best_stream(file.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0), ErrorKind::kInput, what);
@@ -131,9 +131,10 @@ struct VideoDecoder::State {
     stream.size = {facts.width, facts.height};
     stream.codec = codec_of(facts.codec_id);
     const AVRational rate = rate_of(*source);
-    if (rate.num == 0) fail("it does not say how many pictures it has a second");
+    if (rate.num == 0) fail("it does not state its frame rate");
     stream.rate = {rate.num, rate.den};
-    if (is_turned(*source)) fail("its pictures lie turned; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them");
+    if (is_turned(*source))
+      fail("its pictures are stored rotated; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them upright");
     std::string fault = read_format(static_cast<AVPixelFormat>(facts.format), stream);
     if (fault.empty()) fault = read_color(facts, stream.color);
     if (!fault.empty()) fail(fault);
@@ -157,8 +158,8 @@ struct VideoDecoder::State {
     const AVCodec* codec = avcodec_find_decoder(facts.codec_id);
     const AVDictionaryEntry* alpha = av_dict_get(source->metadata, "alpha_mode", nullptr, 0);
     const AVCodec* other = facts.codec_id == AV_CODEC_ID_VP9 ? avcodec_find_decoder_by_name("libvpx-vp9") : nullptr;
-    if (alpha != nullptr && other != nullptr) codec = other;  // FFmpeg's own leaves alpha out
-    if (codec == nullptr) fail(fmt::format("no decoder here knows {}", avcodec_get_name(facts.codec_id)));
+    if (alpha != nullptr && other != nullptr) codec = other;  // FFmpeg's own decoder drops alpha
+    if (codec == nullptr) fail(fmt::format("this machine has no decoder for {}", avcodec_get_name(facts.codec_id)));
     decoder.reset(made(avcodec_alloc_context3(codec)));
     checked(avcodec_parameters_to_context(decoder.get(), &facts), ErrorKind::kInput, what);
     decoder->pkt_timebase = source->time_base;
@@ -168,7 +169,7 @@ struct VideoDecoder::State {
     if (alpha != nullptr && other != nullptr) stream.has_alpha = true;
   }
 
-  // False behind the last.
+  // False at the end of the stream.
   bool receive(AVFrame& frame) {
     const Owned<AVPacket> packet(made(av_packet_alloc()));
     for (;;) {
@@ -194,7 +195,7 @@ struct VideoDecoder::State {
     if (!fault.empty()) fail(fault);
     if (size.width != stream.size.width || size.height != stream.size.height || own.bits != stream.bits ||
         own.chroma != stream.chroma || own.has_alpha != stream.has_alpha) {
-      fail(fmt::format("picture {} is of another form than the first", count));
+      fail(fmt::format("picture {} has another format than the first", count));
     }
     if (frame.decode_error_flags != 0) fail(fmt::format("picture {} is damaged", count));
     if (frame.best_effort_timestamp == AV_NOPTS_VALUE) return;
@@ -203,7 +204,7 @@ struct VideoDecoder::State {
     const double due = stream.start + static_cast<double>(count) / stream.rate.value();
     if (std::abs(time - due) * stream.rate.value() < 0.75) return;
     fail(
-        fmt::format("its pictures come at uneven times: number {} at {:.3f} s, not {:.3f}; ffmpeg -i VIDEO -r {:.4g} "
+        fmt::format("its frame times are uneven: frame {} is at {:.3f} s, not {:.3f}; ffmpeg -i VIDEO -r {:.4g} "
                     "EVEN makes them even",
                     count, time, due, stream.rate.value()));
   }
@@ -235,7 +236,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   result.planes.chroma = state.stream.chroma;
   for (size_t i = 0; i < 3; i++) {
     result.planes.first[i] = reinterpret_cast<std::byte*>(frame->data[i]);
-    if (frame->linesize[i] < 0) state.fail("its rows lie upside down");
+    if (frame->linesize[i] < 0) state.fail("its rows are stored upside down");
     result.planes.stride[i] = static_cast<size_t>(frame->linesize[i]);
   }
   if (state.stream.has_alpha) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pictures of a video in their order, by way of libavcodec and libavformat.
+// Decodes the pictures of a video in order, with libavcodec and libavformat.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -13,31 +13,31 @@
 
 namespace ods {
 
-// What a video's pictures are.
+// The format of a video's pictures.
 struct VideoStream {
   Extent size;
   FrameRate rate;
-  std::optional<VideoCodec> codec;  // none: another one
+  std::optional<VideoCodec> codec;  // none: some other codec
   int bits = 8;                     // 8 to 16
   Chroma chroma = Chroma::k420;
   ColorCode color;
   bool has_alpha = false;
-  double start = 0.0;  // the second at which the first of them is shown
-  int count = 0;       // of them, as the video says, or going by its length; 0: it does not say
+  double start = 0.0;  // when the first picture is shown, in seconds
+  int count = 0;       // number of pictures, as stated or computed from the duration; 0: unknown
 };
 
-// One of them. The numbers stay where they are as long as `memory` does.
+// One decoded picture. The planes stay valid while `memory` lives.
 struct DecodedFrame {
   Planes planes;                     // read only
-  const std::byte* alpha = nullptr;  // of a VideoStream with alpha: as many bits as the others, of full range
+  const std::byte* alpha = nullptr;  // if VideoStream has alpha: same bit depth, full range
   size_t alpha_stride = 0;
   std::shared_ptr<const void> memory;
 };
 
 class VideoDecoder {
  public:
-  // track: as video.h has it. threads: 0 for the decoder's own choice. Throws Error(kInput): a video that is damaged or
-  // that no decoder here knows; pictures that lie turned, of another form than planes of Y'CbCr, or of HDR.
+  // track: as in video_file.h. threads: 0 lets the decoder choose. Throws Error(kInput): a damaged video, no decoder
+  // for it, rotated pictures, pixel formats other than planar Y'CbCr, HDR.
   VideoDecoder(const std::string& path, uint64_t track, int threads = 0);
   VideoDecoder(const VideoDecoder&) = delete;
   VideoDecoder& operator=(const VideoDecoder&) = delete;
@@ -45,8 +45,8 @@ class VideoDecoder {
 
   const VideoStream& stream() const;
 
-  // The next one; nothing behind the last. Throws Error(kInput): it is damaged, unlike the first, or shown at another
-  // time than it is due: videos of uneven times would fall out of step with their sound.
+  // The next picture; nothing after the last. Throws Error(kInput): it is damaged, in another format than the first, or
+  // not due at its time: videos of uneven frame times would lose sync with their sound.
   std::optional<DecodedFrame> next();
 
  private:

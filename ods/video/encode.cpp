@@ -29,7 +29,7 @@ bool has_encoder(std::string_view name) {
   return avcodec_find_encoder_by_name(std::string(name).c_str()) != nullptr;
 }
 
-// The one that is asked for, or the first that there is and that can.
+// The requested encoder, or the first available one that can encode this.
 static const EncoderFacts& choose_encoder(const EncodeOptions& options) {
   const Packing& packing = options.packing;
   std::string wanted, others;
@@ -45,7 +45,7 @@ static const EncoderFacts& choose_encoder(const EncodeOptions& options) {
   }
   throw Error(ErrorKind::kUsage,
               fmt::format("this machine cannot encode {} {}{}: it has {}", video_codec_name(packing.codec),
-                          chroma_name(packing.chroma), wanted.empty() ? "" : ", which takes " + wanted,
+                          chroma_name(packing.chroma), wanted.empty() ? "" : ", which needs " + wanted,
                           others.empty() ? "no encoder that ods knows" : others));
 }
 
@@ -58,7 +58,7 @@ static AVPixelFormat pixel_format(const Packing& packing) {
 
 // --- the frames ------------------------------------------------------------------------------------------------------
 
-// The same pixels as the library has them; they go when it is done with them.
+// Wraps our pixels for libavcodec without copying; released when the library is done with them.
 static Owned<AVFrame> wrapped(const std::shared_ptr<const VideoFrame>& frame, const AVCodecContext& context,
                               int64_t number) {
   Owned<AVFrame> result(made(av_frame_alloc()));
@@ -91,7 +91,7 @@ static void set(AVCodecContext& context, std::string_view name, const std::strin
           fmt::format("{} does not know {}={}", context.codec->name, name, value));
 }
 
-// Closed groups of about a second: what seeks finds a picture that stands alone.
+// Closed groups of about a second, so that every seek finds a key frame.
 static void set_groups(AVCodecContext& context, const EncodeOptions& options) {
   context.gop_size = std::max(1, static_cast<int>(std::lround(options.rate.value())));
   context.flags |= AV_CODEC_FLAG_CLOSED_GOP;
@@ -114,9 +114,9 @@ static void set_quality(AVCodecContext& context, const EncoderFacts& facts, cons
   }
 }
 
-// The same frames give the same bytes whatever the number of threads. What x264 writes depends on how many it has, so
-// that this is always the same; what x265 writes depends on how many frames it has in work. libvpx and libaom write one
-// thing alone and another with company; SVT-AV1 and ProRes do not care.
+// The output must not depend on the number of threads. x264's depends on its thread count, so that is fixed; x265's on
+// the number of frames in flight. libvpx's and libaom's differ between one thread and several. SVT-AV1's and ProRes's
+// do not depend on it.
 static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   constexpr int kX264Threads = 12;
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -124,7 +124,7 @@ static void set_threads(AVCodecContext& context, const EncoderFacts& facts, cons
   context.thread_count = options.threads;
   if (facts.name == "libx264") context.thread_count = kX264Threads;
   if (facts.name == "libx265") {
-    constexpr int kFrames = 3, kBlock = 64;  // pixels of its largest block; a frame is some rows behind the one before
+    constexpr int kFrames = 3, kBlock = 64;  // of its largest block; a frame trails the one before it by some rows
     const int rows = (context.height + kBlock - 1) / kBlock;
     context.thread_count = std::clamp((rows + 1) / 2, 1, kFrames);
   }
@@ -135,10 +135,10 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
   const std::string_view name = facts.name;
   const Extent size{context.width, context.height};
   if (name == "libx264" && smallest_level(Codec::kH264, size, options.rate.value()) > "5.2") {
-    set(context, "x264-params", "mvrange=511");  // else the decoders of early headsets show rubbish
+    set(context, "x264-params", "mvrange=511");  // otherwise the decoders of early headsets show garbage
   }
-  if (name == "libx265") {                                   // which speaks to the console by itself
-    std::string words = "log-level=none:open-gop=0:info=0";  // its settings would name the threads
+  if (name == "libx265") {                                   // logs to the console on its own
+    std::string words = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
     if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
     set(context, "x265-params", words);
   }
@@ -178,11 +178,10 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   return context;
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
-// Ends an encoder whose video is given up. SVT-AV1 waits for ever when it is closed before it has seen an end, and it
-// sees none before a picture.
+// Ends an encoder whose video is abandoned. SVT-AV1 hangs on close unless it was flushed, and cannot be flushed before
+// its first picture.
 static void abandon(AVCodecContext& encoder, const Packing& packing, bool is_new) {
   if (encoder.codec->name != std::string_view("libsvtav1")) return;
   const Extent size{encoder.width, encoder.height};
@@ -205,7 +204,7 @@ struct VideoEncoder::State {
   Owned<AVFormatContext> file;
   Owned<AVCodecContext> pictures;
   std::unique_ptr<Sound> sound;
-  int64_t count = 0;  // of frames
+  int64_t count = 0;  // frames so far
   bool finished = false;
 
   ~State() {
@@ -221,7 +220,7 @@ struct VideoEncoder::State {
     return *stream;
   }
 
-  // null: there are no more.
+  // null: end of the video.
   void encode(const AVFrame* frame) {
     AVCodecContext& encoder = *pictures;
     checked(avcodec_send_frame(&encoder, frame), ErrorKind::kOutput, fmt::format("cannot encode '{}'", path));
@@ -237,7 +236,7 @@ struct VideoEncoder::State {
     }
   }
 
-  // Sound goes along with the pictures.
+  // Adds the sound up to the time of the pictures.
   void add_sound(bool is_end) {
     if (!sound) return;
     const double until = static_cast<double>(count) / options.rate.value();
@@ -265,7 +264,7 @@ VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent siz
   stream.avg_frame_rate = state.pictures->framerate;
   stream.sample_aspect_ratio = {1, 1};
   if (has_boxes(container) && options.packing.codec == VideoCodec::kHevc) {
-    stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // Apple plays no other
+    stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // the only tag that Apple plays
   }
   state.sound = open_sound(options, container);
   if (state.sound) state.sound->describe(*made(avformat_new_stream(file, nullptr)));

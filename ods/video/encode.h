@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames and sound into a video file, by way of libavcodec and libavformat. Which encoders
-// there are is the machine's affair; SVT-AV1 alone speaks to the console, unless SVT_LOG=0 is in the environment. The
-// video says that it is BT.709 of limited range; what it shows of the sphere, it does not say yet (video.h).
+// Encodes frames and sound into a video file, with libavcodec and libavformat. The available encoders depend on the
+// machine; SVT-AV1 prints to the console unless the environment has SVT_LOG=0. The video is tagged as limited-range
+// BT.709; tag_video() (video_file.h) adds the spherical metadata.
 #pragma once
 #include <memory>
 #include <optional>
@@ -16,60 +16,61 @@
 
 namespace ods {
 
-// Frames a second, as a fraction: 30/1, 30000/1001.
+// The frame rate as a fraction: 30/1, 30000/1001.
 struct FrameRate {
   int count = 30;
   int seconds = 1;
   double value() const { return static_cast<double>(count) / seconds; }
 };
 
-// What of a file's sound is copied.
+// Which part of a file's sound is copied.
 struct SoundCut {
-  double start = 0.0;   // the second of the file with which the video begins
-  bool is_cut = false;  // what begins before it, or after the pictures' end, is left out
+  double start = 0.0;   // the time in the file at which the video begins, in seconds
+  bool is_cut = false;  // drop sound before it and after the end of the pictures
 };
 
 struct EncodeOptions {
   Packing packing;
-  std::string encoder;            // one of known_encoders(); empty: the first of them that there is
-  std::string preset;             // how hard it tries, in its own words; empty: its usual
-  std::optional<double> bitrate;  // million bits a second, in place of packing.quality
+  std::string encoder;            // one of known_encoders(); empty: the first available
+  std::string preset;             // the encoder's own preset name; empty: its default
+  std::optional<double> bitrate;  // Mbit/s, replaces packing.quality
   FrameRate rate;
-  int threads = 0;            // 0: the encoder's own choice
-  std::string sound;          // a file that has sound in it; empty: a silent video
-  bool copies_sound = false;  // its packets as they are, in any number of channels; else it is packed anew
+  int threads = 0;            // 0: the encoder chooses
+  std::string sound;          // a file with sound; empty: a silent video
+  bool copies_sound = false;  // copy its packets, with any number of channels; else encode it anew
   SoundCut sound_cut;
   bool for_apple = false;  // SphericalMetadata
 };
 
 bool has_encoder(std::string_view name);
 
-// What the sound of a file is. Throws Error(kInput): there is none, or of other than 1, 2 or 4 channels. Four are
-// first-order ambisonics as AmbiX has them (W Y Z X, SN3D).
+// The sound of a file. Throws Error(kInput): there is none, or it has other than 1, 2 or 4 channels. Four channels are
+// first-order ambisonics in AmbiX (W Y Z X, SN3D).
 struct SoundInfo {
   int channels = 0;
-  double seconds = 0.0;  // 0: it does not say
+  double seconds = 0.0;  // 0: unknown
 };
 SoundInfo read_sound_info(const std::string& path);
 
-// Throws Error(kUsage) where this machine cannot encode such pictures or sound: what it lacks, and what it has. Writes
-// nothing.
+// Throws Error(kUsage) if this machine cannot encode such pictures or sound; the message says what is missing and what
+// is available. Writes nothing.
 void check_encoder(Container container, const EncodeOptions& options);
 
-// A video file in the making. Its header comes before its pictures, a key frame about every second. The same frames on
-// the same machine give the same bytes.
+// Writes a video file: the header before the pictures, a key frame about every second. The same frames on the same
+// machine give the same bytes.
 class VideoEncoder {
  public:
-  // Throws Error(kUsage), Error(kInput), Error(kOutput). Precondition: can_hold(), can_have(), `size` of whole blocks.
+  // Throws Error(kUsage), Error(kInput), Error(kOutput). Preconditions: can_hold(), can_have(), `size` is a multiple of
+  // the chroma block.
   VideoEncoder(const AtomicFile& file, Container container, Extent size, const EncodeOptions& options);
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;
   ~VideoEncoder();
 
-  // In the order of the video. Throws Error(kOutput), and Error(kInput) where the sound cannot be read on.
+  // Adds the next frame. Throws Error(kOutput), and Error(kInput) if the sound cannot be read.
   void add(std::shared_ptr<const VideoFrame> frame);
 
-  // The rest. Sound ends with the pictures at the latest. Throws as add().
+  // Writes the rest. Sound ends with the pictures at the latest. Throws as add().
   void finish();
 
  private:

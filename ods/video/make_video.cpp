@@ -24,20 +24,20 @@ namespace ods {
 static FrameNames names_in(const std::string& pattern) {
   if (const std::optional<FrameNames> names = frame_names(pattern)) return *names;
   throw Error(ErrorKind::kUsage,
-              fmt::format("'{}' has no place for the number of a frame; it is written like shot.####.exr", pattern));
+              fmt::format("'{}' has no placeholder for the frame number; write it like shot.####.exr", pattern));
 }
 
 std::string FrameFiles::path(size_t index) const {
   return names_in(pattern).path(frames[index]);
 }
 
-// The names of one file for a frame, or of two.
+// The file patterns of a frame: one, or two if each eye has its own.
 static std::vector<std::string> patterns_of(const std::string& pattern) {
   if (!names_eye(pattern)) return {pattern};
   return {path_for_eye(pattern, kLeft), path_for_eye(pattern, kRight)};
 }
 
-// For messages, which stay lines.
+// For messages, which must stay one line.
 static std::string some_of(const std::vector<int>& frames) {
   const size_t kLongest = 200;
   const std::string text = frames_text(frames);
@@ -66,12 +66,12 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
     missing += fmt::format("{}{} of '{}'", missing.empty() ? "" : ", and ", some_of(absent), patterns[i]);
   }
   if (missing.empty()) return files;
-  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (there are {})", missing, some_of(there)));
+  throw Error(ErrorKind::kInput, fmt::format("frames are missing: {} (found {})", missing, some_of(there)));
 }
 
 // --- the plan --------------------------------------------------------------------------------------------------------
 
-// Of a PNG by its first bytes alone: what opens it looks at every one.
+// Reads a PNG's first bytes alone: opening it would scan the whole file.
 static Extent size_of(const std::string& path) {
   const std::vector<unsigned char> start = read_start(path, 24);
   const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
@@ -82,7 +82,7 @@ static Extent size_of(const std::string& path) {
   return {info.width, info.height};
 }
 
-// Frames whose headers tell another size than the first one's.
+// Throws if a frame's header gives another size than the first frame's.
 static void check_sizes(const FrameFiles& files) {
   for (const std::string& pattern : patterns_of(files.pattern)) {
     const FrameNames names = names_in(pattern);
@@ -98,8 +98,8 @@ static void check_sizes(const FrameFiles& files) {
     if (others.empty()) continue;
     throw Error(
         ErrorKind::kInput,
-        fmt::format("frames {} of '{}' are of another size than the first: {} has {}x{} pixels, not {}x{}",
-                    some_of(others), pattern, others[0], other.width, other.height, sizes[0].width, sizes[0].height));
+        fmt::format("frames {} of '{}' differ in size from the first: {} has {}x{} pixels, not {}x{}", some_of(others),
+                    pattern, others[0], other.width, other.height, sizes[0].width, sizes[0].height));
   }
 }
 
@@ -107,8 +107,9 @@ static Layout wished_layout(Layout own, std::optional<Layout> wish) {
   if (!wish || *wish == own) return own;
   const Extent squeeze = squeeze_of(own, 2);
   if (squeeze.width * squeeze.height > 1) {
-    throw Error(ErrorKind::kUsage, fmt::format("the frames are {} and cannot become {}; ods convert unsqueezes them",
-                                               layout_name(own), layout_name(*wish)));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the frames are {} and cannot become {}; unsqueeze them with ods convert", layout_name(own),
+                            layout_name(*wish)));
   }
   return *wish;
 }
@@ -124,7 +125,7 @@ VideoPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSet
   try {
     set_projection(plan.metadata, projection);
   } catch (const Error& error) {
-    plan.notes.push_back(fmt::format("{}; it says only how its eyes lie", error.what()));
+    plan.notes.push_back(fmt::format("{}; it gets only its layout as metadata", error.what()));
   }
   return plan;
 }
@@ -147,15 +148,15 @@ VideoPlan plan_video(const FrameFiles& files, const FormatHint& known, std::opti
 void check_packing(const VideoPlan& plan, const Packing& packing) {
   const Extent block = chroma_block(packing.chroma);
   if (plan.eye.width % block.width == 0 && plan.eye.height % block.height == 0) return;
-  throw Error(ErrorKind::kUsage, fmt::format("eyes of {}x{} pixels cannot be a video of chroma {}: its sides are even",
-                                             plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
+  throw Error(ErrorKind::kUsage,
+              fmt::format("eyes of {}x{} pixels cannot become a video with chroma {}: their sides must be even",
+                          plan.eye.width, plan.eye.height, chroma_name(packing.chroma)));
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const VideoPlan& plan,
-                                              const DisplayTransform& development, const Packing& packing) {
+                                              const DisplayTransform& display, const Packing& packing) {
   OpenOptions options;
   options.format = plan.known;
   options.color_only = true;
@@ -167,11 +168,11 @@ static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const Vid
                             picture.eyes.size(), size.width, size.height, plan.eyes, plan.eye.width, plan.eye.height));
   }
   auto frame = std::make_shared<VideoFrame>(plan.size, packing);
-  fill_frame(picture, plan.layout, development, *frame);
+  fill_frame(picture, plan.layout, display, *frame);
   return frame;
 }
 
-// Frames that may be in memory at once: one that is read has up to four floats a pixel.
+// How many frames may be in memory at once; a decoded one takes up to four floats per pixel.
 static size_t frames_ahead(const VideoPlan& plan, const Packing& packing) {
   const size_t pixels = static_cast<size_t>(plan.size.width) * static_cast<size_t>(plan.size.height);
   const size_t bytes = pixels * 4 * sizeof(float) + VideoFrame(plan.size, packing).bytes();
@@ -179,7 +180,7 @@ static size_t frames_ahead(const VideoPlan& plan, const Packing& packing) {
   return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
 }
 
-static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& development,
+static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                           const EncodeOptions& options, VideoEncoder& encoder, const Progress& progress) {
   struct Work {
     size_t index = 0;
@@ -192,7 +193,7 @@ static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const 
   };
   const auto read = [&](Work& work) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    work.frame = read_frame(files.path(work.index), plan, development, options.packing);
+    work.frame = read_frame(files.path(work.index), plan, display, options.packing);
   };
   const auto encode = [&](const Work& work) {
     encoder.add(work.frame);
@@ -202,13 +203,13 @@ static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const 
   run_pipeline<Work>(frames_ahead(plan, options.packing), number, read, encode);
 }
 
-TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& development,
+TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                      const EncodeOptions& options, const std::string& path, const Progress& progress) {
   assert(!files.frames.empty() && container_of_path(path));
   check_packing(plan, options.packing);
   AtomicFile untagged(path);
   VideoEncoder encoder(untagged, *container_of_path(path), plan.size, options);
-  encode_frames(files, plan, development, options, encoder, progress);
+  encode_frames(files, plan, display, options, encoder, progress);
   encoder.finish();
   const VideoFile video = read_video_file(untagged.temporary());
   std::optional<Ambisonics> ambisonics;

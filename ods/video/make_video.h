@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures, a file or two for every frame, into a video that says what it is.
+// Encodes pictures, one file or two per frame, into a tagged video.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,42 +13,42 @@
 
 namespace ods {
 
-// Frames of a video as files.
+// The frames of a video, as files.
 struct FrameFiles {
-  std::string pattern;  // shot.####.exr (ods/files/frames.h); %V or %v in it: a file for each eye
+  std::string pattern;  // shot.####.exr (ods/files/frames.h); %V or %v in it: a file per eye
   std::vector<int> frames;
-  std::string path(size_t index) const;  // of a frame; with %V as the pattern has it
+  std::string path(size_t index) const;  // of a frame; %V stays as in the pattern
 };
 
-// The frames asked for, or all that there are. Throws Error(kUsage): the pattern has no place for a number. Throws
-// Error(kInput): frames that are missing, all at once ("7,9-12"), also between the first and the last of those found.
+// The requested frames, or all that exist. Throws Error(kUsage): the pattern has no frame number. Throws Error(kInput):
+// missing frames, all listed at once ("7,9-12"), including gaps between the first and the last found.
 FrameFiles find_frames(const std::string& pattern, const std::optional<std::vector<int>>& wanted = {});
 
-// What a video of such frames is like, by the first of them.
+// The format of the video, from its first frame.
 struct VideoPlan {
-  FormatHint known;  // of every frame
-  Extent eye;        // as it is stored
-  size_t eyes = 1;   // in a frame
+  FormatHint known;  // the same for every frame
+  Extent eye;        // as stored
+  size_t eyes = 1;   // per frame
   Extent size;       // of the video
   Layout layout = Layout::kTopBottom;
   SphericalMetadata metadata;
-  std::vector<std::string> notes;  // what was guessed, and what the video cannot say, for people
+  std::vector<std::string> notes;  // for people: what was guessed, and what the video's metadata cannot express
 };
 
-// That of so many eyes, `eye` large as they are stored, in a layout that videos have.
+// The plan for `count` eyes of size `eye` as stored, in a layout that videos support.
 VideoPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSetting& projection);
 
-// `known` goes before what the files say; `layout` is kTopBottom or kSideBySide. Reads the first frame, and of the
-// others what they say of themselves. Throws Error(kInput): a frame that cannot be read, frames of another size
-// (which); Error(kUsage): a layout that squeezed eyes cannot have.
+// `known` takes precedence over the files' metadata; `layout` is kTopBottom or kSideBySide. Reads the first frame and
+// the headers of the others. Throws Error(kInput): an unreadable frame, or frames of another size (listed);
+// Error(kUsage): a layout that squeezed eyes cannot have.
 VideoPlan plan_video(const FrameFiles& files, const FormatHint& known, std::optional<Layout> layout);
 
-// What the plan's size is not fit for. Throws Error(kUsage): odd sides.
+// Throws Error(kUsage) if the size does not suit the chroma format: odd sides.
 void check_packing(const VideoPlan& plan, const Packing& packing);
 
-// Writes the video; whatever happens there is a complete one or none. The frames are read ahead, as many as half of the
-// free memory holds. Throws Error: kInput, also for a frame that is not like the first; kOutput, kMemory, kCancelled.
-TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& development,
+// Writes the video, complete or not at all. Reads ahead as many frames as fit into half of the free memory. Throws
+// Error: kInput, also for a frame unlike the first; kOutput, kMemory, kCancelled.
+TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                      const EncodeOptions& options, const std::string& path, const Progress& progress = {});
 
 }  // namespace ods

@@ -22,8 +22,8 @@ namespace ods {
 using av::checked, av::checked_small_input, av::made, av::Owned;
 
 constexpr int kSoundRate = 48000;
-constexpr int kMinRate = 1000, kMaxRate = 768000;  // that sound is recorded with
-constexpr int64_t kSoundBitRate = 128000;          // of a channel
+constexpr int kMinRate = 1000, kMaxRate = 768000;  // plausible sample rates, in Hz
+constexpr int64_t kSoundBitRate = 128000;          // per channel
 
 namespace {
 
@@ -56,7 +56,7 @@ static SoundFile open_sound_file(const std::string& path) {
   }
   const int rate = sound.decoder->sample_rate;
   if (rate < kMinRate || rate > kMaxRate) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: it claims {} samples a second", what, rate));
+    throw Error(ErrorKind::kInput, fmt::format("{}: it claims {} samples per second", what, rate));
   }
   return sound;
 }
@@ -72,13 +72,13 @@ SoundInfo read_sound_info(const std::string& path) {
   return info;
 }
 
-// AAC in mp4, unpacked in mov, Opus in Matroska.
+// AAC in mp4, PCM in mov, Opus in Matroska.
 static Owned<AVCodecContext> open_sound_encoder(Container container, int channels) {
   const char* name = container == Container::kMp4 ? "aac" : container == Container::kMov ? "pcm_s24le" : "libopus";
   const AVCodec* codec = avcodec_find_encoder_by_name(name);
   if (codec == nullptr) {
-    throw Error(ErrorKind::kUsage, fmt::format("this machine's libavcodec has no {}, which sound in {} takes", name,
-                                               container_name(container)));
+    throw Error(ErrorKind::kUsage, fmt::format("this machine's libavcodec has no {} encoder, which sound in {} needs",
+                                               name, container_name(container)));
   }
   Owned<AVCodecContext> context(made(avcodec_alloc_context3(codec)));
   context->sample_rate = kSoundRate;
@@ -90,8 +90,9 @@ static Owned<AVCodecContext> open_sound_encoder(Container container, int channel
   context->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
   av_channel_layout_default(&context->ch_layout, channels);
   if (channels == 4 && !has_boxes(container)) {
-    // That of ambisonics (RFC 8486).
-    checked(av_opt_set(context->priv_data, "mapping_family", "2", 0), ErrorKind::kInput, "libopus knows no ambisonics");
+    // The ambisonics mapping (RFC 8486).
+    checked(av_opt_set(context->priv_data, "mapping_family", "2", 0), ErrorKind::kInput,
+            "libopus does not support ambisonics");
   }
   checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kInput,
           fmt::format("{} cannot encode the sound", name));
@@ -100,7 +101,7 @@ static Owned<AVCodecContext> open_sound_encoder(Container container, int channel
 
 namespace {
 
-// Of a file, in the samples of an encoder.
+// A file's sound, decoded and encoded anew.
 class PackedSound final : public Sound {
  public:
   PackedSound(const std::string& path, Container container)
@@ -111,7 +112,7 @@ class PackedSound final : public Sound {
     rate_ = in.sample_rate;
     format_ = in.sample_fmt;
     SwrContext* converter = nullptr;
-    // The channels keep their order whatever the file calls them.
+    // Channels keep their order, whatever layout the file declares.
     checked_small_input(swr_alloc_set_opts2(&converter, &out.ch_layout, out.sample_fmt, out.sample_rate, &out.ch_layout,
                                             in.sample_fmt, in.sample_rate, 0, nullptr),
                         what());
@@ -142,7 +143,7 @@ class PackedSound final : public Sound {
   }
 
  private:
-  // The next samples up to a position; none at the end. Encoders take no fewer than they like but the last time.
+  // The next samples up to a position; none at the end. Encoders need full frames except for the last.
   Owned<AVFrame> samples(int64_t until, bool is_end) {
     const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, most = until - position_;
     if (most < size && !is_end) return nullptr;
@@ -168,7 +169,7 @@ class PackedSound final : public Sound {
     return frame;
   }
 
-  // null: what the converter still holds.
+  // null: flush the converter.
   void convert(const AVFrame* in) {
     const int count = in == nullptr ? 0 : in->nb_samples;
     const Owned<AVFrame> out = make_frame(std::max(swr_get_out_samples(converter_.get(), count), 1));
@@ -185,7 +186,7 @@ class PackedSound final : public Sound {
     if (!ended_) checked_small_input(code, what());
     const bool is_other = !ended_ && (frame->format != format_ || frame->sample_rate != rate_ ||
                                       frame->ch_layout.nb_channels != encoder_->ch_layout.nb_channels);
-    if (is_other) throw Error(ErrorKind::kInput, what() + ": its channels or its rate change on the way");
+    if (is_other) throw Error(ErrorKind::kInput, what() + ": its channels or sample rate change midway");
     convert(ended_ ? nullptr : frame.get());
   }
 
@@ -203,12 +204,12 @@ class PackedSound final : public Sound {
   Owned<AVCodecContext> encoder_;
   Owned<SwrContext> converter_;
   Owned<AVAudioFifo> fifo_;
-  int rate_ = 0, format_ = 0;  // of the samples that the converter takes
+  int rate_ = 0, format_ = 0;  // the converter's input
   int64_t position_ = 0;
   bool ended_ = false;
 };
 
-// The packets of a file as they are.
+// A file's sound packets, copied.
 class CopiedSound final : public Sound {
  public:
   CopiedSound(const std::string& path, Container container, const SoundCut& cut)
@@ -221,13 +222,14 @@ class CopiedSound final : public Sound {
     const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
     const AVCodecID codec = source_->codecpar->codec_id;
     if (avformat_query_codec(format, codec, FF_COMPLIANCE_NORMAL) == 1) return;
-    throw Error(ErrorKind::kInput, fmt::format("{} holds no sound like that of '{}' ({}): --audio '{}' packs it anew",
-                                               container_name(container), path, avcodec_get_name(codec), path));
+    throw Error(ErrorKind::kInput,
+                fmt::format("{} cannot hold sound like that of '{}' ({}): add --audio '{}' to encode it anew",
+                            container_name(container), path, avcodec_get_name(codec), path));
   }
 
   void describe(AVStream& stream) const override {
     checked(avcodec_parameters_copy(stream.codecpar, source_->codecpar), ErrorKind::kOutput, what());
-    stream.codecpar->codec_tag = 0;  // that of the other container
+    stream.codecpar->codec_tag = 0;  // the source container's tag
     stream.time_base = source_->time_base;
   }
 
@@ -246,7 +248,7 @@ class CopiedSound final : public Sound {
  private:
   std::string what() const { return fmt::format("cannot read the sound of '{}'", path_); }
 
-  // Of the waiting packet, in seconds of the video.
+  // The start of the waiting packet, in seconds of the video.
   double time() const {
     const int64_t ticks = waiting_->pts == AV_NOPTS_VALUE ? waiting_->dts : waiting_->pts;
     return ticks == AV_NOPTS_VALUE ? 0.0 : static_cast<double>(ticks) * av_q2d(source_->time_base) - cut_.start;

@@ -56,11 +56,11 @@ std::vector<Container> containers_of(VideoCodec codec) {
 bool can_have(VideoCodec codec, int bits, Chroma chroma) {
   if (bits != 8 && bits != 10) return false;
   if (codec == VideoCodec::kProRes) return bits == 10 && chroma != Chroma::k420;
-  return codec != VideoCodec::kAv1 || chroma != Chroma::k422;  // no decoder of today's devices knows its 422
+  return codec != VideoCodec::kAv1 || chroma != Chroma::k422;  // no current device decodes AV1 in 422
 }
 
 Packing packing_for(VideoTarget target, Extent size, double fps) {
-  const double kPlayersRate = 4096.0 * 4096.0 * 30.0;  // pixels a second
+  const double kPlayersRate = 4096.0 * 4096.0 * 30.0;  // pixels per second
   const double rate = 1.0 * size.width * size.height * fps;
   const bool players_take_h264 = std::max(size.width, size.height) <= 4096 && rate <= kPlayersRate;
   Packing packing;
@@ -71,7 +71,7 @@ Packing packing_for(VideoTarget target, Extent size, double fps) {
     case VideoTarget::kQuest:
       packing.codec = VideoCodec::kHevc;
       break;
-    case VideoTarget::kYoutube:  // it encodes again: finer than is seen
+    case VideoTarget::kYoutube:  // it re-encodes, so the quality is higher than needed for viewing
       packing.codec = smallest_level(Codec::kH264, size, fps).empty() ? VideoCodec::kHevc : VideoCodec::kH264;
       packing.quality = 14;
       break;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How videos are packed: codecs, which file holds which, what goes with whom it is for.
+// How videos are encoded: codecs, the containers that hold them, settings per target.
 #pragma once
 #include <optional>
 #include <span>
@@ -27,18 +27,18 @@ constexpr std::string_view video_codec_name(VideoCodec codec) {
   return name_in(kVideoCodecTable, codec);
 }
 
-// Of those whose levels video_level.h knows.
+// The codec in codec_level.h; nothing for codecs without levels there.
 std::optional<Codec> level_codec(VideoCodec codec);
 
-// By extension, in capitals or not.
+// By file extension, in upper or lower case.
 std::optional<Container> container_of_path(const std::string& path);
 bool can_hold(Container container, VideoCodec codec);
 std::vector<Container> containers_of(VideoCodec codec);
 
-// Bits are 8 or 10; prores has 10, and 422 or 444.
+// Bits are 8 or 10; prores is always 10-bit, 422 or 444.
 bool can_have(VideoCodec codec, int bits, Chroma chroma);
 
-// Whom a video is for.
+// What the video is for.
 enum class VideoTarget { kVrPlayers, kQuest, kYoutube, kMaster };
 inline constexpr NameRow<VideoTarget> kVideoTargetTable[] = {
     {VideoTarget::kVrPlayers, "vr-players"},
@@ -52,31 +52,31 @@ constexpr std::string_view video_target_name(VideoTarget target) {
   return name_in(kVideoTargetTable, target);
 }
 
-// What is packed how. Sources: DeoVR, its page on formats (H.264 up to 4096x4096 at 30 or 4096x2048 at 60 frames a
-// second, HEVC above); Meta, "Browser video" (8K with HEVC). vr-players: H.264 up to there, HEVC above; quest: HEVC;
-// youtube: H.264 where a level holds it, else HEVC, and finer; master: ProRes 422 HQ.
+// Encoding settings. Sources: DeoVR, its page on formats (H.264 up to 4096x4096 at 30 or 4096x2048 at 60 frames a
+// second, HEVC above); Meta, "Browser video" (8K with HEVC). vr-players: H.264 up to those limits, HEVC above; quest:
+// HEVC; youtube: higher quality, H.264 if a level allows it, else HEVC; master: ProRes 422 HQ.
 struct Packing {
   VideoCodec codec = VideoCodec::kH264;
   int bits = 8;
   Chroma chroma = Chroma::k420;
-  std::optional<int> quality;  // as the encoder counts: less is better and larger; none: its usual
+  std::optional<int> quality;  // on the encoder's scale: lower is better and larger; none: the default
 };
 Packing packing_for(VideoTarget target, Extent size, double fps);
 
-// Who could pack so, by libavcodec's names; of a codec's the best first.
+// An encoder, by its name in libavcodec. For each codec, the best comes first.
 struct EncoderFacts {
   std::string_view name;
   VideoCodec codec;
   bool only_420;
-  int worst_quality;  // it goes from 0 to this; 0: there is no such number
-  int quality;        // the usual
+  int worst_quality;  // the scale runs from 0 to this; 0: it has no scale
+  int quality;        // default
   std::string_view preset_option;
-  std::string_view preset;   // the usual
-  std::string_view presets;  // all, between spaces; from the fastest to the finest
+  std::string_view preset;   // default
+  std::string_view presets;  // all, separated by spaces, from the fastest to the finest
 };
 std::span<const EncoderFacts> known_encoders();
 
-// The largest of the same shape, in steps of 64 pixels, that a level holds; nothing where none does.
+// The largest size of the same aspect, in steps of 64 pixels, that a level allows; nothing if none does.
 std::optional<Extent> largest_in_levels(Codec codec, Extent size, double fps);
 
 }  // namespace ods

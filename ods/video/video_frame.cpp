@@ -12,7 +12,7 @@ namespace ods {
 
 // --- memory ----------------------------------------------------------------------------------------------------------
 
-static constexpr std::align_val_t kAlign{64};  // as the widest instructions like it
+static constexpr std::align_val_t kAlign{64};  // for the widest SIMD loads
 
 void VideoFrame::Free::operator()(std::byte* bytes) const {
   operator delete[](bytes, kAlign);
@@ -30,7 +30,7 @@ VideoFrame::VideoFrame(Extent size, const Packing& packing) : size_(size) {
     starts[i] = bytes_;
     bytes_ += planes_.stride[i] * static_cast<size_t>(size.height / share.height);
   }
-  bytes_ += align;  // encoders may read beyond the last pixel
+  bytes_ += align;  // encoders may read past the last pixel
   memory_.reset(new (kAlign) std::byte[bytes_]());
   for (size_t i = 0; i < 3; i++) planes_.first[i] = memory_.get() + starts[i];
 }
@@ -39,7 +39,7 @@ VideoFrame::VideoFrame(Extent size, const Packing& packing) : size_(size) {
 
 namespace {
 
-// srgb_encode() between 2^-12 and 1, exact to a millionth: from a table with 512 steps to every doubling.
+// srgb_encode() from 2^-12 to 1, accurate to a millionth: a table with 512 steps per octave.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -71,7 +71,7 @@ float video_code(float linear) {
 
 namespace {
 
-// One row of one layer: red, then green, then blue, 0..1.
+// A row of one layer, to be converted to planar red, green, blue, 0..1.
 struct RowOfCodes {
   const LayerPixels& layer;
   const std::byte* in;
@@ -85,13 +85,13 @@ struct RowOfCodes {
 
 }  // namespace
 
-static void develop(const RowOfCodes& row, const DisplayTransform& development) {
+static void develop(const RowOfCodes& row, const DisplayTransform& display) {
   const std::byte* in = row.in;
   const size_t step = bytes_of(row.layer.sample);
   for (size_t x = 0; x < row.width(); x++, in += row.layer.pixel_stride) {
     vec3 light;
     for (size_t c = 0; c < 3; c++) light[static_cast<int>(c)] = sample_value(row.layer.sample, in + c * step);
-    const vec3 shown = tone_map(light, development.exposure, development.tone);
+    const vec3 shown = tone_map(light, display.exposure, display.tone);
     row.put(x, {video_code(shown.x), video_code(shown.y), video_code(shown.z)});
   }
 }
@@ -107,7 +107,7 @@ static void copy_codes(const RowOfCodes& row, float largest) {
   }
 }
 
-// Colours are not multiplied by alpha there.
+// Composites over black: these colours are not premultiplied.
 static void put_before_black(const RowOfCodes& row) {
   const std::byte* in = row.in + 3 * bytes_of(row.layer.sample);
   for (size_t x = 0; x < row.width(); x++, in += row.layer.pixel_stride) {
@@ -120,11 +120,11 @@ static void put_before_black(const RowOfCodes& row) {
   }
 }
 
-static void read_codes(const RowOfCodes& row, const DisplayTransform& development) {
+static void read_codes(const RowOfCodes& row, const DisplayTransform& display) {
   switch (row.layer.sample) {
     case SampleType::kHalf:
     case SampleType::kFloat:
-      return develop(row, development);
+      return develop(row, display);
     case SampleType::kUint8:
       copy_codes<uint8_t>(row, 255.0f);
       break;
@@ -144,14 +144,14 @@ Layout video_layout(const StoredPicture& picture) {
   return *layout_with(eyes);
 }
 
-void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& development, VideoFrame& frame) {
+void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& display, VideoFrame& frame) {
   const Extent eye = picture.size;
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     const LayerPixels& layer = picture.eyes[i].layers[0];
     const EyeCorner corner = eye_corner(layout, eye, static_cast<int>(i));
     const Planes planes = frame.planes().at(corner.x, corner.y);
     const auto rows = [&](int y, std::span<float> row) {
-      read_codes({layer, layer.first + y * layer.row_stride, row}, development);
+      read_codes({layer, layer.first + y * layer.row_stride, row}, display);
     };
     put_ycbcr(rows, eye, planes);
   }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stored picture as a frame of a video: its eyes stacked or side by side, the left one first, as a display shows
-// them.
+// Converts a stored picture to a video frame: eyes stacked or side by side, the left one first, display-referred.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -13,10 +12,10 @@
 
 namespace ods {
 
-// A frame to be filled.
+// A frame's buffers.
 class VideoFrame {
  public:
-  // Precondition: can_have(), and `size` is of whole blocks.
+  // Preconditions: can_have(), and `size` is a multiple of the chroma block.
   VideoFrame(Extent size, const Packing& packing);
   const Planes& planes() const { return planes_; }
   size_t bytes() const { return bytes_; }
@@ -32,20 +31,20 @@ class VideoFrame {
   std::unique_ptr<std::byte[], Free> memory_;
 };
 
-// What becomes of the scene's light, in pictures of floats. Others are what a display shows already.
+// How scene-linear light is displayed. Only float pictures need it; others are display-referred already.
 struct DisplayTransform {
   float exposure = 0.0f;  // EV
   ToneCurve tone = ToneCurve::kNeutral;
 };
 
-// srgb_encode() of what is between 0 and 1, fast: exact to a millionth.
+// srgb_encode() clamped to 0..1, fast: accurate to a millionth.
 float video_code(float linear);
 
-// The layouts that a video can have, by that of its pictures: kTopBottom or kSideBySide, squeezed or not.
+// The video layout for a picture: kTopBottom or kSideBySide, squeezed or not.
 Layout video_layout(const StoredPicture& picture);
 
-// Precondition: `frame` is packed_size() of the layout and the picture's eyes, which are of whole blocks. Alpha is
-// before black.
-void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& development, VideoFrame& frame);
+// Precondition: `frame` is packed_size() of the layout and the picture's eyes, which are multiples of the chroma block.
+// Alpha is composited over black.
+void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& display, VideoFrame& frame);
 
 }  // namespace ods

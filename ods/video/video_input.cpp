@@ -18,22 +18,22 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
 }
 
-// --- its form --------------------------------------------------------------------------------------------------------
+// --- format ----------------------------------------------------------------------------------------------------------
 
-// None: one eye.
+// None: mono.
 static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::string& path) {
   if (stereo == VideoStereo::kOneView) return Layout::kSeparate;
   const EyeArrangement eyes = arrangement_of(stereo);
   if (eyes.is_halves()) return layout_with(eyes);
-  throw unusable(path, fmt::format("how its eyes share a picture is {}", stereo_name(stereo)));
+  throw unusable(path, fmt::format("its layout is {}", stereo_name(stereo)));
 }
 
 static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
   if (metadata.projection != VideoProjection::kEquirect) {
-    throw unusable(
-        path, fmt::format("it says that it is {}; videos are read in lat-long and parts of it (--from-projection says "
-                          "what it is in truth)",
-                          projection_name(*metadata.projection)));
+    throw unusable(path,
+                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--from-projection "
+                               "overrides a wrong claim)",
+                               projection_name(*metadata.projection)));
   }
   const auto part = [](uint32_t bound, double whole) { return static_cast<float>(bound / 4294967296.0 * whole); };
   ProjectionSetting projection;
@@ -51,8 +51,8 @@ static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& 
   return complete_metadata(metadata, track, path, guesses);
 }
 
-// What V2's yaw turns to the left stands to the right of where the picture looks.
-static void set_attitude(StereoCamera& stereo, const SphericalMetadata& metadata) {
+// V2's yaw turns the picture to the left, so the view moves to the right.
+static void set_orientation(StereoCamera& stereo, const SphericalMetadata& metadata) {
   stereo.yaw = -static_cast<float>(metadata.yaw);
   stereo.pitch = static_cast<float>(metadata.pitch);
   stereo.roll = static_cast<float>(metadata.roll);
@@ -71,12 +71,12 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   FileInfo file;
   file.width = track.size.width;
   file.height = track.size.height;
-  file.is_float = true;  // no XMP of pictures is looked for in it
+  file.is_float = true;  // skips the search for a picture's XMP
   FormatHint all;
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
   all.projection = projection_of(video.metadata, path);
   like.camera = find_format(file, path, all).camera;
-  set_attitude(like.camera, video.metadata);
+  set_orientation(like.camera, video.metadata);
   if (video.metadata.ipd > 0.0) {
     like.camera.ipd = static_cast<float>(video.metadata.ipd);
     like.has_ipd = true;
@@ -89,8 +89,8 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
                                      layout_name(like.layout)));
   }
   if ((eye->width | eye->height) % 2 != 0) {
-    throw unusable(path,
-                   fmt::format("its eyes of {}x{} pixels share colours: their sides are odd", eye->width, eye->height));
+    throw unusable(path, fmt::format("its eyes of {}x{} pixels share chroma samples: their sides are odd", eye->width,
+                                     eye->height));
   }
   like.size = *eye;
   like.eyes.resize(like.layout == Layout::kSeparate ? 1 : 2);

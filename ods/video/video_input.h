@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A video to be read picture by picture: what it says of itself as pictures say it.
+// Opens a video for reading as a sequence of pictures.
 #pragma once
 #include <optional>
 #include <string>
@@ -17,17 +17,16 @@ struct VideoInput {
   uint64_t track = 0;
   SphericalMetadata metadata;  // complete
   bool has_sound = false;
-  std::optional<Ambisonics> ambisonics;  // what its sound says
-  StoredPicture like;                    // every picture but for its pixels: eyes without layers
+  std::optional<Ambisonics> ambisonics;  // of its sound track
+  StoredPicture like;                    // every picture except its pixels: eyes without layers
 };
 
-// What the video does not say is found as inject finds it; `known` goes before all. Its eyes' distance is what
-// it says itself (vexu), else what its sidecar says, which tells the rest of its camera, too. Throws Error(kInput): a
-// video that is damaged, that is flat or of another projection than lat-long and parts of it, or whose form nothing
-// tells.
+// Missing metadata is completed as ods inject does; `known` takes precedence. The eye distance comes from the video
+// (vexu), else from its sidecar, which also gives the rest of the camera. Throws Error(kInput): a damaged video, a flat
+// one, a projection other than lat-long or a part of it, or metadata that nothing determines.
 VideoInput open_video(const std::string& path, const FormatHint& known = {});
 
-// Its colours as code values of 16 bits, whatever the video's are.
+// Its colours as 16-bit code values, whatever the video's bit depth.
 StoredPicture picture_of(const VideoInput& video, const VideoStream& stream, const DecodedFrame& frame);
 
 }  // namespace ods

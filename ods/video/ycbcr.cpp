@@ -32,7 +32,7 @@ static constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f;
 
 namespace {
 
-// The colour of some rows, not yet of whole numbers.
+// The chroma of some rows, before rounding.
 struct Color {
   std::vector<float> cb, cr;
 };
@@ -89,9 +89,9 @@ static void put_blocks(const CodeRows& rows, Extent size, const Planes& planes) 
   });
 }
 
-// --- the way back ----------------------------------------------------------------------------------------------------
+// --- decoding --------------------------------------------------------------------------------------------------------
 
-// One colour of row y at columns first, first + 1 ..., still as numbers.
+// One chroma plane at row y, columns first, first + 1, ..., as raw numbers.
 template <typename T>
 static void get_color(const Planes& planes, Extent size, size_t plane, int y, int first, std::span<float> out) {
   const Extent block = chroma_block(planes.chroma);

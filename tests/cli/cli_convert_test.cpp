@@ -198,7 +198,7 @@ TEST_F(CliConvert, TitlesGoOverFrames) {
   EXPECT_TRUE(differs("2"));
   EXPECT_FALSE(differs("3")) << out;  // no title there
   EXPECT_EQ(run("over " + titles + " " + shots + " --frames 3 -o " + made), 0) << err;
-  EXPECT_NE(err.find("(1-2) has the number of one of"), std::string::npos) << err;
+  EXPECT_NE(err.find("(1-2) has the same number as one of"), std::string::npos) << err;
   EXPECT_EQ(run("over " + titles + " " + shots + " -o " + shots), 2);
   EXPECT_EQ(run("title End -o " + folder.path("title.exr") + " --fade-in 1"), 2);
   EXPECT_EQ(run("title \\n -o " + folder.path("title.exr")), 2);

@@ -140,7 +140,7 @@ TEST_F(CliErrors, OfPicturesThatAreRead) {
           {"inject @p_TB.png --projection nope", kUsage, "--projection"},
           {"over @p_TB.png @p_TB.png -o @a.png", kUsage, "alpha"},
           {"over @absent.png @p_TB.png -o @a.png", kInput, "absent.png"},
-          {"over @p.exr @p.exr -o @a.mp4", kUsage, "a video is made over a video"},
+          {"over @p.exr @p.exr -o @a.mp4", kUsage, "a video output needs a video as background"},
           {"camera --from @absent.json", kInput, "absent.json"},
           {"render furnace -o @", kUsage, "it is a folder: add the name of a file"},
           {"camera --from @empty.json", kInput, "empty.json"},

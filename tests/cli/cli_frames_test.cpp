@@ -71,7 +71,7 @@ TEST_F(CliFrames, WhatIsThereIsSkipped) {
   std::ofstream(folder.path("shot.0004.png"), std::ios::trunc).close();  // some farms reserve names so
   ASSERT_EQ(run(video("--frames 1-4 --skip-existing")), 0) << err;
   EXPECT_EQ(out, folder.path("shot.0003.png") + "\n" + folder.path("shot.0004.png") + "\n");
-  EXPECT_NE(err.find("2 of 4 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(err.find("2 of 4 frames exist already"), std::string::npos) << err;
   EXPECT_EQ(bytes("shot.0002.png"), "mine");
   ASSERT_EQ(run(video("--frames 2")), 0) << err;
   EXPECT_TRUE(bytes("shot.0002.png") == second) << "without --skip-existing it is made again";
@@ -100,7 +100,7 @@ TEST_F(CliFrames, KilledAndResumedItIsTheSame) {
     EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
   }
   ASSERT_EQ(run(video("--frames 0-5 --samples 256 --skip-existing", "cut.#.png")), 0) << err;
-  EXPECT_NE(err.find(" of 6 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(err.find(" of 6 frames exist already"), std::string::npos) << err;
   for (const char* frame : {"0", "1", "2", "3", "4", "5"}) {
     EXPECT_TRUE(bytes(std::string("cut.") + frame + ".png") == bytes(std::string("whole.") + frame + ".png")) << frame;
   }

@@ -429,7 +429,7 @@ TEST_F(Cli, ATestcardTakesEveryForm) {
   EXPECT_EQ(run("testcard --layout multiview --width 64 --sidecar -o " + card + ".exr"), 0) << err;
   EXPECT_EQ(out, card + ".exr\n" + card + ".camera.json\n");
   EXPECT_EQ(run("testcard --size tb-quick-test-512 -o " + card + "_b.png"), 0) << err;
-  EXPECT_NE(err.find("2 pixels high and cannot be read: --width 1536 or more"), std::string::npos) << err;
+  EXPECT_NE(err.find("2 pixels high and cannot be read: use --width 1536 or more"), std::string::npos) << err;
   EXPECT_EQ(run("compare --max-error 0 " + card + "_b.png " + card + "_b.png"), 0) << err;
   for (const auto& [words, code] : std::vector<std::pair<std::string, int>>{
            {"", 2}, {" --projection cube-3x2 --width 100 -o " + card + "_.png", 2}, {" -o " + card + ".xyz", 2}}) {

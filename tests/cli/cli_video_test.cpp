@@ -77,7 +77,7 @@ TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
   const std::string video = folder.read("a.mp4");
   // Another packing of the same frames, and more of them.
   ASSERT_EQ(run(words("a.mp4", "--keep-frames --exposure 1 --frames 1-5")), 0) << err;
-  EXPECT_NE(err.find("4 of 5 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(err.find("4 of 5 frames exist already"), std::string::npos) << err;
   EXPECT_NE(folder.read("a.mp4"), video);
   ASSERT_EQ(run("encode " + folder.path("a.mp4.frames/frame.######.exr") + " --codec h264 --frames 1-4 -o " +
                 folder.path("b.mp4")),
@@ -91,7 +91,7 @@ TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
   const std::string video = folder.read("a.mp4");
   EXPECT_EQ(run(words("a.mp4", "--samples 2")), 2);
   EXPECT_NE(err.find("--restart"), std::string::npos) << err;
-  EXPECT_NE(err.find("frames of other options: --samples was 1, now 2;"), std::string::npos) << err;
+  EXPECT_NE(err.find("frames rendered with other options: --samples was 1, now 2;"), std::string::npos) << err;
   EXPECT_EQ(folder.read("a.mp4"), video);
   ASSERT_EQ(run(words("a.mp4", "--samples 2 --restart")), 0) << err;
   EXPECT_NE(folder.read("a.mp4"), video);
@@ -108,7 +108,7 @@ TEST_F(Video, TheSceneIsOfTheJob) {
   const std::string video = words("a.mp4", "--keep-frames --env " + folder.path("sky.png"));
   ASSERT_EQ(run(video), 0) << err;
   ASSERT_EQ(run(video), 0) << err;
-  EXPECT_NE(err.find("4 of 4 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(err.find("4 of 4 frames exist already"), std::string::npos) << err;
   ASSERT_EQ(run("render furnace --width 32 --samples 1 --eyes mono -q -o " + folder.path("sky.png")), 0) << err;
   EXPECT_EQ(run(video), 2);
   EXPECT_NE(err.find("--env '" + folder.path("sky.png") + "' has changed"), std::string::npos) << err;
@@ -136,7 +136,7 @@ TEST_F(Video, ACopyOfTheSceneIsTheSameSceneAndAChangedFileIsNamed) {
   write("one"), write("two");
   ASSERT_EQ(video("one"), 0) << err;
   ASSERT_EQ(video("two"), 0) << err;
-  EXPECT_NE(err.find("2 of 2 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(err.find("2 of 2 frames exist already"), std::string::npos) << err;
   scene.binary[0] ^= 1;
   write("two");
   EXPECT_EQ(video("two"), 2);
@@ -317,7 +317,7 @@ TEST_F(Video, FramesThatNoJobOfOursMadeStay) {
   ASSERT_EQ(run(words("a.mp4", "--keep-frames --restart --samples 2")), 0) << err;
   EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
   EXPECT_EQ(run(words("a.mp4", "--samples 2 --frames 1-5")), 2);
-  EXPECT_NE(err.find("frame.000005.exr' is no frame of this video"), std::string::npos) << err;
+  EXPECT_NE(err.find("frame.000005.exr' is not a frame of this video"), std::string::npos) << err;
   ASSERT_EQ(run(words("a.mp4", "--samples 2")), 0) << err;
   EXPECT_EQ(folder.read("a.mp4.frames/frame.000005.exr"), "mine");
   // A folder without our note: nothing in it is taken for a frame, nothing is written through a link.
@@ -355,7 +355,7 @@ TEST_F(Video, AKilledVideoGoesOnWhereItWas) {
     EXPECT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
   }
   ASSERT_EQ(run(words("killed.mp4", "--samples 256")), 0) << err;
-  EXPECT_NE(err.find(" of 4 frames are there already"), std::string::npos) << err;
+  EXPECT_NE(err.find(" of 4 frames exist already"), std::string::npos) << err;
   EXPECT_EQ(folder.read("killed.mp4"), folder.read("whole.mp4"));
   EXPECT_EQ(files(), 2u);
 }
@@ -366,7 +366,7 @@ TEST_F(Video, WhatCannotBeIsSaidBeforeAnythingIsRendered) {
       {words("a.mp4", "--codec prores"), 2, "not prores, which goes into mov, mkv"},
       {words("a.mp4", "--layout anaglyph"), 2, "a video's layout is top-bottom or side-by-side"},
       {words("a.mp4", "--time 3"), 2, "--frames"},
-      {words("a.mp4", "--width 30"), 2, "its sides are even"},
+      {words("a.mp4", "--width 30"), 2, "must be even"},
       {words("a.mp4", "--audio " + folder.path("none.wav")), 3, "no such file"},
       {"video room --width 32 -o " + folder.path("a.mp4"), 2, "the scene has no animation: add --duration SECONDS"},
       {"video none.glb --width 32 -o " + folder.path("a.mp4"), 3, "none.glb"},

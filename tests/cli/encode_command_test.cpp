@@ -50,7 +50,7 @@ TEST_F(EncodeCommand, SoundOfAVideoThatIsThereCanBeSaidToBeAmbisonics) {
   EXPECT_TRUE(ods::read_video_file(video).sound.at(0).ambisonics);
   ASSERT_EQ(run(encode + video), 0) << err;
   EXPECT_EQ(run("inject --ambisonics " + video), 2);
-  expect_one_line("has 0 tracks of sound");
+  expect_one_line("has 0 sound tracks");
 }
 
 TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
@@ -84,7 +84,7 @@ TEST_F(EncodeCommand, BrokenSoundIsOneCleanLine) {
   folder.write("sound.wav", fast);
   EXPECT_EQ(run(words), 3);
   expect_clean();
-  EXPECT_NE(err.find("it claims 2147483647 samples a second"), std::string::npos) << err;
+  EXPECT_NE(err.find("it claims 2147483647 samples per second"), std::string::npos) << err;
   for (size_t at = 0; at < 44; at += 4) {
     std::string bad = whole;
     for (size_t i = at; i < at + 4; i++) bad[i] = '\xff';
@@ -207,8 +207,8 @@ TEST_F(EncodeCommand, ATitleGoesOverAVideo) {
   EXPECT_EQ(ods::read_video_file(made).sound.size(), 1u);
   ASSERT_EQ(run(over + folder.path("x.#.png") + " --frames 2-4x2"), 0) << err;
   EXPECT_EQ(out, folder.path("x.2.png") + "\n" + folder.path("x.4.png") + "\n");
-  const std::pair<std::string, const char*> kWrong[] = {{made + " --frames 1-5x2", "follow each other"},
-                                                        {made + " --frames 3-1", "rise"},
+  const std::pair<std::string, const char*> kWrong[] = {{made + " --frames 1-5x2", "must be consecutive"},
+                                                        {made + " --frames 3-1", "ascending"},
                                                         {video, "overwritten"},
                                                         {folder.path("x.png"), "place for the number"}};
   for (const auto& [words, fault] : kWrong) {
@@ -223,7 +223,7 @@ TEST_F(EncodeCommand, TheTestCardIsAVideo) {
   EXPECT_EQ(out, video + "\n");
   EXPECT_NE(err.find("128x128, 6 frames at 30 a second"), std::string::npos) << err;
   EXPECT_EQ(run("testcard --video --layout anaglyph -o " + video), 2);
-  expect_one_line("a video's layout is");
+  expect_one_line("a video's layout must be");
   EXPECT_EQ(run("testcard --video -o " + folder.path("card.png")), 2);
   expect_one_line("no name of a video");
 }

@@ -238,12 +238,12 @@ TEST_F(Inject, WhatAPlaceCannotHoldIsSaid) {
   const Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole) + vexu(3, "equi", "over"), v1_box("top-bottom"));
   ASSERT_TRUE(inject(video, "--projection cubemap"));
   EXPECT_NE(err.find("its V1 says top-bottom, lat-long: taken out"), std::string::npos) << err;
-  EXPECT_NE(err.find("vexu has no words for top-bottom, cubemap, and is taken out"), std::string::npos) << err;
+  EXPECT_NE(err.find("vexu cannot express top-bottom, cubemap and is taken out"), std::string::npos) << err;
   ASSERT_TRUE(inject(video, "--yaw 10.5"));
   EXPECT_NE(err.find("V1 holds whole degrees"), std::string::npos) << err;
   EXPECT_NE(err.find("vexu has no place for angles"), std::string::npos) << err;
   EXPECT_FALSE(inject(video, "--layout bottom-top"));
-  EXPECT_NE(err.find("mp4 has no words for bottom-top"), std::string::npos) << err;
+  EXPECT_NE(err.find("mp4 cannot express bottom-top"), std::string::npos) << err;
 }
 
 // Whatever ods probe advises, ods inject takes, and afterwards there is nothing to advise.

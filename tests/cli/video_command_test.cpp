@@ -56,7 +56,7 @@ TEST_F(VideoCommand, InjectWritesAnotherFileAndSaysWhatV1CannotHold) {
   const std::string path = make("video.mp4"), other = folder.path("other.mp4");
   const std::string before = folder.read("video.mp4");
   ASSERT_EQ(run("inject " + path + " -o " + other + " --layout LR --projection vr180 --yaw 90"), 0) << err;
-  EXPECT_NE(err.find("V1 cannot say that"), std::string::npos) << err;
+  EXPECT_NE(err.find("V1 cannot express that"), std::string::npos) << err;
   EXPECT_EQ(folder.read("video.mp4"), before);
   const Json metadata = probe(other)["video"]["video"][0]["v2"];
   EXPECT_EQ(metadata["stereo"], "side-by-side");
@@ -133,7 +133,7 @@ TEST_F(VideoCommand, PicturesAreTaggedToo) {
   EXPECT_EQ(picture["right_eye"], "32x16");
   EXPECT_EQ(picture["players"][0]["takes_it_for"], "both eyes, lat-long");
   EXPECT_TRUE(picture["warnings"].empty());
-  EXPECT_EQ(run("inject " + both), 3) << "GPano knows no stereo";
+  EXPECT_EQ(run("inject " + both), 3) << "GPano has no stereo";
   expect_one_line();
   ASSERT_EQ(run("convert " + both + " --eyes mono -q -o " + mono), 0) << err;
   ASSERT_EQ(run("inject --remove " + mono), 0) << err;

@@ -158,7 +158,7 @@ TEST(Claim, AnotherOnesFileIsLeftAlone) {
   }
   EXPECT_EQ(folder.read(".x.claim"), kForeign) << "not ours to give back";
   folder.write(".y.claim", "a diary\n");
-  expect_refused([&] { claim(folder.path("y")); }, "no claim of ods; remove it");
+  expect_refused([&] { claim(folder.path("y")); }, "another kind of file has that name; remove it");
   fs::create_symlink(folder.path(".y.claim"), folder.path(".z.claim"));
   expect_refused([&] { claim(folder.path("z")); }, "it is a link");
   fs::create_directory(folder.path(".w.claim"));

@@ -275,11 +275,11 @@ TEST(ColorSpace, WhatCannotBeHonouredIsTold) {
   const std::string huge = png_chunk("gAMA", std::string(4, '\0'));
   const Chromaticities line{{0.1, 0.1}, {0.2, 0.2}, {0.3, 0.3}, {0.3127, 0.329}};
   const std::vector<std::pair<std::string, std::string>> kFiles = {
-      {png_with(iccp(icc_profile("CMYK", 1.0, {}))), "is neither of RGB nor of grey: taken as sRGB"},
+      {png_with(iccp(icc_profile("CMYK", 1.0, {}))), "is neither RGB nor grey: taken as sRGB"},
       {png_with(iccp(icc_profile("RGB ", 1.0, {}).substr(0, 150))), "is damaged: taken as sRGB"},
       {png_with(png_chunk("iCCP", "no zero")), "its ICC profile is damaged: taken as sRGB"},
       {png_with(png_chunk("iCCP", std::string("a\0\0garbage", 10))), "its ICC profile is damaged: taken as sRGB"},
-      {png_with(png_chunk("cICP", std::string("\x09\x10\0\1", 4))), "does not know: taken as sRGB"},
+      {png_with(png_chunk("cICP", std::string("\x09\x10\0\1", 4))), "does not support: taken as sRGB"},
       {png_with(png_chunk("cICP", std::string("\x01\x0d\0\0", 4))), "is not full-range RGB: taken as sRGB"},
       {png_with(huge), "its gAMA 0 makes no sense: taken as sRGB"},
       {png_with(png_chunk("gAMA", "12")), "its gAMA 0 makes no sense: taken as sRGB"},

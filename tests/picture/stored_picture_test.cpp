@@ -251,7 +251,7 @@ TEST(OpenPicture, IdsAreExactOrLeftOut) {
   const StoredPicture without = open_picture(folder.path("b.exr"));
   EXPECT_EQ(without.eyes[0].layers.size(), 1u);
   const std::string said = ::testing::PrintToString(without.guesses);
-  EXPECT_NE(said.find("objects has the number 16777217"), std::string::npos) << said;
+  EXPECT_NE(said.find("objects has the integer 16777217"), std::string::npos) << said;
   OpenOptions light_only;
   light_only.color_only = true;
   EXPECT_NO_THROW(open_picture(folder.path("b.exr"), light_only));

@@ -113,7 +113,7 @@ TEST(RigMark, IsTheSameWhereTheViewsAre) {
   json["views"][3]["matrix"][3] = 0.5;
   EXPECT_EQ(mark_difference(rig_mark(read(json.dump())), mark), "blend is 0.25, not 0.5");
   json["blend"] = 0.5;
-  EXPECT_EQ(mark_difference(rig_mark(read(json.dump())), mark), "the views stand or look elsewhere");
+  EXPECT_EQ(mark_difference(rig_mark(read(json.dump())), mark), "the views have other positions or directions");
 }
 
 // --- bad input -------------------------------------------------------------------------------------------------------

@@ -212,7 +212,7 @@ TEST_F(Decode, TurnedPicturesAreRefused) {
   const uint32_t turned[] = {0, 0x10000, 0, 0xffff0000, 0, 0, 0, 0, 0x40000000};
   for (size_t i = 0; i < 9; i++) put(matrix + 4 * i, turned[i]);
   folder.write("turned.mp4", bytes);
-  expect_refused(error_of(folder.path("turned.mp4")), "lie turned");
+  expect_refused(error_of(folder.path("turned.mp4")), "stored rotated");
 }
 
 TEST_F(Decode, DamagedVideosAreOneLine) {
@@ -242,7 +242,7 @@ TEST_F(Decode, UnevenTimesAreRefused) {
   const std::string command = "ffmpeg -v error -i " + video +
                               " -vf 'setpts=PTS+gte(N\\,3)*4/30/TB' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
   if (!output_of(command).empty()) GTEST_SKIP() << "skipped: this ffmpeg makes no uneven video";
-  expect_refused(error_of(uneven), "uneven times");
+  expect_refused(error_of(uneven), "times are uneven");
 }
 
 // Their numbers mean other light than BT.709's: shown or laid over as they are they would be wrong.
@@ -257,7 +257,7 @@ TEST_F(Decode, HdrIsRefused) {
     const std::string command =
         "ffmpeg -y -v error -i " + video + " -c copy -bsf:v hevc_metadata=transfer_characteristics=";
     ASSERT_EQ(output_of(command + number + " " + hdr + " 2>&1"), "");
-    EXPECT_EQ(error_of(hdr), fmt::format("cannot read '{}': it is HDR ({}); ods knows BT.709", hdr, name));
+    EXPECT_EQ(error_of(hdr), fmt::format("cannot read '{}': it is HDR ({}); ods supports BT.709", hdr, name));
   }
 }
 

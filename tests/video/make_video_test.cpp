@@ -39,14 +39,14 @@ class MakeVideo : public ::testing::Test {
 TEST_F(MakeVideo, MissingFramesAreAllSaid) {
   for (int frame : {1, 2, 5, 6, 9}) folder.write("a." + std::to_string(frame) + ".png", "");
   const std::string pattern = folder.path("a.#.png");
-  expect_error([&] { find_frames(pattern); }, "frames are missing: 3-4,7-8 of '" + pattern + "' (there are 1-2,5-6,9)");
+  expect_error([&] { find_frames(pattern); }, "frames are missing: 3-4,7-8 of '" + pattern + "' (found 1-2,5-6,9)");
   expect_error([&] { find_frames(pattern, std::vector<int>{1, 2, 3, 12}); }, "missing: 3,12 of");
   std::vector<int> many;
   for (int i = 1; i <= 1000; i++) many.push_back(20 + i * i);
   expect_error([&] { find_frames(pattern, many); }, " ... (1000 in all) of '");
   EXPECT_EQ(find_frames(pattern, std::vector<int>{6, 5}).path(0), folder.path("a.6.png"));
   expect_error([&] { find_frames(folder.path("b.#.png")); }, "there is no file like");
-  expect_error([&] { find_frames(folder.path("a.1.png")); }, "has no place for the number of a frame");
+  expect_error([&] { find_frames(folder.path("a.1.png")); }, "has no placeholder for the frame number");
   expect_error([&] { find_frames("none/a.#.png"); }, "cannot be read");
 }
 
@@ -93,15 +93,15 @@ TEST_F(MakeVideo, OtherProjectionsAreNotSaid) {
   const VideoPlan fisheye = plan_video(find_frames(folder.path("a.#.png")), known, {});
   EXPECT_FALSE(fisheye.metadata.projection);
   ASSERT_FALSE(fisheye.notes.empty());
-  EXPECT_NE(fisheye.notes.back().find("no word for the projection"), std::string::npos);
+  EXPECT_NE(fisheye.notes.back().find("has no projection"), std::string::npos);
 }
 
 TEST_F(MakeVideo, OddSidesAreRefused) {
   VideoPlan plan;
   plan.eye = {127, 64};
-  expect_error([&] { check_packing(plan, {}); }, "its sides are even");
+  expect_error([&] { check_packing(plan, {}); }, "must be even");
   plan.eye = {128, 63};
-  expect_error([&] { check_packing(plan, {}); }, "its sides are even");
+  expect_error([&] { check_packing(plan, {}); }, "must be even");
   check_packing(plan, {VideoCodec::kProRes, 10, Chroma::k422, {}});
 }
 

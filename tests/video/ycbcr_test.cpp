@@ -140,13 +140,13 @@ TEST(VideoFrame, LightIsDevelopedAsPicturesAre) {
     light.push_back(std::exp2(static_cast<float>(i % 100) / 5.0f - 16.0f) * (1.0f + 0.3f * static_cast<float>(i % 3)));
   light.insert(light.end(), {NAN, INFINITY, -1.0f, 0.0f, 1e-30f});
   const Extent size{135, 1};
-  for (const DisplayTransform& development : {DisplayTransform{}, DisplayTransform{2.0f, ToneCurve::kLinear}}) {
+  for (const DisplayTransform& display : {DisplayTransform{}, DisplayTransform{2.0f, ToneCurve::kLinear}}) {
     const StoredPicture picture = picture_of(light, size, 3, SampleType::kFloat);
     VideoFrame frame(size, {VideoCodec::kH264, 10, Chroma::k444, {}});
-    fill_frame(picture, Layout::kTopBottom, development, frame);
+    fill_frame(picture, Layout::kTopBottom, display, frame);
     for (int x = 0; x < size.width; x++) {
       const float* at = &light[static_cast<size_t>(3 * x)];
-      const vec3 shown = tone_map({at[0], at[1], at[2]}, development.exposure, development.tone);
+      const vec3 shown = tone_map({at[0], at[1], at[2]}, display.exposure, display.tone);
       const auto wanted =
           exact(double{srgb_encode(shown.x)}, double{srgb_encode(shown.y)}, double{srgb_encode(shown.z)}, 10);
       for (size_t plane = 0; plane < 3; plane++) EXPECT_NEAR(value_at(frame, plane, x, 0), wanted[plane], 0.51) << x;

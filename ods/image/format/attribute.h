@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A word or numbers that stand in an image file's header, by a name.
+// A named value in an image file's header: text or numbers.
 #pragma once
 #include <string>
 #include <variant>

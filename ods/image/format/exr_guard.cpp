@@ -13,7 +13,7 @@ namespace ods {
 namespace {
 
 constexpr size_t kLongestName = 255;
-constexpr int64_t kMaxRowsOfAChunk = 256;  // of DWAB
+constexpr int64_t kMaxRowsOfAChunk = 256;  // DWAB's
 constexpr size_t kOffset = 8;              // bytes
 
 struct Box {
@@ -33,7 +33,7 @@ class HeaderReader {
     return value;
   }
 
-  // Up to the next zero, which is skipped.
+  // Reads up to the next zero, and skips it.
   std::optional<std::string> word() {
     char bytes[kLongestName + 1] = {};
     const size_t count = std::min(sizeof bytes, size_ - std::min(at, size_));
@@ -57,10 +57,10 @@ class HeaderReader {
   const ByteReader& read_;
 };
 
-// Attributes up to the empty name that ends them.
+// Skips attributes up to the empty name that ends them.
 bool skip_attributes(HeaderReader& in) {
   Box box{};
-  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // of a chunk; no columns: those of the picture
+  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // of a chunk; 0 columns: as wide as the picture
   for (;;) {
     const std::optional<std::string> name = in.word();
     if (!name) return false;
@@ -76,7 +76,7 @@ bool skip_attributes(HeaderReader& in) {
     if (!in.skip(static_cast<size_t>(*size))) return false;
   }
   const int64_t width = int64_t{box.right} - box.left + 1, height = int64_t{box.bottom} - box.top + 1;
-  if (width < 1 || height < 1 || rows < 1) return true;  // wrong, but not large
+  if (width < 1 || height < 1 || rows < 1) return true;  // invalid, but small
   const int64_t across = columns > 0 ? (width + columns - 1) / columns : 1, down = (height + rows - 1) / rows;
   return in.has_room(across) && in.has_room(down) && in.has_room(across * down);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What OpenEXR takes a file's word for. OpenEXR, "OpenEXR File Layout".
+// Rejects EXR files that OpenEXR would trust too much. Source: OpenEXR, "OpenEXR File Layout".
 #pragma once
 #include <cstddef>
 
@@ -9,8 +9,8 @@
 
 namespace ods {
 
-// Whether an EXR of so many bytes has room for what its headers announce: attributes, and an offset for every chunk of
-// pixels. OpenEXR makes the room in memory first and looks at the file behind it; a few bytes can ask for gigabytes.
+// Whether an EXR of this size is long enough for what its headers announce: attributes, and an offset table entry for
+// every chunk. OpenEXR allocates for these before it checks the file, so a few bytes can ask for gigabytes.
 bool has_room_for_header(size_t file_size, const ByteReader& read);
 
 }  // namespace ods

@@ -12,9 +12,9 @@
 
 namespace ods {
 
-constexpr uint64_t kStart = 8;               // bytes of magic number and version
-constexpr uint64_t kLongest = 64ull << 20u;  // of a header
-constexpr size_t kOffset = 8;                // bytes of the offset of a chunk
+constexpr uint64_t kStart = 8;               // magic number and version, in bytes
+constexpr uint64_t kLongest = 64ull << 20u;  // limit on the header's bytes
+constexpr size_t kOffset = 8;                // bytes of a chunk's offset
 
 static Error unusable(const FileInput& file, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", file.path(), why));
@@ -37,7 +37,7 @@ ExrHeader read_exr_header(const FileInput& file) {
   const Error damaged = unusable(file, "the EXR is cut short or damaged");
   const std::string bytes = file.read(0, std::min(file.size(), kLongest));
   if (bytes.size() < kStart || !bytes.starts_with("\x76\x2f\x31\x01")) throw damaged;
-  if ((number_at<uint32_t>(bytes, 4) & kSeveralParts) != 0) throw unusable(file, "it is an EXR of several parts");
+  if ((number_at<uint32_t>(bytes, 4) & kSeveralParts) != 0) throw unusable(file, "it is a multi-part EXR");
   ExrHeader header;
   size_t at = kStart;
   const auto word = [&] {
@@ -58,9 +58,9 @@ ExrHeader read_exr_header(const FileInput& file) {
   return header;
 }
 
-// --- what it says ----------------------------------------------------------------------------------------------------
+// --- reading ---------------------------------------------------------------------------------------------------------
 
-// Each: its name, a zero, 16 bytes.
+// Each channel: its name, a zero, 16 bytes.
 static std::vector<std::string> channel_names(const std::string& list) {
   std::vector<std::string> names;
   for (size_t at = 0; at < list.size() && list[at] != 0;) {
@@ -100,7 +100,7 @@ FileInfo exr_info(const ExrHeader& header) {
   return info;
 }
 
-// --- written ---------------------------------------------------------------------------------------------------------
+// --- writing ---------------------------------------------------------------------------------------------------------
 
 static std::string sized(const std::string& bytes) {
   const int32_t size = static_cast<int32_t>(bytes.size());
@@ -120,10 +120,10 @@ ExrAttribute exr_attribute(const Attribute& attribute) {
   return {attribute.name, "stringvector", words};
 }
 
-// Where the chunks begin: the offsets end where the first chunk lies, which need not be the first one's of the list.
+// The offset table ends where the earliest chunk starts, which need not be the first one in the table.
 static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
   constexpr uint64_t kPiece = 8192;  // offsets
-  const Error damaged = unusable(file, "the offsets in the EXR are damaged, as in one that was never finished");
+  const Error damaged = unusable(file, "the EXR's offsets are damaged, as if it was never finished");
   std::vector<uint64_t> offsets;
   uint64_t first = file.size();
   for (; at + kOffset * offsets.size() < first;) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The header of an EXR as it stands there, attribute by attribute, and how it is replaced without the pixels being
-// touched. Source: OpenEXR, "OpenEXR File Layout".
+// Reads the header of an EXR attribute by attribute, and replaces it without touching the pixels. Source: OpenEXR,
+// "OpenEXR File Layout".
 #pragma once
 #include <cstdint>
 #include <string>
@@ -18,25 +18,25 @@ namespace ods {
 
 struct ExrAttribute {
   std::string name, type;
-  std::string value;  // the bytes of the file, the low one first
+  std::string value;  // bytes as in the file, little endian
 };
 
 struct ExrHeader {
   std::vector<ExrAttribute> attributes;
-  uint64_t end = 0;  // behind the zero that ends it: where the offsets of the chunks stand
+  uint64_t end = 0;  // just past the terminating zero, where the chunk offset table starts
 };
 
-// Throws Error(kInput): no EXR, cut short, damaged; one of several parts.
+// Throws Error(kInput): not an EXR, truncated, damaged, or multi-part.
 ExrHeader read_exr_header(const FileInput& file);
 
-// Size, channels, and the attributes that are words or numbers, as read_info() has them.
+// Size, channels, and the attributes that are text or numbers, as read_info() returns them.
 FileInfo exr_info(const ExrHeader& header);
 
-// As an EXR has it: int, float, string, stringvector, v2f, v3f.
+// Converts to the EXR types: int, float, string, stringvector, v2f, v3f.
 ExrAttribute exr_attribute(const Attribute& attribute);
 
-// Writes the file with these attributes; the chunks stay byte for byte what they were, and their offsets follow them.
-// Throws Error(kInput): offsets that are damaged, as in a picture that was never finished; Error(kOutput).
+// Writes the file with these attributes. The chunks stay byte-identical; their offsets are updated. Throws
+// Error(kInput): damaged offsets, as in a picture that was never finished; Error(kOutput).
 void write_exr_header(const FileInput& file, AtomicFile& to, const ExrHeader& header);
 
 }  // namespace ods

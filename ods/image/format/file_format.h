@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The image files that are read and written.
+// The supported image file formats.
 #pragma once
 #include <cstddef>
 #include <iterator>
@@ -20,10 +20,10 @@ inline constexpr FileFormat kFileFormats[] = {FileFormat::kPng,  FileFormat::kJp
                                               FileFormat::kWebp, FileFormat::kHdr,  FileFormat::kExr};
 static_assert(std::size(kFileFormats) == enumerator_count<FileFormat>());
 
-// By extension, in capitals or not.
+// By file extension; case does not matter.
 std::optional<FileFormat> format_of_path(const std::string& path);
 
-// By its first bytes, whatever the name says.
+// By the file's first bytes; ignores the name.
 std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file);
 
 std::optional<FileFormat> format_of_file(const FileInput& file);
@@ -31,10 +31,10 @@ std::optional<FileFormat> format_of_file(const FileInput& file);
 // `png, jpg, jpeg, tif, tiff, webp, hdr, exr`, for messages.
 std::string known_extensions();
 
-// Holds the light of the scene; the others hold what a display shows.
+// Whether the format holds scene-referred light; the others are display-referred.
 bool is_scene_referred(FileFormat format);
 
-// The longest side a file of this format can have.
+// The maximum width or height in this format.
 int longest_side(FileFormat format);
 
 }  // namespace ods

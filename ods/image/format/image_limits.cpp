@@ -13,7 +13,7 @@ std::string image_size_fault(int width, int height, int longest, size_t file_siz
   const int64_t pixels = int64_t{width} * height;
   const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_size));
   if (longest > kMaxSide || pixels > kMaxPixels) {
-    return fmt::format("{}x{} pixels are more than the limit of {} a side, {} in all", width, height, kMaxSide,
+    return fmt::format("{}x{} pixels exceed the limits of {} per side and {} in all", width, height, kMaxSide,
                        kMaxPixels);
   }
   if (pixels > most) {

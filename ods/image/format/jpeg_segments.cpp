@@ -24,17 +24,17 @@ enum Marker : unsigned char {
   kScan = 0xDA
 };
 
-// Those that no length stands behind.
+// Markers without a length.
 bool stands_alone(unsigned char marker) {
   return marker == kTemporary || (marker >= kRestart0 && marker <= kStart);
 }
 
-// Bytes of a file one after the other, read in blocks.
+// Reads a file byte by byte, through a buffer.
 class Bytes {
  public:
   Bytes(size_t size, const ByteReader& read) : size_(size), read_(read) {}
 
-  // False: behind the last one.
+  // False at the end.
   bool next(unsigned char& byte) {
     if (at_ >= size_ || !fill()) return false;
     byte = block_[at_++ - start_];
@@ -42,7 +42,7 @@ class Bytes {
   }
   void skip(size_t count) { at_ += std::min(count, size_ - at_); }
 
-  // To the next 0xFF.
+  // Skips to the next 0xFF.
   bool find_mark() {
     while (at_ < size_ && fill()) {
       const unsigned char* from = block_.data() + (at_ - start_);
@@ -73,7 +73,7 @@ class Bytes {
 
 bool is_whole_jpeg(size_t file_size, const ByteReader& read) {
   Bytes bytes(file_size, read);
-  // Between two markers lie headers of a length, or coded pixels, in which 0xFF has a 0 behind it.
+  // Between markers there are headers with a length, or coded pixels, in which a 0 follows every 0xFF.
   while (bytes.find_mark()) {
     unsigned char marker = 0xFF;
     while (marker == 0xFF) {
@@ -101,7 +101,7 @@ std::vector<JpegSegment> read_jpeg_headers(const FileInput& file) {
     const std::string start = file.read(at, 4);
     if (byte(start, 0) != 0xFF) throw damaged();
     const unsigned char marker = byte(start, 1);
-    if (marker == 0xFF) {  // filling
+    if (marker == 0xFF) {  // fill byte
       at++;
       continue;
     }
@@ -136,7 +136,7 @@ uint64_t place_of_packet(const std::vector<JpegSegment>& headers) {
   return at;
 }
 
-// SOF0 .. SOF15; among them stand the markers of tables (DHT, DAC) and one that is kept free (JPG).
+// SOF0 .. SOF15, a range that also contains the table markers DHT and DAC and the reserved marker JPG.
 static bool is_frame(unsigned char marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }

@@ -82,7 +82,7 @@ static bool is_whole(const Chunk& chunk, const ByteReader& read) {
   return read(chunk.offset + 8 + chunk.length, stored.data(), 4) && get_number(stored, 0, 4) == crc;
 }
 
-// The mark of a view's rig (ods/stitch/rig_mark.h).
+// The slit rig's mark (ods/stitch/rig_mark.h).
 static bool is_rig_mark(const Chunk& chunk, const ByteReader& read) {
   constexpr std::string_view kKeyword{"ods:rig\0", 8};
   constexpr size_t kLongest = 1 << 16;

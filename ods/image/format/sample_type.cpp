@@ -65,8 +65,8 @@ static void divide(std::span<std::byte> pixels, size_t channels, size_t alpha, f
   }
 }
 
-// Added to a power of two that has as many digits more than a half, a float is rounded where a half ends; what is added
-// to the power's bits counts the half's steps. No branches, so that compilers do several at once.
+// Adding a power of two with as many more digits as the float has beyond a half's rounds the float to the half's
+// precision; the increase in the power's bits is the number of half steps. Branch-free, so that compilers vectorize it.
 static uint16_t nearest_half(float value) {
   const int32_t kMin = 127 - 14, kLargest = std::bit_cast<int32_t>(65504.0f);  // the exponent as floats store it
   const int32_t bits = std::bit_cast<int32_t>(value), magnitude = bits & 0x7fffffff;

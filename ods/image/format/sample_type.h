@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The numbers that pixels are made of, as files have them.
+// The number types of pixels in files.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,27 +14,27 @@ namespace ods {
 enum class SampleType { kUint8, kUint16, kHalf, kFloat };
 size_t bytes_of(SampleType sample);
 
-// 0..1 for integers, the number itself for floats. Any address will do.
+// 0..1 for integers, the number itself for floats. `at` need not be aligned.
 float sample_value(SampleType sample, const std::byte* at);
 
-// A number between two others; NaN becomes 0.
+// Clamps a number; NaN becomes 0.
 inline float finite(float value, float lowest, float highest) {
   return std::isnan(value) ? 0.0f : std::clamp(value, lowest, highest);
 }
 
-// The nearest half of each float, of two as near the even one, as IEEE 754 has it. As finite(): NaN becomes 0, what is
-// larger than the largest half becomes that.
+// Rounds each float to the nearest half, ties to even (IEEE 754). NaN becomes 0; values beyond the largest half are
+// clamped to it.
 void floats_to_halves(std::span<const float> from, uint16_t* to);
 
-// Pixels of these channels, one behind the other: those that are kHalf become halves, the others stay floats.
+// Packs interleaved pixels: kHalf channels become halves, the others stay floats.
 void pack_floats(std::span<const SampleType> channels, std::span<const float> pixels, std::byte* to);
 
-// Code values of `channels` a pixel, the colours multiplied by (alpha / largest)^power: undone, as far as rounding
-// left anything. kUint8 or kUint16.
+// Undoes, as far as rounding allows, a multiplication of the colours by (alpha / largest)^power. `channels` samples per
+// pixel, kUint8 or kUint16.
 void divide_by_alpha(SampleType sample, std::span<std::byte> pixels, size_t channels, size_t alpha, float power);
 
-// Numbers of 32 bits, a stride apart, become the floats that are equal to them. The first that no float equals, above
-// 2^24, ends it and is returned; 0: none is.
+// Converts 32-bit unsigned integers, `stride` bytes apart, to equal floats in place. Stops at and returns the first one
+// above 2^24 that no float equals; 0 if there is none.
 unsigned whole_numbers_to_floats(std::span<std::byte> numbers, size_t stride);
 
 }  // namespace ods

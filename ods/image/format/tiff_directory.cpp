@@ -30,12 +30,12 @@ static std::string bytes_of(uint64_t value, size_t count, bool is_little) {
   return bytes;
 }
 
-// How many bytes an offset has, and a number of bytes or values.
+// The number of bytes in an offset, and in a count.
 static size_t offset_size(const TiffDirectory& directory) {
   return directory.is_big ? 8 : 4;
 }
 
-// Where the first directory's offset stands.
+// The file position of the first directory's offset.
 static size_t first_offset(const TiffDirectory& directory) {
   return directory.is_big ? 8 : 4;
 }
@@ -65,7 +65,7 @@ TiffDirectory read_tiff_directory(const FileInput& file) {
   return directory;
 }
 
-// Of a value; 0: no type that is known.
+// The size of a value type; 0: unknown.
 static size_t type_size(uint16_t type) {
   constexpr size_t kSizes[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
   return type < std::size(kSizes) ? kSizes[type] : 0;

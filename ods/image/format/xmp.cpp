@@ -13,7 +13,7 @@ bool is_gpano(const Attribute& attribute) {
   return attribute.name.starts_with("GPano:");
 }
 
-// --- made ------------------------------------------------------------------------------------------------------------
+// --- writing ---------------------------------------------------------------------------------------------------------
 
 std::string xml_escaped(const std::string& text) {
   std::string result;
@@ -40,7 +40,7 @@ std::string xml_unescaped(std::string text) {
                                      {"&gt;", '>'},
                                      {"&quot;", '"'},
                                      {"&apos;", '\''},
-                                     {"&amp;", '&'}}) {  // last: what it makes is no name of another
+                                     {"&amp;", '&'}}) {  // last, so that its result is not decoded again
     for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
       text.replace(at, name.size(), 1, letter);
     }
@@ -76,7 +76,7 @@ static const Namespace* namespace_of(const std::string& name) {
   return nullptr;
 }
 
-// What stands in the tag of an rdf:Description: the namespaces that `tag` does not name yet, then the properties.
+// The contents of an rdf:Description tag: declarations of the namespaces that `tag` lacks, then the properties.
 static std::string written(const std::vector<Attribute>& properties, std::string_view tag) {
   std::string names, values;
   std::set<std::string_view> named;
@@ -104,7 +104,7 @@ std::string make_xmp(const std::vector<Attribute>& properties) {
                      make_xmp_body(properties));
 }
 
-// --- taken apart -----------------------------------------------------------------------------------------------------
+// --- parsing ---------------------------------------------------------------------------------------------------------
 
 static constexpr size_t kNone = std::string_view::npos;
 static constexpr std::string_view kSpace = " \t\r\n";
@@ -112,8 +112,8 @@ static constexpr std::string_view kSpace = " \t\r\n";
 namespace {
 
 struct Tag {
-  size_t begin = 0, end = 0;  // from its < to behind its >
-  std::string_view name;      // of an end tag with its slash
+  size_t begin = 0, end = 0;  // from its < to just after its >
+  std::string_view name;      // of an end tag, including the slash
   bool is_empty = false;      // <name/>
 };
 
@@ -126,7 +126,7 @@ static bool skip_past(std::string_view xml, size_t& at, std::string_view mark) {
   return true;
 }
 
-// The next start or end tag at or behind `at`. `is_broken`: what stands there is no XML.
+// The next start or end tag at or after `at`. Sets `is_broken` if the text there is not XML.
 static std::optional<Tag> next_tag(std::string_view xml, size_t at, bool& is_broken) {
   for (at = xml.find('<', at); at != kNone; at = xml.find('<', at)) {
     const std::string_view rest = xml.substr(at);
@@ -159,13 +159,13 @@ static std::optional<Tag> next_tag(std::string_view xml, size_t at, bool& is_bro
 namespace {
 
 struct Name {
-  size_t begin = 0, end = 0;  // with the spaces before it and the value behind it
+  size_t begin = 0, end = 0;  // including the spaces before and the value after it
   std::string_view name;
 };
 
 }  // namespace
 
-// The attributes in a tag; nothing where they are none of XML. What is taken out of a tag leaves one.
+// The attributes in a tag; nothing if they are not valid XML. Cutting one out leaves a valid tag.
 static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag& tag) {
   xml = xml.substr(0, tag.end - (tag.is_empty ? 2 : 1));
   std::vector<Name> names;
@@ -184,7 +184,7 @@ static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag
   }
 }
 
-// Where the element ends that the tag begins; nothing where it has no end.
+// The end of the element that this tag starts; nothing if it is not closed.
 static std::optional<size_t> end_of_element(std::string_view xml, const Tag& tag) {
   if (tag.is_empty) return tag.end;
   bool is_broken = false;

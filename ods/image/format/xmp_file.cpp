@@ -23,7 +23,7 @@ static Error unusable(const FileInput& file, const std::string& why) {
 
 namespace {
 
-// A range of the file that other bytes take the place of.
+// A range of the file to be replaced.
 struct Cut {
   uint64_t at = 0;
   uint64_t size = 0;
@@ -47,7 +47,7 @@ static Cut place_in_jpeg(const std::vector<JpegSegment>& segments) {
 static void write_jpeg(const FileInput& file, AtomicFile& to, const std::string& packet) {
   const Cut cut = place_in_jpeg(read_jpeg_headers(file));
   if (packet.size() + kJpegXmp.size() > kLongestJpegSegment) {
-    throw unusable(file, fmt::format("its XMP would have {} bytes, and a JPEG has room for {}", packet.size(),
+    throw unusable(file, fmt::format("its XMP would have {} bytes, but a JPEG has room for {}", packet.size(),
                                      kLongestJpegSegment - kJpegXmp.size()));
   }
   write_with(file, to, cut, packet.empty() ? "" : jpeg_segment(kJpegApp1, std::string(kJpegXmp) + packet));
@@ -73,7 +73,7 @@ static std::optional<PngPacket> find_in_png(const FileInput& file) {
       PngPacket packet{{at, chunk.length + 12}, std::nullopt};
       if (chunk.length > kLongestPacket) return packet;
       std::string data = file.read(at + 8, chunk.length).substr(kPngXmpKeyword.size());
-      // Compressed or not, the method; then the language and the keyword in it, each up to a zero.
+      // Compression flag and method, then language and translated keyword, each ended by a zero.
       const size_t language = data.find('\0', 2), keyword = data.find('\0', language + 1);
       if (data[0] == 0 && language != std::string::npos && keyword != std::string::npos) {
         packet.text = data.substr(keyword + 1);
@@ -87,14 +87,14 @@ static std::optional<PngPacket> find_in_png(const FileInput& file) {
 
 static void write_png(const FileInput& file, AtomicFile& to, const std::string& packet) {
   const std::optional<PngPacket> old = find_in_png(file);
-  if (old && !old->text) throw unusable(file, "its XMP is compressed: ods cannot change it");
+  if (old && !old->text) throw unusable(file, "its XMP is compressed, which ods cannot change");
   const Cut place = old ? old->place : Cut{kPngAfterHeader, 0};
   write_with(file, to, place, packet.empty() ? "" : xmp_chunk(packet));
 }
 
 // --- all -------------------------------------------------------------------------------------------------------------
 
-// The XMP specification, part 3, lets a packet be found by its marks, whatever stands around it.
+// The XMP specification, part 3, allows readers to find a packet by its marks in any file.
 static std::string find_by_marks(const FileInput& file) {
   const std::string text = file.read(0, std::min<uint64_t>(file.size(), 1u << 20u));
   const size_t begin = text.find("<x:xmpmeta"), end = text.find("</x:xmpmeta>");
@@ -123,7 +123,7 @@ std::string read_xmp(const FileInput& file) {
     return packet_of(file);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    return {};  // who reads the pixels says what is wrong with it
+    return {};  // reading the pixels reports the fault
   }
 }
 
@@ -140,7 +140,7 @@ void write_xmp(const FileInput& file, AtomicFile& to, const std::string& packet)
   } else if (format == FileFormat::kTiff) {
     write_tiff_value(file, to, read_tiff_directory(file), kTiffXmp, packet);
   } else {
-    throw unusable(file, "of pictures a JPEG, PNG or TIFF can hold GPano");
+    throw unusable(file, "only JPEG, PNG and TIFF pictures can hold GPano");
   }
 }
 

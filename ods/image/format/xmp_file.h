@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a packet of XMP stands in a JPEG (APP1), a PNG (iTXt) and a TIFF (tag 700), and how it gets there without the
-// coded pixels being touched. Source: Adobe, "XMP Specification Part 3: Storage in Files".
+// Reads and replaces the XMP packet of a JPEG (APP1), PNG (iTXt) or TIFF (tag 700) without touching the coded pixels.
+// Source: Adobe, "XMP Specification Part 3: Storage in Files".
 #pragma once
 #include <string>
 
@@ -10,14 +10,14 @@
 
 namespace ods {
 
-// The packet of a picture's first page; empty where there is none, or where it cannot be found or unpacked. Other
-// formats: what looks like one in the first megabyte. Throws Error(kInput): there is no such file.
+// The packet of a picture's first page; empty if there is none or it cannot be decoded. In other formats, anything that
+// looks like a packet in the first megabyte. Throws Error(kInput): no such file.
 std::string read_xmp(const std::string& path);
 std::string read_xmp(const FileInput& file);
 
-// Writes the file with this packet in place of its own; an empty one: without any. Everything else stays byte for byte
-// what it was: in a TIFF also where it was, as packet and directory go to its end. Throws Error(kInput): it is no such
-// file, or damaged, or its packet is compressed, or does not fit into it; Error(kOutput).
+// Writes the file with this packet in place of its own; with an empty one, without a packet. Everything else stays
+// byte-identical; in a TIFF it keeps its place, too, because packet and directory are appended. Throws Error(kInput):
+// another format, damaged, a compressed packet, or a packet that does not fit; Error(kOutput).
 void write_xmp(const FileInput& file, AtomicFile& to, const std::string& packet);
 
 }  // namespace ods

@@ -41,7 +41,7 @@ static void add_projection(std::vector<Attribute>& attributes, const ProjectionS
   }
 }
 
-// What few cameras have is named only where it is.
+// Rarely used camera fields are written only if set.
 static void add_extras(std::vector<Attribute>& attributes, const StereoCamera& camera) {
   if (camera.convergence != kParallel) {
     attributes.push_back({"ods:convergence", std::string(convergence_name(camera.convergence))});
@@ -71,7 +71,7 @@ void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera) 
 
 namespace {
 
-// Takes the attributes of a file one by one, and remembers the first that makes no sense.
+// Reads a file's attributes one by one and remembers the first that is invalid.
 class AttributeReader {
  public:
   explicit AttributeReader(const FileInfo& info) : info_(info) {}
@@ -123,7 +123,7 @@ static void read_merge(AttributeReader& in, const std::string& name, PoleMergeSe
   merge.mode = *mode;
   if (merge.mode != kMergeMap) return;
   merge.mode = kMergeNone;
-  warnings.push_back("its merge map is only in its sidecar, which is not there: taken as without a pole merge");
+  warnings.push_back("its merge map is in a sidecar that is missing: using no pole merge");
 }
 
 static void read_projection(AttributeReader& in, const std::string& name, ProjectionSetting& setting) {
@@ -181,7 +181,7 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
   read_merge(in, "ods:poleMergeBottom", camera.bottom, warnings);
   read_extras(in, camera);
   if (in.bad().empty()) return camera;
-  warnings.push_back(fmt::format("its {} makes no sense: all that it says of its camera is left aside", in.bad()));
+  warnings.push_back(fmt::format("its {} is invalid: ignoring its camera metadata", in.bad()));
   return std::nullopt;
 }
 
@@ -190,7 +190,7 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
 // Heading 0..360, pitch -90..90, roll -180..180; our -Z is its north.
 void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, Extent size) {
   float yaw = camera.yaw, pitch = std::remainder(camera.pitch, 360.0f), roll = camera.roll;
-  if (std::abs(pitch) > 90.0f) {  // looking over the pole: the same pose from the other side
+  if (std::abs(pitch) > 90.0f) {  // over the pole: the same orientation, described from the other side
     pitch = std::copysign(180.0f, pitch) - pitch;
     yaw += 180.0f;
     roll += 180.0f;
@@ -233,7 +233,7 @@ std::optional<StereoCamera> gpano_camera(const std::string& xmp) {
   if (gpano_property(xmp, "ProjectionType") != "equirectangular") return std::nullopt;
   StereoCamera camera;
   const auto number = [&](const char* name) { return gpano_number(xmp, name); };
-  // Where a part of the sphere begins and ends, in pixels of the whole; all of it where nothing is said.
+  // The crop's bounds, in pixels of the whole sphere; the whole sphere if absent.
   const auto width = number("FullPanoWidthPixels"), height = number("FullPanoHeightPixels");
   const auto left = number("CroppedAreaLeftPixels"), across = number("CroppedAreaImageWidthPixels");
   const auto top = number("CroppedAreaTopPixels"), down = number("CroppedAreaImageHeightPixels");

@@ -20,7 +20,7 @@ namespace ods {
 namespace {
 
 constexpr int64_t kLargestMap = 1 << 24;      // texels
-constexpr size_t kLargestFile = 512u << 20u;  // bytes; what such a map may take
+constexpr size_t kLargestFile = 512u << 20u;  // bytes; room for the largest map
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
@@ -69,7 +69,7 @@ Json conventions() {
           {"angles", "degrees"},
           {"world", "right-handed, +Y up; at yaw 0 the middle of the picture looks along -Z and +X is to the right"},
           {"attitude", "roll clockwise, then pitch up, then yaw to the right"},
-          {"ipd", "the whole distance between the eyes"},
+          {"ipd", "the full distance between the eyes"},
           {"merge", "from start to end degrees of elevation; 0 is the horizon"}};
 }
 
@@ -88,19 +88,19 @@ void read_merge(JsonReader& in, PoleMergeSetting& merge) {
   const std::string mode = in.word("mode");
   if (!mode.empty()) {
     const auto known = merge_of(mode);
-    if (!known) in.fail("mode", fmt::format("is no merge '{}'", mode));
+    if (!known) in.fail("mode", fmt::format("is unknown: '{}'", mode));
     merge.mode = *known;
   }
   read_number(in, "start", merge.start, CameraField::kMergeStart);
   read_number(in, "end", merge.end, CameraField::kMergeEnd);
   read_number(in, "exponent", merge.exponent, CameraField::kMergeExponent);
-  if (merge.start >= merge.end) in.fail("start", "is below its end");
+  if (merge.start >= merge.end) in.fail("start", "must be below its end");
 }
 
 void read_projection(JsonReader& in, ProjectionSetting& setting) {
   const std::string name = in.word("name");
   const NamedProjection* named = find_projection(name.empty() ? "lat-long" : name);
-  if (!named) in.fail("name", fmt::format("is no projection '{}'", name));
+  if (!named) in.fail("name", fmt::format("is unknown: '{}'", name));
   setting = named->setting;
   read_vector(in, "longitude", setting.longitude, CameraField::kLongitude);
   read_vector(in, "latitude", setting.latitude, CameraField::kLatitude);
@@ -115,14 +115,14 @@ void read_projection(JsonReader& in, ProjectionSetting& setting) {
     std::copy(k.begin(), k.end(), setting.polynomial.begin());
   }
   const std::string fault = projection_fault(setting);
-  if (!fault.empty()) in.fail("", "cannot be: " + fault);
+  if (!fault.empty()) in.fail("", "is impossible: " + fault);
 }
 
 void read_convergence(JsonReader& in, StereoCamera& camera) {
   const std::string mode = in.word("mode");
   const std::optional<int> convergence = find_in(kConvergenceTable, mode);
   if (convergence) camera.convergence = *convergence;
-  if (!convergence && !mode.empty()) in.fail("mode", fmt::format("is no convergence '{}'", mode));
+  if (!convergence && !mode.empty()) in.fail("mode", fmt::format("is unknown: '{}'", mode));
   read_number(in, "distance", camera.convergence_distance, CameraField::kConvergenceDistance);
 }
 
@@ -133,7 +133,7 @@ void read_map(JsonReader& in, StereoCamera& camera) {
   const int64_t texels = int64_t{width} * height;
   std::vector<float> values;
   if (texels < 1 || texels > kLargestMap || !in.numbers("values", values, static_cast<size_t>(texels), 0.0f, 1.0f)) {
-    in.fail("values", "are width times height numbers");
+    in.fail("values", "must be width times height numbers");
   }
   auto map = std::make_shared<Image>(width, height, 1);
   map->pixels = std::move(values);
@@ -146,7 +146,7 @@ void read_picture(JsonReader& in, Sidecar& file) {
   const std::string layout = in.word("layout");
   if (!layout.empty()) {
     const auto known = layout_of(layout);
-    if (!known) in.fail("layout", fmt::format("is no layout '{}'", layout));
+    if (!known) in.fail("layout", fmt::format("is unknown: '{}'", layout));
     file.layout = *known;
   }
   const Json* eyes = in.find("eyes");
@@ -158,7 +158,7 @@ void read_picture(JsonReader& in, Sidecar& file) {
     file.eyes = legal;
     return;
   }
-  in.fail("eyes", R"(are ["left", "right"], ["left"], ["right"] or ["mono"])");
+  in.fail("eyes", R"(must be ["left", "right"], ["left"], ["right"] or ["mono"])");
 }
 
 void read_pose(JsonReader& in, StereoCamera& camera) {
@@ -171,7 +171,7 @@ void read_pose(JsonReader& in, StereoCamera& camera) {
   in.flag("mirrored", camera.mirrored);
   vec3 axis(0.0f);
   if (!in.is_null("axis") && read_vector(in, "axis", axis, CameraField::kAxis)) {
-    if (!(length(axis) > 1e-6f)) in.fail("axis", "is a direction");
+    if (!(length(axis) > 1e-6f)) in.fail("axis", "must be a direction");
     camera.axis = axis;
   }
 }
@@ -233,7 +233,7 @@ Sidecar read_sidecar(std::string_view text, const std::string& name, std::vector
   in.part("lens", [&](JsonReader& reader) { read_lens(reader, camera); });
   in.finish();
   if (!camera.merge_map && (camera.top.mode == kMergeMap || camera.bottom.mode == kMergeMap)) {
-    in.fail("merge_map", "is missing, and a merge is its");
+    in.fail("merge_map", "is missing, but a merge uses it");
   }
   return file;
 }

@@ -26,7 +26,7 @@ static bool is_packing(Layout layout) {
   return how != EyePacking::kMixed && how != EyePacking::kAlone;
 }
 
-// Words that stand behind the others: frame numbers, fields of view.
+// Words after the format words: frame numbers, fields of view.
 static bool says_nothing(const std::string& word) {
   return word.find_first_not_of("0123456789xX") == std::string::npos;
 }
@@ -44,7 +44,7 @@ NameWords read_name(const std::string& path) {
     const std::string marked = name.substr(at);
     const std::string word = small_letters(marked.substr(1));
     const std::optional<Layout> layout = layout_of(word);
-    // Behind a point stands the number of a frame, not an angle.
+    // After a dot a number is a frame number, not an angle.
     const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
     // A file called checkerboard shows one more often than it is one.
     const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
@@ -80,7 +80,7 @@ static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
 }
 
-// Those that a shape alone tells apart.
+// The projections that a shape alone identifies.
 static std::vector<const NamedProjection*> shapes() {
   return {find_projection("lat-long"), find_projection("cube-3x2"), find_projection("cube-6x1"),
           find_projection("cube-1x6")};
@@ -111,7 +111,7 @@ static bool has_channel(const FileInfo& info, const std::string& name) {
   return std::find(info.channels.begin(), info.channels.end(), name) != info.channels.end();
 }
 
-// What ods:layout says: a layout, or which eye the file is.
+// The layout in ods:layout, or the eye it names.
 static std::optional<LayoutGuess> said_layout(const FileInfo& info) {
   const auto said = info.text.find("ods:layout");
   if (said == info.text.end()) return std::nullopt;
@@ -141,9 +141,9 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
   return layout_of_shape({info.width, info.height}, {});
 }
 
-// --- the whole -------------------------------------------------------------------------------------------------------
+// --- everything together ---------------------------------------------------------------------------------------------
 
-// A sidecar may be that of another picture of this name: picture.exr and picture.png share one.
+// A sidecar may belong to another picture of the same name: picture.exr and picture.png share one.
 static bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
   const int count = static_cast<int>(sidecar.eyes.size());
   if (count == 2 && sidecar.layout == Layout::kMultiview && !has_channel(info, "right.R")) return false;
@@ -160,14 +160,14 @@ static std::optional<Sidecar> find_sidecar(const FileInfo& info, const std::stri
   try {
     std::optional<Sidecar> sidecar = load_sidecar(beside, warnings);
     if (belongs_to(*sidecar, info)) return sidecar;
-    warnings.push_back(fmt::format("'{}' is of another picture, going by its size and layout", beside));
+    warnings.push_back(fmt::format("'{}' seems to belong to another picture: its size or layout differs", beside));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
     const std::string why = error.what();
     if (!known.layout && !known.projection) {
-      throw Error(error.kind(), why + "; mend or remove it, or say what the picture's layout and projection are");
+      throw Error(error.kind(), why + "; fix or remove it, or give the picture's layout and projection");
     }
-    warnings.push_back(why + ": left aside");
+    warnings.push_back(why + ": ignored");
   }
   return std::nullopt;
 }
@@ -178,7 +178,7 @@ static bool is_taken_as_photo(const FileInfo& info, const std::string& path, con
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
                                const std::optional<Sidecar>& sidecar, bool photo) {
-  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo, with the right eye in it"};
+  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo with an embedded right eye"};
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
@@ -208,7 +208,7 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
     const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
     const std::optional<StereoCamera> camera = gpano_camera(xmp);
     if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
-      warnings.push_back(fmt::format("its GPano says {}, of which only whole lat-long and parts of it are understood",
+      warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
                                      xmp_property(xmp, "GPano:ProjectionType")));
     }
     return camera;
@@ -218,7 +218,7 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
   return std::nullopt;
 }
 
-// By the name, else the shape of an eye as it was before it was squeezed.
+// By the name, else by the shape of an eye before squeezing.
 static ProjectionSetting guess_projection(Extent eye, const std::string& path, std::vector<std::string>& guesses) {
   const NameWords words = read_name(path);
   const auto guess = [&](const NamedProjection& named, const std::string& reason) {
@@ -232,7 +232,8 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, s
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
-// A file's own words go before its sidecar's, which may be older, but for a merge map, which only the sidecar holds.
+// The file's own metadata takes precedence over its sidecar, which may be older. A merge map comes from the sidecar,
+// which alone holds it.
 static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
                                                const std::optional<Sidecar>& sidecar,
                                                std::vector<std::string>& guesses) {
@@ -250,10 +251,10 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   format.eye = find_eye(info, sidecar);
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': nobody can take an anaglyph apart again", path));
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': the eyes of an anaglyph cannot be separated", path));
   }
   if (info.text.contains("ods:layout") && !said_layout(info)) {
-    format.guesses.push_back("its ods:layout is no layout: left aside");
+    format.guesses.push_back("its ods:layout is invalid: ignored");
   }
   if (is_guess(format.layout)) {
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
@@ -274,7 +275,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   return format;
 }
 
-// JSON starts with a brace; no picture format does.
+// JSON starts with a brace, and no picture format does.
 static bool is_sidecar(const std::string& path) {
   if (path.ends_with(".json")) return true;
   const FileInput file(path);
@@ -289,7 +290,7 @@ Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings)
   const StereoFormat format = find_format(info, path, {});
   if (!format.has_camera) {
     throw Error(ErrorKind::kInput,
-                fmt::format("cannot use '{}': it does not say how it was taken; name its .camera.json file", path));
+                fmt::format("cannot use '{}': it has no camera metadata; give its .camera.json file instead", path));
   }
   warnings.insert(warnings.end(), format.guesses.begin(), format.guesses.end());
   Sidecar file;
@@ -309,10 +310,10 @@ std::string name_fault(const std::string& path, std::optional<Layout> layout, co
   const bool packed = !layout || is_packing(*layout);
   if (!words.layout_word.empty() && packed && words.layout != layout) {
     const std::string_view is = layout ? layout_name(*layout) : "one eye";
-    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.layout_word, is);
+    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.layout_word, is);
   }
   if (words.projection != nullptr && words.projection->setting.kind != projection.kind) {
-    return fmt::format("its name ends in {}, but it is {}: readers will go by the name", words.projection_word,
+    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.projection_word,
                        projection_name(projection));
   }
   return {};

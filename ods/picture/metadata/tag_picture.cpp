@@ -20,18 +20,18 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot tag '{}': {}", path, why));
 }
 
-// Of the four that can be tagged.
+// The file's format, if it is one of the four that can be tagged.
 static FileFormat format_of(const FileInput& file) {
   const std::optional<FileFormat> format = format_of_file(file);
   if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
     throw unusable(file.path(),
-                   "it is neither a video (mp4, mov, mkv, webm) nor a picture that can say what it is "
+                   "it is neither a video (mp4, mov, mkv, webm) nor a picture with room for 360 metadata "
                    "(jpg, png, tif, exr)");
   }
   return *format;
 }
 
-// --- what is there ---------------------------------------------------------------------------------------------------
+// --- what the file says ----------------------------------------------------------------------------------------------
 
 static Extent size_of(const FileInput& file, FileFormat format) {
   if (format == FileFormat::kJpeg) return jpeg_size(read_jpeg_headers(file)).value_or(Extent());
@@ -64,7 +64,7 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
   const StereoFormat format = find_format(info, path, known);
   PictureTag tag{format.camera, format.layout.layout, format.eye, format.has_ipd};
   if (const auto own = known.camera || info.is_float ? std::nullopt : gpano_camera(read_xmp(path))) {
-    if (!known.projection) tag.camera.projection = own->projection;  // which a sidecar may know otherwise
+    if (!known.projection) tag.camera.projection = own->projection;  // the sidecar may contradict the file
     tag.camera.yaw = own->yaw, tag.camera.pitch = own->pitch, tag.camera.roll = own->roll;
   }
   if (!known.projection && !format.has_camera && read_name(path).projection == nullptr) {
@@ -73,7 +73,7 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
     const Extent squeeze = squeeze_of(layout, 2);
     if (natural_height(format.camera.projection, eye.width * squeeze.width) != eye.height * squeeze.height) {
       throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
-                                       "shows: say it with --layout and --projection",
+                                       "shows: give --layout and --projection",
                                        info.width, info.height));
     }
   }
@@ -85,13 +85,14 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
 
 static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format, const PictureTag& tag) {
   if (tag.layout && *tag.layout != Layout::kSeparate) {
-    throw unusable(file.path(), fmt::format("GPano knows no stereo, and viewers would wrap both eyes ({}) around one "
-                                            "sphere. Its name tells players (_360_TB, _180_LR ...); ods convert makes "
-                                            "a photo of both eyes of it: -o NAME.vr.jpg",
-                                            layout_name(*tag.layout)));
+    throw unusable(file.path(),
+                   fmt::format("GPano has no stereo, and viewers would wrap both eyes ({}) around one "
+                               "sphere. Players recognize it by its name (_360_TB, _180_LR ...); ods convert makes "
+                               "a photo with both eyes: -o NAME.vr.jpg",
+                               layout_name(*tag.layout)));
   }
   if (!fits_gpano(tag.camera.projection)) {
-    throw unusable(file.path(), fmt::format("GPano knows lat-long and parts of it that do not cross the seam, and has "
+    throw unusable(file.path(), fmt::format("GPano has lat-long and parts of it that do not cross the seam, but "
                                             "no word for {}",
                                             projection_name(tag.camera.projection)));
   }
@@ -100,8 +101,8 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
   return properties;
 }
 
-// A packet that says it already stays; else only what differs from its own GPano changes, and what that says besides,
-// as the initial view, stays.
+// A packet that says the same already stays. Otherwise only the GPano properties that differ change; the others, such
+// as the initial view, stay.
 static std::optional<std::string> tagged_packet(const FileInput& file, FileFormat format, const PictureTag& tag,
                                                 const std::string& old) {
   std::vector<Attribute> wanted = gpano_of(file, format, tag);
@@ -131,13 +132,13 @@ static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, co
   const std::string old = read_xmp(file);
   if (!tag && old.empty()) return file.copy(0, file.size(), to);
   const std::optional<std::string> packet = tag ? tagged_packet(file, format, *tag, old) : replace_gpano(old, {});
-  if (!packet) throw unusable(file.path(), "its XMP cannot be understood; remove it first with another program");
+  if (!packet) throw unusable(file.path(), "its XMP cannot be parsed; remove it first with another program");
   write_xmp(file, to, says_something(*packet) ? *packet : "");
 }
 
 // --- EXR -------------------------------------------------------------------------------------------------------------
 
-// Other programs' pictures are not said to have a distance of eyes or a depth that nobody knows of.
+// For other programs' pictures the eye distance and depth type are unknown, so these are not written.
 static bool needs_said_camera(const std::string& name) {
   return name == "ods:depthType" || name == "ods:ipd" || name == "ods:position" || name.starts_with("ods:poleMerge");
 }
@@ -152,22 +153,22 @@ static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
   for (const Attribute& word : words) {
     if (tag.has_camera || !needs_said_camera(word.name)) attributes.push_back(exr_attribute(word));
   }
-  // 0: lat-long. It is of one eye: two in one picture are none that a renderer could look up.
+  // 0: lat-long. Only for one eye: a renderer cannot look up a picture that holds two.
   if (!tag.layout && is_full_lat_long(tag.camera.projection)) {
     attributes.push_back({"envmap", "envmap", std::string(1, '\0')});
   }
   return attributes;
 }
 
-// What a tag says nothing of, and stays: which view has the bare names, who wrote the file, a merge map, which only a
-// sidecar holds, and of a camera that nobody knows all but its projection and orientation.
+// Attributes outside the tag's scope stay: the default view, the writer, a merge map (which only a sidecar holds), and,
+// if the camera is unknown, all but projection and orientation.
 static bool stays(const ExrAttribute& there, const PictureTag& tag) {
   if (there.name == "multiView" || there.name == "ods:version") return true;
   if (there.name.starts_with("ods:poleMerge") && there.value == "map") return true;
   return !tag.has_camera && needs_said_camera(there.name);
 }
 
-// What a tag puts into the header or leaves out; without one, all that we ever put there.
+// Attributes that a tag sets or omits; without a tag, all attributes that we ever write.
 static bool is_ours(const std::string& name, bool has_tag) {
   constexpr std::string_view kOptional[] = {"longitude", "latitude",  "fov",  "look", "aspect",  "convergence",
                                             "neck",      "poleMerge", "axis", "lens", "mirrored"};
@@ -188,7 +189,7 @@ static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<P
   std::vector<ExrAttribute> attributes;
   for (const ExrAttribute& there : header.attributes) {
     const auto word = word_of(there.name);
-    const bool is_old_envmap = there.name == "textureformat" && !is_envmap;  // as OpenImageIO calls it
+    const bool is_old_envmap = there.name == "textureformat" && !is_envmap;  // OpenImageIO's name for it
     if (tag && stays(there, *tag)) {
       attributes.push_back(there);
     } else if (word != words.end()) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture file made to say what it is, without its pixels being touched: GPano in JPEG, PNG and TIFF, the attributes
-// of ods/picture/metadata/metadata.h in EXR, with `envmap` and `view` of one eye and `multiView` of two views.
+// Tags a picture file with its format without touching the pixels: GPano in JPEG, PNG and TIFF; the attributes of
+// ods/picture/metadata/metadata.h in EXR, with `envmap` and `view` for one eye and `multiView` for two views.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,26 +12,25 @@
 
 namespace ods {
 
-// What it is to say.
+// The tag to write.
 struct PictureTag {
   StereoCamera camera;
   std::optional<Layout> layout;  // none: one eye
-  int eye = kMono;               // which
-  bool has_camera = false;       // else only projection and orientation of the camera are known
+  int eye = kMono;               // which eye, if only one
+  bool has_camera = false;       // else only the camera's projection and orientation are known
 };
 
-// Size, and of an EXR channels and attributes, from a header that is read byte by byte: no image library is needed.
-// Throws Error(kInput): not one of the four formats, damaged.
+// The size, and of an EXR channels and attributes. Parses the header itself, without an image library. Throws
+// Error(kInput): not one of the four formats, or damaged.
 FileInfo read_picture_header(const std::string& path);
 
-// What is not known as find_format() has it; `guesses` gets what was guessed. Throws Error(kInput), also where nothing
+// Completes `known` as find_format() does; `guesses` lists what was guessed. Throws Error(kInput), also if nothing
 // tells what the picture shows: an ordinary photograph must not become a sphere.
 PictureTag complete_tag(const FormatHint& known, const std::string& path, std::vector<std::string>& guesses);
 
-// Writes the picture with another tag into `to`, which may be `path` itself: a complete new file takes its place. No
-// tag: one that says nothing of its camera. All else in it stays as it was, also what its XMP says besides. Throws
-// Error(kInput), also where the format has no words for such a tag: GPano knows one eye, lat-long or a part of it;
-// Error(kOutput).
+// Writes the picture with this tag to `to`, which may be `path` itself: the complete new file then replaces it. Without
+// a tag, removes the camera metadata. Everything else stays, including other XMP. Throws Error(kInput), also if the
+// format cannot hold the tag (GPano holds one eye, lat-long or a part of it); Error(kOutput).
 void tag_picture(const std::string& path, const std::string& to, const std::optional<PictureTag>& tag);
 
 }  // namespace ods

@@ -18,7 +18,7 @@
 
 namespace ods {
 
-constexpr size_t kId = 32;                  // letters of an MD5
+constexpr size_t kId = 32;                  // characters of an MD5
 constexpr size_t kExtended = 35 + kId + 8;  // bytes of a segment before its part of the packet
 constexpr uint64_t kMaxRight = uint64_t{3} << 30;
 
@@ -34,7 +34,7 @@ static Error damaged(const std::string& path, const std::string& why) {
 
 namespace {
 
-// A segment of it.
+// A segment of extended XMP.
 struct Piece {
   uint64_t whole = 0;  // bytes of the packet
   uint64_t at = 0;
@@ -43,7 +43,7 @@ struct Piece {
 
 }  // namespace
 
-// Those of the packet of this name, as they follow each other in it.
+// The segments of the packet with this id, in order of offset.
 static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, std::string_view id) {
   std::vector<Piece> pieces;
   for (const JpegSegment& segment : segments) {
@@ -57,15 +57,15 @@ static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, st
   return pieces;
 }
 
-// No number in the file decides how much memory is taken: the pieces do.
+// Memory grows with the segments actually read, not with a length that the file claims.
 static std::string join(const std::vector<Piece>& pieces, const std::string& path) {
   std::string packet;
   for (const Piece& piece : pieces) {
-    if (piece.at != packet.size()) throw damaged(path, "parts of it are missing or stand there twice");
+    if (piece.at != packet.size()) throw damaged(path, "parts of it are missing or duplicated");
     packet += piece.bytes;
   }
   for (const Piece& piece : pieces) {
-    if (piece.whole != packet.size()) throw damaged(path, "it is longer or shorter than it says");
+    if (piece.whole != packet.size()) throw damaged(path, "its length differs from the one stated");
   }
   return packet;
 }
@@ -81,19 +81,18 @@ static std::string extended_xmp(const std::vector<JpegSegment>& segments, std::s
   std::string capitals = id;
   std::transform(id.begin(), id.end(), capitals.begin(), [](char c) { return c >= 'a' && c <= 'f' ? c - 32 : c; });
   if (extended.empty()) throw damaged(path, "it is not there");
-  if (md5(extended) != capitals) throw damaged(path, "its bytes are not those that its MD5 was made of");
+  if (md5(extended) != capitals) throw damaged(path, "its MD5 does not match");
   return extended;
 }
 
-// --- read ------------------------------------------------------------------------------------------------------------
+// --- reading ---------------------------------------------------------------------------------------------------------
 
 static std::string_view standard_packet(const std::vector<JpegSegment>& segments) {
   const JpegSegment* segment = find_packet(segments);
   return segment == nullptr ? std::string_view() : std::string_view(segment->data).substr(kJpegXmp.size());
 }
 
-// Other photos have a second picture in them, too: one of a lens that was focused elsewhere, a map of depth. Theirs
-// have no GPano.
+// Other kinds of photo also embed a second picture, such as another focus or a depth map, but those have no GPano.
 static bool is_photo(const std::vector<JpegSegment>& segments) {
   const std::string_view packet = standard_packet(segments);
   if (xmp_property(packet, "GPano:ProjectionType") != "equirectangular") return false;
@@ -110,7 +109,7 @@ bool is_photo(const std::string& path) {
     return is_photo(read_jpeg_headers(file));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    return false;  // who reads the pixels says what is wrong with it
+    return false;  // reading the pixels reports the fault
   }
 }
 
@@ -128,12 +127,11 @@ std::string read_right_eye(const std::string& path) {
   return right;
 }
 
-// --- written ---------------------------------------------------------------------------------------------------------
+// --- writing ---------------------------------------------------------------------------------------------------------
 
 void write_photo(const FileInput& left, const std::string& right, const StereoCamera& camera, Extent size,
                  AtomicFile& to) {
-  if (right.size() > kMaxRight)
-    throw damaged(left.path(), "it has more than 3 GiB, and such a photo has no room for it");
+  if (right.size() > kMaxRight) throw damaged(left.path(), "it has more than 3 GiB, the limit of such a photo");
   const std::string extended = make_xmp_body({{"GImage:Data", encode_base64(right)}});
   const std::string id = md5(extended);
   std::vector<Attribute> properties;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves in a scene, and how: all that set_time() (ods/scene/motion.h) needs to write the scene's own records anew.
-// Everything that is not named here stands still.
+// The animation of a scene: all that set_time() (ods/scene/motion.h) needs to update the scene's records. Everything
+// else is static.
 //
-// Clips hold tracks; a track changes one property of one target with time. Targets are rows of the lists below:
-//   nodes      a tree of places; instances, skins, lights and view points hang on them
+// Clips contain tracks; a track changes one property of one target over time. Targets are indices into the lists below:
+//   nodes      a tree of transforms, with instances, skins, lights and view points attached
 //   weights    of the morph targets of a mesh
-//   lamps      what lights are made of: colour, strength, range, cone
-//   materials  factors and the places of textures
+//   lamps      the properties of lights: colour, intensity, range, cone
+//   materials  factors and texture transforms
 #pragma once
 #include <iterator>
 #include <string>
@@ -35,7 +35,7 @@ enum class Property {
   kEmissionStrength,
   kMetallic,
   kRoughness,
-  kUvOffset,  // of a texture's place: target is 5 * material + slot (kBaseColorSlot ..)
+  kUvOffset,  // of a texture transform: target is 5 * material + slot (kBaseColorSlot ..)
   kUvRotation,
   kUvScale,
 };
@@ -48,7 +48,7 @@ inline constexpr Property kProperties[] = {
     Property::kUvScale};
 static_assert(std::size(kProperties) == enumerator_count<Property>());
 
-// How many numbers change together; 0: as many as there are morph targets.
+// The number of values that change together; 0: one per morph target.
 size_t property_width(Property property);
 
 struct Track {
@@ -63,9 +63,9 @@ struct Clip {
   std::vector<Track> tracks;
 };
 
-// A place that moves, or hangs on one that does. parent * before * T * R * S is where it stands in the world.
+// A transform that moves, or whose ancestor does. Its world matrix is parent * before * T * R * S.
 struct MovingNode {
-  int parent = -1;  // a node before this one in the list; -1: none, `before` holds all that stands above
+  int parent = -1;  // an earlier node in the list; -1: none, and `before` holds all static ancestors
   glm::dmat4 before{1.0};
   glm::dvec3 translation{0.0};  // at rest
   glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};
@@ -77,13 +77,13 @@ struct Skin {
   std::vector<glm::dmat4> inverse_bind;
 };
 
-// An instance of the scene that moves, or whose mesh does. Its matrix is node * local.
+// An instance that moves, or whose mesh deforms. Its matrix is node * local.
 struct MovingInstance {
   int instance = 0;
-  int node = -1;         // -1: none, local is where it stands
+  int node = -1;         // -1: none, `local` is its world matrix
   int deformation = -1;  // of its mesh; -1: none
   glm::dmat4 local{1.0};
-  vec3 low{0.0f}, high{0.0f};  // the box around its mesh, where that is not deformed
+  vec3 low{0.0f}, high{0.0f};  // the mesh's bounds, if it does not deform
 };
 
 struct Lamp {
@@ -92,13 +92,13 @@ struct Lamp {
 };
 
 struct MovingLight {
-  int light = 0;  // of the scene
-  int node = -1;  // -1: it does not move; it shines along -Z of its node
+  int light = 0;  // index in the scene
+  int node = -1;  // -1: static; it shines along -Z of its node
   int lamp = 0;
 };
 
 struct MovingView {
-  int view_point = 0;  // of the scene
+  int view_point = 0;  // index in the scene
   int node = 0;        // it looks along -Z of its node
 };
 
@@ -112,18 +112,17 @@ struct UvPlace {
 enum { kBaseColorSlot, kMetallicRoughnessSlot, kNormalSlot, kEmissionSlot, kTransmissionSlot, kSlotCount };
 
 struct MovingMaterial {
-  int material = 0;  // of the scene
+  int material = 0;  // index in the scene
   glm::dvec4 base_color{1.0};
-  glm::dvec3 emission{0.0};  // without its strength
+  glm::dvec3 emission{0.0};  // without the strength factor
   double strength = 1.0, metallic = 0.0, roughness = 1.0;
   UvPlace places[kSlotCount];
-  bool placed[kSlotCount] = {};  // whether a track moves that texture
+  bool placed[kSlotCount] = {};  // per slot: whether a track animates its texture transform
 };
 
 struct Animation {
   std::vector<Clip> clips;
-  std::vector<int> playing;  // which clips set_time() plays; none: all is at rest. Of two that move the same thing the
-                             // later one wins
+  std::vector<int> playing;  // clips that set_time() plays, later ones take precedence; empty: all is at rest
 
   std::vector<MovingNode> nodes;
   std::vector<std::vector<double>> weights;  // at rest
@@ -136,11 +135,11 @@ struct Animation {
   std::vector<MovingMaterial> materials;  // at rest
 };
 
-// Seconds from 0 to the last key of what plays; 0: nothing moves.
+// The last key of the playing clips, in seconds; 0: nothing moves.
 double length_of(const Animation& animation);
 
-// Chooses what plays: the clip of that name, or with an empty name every clip that moves nothing which one before it
-// moves (files hold one clip for each object, or several takes of one figure). False: there is no clip of that name.
+// Selects what plays: the clip of that name or, with an empty name, every clip that does not animate anything an
+// earlier one does (files hold one clip per object, or several takes of one figure). False if no clip has that name.
 bool play(Animation& animation, const std::string& name);
 
 }  // namespace ods

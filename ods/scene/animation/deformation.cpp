@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t kVerticesPerTask = 4096;
 
-// Unit length, or what stood there before.
+// The vector normalized, or `before` if it has no direction.
 vec3 unit_or(dvec3 v, vec3 before) {
   return vec3(unit(v, dvec3(before)));
 }
@@ -50,7 +50,7 @@ void apply_skin(const Deformation& deformation, std::span<const dmat4> joints, s
     if (influence.weight != 0.0f) matrix += static_cast<double>(influence.weight) * joints[influence.joint];
   }
   const dvec3 x(matrix[0]), y(matrix[1]), z(matrix[2]);
-  // The cofactors: the inverse transpose as far as directions go, and there is one where there is no inverse.
+  // The cofactor matrix: proportional to the inverse transpose, and defined even for singular matrices.
   const dmat3 normals(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
   moved.position = dvec3(matrix * dvec4(moved.position, 1.0));
   moved.normal = normals * moved.normal;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes whose vertices move: morph targets first, then a skin, as glTF 2.0 has them.
+// Deforming meshes: morph targets first, then a skin, as in glTF 2.0.
 #pragma once
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// What a weight of 1 adds to each vertex; a list is empty where it adds nothing.
+// Offsets added to each vertex at weight 1; an empty list adds nothing.
 struct MorphTarget {
   std::vector<vec3> positions;
   std::vector<vec3> normals;
@@ -24,20 +24,20 @@ struct Influence {
 };
 
 struct Deformation {
-  int mesh = 0;              // whose vertices are written
-  bool flat = false;         // normals are those of the faces; no two triangles share a corner
-  std::vector<Vertex> rest;  // the vertices that all starts from
+  int mesh = 0;              // whose vertices are rewritten
+  bool flat = false;         // face normals; no two triangles share a vertex
+  std::vector<Vertex> rest;  // the undeformed vertices
   std::vector<MorphTarget> targets;
-  int weights = -1;                   // which of Animation::weights; -1: no targets
-  int skin = -1;                      // which of Animation::skins; -1: none
+  int weights = -1;                   // index in Animation::weights; -1: no targets
+  int skin = -1;                      // index in Animation::skins; -1: none
   size_t influences_per_vertex = 0;   // of a skin
-  std::vector<Influence> influences;  // that many for each vertex, their weights' sum is 1
+  std::vector<Influence> influences;  // that many per vertex, with weights that add up to 1
 };
 
-// Writes the vertices: positions p + sum of weight * delta, then (sum of weight * joint) p; normals turn with the
-// inverse transpose of that matrix, tangents with the matrix, and both are unit vectors again. False, and nothing is
-// written, where a vertex comes to lie further than `farthest` from the origin on an axis.
-// Preconditions: out.size() == rest.size(); a weight for each target; joints: every joint that an influence names.
+// Computes the deformed vertices: positions p + sum of weight * delta, then (sum of weight * joint) p. Normals are
+// transformed by the inverse transpose of that matrix, tangents by the matrix; both are normalized. Returns false, and
+// writes nothing, if a coordinate of a vertex exceeds `farthest`. Preconditions: out.size() == rest.size(); one weight
+// per target; `joints` has every joint that an influence names.
 bool deform(const Deformation& deformation, std::span<const double> weights, std::span<const glm::dmat4> joints,
             std::span<const uvec3> triangles, float farthest, std::vector<Vertex>& out);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers that change with time, given at some times: glTF 2.0's animation samplers.
+// Keyframe interpolation: glTF 2.0's animation samplers.
 #pragma once
 #include <span>
 #include <vector>
@@ -14,16 +14,16 @@ enum class Interpolation { kStep, kLinear, kCubicSpline };
 
 struct Keyframes {
   Interpolation interpolation = Interpolation::kLinear;
-  bool rotation = false;      // the numbers are a quaternion x, y, z, w, and stay of unit length
-  size_t width = 1;           // how many numbers change together
-  std::vector<float> times;   // seconds, never falling; not empty
-  std::vector<float> values;  // width for each time; of kCubicSpline the tangent in, the value and the tangent out
+  bool rotation = false;      // quaternions x, y, z, w, kept at unit length
+  size_t width = 1;           // values per key
+  std::vector<float> times;   // seconds, in non-decreasing order; not empty
+  std::vector<float> values;  // `width` per time; for kCubicSpline in-tangent, value, out-tangent
 };
 
-// The numbers at a time; before the first key and after the last they stand still.
-//   kStep         the key before;
-//   kLinear       straight between two keys; rotations along the shorter arc at constant speed (slerp);
-//   kCubicSpline  Hermite's curve through the keys, tangents per second; rotations are made unit length again.
+// The values at a time; constant before the first key and after the last.
+//   kStep         the previous key;
+//   kLinear       linear between two keys; rotations along the shorter arc at constant speed (slerp);
+//   kCubicSpline  Hermite curve through the keys, tangents per second; rotations are renormalized.
 // Source: glTF 2.0, appendix C. Precondition: out.size() == width.
 void evaluate(const Keyframes& keys, double seconds, std::span<double> out);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// "axis": what is where. Every label reads correctly only if the picture is neither mirrored nor turned.
+// "axis": a labelled reference. The labels read correctly only if the picture is neither mirrored nor rotated.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace ods {
 
 static const float kEyeHeight = 1.6f, kRadius = 5.0f;
 
-// Stands something at an azimuth and elevation (degrees) and a distance from the eyes, facing them.
+// A matrix at an azimuth and elevation (degrees) and a distance from the eyes, facing them.
 static glm::mat4 facing_viewer(float azimuth, float elevation, float distance) {
   return placed(vec3(0.0f, kEyeHeight, 0.0f), azimuth) * turned(vec3(1, 0, 0), elevation) *
          placed(vec3(0.0f, 0.0f, -distance));
@@ -74,7 +74,7 @@ static void add_elevations(Scene& scene) {
   }
 }
 
-// Balls of one apparent size whose distance only stereo tells, with the metres written below.
+// Balls of equal apparent size, whose distance only stereo reveals, labelled in metres.
 static void add_distances(Scene& scene) {
   struct Ball {
     float distance, azimuth;
@@ -98,7 +98,7 @@ static void add_distances(Scene& scene) {
   }
 }
 
-// +X red, +Y green, +Z blue, the positive half of each with an arrow head. The floor's middle stays free for the pole.
+// +X red, +Y green, +Z blue, with an arrow head on each positive half. The centre of the floor stays free for the pole.
 static void add_axes(Scene& scene) {
   const vec3 colors[] = {{0.8f, 0.02f, 0.02f}, {0.02f, 0.6f, 0.04f}, {0.02f, 0.06f, 0.85f}};
   const glm::mat4 turns[] = {turned(vec3(0, 0, 1), -90.0f), glm::mat4(1.0f), turned(vec3(1, 0, 0), 90.0f)};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Short words for filling a Scene in code.
+// Short functions for building a Scene in code.
 #pragma once
 #include <functional>
 
@@ -10,41 +10,41 @@
 
 namespace ods {
 
-// Turned to the right by yaw degrees (seen from above), scaled first, then moved.
+// Scales, then rotates to the right by yaw degrees (seen from above), then moves.
 glm::mat4 placed(vec3 position, float yaw = 0.0f, vec3 scale = vec3(1.0f));
 
-// Turned about an axis by degrees, counter-clockwise seen against the axis.
+// Rotates about an axis by degrees, counter-clockwise when looking against the axis.
 glm::mat4 turned(vec3 axis, float degrees);
 
 // A diffuse or glossy dielectric.
 Material paint(vec3 color, float roughness = 0.8f);
 
-// No shine at all: a Lambert surface, which the known answers need.
+// A Lambert surface without specular reflection, for scenes with known answers.
 Material matte(vec3 color);
 
 Material metal(vec3 color, float roughness);
 
-// Black, and glowing.
+// Black and emissive.
 Material glow(vec3 radiance);
 
-// Clear solid glass; the mesh that wears it must be closed.
+// Clear solid glass; its mesh must be closed.
 Material glass(float ior);
 
 // A texture of color(u, v), u and v in 0..1 with v down; linear Rec. 709 in, stored as sRGB. Returns its index.
 int add_texture(Scene& scene, int width, int height, const std::function<vec3(vec2)>& color);
 
-// The material with its base colour multiplied by a texture that repeats every size metres.
+// The material with its base colour multiplied by a texture that repeats every `size` metres.
 Material textured(Material material, int texture, vec2 size);
 
 int add_material(Scene& scene, const Material& material, const std::string& name = {});
 
-// Makes a mesh of the shape and stands it in the world once. Returns the mesh.
+// Adds a mesh of the shape and one instance of it. Returns the mesh.
 int add(Scene& scene, const Shape& shape, int material, const glm::mat4& object_to_world = glm::mat4(1.0f));
 
-// A lat-long environment of width x width / 2 texels; the function gets a unit vector.
+// A lat-long environment of width x width / 2 texels; the function receives a unit vector.
 Environment make_environment(int width, const std::function<vec3(vec3 direction)>& radiance);
 
-// The direction of a light that shines from the sky at an elevation and azimuth (degrees, clockwise from -Z).
+// A directional light from this azimuth and elevation (degrees, clockwise from -Z).
 PunctualLight make_sun(float azimuth, float elevation, vec3 irradiance);
 
 }  // namespace ods

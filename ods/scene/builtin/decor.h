@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What makes a room lived in: lamps, plants, books, pictures, curtains. Origins and fronts as in furniture.h.
+// Decoration for built-in scenes: lamps, plants, books, pictures, curtains. Origins and fronts as in furniture.h.
 #pragma once
 #include "ods/scene/builtin/furniture.h"
 
@@ -10,16 +10,17 @@ namespace ods {
 void add_floor_lamp(Scene& scene, const Finishes& finishes, const glm::mat4& place);  // 1.6 high
 void add_table_lamp(Scene& scene, const Finishes& finishes, const glm::mat4& place);  // 0.52 high
 
-// A paper ball on a cord; the origin is where the cord meets the ceiling, `drop` metres above the ball's middle.
+// A paper ball on a cord; the origin is where the cord meets the ceiling, `drop` metres above the ball's centre.
 void add_lantern(Scene& scene, const Finishes& finishes, const glm::mat4& place, float drop, float radius);
 
 // A pot with leaves on bent stems, `height` metres tall.
 void add_plant(Scene& scene, const Finishes& finishes, const glm::mat4& place, float height, int leaves, uint seed);
 
-// A row of books on a shelf of size.x by size.y by size.z, some lying, now and then a vase; different for each seed.
+// A row of books on a shelf of size.x by size.y by size.z, some lying flat, with an occasional vase; different for each
+// seed.
 void add_books(Scene& scene, const Finishes& finishes, const glm::mat4& place, vec3 size, uint seed);
 
-// A framed picture of patterns.h, centred at the origin.
+// A framed picture from patterns.h, centred at the origin.
 void add_picture(Scene& scene, const glm::mat4& place, vec2 size, int painting, int frame);
 
 // A hanging curtain from y = 0 down.

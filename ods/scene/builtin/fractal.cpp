@@ -26,7 +26,7 @@ static Frame frame_on(vec3 position, vec3 y) {
   return {position, x, y, cross(x, y)};
 }
 
-// A ball with nine smaller ones: six around its middle, three above; none where it touches its parent.
+// A ball with nine smaller ones: six around its equator and three above; none where it touches its parent.
 static void add_flake(Scene& scene, const LevelMeshes& meshes, const Frame& frame, float radius, int level) {
   add_instance(scene, meshes[level], placed(frame.position, 0.0f, vec3(radius)));
   if (level == kLevels) return;
@@ -81,7 +81,7 @@ static void add_flakes(Scene& scene) {
       {{-7.5f, 4.0f, -9.0f}, 1.9f, 0},
   };
   for (const Place& place : places) {
-    const vec3 up(0.0f, place.position.y > 5.0f ? -1.0f : 1.0f, 0.0f);  // the one overhead shows its crown too
+    const vec3 up(0.0f, place.position.y > 5.0f ? -1.0f : 1.0f, 0.0f);  // the one overhead shows its crown, too
     add_flake(scene, meshes[place.palette], frame_on(place.position, up), place.radius, 0);
   }
 }

@@ -54,7 +54,7 @@ static void add_legs(Scene& scene, int material, const glm::mat4& place, vec2 ha
   }
 }
 
-// A seat between two arms with a back, seat and back cushions; what sofas and armchairs have in common.
+// Two arms, a back, and seat and back cushions: the common parts of sofas and armchairs.
 static void add_upholstery(Scene& scene, int material, const glm::mat4& place, vec3 size, int seats) {
   const float arm = 0.17f, back = 0.2f, base = 0.14f, seat_top = 0.32f;
   const auto part = [&](vec3 extent, vec3 center, float radius) {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Furniture for built-in scenes. Each piece stands at its own origin on the floor with its front towards +Z; `place`
-// puts it into the room.
+// Furniture for built-in scenes. Each piece has its origin on the floor and its front towards +Z; `place` puts it into
+// the room.
 #pragma once
 #include "ods/scene/scene.h"
 
 namespace ods {
 
-// Books of unit size standing on y = 0, spines towards +Z, in several bindings; the pages are a mesh of their own.
+// Unit-size books standing on y = 0, spines towards +Z, in several bindings; the pages are a separate mesh.
 struct BookMeshes {
   std::vector<int> covers;
   int pages;
@@ -16,13 +16,13 @@ struct BookMeshes {
 
 BookMeshes add_book_meshes(Scene& scene, int pages_material);
 
-// Materials that pieces share, as indices into the scene's.
+// Materials shared by pieces, as indices into the scene's.
 struct Finishes {
   int oak, walnut, black_wood, white_paint;
   int sofa, leather, linen, mustard, terracotta, cream, sage;
   int brass, iron, ceramic, dark_ceramic, glass;
   int pages, leaf, soil, stem;
-  int shade, lantern;  // glow: on both sides of an open shade, on the outside of a closed one
+  int shade, lantern;  // emissive: both sides of an open shade, the outside of a closed one
   BookMeshes books;
 };
 

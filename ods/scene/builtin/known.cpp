@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scenes with answers in closed form.
+// The scenes with closed-form answers.
 #include "ods/kernel/camera/camera.h"
 #include "ods/scene/builtin/builder.h"
 #include "ods/scene/builtin/builtin.h"
@@ -35,7 +35,7 @@ std::vector<vec3> marker_positions() {
   const float elevations[] = {-80.0f, -55.0f, -30.0f, -12.0f, 0.0f, 9.0f, 25.0f, 48.0f, 76.0f};
   int number = 0;
   for (const float elevation : elevations) {
-    // Seven a ring, each ring turned a little, one of them on the seam behind the viewer.
+    // Seven per ring, each ring rotated a little, with one of them on the seam behind the viewer.
     const int ring = 7;
     for (int i = 0; i < ring; i++) {
       const float seam = number % 2 == 0 ? 180.0f : 179.0f;
@@ -64,7 +64,7 @@ static const float kLampRadius = 0.3f, kLampHeight = 1.2f, kLampAlbedo = 0.5f, k
 Scene make_lamp() {
   Scene scene;
   add(scene, make_floor(20.0f, 20.0f), add_material(scene, matte(vec3(kLampAlbedo))));
-  // The polygon that stands for the disc has the disc's area.
+  // The polygon that approximates the disc has the disc's area.
   const int corners = 96;
   const float step = 2.0f * kPi / float(corners);
   const Shape disc = make_disc(kLampRadius * sqrt(step / sin(step)), corners);
@@ -82,7 +82,7 @@ float lamp_floor_radiance(float x, float z) {
 }
 
 static const float kSlabThickness = 0.1f, kSlabIor = 1.5f;
-static const vec3 kSlabColor(0.9f, 0.7f, 0.4f);  // what is left after kSlabThickness
+static const vec3 kSlabColor(0.9f, 0.7f, 0.4f);  // transmittance of kSlabThickness
 
 Scene make_slab() {
   Scene scene;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The functions behind the table of built-in scenes, one per scene.
+// The functions that make the built-in scenes, one per scene.
 #pragma once
 #include "ods/scene/scene.h"
 

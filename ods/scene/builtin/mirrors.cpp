@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// "mirrors": what stereo makes of reflections: behind flat glass things lie as far away as they are, in round mirrors
-// they shrink and come near, in hollow ones they hang in the air.
+// "mirrors": reflections in stereo. Behind flat glass things appear as far away as they are, in convex mirrors they
+// shrink and come nearer, in concave ones they hang in the air.
 #include <algorithm>
 #include <iterator>
 
@@ -15,7 +15,7 @@ namespace ods {
 
 static const vec3 kSilver(0.95f, 0.95f, 0.94f), kGold(1.0f, 0.72f, 0.30f), kCopper(0.95f, 0.55f, 0.40f);
 
-// Where something stands: azimuth in degrees clockwise from the front, distance over the floor.
+// A position: azimuth in degrees clockwise from the front, distance on the floor.
 static vec3 around(float azimuth, float distance, float height) {
   const float theta = glm::radians(azimuth);
   return {distance * sin(theta), height, -distance * cos(theta)};
@@ -35,7 +35,7 @@ struct Ball {
 };
 
 }  // namespace
-// Mirrors are perfect or clearly rough: what lies between throws the sun about as single bright pixels.
+// Mirrors are perfect or clearly rough: anything between scatters the sun into fireflies.
 static const Ball kBalls[] = {
     {-14.0f, 2.4f, 0.75f, kSilver, 0.0f},  {19.0f, 1.6f, 0.32f, kGold, 0.0f},    {8.0f, 4.6f, 1.2f, kCopper, 0.3f},
     {-52.0f, 3.6f, 0.9f, kGold, 0.0f},     {75.0f, 3.2f, 0.7f, kSilver, 0.0f},   {118.0f, 1.9f, 0.45f, kCopper, 0.0f},
@@ -74,7 +74,7 @@ static void add_flat_mirrors(Scene& scene) {
   }
 }
 
-// Part of a sphere, seen from inside (hollow) or from outside (round), with a rim.
+// Part of a sphere with a rim, seen from inside (concave) or from outside (convex).
 static void add_curved_mirrors(Scene& scene) {
   const int silver = add_material(scene, metal(kSilver, 0.0f));
   const int rim = add_material(scene, metal(kGold, 0.3f));

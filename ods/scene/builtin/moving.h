@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Short words for scenes that move: nodes, what hangs on them, and the keys of the scene's one clip.
+// Short functions for animated scenes: nodes, attached meshes, and the keys of the scene's one clip.
 #pragma once
 #include <initializer_list>
 
@@ -9,16 +9,16 @@
 
 namespace ods {
 
-// A place that can move; parent -1: in the world. Returns its row in Animation::nodes.
+// A movable transform; parent -1: the world. Returns its index in Animation::nodes.
 int add_node(Scene& scene, int parent, vec3 position);
 
-// A mesh that goes with a node. Returns its row in Scene::meshes.
+// Attaches a mesh to a node. Returns its index in Scene::meshes.
 int hang(Scene& scene, const Shape& shape, int material, int node, const glm::mat4& local = glm::mat4(1.0f));
 
-// The last mesh that was hung bends: its row in Animation::deformations.
+// Makes the last attached mesh deformable: its element of Animation::deformations.
 Deformation& bend_last(Scene& scene);
 
-// A row of Animation::materials for a material as it is.
+// Adds an element to Animation::materials with the material's current values.
 int add_moving_material(Scene& scene, int material);
 
 // Keys in the scene's clip. values: property_width() numbers for each time.
@@ -29,7 +29,7 @@ void add_keys(Scene& scene, Property property, int target, Interpolation interpo
 void add_keys(Scene& scene, Property property, int target, Interpolation interpolation, float seconds, int count,
               const std::function<std::vector<float>(float share)>& value);
 
-// x, y, z, w of a turn about an axis, counter-clockwise seen against it.
+// The quaternion x, y, z, w of a rotation about an axis, counter-clockwise when looking against it.
 std::vector<float> quaternion(vec3 axis, float degrees);
 
 }  // namespace ods

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Procedural colours, linear Rec. 709, as functions of a place p in 0..1 x 0..1 (v down) for add_texture(). They repeat
-// without a seam where the thing they show does. Pure hashing: the same bits everywhere.
+// Procedural colours, linear Rec. 709, as functions of a point p in 0..1 x 0..1 (v down), for add_texture(). Patterns
+// that repeat in reality tile without a seam. Pure hashing: the same bits everywhere.
 #pragma once
 #include "ods/kernel/math.h"
 

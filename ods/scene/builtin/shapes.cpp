@@ -98,7 +98,7 @@ Shape make_rounded_box(vec3 size, float radius, int steps) {
   const vec3 inner = max(0.5f * size - vec3(radius), vec3(0.0f));
   Shape shape;
   const int line = 2 * (steps + 1);
-  // Along each direction of a side: from the middle of one rounded edge to the flat part, over it, and out again.
+  // For each direction of a side: from the middle of one rounded edge to the flat part, across it, and out again.
   const auto lean = [&](int i) {
     return i <= steps ? -tan(0.25f * kPi * float(steps - i) / float(steps))
                       : tan(0.25f * kPi * float(i - steps - 1) / float(steps));
@@ -236,7 +236,7 @@ Shape make_tube(const std::vector<vec3>& path, float radius, int segments) {
   float along = 0.0f;
   for (size_t i = 0; i <= last; i++) {
     const vec3 ahead = heading(i);
-    side = normalize(side - dot(side, ahead) * ahead);  // turned as little as possible, so that the rod never twists
+    side = normalize(side - dot(side, ahead) * ahead);  // parallel transport, so that the rod never twists
     if (i > 0) along += glm::distance(path[i], path[i - 1]);
     for (int k = 0; k <= segments; k++) {
       const float angle = 2.0f * kPi * float(k % segments) / float(segments);
@@ -315,12 +315,12 @@ Shape make_cushion(vec3 size, int columns) {
     return [size, side](float s, float t) {
       const float x = 2.0f * s - 1.0f, z = 1.0f - 2.0f * t;
       const float full = pow(max((1.0f - x * x) * (1.0f - z * z), 0.0f), 0.4f);
-      // The seam is pulled in along the sides, which leaves the corners standing out.
+      // The seam is pulled in along the sides, so the corners stick out.
       const float pull_x = 1.0f - 0.08f * (1.0f - z * z), pull_z = 1.0f - 0.08f * (1.0f - x * x);
       return 0.5f * size * vec3(x * pull_x, side * full, z * pull_z);
     };
   };
-  // Corners have no tangents that differ; a normal straight up or down is right enough there.
+  // At corners the tangents are parallel; a normal straight up or down is good enough there.
   Shape shape;
   for (const float side : {1.0f, -1.0f}) {
     Shape half = make_surface(columns, columns, extent, puffed(side));

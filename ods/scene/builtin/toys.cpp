@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// "toys": everything that can move, around the viewer, in a loop of eight seconds. Clockwise from the front: a snake
-// with a skin over joints, a mobile, a ball of morph targets, carts on rails (one for each interpolation), a banner
-// whose picture runs, a windmill, a spotlight, a lamp that swings.
+// "toys": every kind of animation, around the viewer, in a loop of eight seconds. Clockwise from the front: a snake
+// with a skin over joints, a mobile, a ball with morph targets, carts on rails (one per interpolation), a banner with a
+// scrolling picture, a windmill, a spotlight, a swinging lamp.
 #include <cmath>
 
 #include "ods/scene/builtin/decor.h"
@@ -16,7 +16,7 @@ namespace ods {
 
 static const float kLoop = 8.0f;  // seconds
 
-// A place at an azimuth (degrees to the right of the front) and a distance, and what stands there facing the viewer.
+// Positions at an azimuth (degrees to the right of the front) and a distance; things placed there face the viewer.
 static vec3 around(float azimuth, float distance, float height = 0.0f) {
   const float a = glm::radians(azimuth);
   return vec3(distance * sin(a), height, -distance * cos(a));
@@ -99,7 +99,7 @@ static void add_snake(Scene& scene, const Finishes& f) {
 
 // --- morph targets
 
-// What each target makes of the unit sphere's point.
+// Where each target moves a point of the unit sphere.
 static vec3 as_cube(vec3 d) {
   const vec3 a = abs(d);
   return d * (0.85f / max(a.x, max(a.y, a.z)));
@@ -283,7 +283,7 @@ static void add_banner(Scene& scene, const Finishes& f) {
            {0, 0, 4, 0});
 }
 
-// An even light that leaves the lamps theirs.
+// Even light, dim enough for the lamps to matter.
 static vec3 evening(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z) / (2.0f * kPi);
   const vec3 sky = mix(vec3(0.5f, 0.3f, 0.2f), vec3(0.07f, 0.11f, 0.24f), smoothstep(0.0f, 0.5f, d.y));

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// "wineglass": glass, wine and water on a laid table. Liquids reach a little into the wall of their glass: where media
-// overlap the one with the highest index of refraction counts, so the boundary is the glass' own and no video of air is
-// left.
+// "wineglass": glass, wine and water on a laid table. Liquids overlap the wall of their glass slightly: where media
+// overlap, the one with the highest index of refraction counts, so the boundary is the glass's own and no film of air
+// remains.
 #include <cmath>
 
 #include "ods/kernel/camera/camera.h"
@@ -30,7 +30,7 @@ static Shape vessel_shape(const Vessel& vessel, int segments) {
   return make_lathe(profile, segments);
 }
 
-// What fills a vessel up to a height, half a millimetre wider than its inside.
+// The liquid in a vessel up to a height, half a millimetre wider than its inside.
 static Shape filling_shape(const Vessel& vessel, float height, int segments) {
   const float overlap = 0.0005f;
   std::vector<vec2> profile = {vessel.inside.front() - vec2(0.0f, overlap)};
@@ -289,7 +289,7 @@ static void add_terrace(Scene& scene) {
   band(0.75f, 0.84f, 0.12f);
 }
 
-// A low, hazy sun over hills: its wide glow draws bright edges on glass and is still easy to sample.
+// A low, hazy sun over hills: its wide glow gives glass bright edges and is still easy to sample.
 static vec3 late_afternoon(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z);
   const vec3 sun = normalize(vec3(-0.72f, 0.42f, -0.62f));

@@ -39,7 +39,7 @@ static int component_count(const std::string& type) {
   return type == "MAT4" ? 16 : 0;
 }
 
-// Buffers have no alignment that a compiler may rely on.
+// Buffers need not be aligned.
 template <class T>
 static T load(const unsigned char* data) {
   T value;
@@ -96,7 +96,7 @@ uint AccessorView::index_at(size_t i) const {
   return load_index(data + i * stride, component_type);
 }
 
-// A run of elements inside a buffer view, or fail().
+// The start of a range of elements in a buffer view; throws if it is out of bounds.
 static const unsigned char* checked_elements(const GltfFile& file, int accessor, int view, size_t offset, size_t count,
                                              size_t size, size_t stride) {
   const Bytes bytes = buffer_view_bytes(file, view);
@@ -127,10 +127,10 @@ static void replace_sparse(GltfFile& file, int accessor, const JsonValue& sparse
   }
 }
 
-// The elements of an accessor that has no buffer view (they are zeros), or in which some are replaced: without gaps.
+// Expands an accessor without a buffer view (all zeros) or with sparse elements.
 static std::shared_ptr<const std::vector<unsigned char>> expand(GltfFile& file, int index, const AccessorView& plain,
                                                                 size_t size, const JsonValue& sparse) {
-  // A file may say that there are a billion zeros; it has to pay for them.
+  // A file may declare a billion zeros, so they count against the budget.
   spend(file, plain.count);
   auto expanded = std::make_shared<std::vector<unsigned char>>(plain.count * size);
   if (plain.data != nullptr) {

@@ -46,7 +46,7 @@ static void read_set(GltfFile& file, const PrimitiveSource& primitive, int set, 
       const bool counts = std::isfinite(weight[c]) && weight[c] > 0.0f;
       if (counts && !(joint[c] >= 0.0f && joint[c] < static_cast<float>(joints))) {
         fail(file,
-             fmt::format("a vertex hangs on joint {} of a skin that has {}; the file is damaged", joint[c], joints));
+             fmt::format("a vertex refers to joint {} of a skin that has {}; the file is damaged", joint[c], joints));
       }
       const size_t place = i * result.influences_per_vertex + static_cast<size_t>(4 * set + c);
       result.influences[place] = {counts ? static_cast<uint>(joint[c]) : 0u, counts ? std::min(weight[c], 1e6f) : 0.0f};
@@ -60,7 +60,7 @@ static void read_influences(GltfFile& file, const PrimitiveSource& primitive, si
   spend(file, primitive.order.size());
   result.influences.resize(primitive.order.size() * result.influences_per_vertex);
   for (int set = 0; set < (second ? 2 : 1); set++) read_set(file, primitive, set, joints, result);
-  // The specification wants sums of 1; a vertex that hangs on nothing goes with the first joint.
+  // The specification requires sums of 1; a vertex without weights follows the first joint.
   for (auto at = result.influences.begin(); at != result.influences.end();) {
     const auto end = at + static_cast<std::ptrdiff_t>(result.influences_per_vertex);
     float sum = 0.0f;
@@ -76,8 +76,8 @@ int read_skin(GltfFile& file, Scene& scene, int index, const std::vector<int>& r
   if (joints.empty()) fail(file, fmt::format("skin {} has no joints; the file is damaged", index));
   const AccessorView matrices = open_accessor(file, index_in(file, source, "inverseBindMatrices"));
   if (matrices.count != 0 && (matrices.components != 16 || matrices.count < joints.size())) {
-    fail(file,
-         fmt::format("skin {} has {} joints, but not as many matrices; the file is damaged", index, joints.size()));
+    fail(file, fmt::format("skin {} has {} joints, but another number of matrices; the file is damaged", index,
+                           joints.size()));
   }
   spend(file, joints.size());
   Skin skin;

@@ -23,7 +23,7 @@ struct Target {
   List list;
   int index;
   Property property;
-  int slot = 0;  // of a material's textures
+  int slot = 0;  // texture slot of a material
 };
 
 struct PointerForm {
@@ -118,7 +118,7 @@ std::vector<char> named_nodes(const GltfFile& file) {
       if (target->property != Property::kWeights) named[static_cast<size_t>(target->index)] = 1;
     }
   }
-  std::vector<char> seen(file.skins.size(), 0);  // many nodes may have one skin
+  std::vector<char> seen(file.skins.size(), 0);  // several nodes may share a skin
   for (const JsonValue* node : nodes) {
     const int skin = index_in(file, *node, "skin");
     if (skin == -1 || std::exchange(element(file, seen, skin, "skin"), 1) == 1) continue;
@@ -139,7 +139,7 @@ static std::optional<Interpolation> interpolation_of(const std::string& name) {
   return std::nullopt;
 }
 
-// The channel's keys; nothing where they make no sense. width 0: whatever the values have.
+// The channel's keys; nothing if they are invalid. width 0: deduced from the values.
 static std::optional<Keyframes> read_keys(GltfFile& file, const ChannelSource& channel, Property property,
                                           size_t width) {
   const auto interpolation = interpolation_of(channel.interpolation);
@@ -152,7 +152,7 @@ static std::optional<Keyframes> read_keys(GltfFile& file, const ChannelSource& c
   if (times.count == 0 || values.count == 0 || times.components != 1 || width == 0) return std::nullopt;
   const size_t numbers = values.count * static_cast<size_t>(values.components);
   const size_t per_key = width * (keys.interpolation == Interpolation::kCubicSpline ? 3 : 1);
-  // A buffer view's elements may be read as often as channels name them.
+  // Several channels may read the same buffer view, so every read counts.
   spend(file, times.count + numbers);
   if (numbers / per_key != times.count || numbers % per_key != 0) return std::nullopt;
   for (size_t i = 0; i < times.count; i++) {
@@ -183,7 +183,7 @@ class TargetRows {
         lamps_(file.lights.size(), -1),
         materials_(file.materials.size(), -1) {}
 
-  // The row that a track writes; -1: nothing of it is in the Scene.
+  // The index that a track writes to; -1 if its target is not in the Scene.
   int row(const Target& target);
   void add_lights();
 
@@ -206,7 +206,7 @@ class TargetRows {
   Animation& animation_;
   const Scene& scene_;
   const Places& places_;
-  std::vector<int> lamps_, materials_;  // of the file's
+  std::vector<int> lamps_, materials_;  // by the file's indices
 };
 
 }  // namespace
@@ -225,7 +225,7 @@ int TargetRows::row(const Target& target) {
   return row * kSlotCount + target.slot;
 }
 
-// Lights whose lamp or whose node moves.
+// Adds lights whose properties or node are animated.
 void TargetRows::add_lights() {
   for (const Places::PlacedLight& placed : places_.lights) {
     const int node = places_.nodes[static_cast<size_t>(placed.node)];
@@ -251,7 +251,7 @@ void read_clips(GltfFile& file, Scene& scene, const Places& places) {
                                                                   : property_width(target->property);
       auto keys = read_keys(file, channel, target->property, width);
       if (!keys) {
-        warn(scene, "animation channels whose keys make no sense are ignored");
+        warn(scene, "animation channels with invalid keys are ignored");
         continue;
       }
       clip.end = std::max(clip.end, static_cast<double>(keys->times.back()));

@@ -29,7 +29,7 @@ std::string printable(const std::string& text) {
 }
 
 void warn(Scene& scene, const std::string& what) {
-  constexpr size_t kMax = 100;  // a file may give reason for millions
+  constexpr size_t kMax = 100;  // a file can trigger millions
   if (scene.warnings.size() >= kMax) return;
   if (std::find(scene.warnings.begin(), scene.warnings.end(), what) == scene.warnings.end()) {
     scene.warnings.push_back(what);
@@ -41,7 +41,7 @@ void spend(GltfFile& file, size_t count) {
   file.budget -= count;
 }
 
-// Rendered, or understood enough to take the plain form that stands beside it.
+// Supported, or understood enough to use the fallback beside it.
 static constexpr std::array kRendered = {
     "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_animation_pointer",           "KHR_lights_punctual",
     "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength", "KHR_texture_transform",
@@ -59,7 +59,7 @@ bool is_read(std::string_view extension) {
   return contains(kRendered, extension) || extension == "KHR_materials_specular";
 }
 
-// The strings in a list at the file's root.
+// The strings in a root list of the file.
 static std::set<std::string> names_in(const GltfFile& file, const char* key) {
   std::set<std::string> names;
   for (const JsonValue& name : file.json.root()[key]) names.insert(*name.text);
@@ -74,8 +74,8 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
                              "compression",
                              name));
     }
-    fail(file,
-         fmt::format("needs the extension {}, which ods does not support; export it again without", printable(name)));
+    fail(file, fmt::format("needs the extension {}, which ods does not support; export it again without it",
+                           printable(name)));
   }
   constexpr size_t kMax = 50;
   for (const std::string& name : names_in(file, "extensionsUsed")) {
@@ -90,7 +90,7 @@ static void check_reach(Scene& scene) {
   const vec3 corner = max(abs(bounds.low), abs(bounds.high));
   const float reach = std::max({corner.x, corner.y, corner.z});
   if (reach <= kFirmReach) return;
-  warn(scene, fmt::format("the scene reaches {:.3g} km from the origin, where light seeps through walls thinner than "
+  warn(scene, fmt::format("the scene extends {:.3g} km from the origin, where light leaks through walls thinner than "
                           "{:.2g} m; move it nearer",
                           reach * 1e-3f, reach * kThinnestWall));
 }
@@ -102,7 +102,7 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   read_materials(file, scene);
   const Places places = read_nodes(file, scene, options.scene, named_nodes(file));
   read_clips(file, scene, places);
-  set_time(scene, 0.0);  // skins and morph targets as they are at rest
+  set_time(scene, 0.0);  // poses skins and morph targets at rest
   check_reach(scene);
   return scene;
 }

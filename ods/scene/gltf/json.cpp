@@ -23,7 +23,7 @@ size_t JsonValue::size() const {
 }
 
 const JsonValue& JsonValue::operator[](std::string_view name) const {
-  const JsonValue* found = &kNoJson;  // where a name stands twice, the last one counts
+  const JsonValue* found = &kNoJson;  // the last of several equal names counts
   if (!is_object()) return *found;
   for (const JsonValue& member : *this) {
     if (*member.key == name) found = &member;
@@ -38,7 +38,7 @@ static constexpr std::array<std::string_view, 18> kRootMembers = {
 
 namespace {
 
-// Receives the text's events and appends values, unless what they belong to is skipped.
+// Receives parser events and appends values, unless they are inside something skipped.
 class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   JsonBuilder(JsonDocument& document, const std::string& path, const std::function<bool(std::string_view)>& knows)
@@ -73,7 +73,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool add_number(double number);
   bool open(JsonValue::Kind kind);
   bool close();
-  // Whether the value that comes now is skipped.
+  // Whether the next value is skipped.
   bool skips() {
     const bool skip = skip_next_ || skipped_ > 0;
     skip_next_ = false;
@@ -84,9 +84,9 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   const std::string& path_;
   const std::function<bool(std::string_view)>& knows_;
   std::vector<Open> open_;
-  const std::string* key_ = &kNoText;  // of the member that comes next
+  const std::string* key_ = &kNoText;  // of the next member
   bool skip_next_ = false;
-  int skipped_ = 0;  // how many levels deep the text is in what is skipped
+  int skipped_ = 0;  // current depth inside something skipped
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The JSON of a glTF file. One flat list of values: 32 bytes each, made in one pass over the text, destroyed without
-// allocating (a tree of nlohmann's allocates in its destructor, which ends the process when memory has run out).
+// The JSON of a glTF file as one flat list of values: 32 bytes each, made in one pass over the text, destroyed without
+// allocating (nlohmann's tree allocates in its destructor, which terminates the process when memory has run out).
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -17,8 +17,8 @@ namespace ods {
 
 inline const std::string kNoText;
 
-// A value of a JsonDocument, valid as long as that is. What it contains follows it in the document's list: a copy of a
-// list or an object is worth nothing.
+// A value of a JsonDocument, valid while that lives. Its contents follow it in the document's list, so a copy of a list
+// or an object is useless.
 struct JsonValue {
   enum class Kind : unsigned char { kNull, kFalse, kTrue, kNumber, kText, kList, kObject };
 
@@ -33,8 +33,8 @@ struct JsonValue {
   };
 
   Kind kind = Kind::kNull;
-  uint32_t length = 1;                // values up to its next neighbour: itself and what it contains
-  const std::string* key = &kNoText;  // of an object's member
+  uint32_t length = 1;                // values up to the next sibling: itself and its contents
+  const std::string* key = &kNoText;  // if it is an object's member
   const std::string* text = &kNoText;
   double number = 0.0;  // finite
 
@@ -45,16 +45,16 @@ struct JsonValue {
   bool is_object() const { return kind == Kind::kObject; }
   bool is_true() const { return kind == Kind::kTrue; }
 
-  // Elements of a list, members of an object; of everything else none.
+  // Iterates over the elements of a list or the members of an object; empty for other values.
   Iterator begin() const { return {this + 1}; }
   Iterator end() const { return {this + length}; }
-  size_t size() const;  // counts them
+  size_t size() const;  // O(n)
 
-  // The member of that name; kNoJson where there is none, or where this is no object.
+  // The member with this name; kNoJson if there is none or this is not an object.
   const JsonValue& operator[](std::string_view name) const;
 };
 
-// What stands for a value that is absent: null.
+// Represents an absent value: null.
 inline const JsonValue kNoJson;
 
 struct JsonDocument {
@@ -65,12 +65,12 @@ struct JsonDocument {
   const JsonValue& root() const { return values.empty() ? kNoJson : values.front(); }
 };
 
-// Objects with more members than this are not glTF; finding a member looks at all of them.
+// Lookup is linear; no valid glTF object has more members than this.
 inline constexpr size_t kMaxMembers = 256;
 
-// Parses the text, without what glTF readers skip: extras, root members that glTF does not have, and extensions that
-// `knows` does not name. Throws Error(kInput), naming the path, where the text is not JSON, nests more than 100 levels
-// deep, or has an object with more than kMaxMembers members; Error(kMemory) where the values do not fit in memory.
+// Parses the text, skipping what glTF readers ignore: extras, unknown root members, and extensions for which `knows` is
+// false. Throws Error(kInput), naming the path, if the text is not JSON, nests more than 100 levels deep, or has an
+// object with more than kMaxMembers members; Error(kMemory) if the values do not fit in memory.
 JsonDocument parse_gltf_json(std::span<const unsigned char> text, const std::string& path,
                              const std::function<bool(std::string_view extension)>& knows);
 

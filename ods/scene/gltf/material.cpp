@@ -34,12 +34,12 @@ static UvPlace uv_place(const JsonValue& transform) {
 
 namespace {
 
-// Textures are made where a material first asks for one: the use decides about the sRGB curve.
+// Textures are created when a material first uses them, because the use decides on the sRGB curve.
 class TextureTable {
  public:
   TextureTable(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
-  // The texture that a member of a material or of its extensions names.
+  // The texture that a member of a material or of its extensions refers to.
   TextureSlot slot(const JsonValue& parent, const char* key, bool srgb);
 
   void decode_images();
@@ -51,7 +51,7 @@ class TextureTable {
     return mode == kMirroredRepeat ? kWrapMirror : kWrapRepeat;
   }
 
-  // Which image a texture shows, -1: none that can be read.
+  // The image of a texture; -1: none that can be read.
   int image_of(const JsonValue& texture) const {
     const int plain = index_in(file_, texture, "source");
     return integer(file_, extension(texture, "EXT_texture_webp"), "source", plain);
@@ -62,7 +62,7 @@ class TextureTable {
   const GltfFile& file_;
   Scene& scene_;
   std::map<std::pair<int, bool>, int> made_;  // (the file's texture, sRGB) -> the Scene's
-  std::vector<size_t> images_;                // of each of the Scene's textures
+  std::vector<size_t> images_;                // for each of the Scene's textures
 };
 
 }  // namespace
@@ -80,7 +80,7 @@ TextureSlot TextureTable::slot(const JsonValue& parent, const char* key, bool sr
     slot.uv_set = integer(file_, transform, "texCoord", slot.uv_set);
   }
   if (slot.uv_set < 0 || slot.uv_set > 1) {
-    warn(scene_, "a material uses a third set of texture coordinates; the first is taken");
+    warn(scene_, "a material uses a third set of texture coordinates; using the first");
     slot.uv_set = 0;
   }
   return slot;
@@ -92,7 +92,7 @@ int TextureTable::texture(int index, bool srgb) {
   const JsonValue& source = record(file_, file_.textures, index, "texture");
   const int image = image_of(source);
   if (image == -1) {
-    warn(scene_, fmt::format("texture {} has no picture that ods can read; it is left white", index));
+    warn(scene_, fmt::format("texture {} has no picture that ods can read; using white", index));
     return made_[{index, srgb}] = -1;
   }
   const size_t first_image = element(file_, file_.images, image, "image").first;
@@ -116,7 +116,7 @@ void TextureTable::decode_images() {
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   std::vector<CodeImage> decoded(used.size());
-  // One small picture may be much; a hundred names for it would be a hundred times that.
+  // Limits decompression: one small picture may be large, but a hundred references to it must not multiply it.
   constexpr size_t kSmallTexels = size_t(1) << 26, kTexelsPerByte = 1024;
   size_t allowed = kSmallTexels + kTexelsPerByte * file_.size;
   for (const size_t i : used) {
@@ -129,7 +129,7 @@ void TextureTable::decode_images() {
     if (bytes.empty()) fail(file_, fmt::format("image {} is empty", used[i]));
     decoded[i] = decode_image(std::as_bytes(Bytes(bytes)), name);
     taken += decoded[i].pixels.size();
-    // In whatever order they come, their sum decides.
+    // The sum decides, whatever the order.
     if (taken > allowed) fail(file_, "holds far more texels than a file of its size can; it looks damaged");
   });
   size_t total = 0;
@@ -151,9 +151,9 @@ void TextureTable::decode_images() {
   }
 }
 
-// The extension's index 0 asks for a Fresnel term of 1: that of an index so large that a float does not see the 1
-// beside it. (With it go the tints of KHR_materials_specular, without which such a material would be a mirror by
-// mistake.)
+// The extension's index 0 requests a Fresnel term of 1, which this index gives: it is so large that a float does not
+// resolve the 1 beside it. (The tints of KHR_materials_specular are lost with it; without them such a material would be
+// a mirror.)
 static constexpr float kMirrorIor = 1e8f;
 
 static void read_extensions(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
@@ -166,7 +166,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
     if (value == 0.0 && !tinted) {
       material.ior = kMirrorIor;
     } else if (value < 1.0) {
-      warn(scene, "a material has an index of refraction below 1; 1.5 is taken");
+      warn(scene, "a material has an index of refraction below 1; using 1.5");
       material.ior = 1.5f;
     } else {
       material.ior = clamped(value, 1.0, 100.0, 1.5);

@@ -13,7 +13,7 @@ static bool within(vec3 p, float limit) {  // false for NaN
   return std::abs(p.x) <= limit && std::abs(p.y) <= limit && std::abs(p.z) <= limit;
 }
 
-// Unit length, or zero where there is no direction. In double: the square of a small float may be none.
+// Normalized, or zero if there is no direction. In double, because the square of a small float underflows.
 static vec3 direction(vec3 v) {
   const glm::dvec3 d(v);
   const double size = glm::length(d);
@@ -24,11 +24,11 @@ static vec3 direction(vec3 v) {
 
 namespace {
 
-enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };  // of primitives; between them, lines
+enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };  // primitive modes; those between are lines
 
 }  // namespace
 
-// Corners of triangles as indices of the file's vertices.
+// Triangle corners, as indices of the file's vertices.
 static std::vector<uvec3> make_triangles(const std::vector<uint>& corners, int mode) {
   std::vector<uvec3> triangles;
   const size_t count = corners.size();
@@ -44,7 +44,7 @@ static std::vector<uvec3> make_triangles(const std::vector<uint>& corners, int m
   return triangles;
 }
 
-// accessor: of the primitive's indices.
+// accessor: the primitive's indices.
 static std::vector<uint> read_corners(GltfFile& file, int accessor, size_t vertex_count) {
   const AccessorView indices = open_accessor(file, accessor);
   const size_t count = accessor == -1 ? vertex_count : indices.count;
@@ -63,9 +63,9 @@ static std::vector<uint> read_corners(GltfFile& file, int accessor, size_t verte
   return corners;
 }
 
-// Leaves out triangles that no ray can meet. Returns how many had a corner that is nowhere.
+// Drops triangles that no ray can hit. Returns how many had a non-finite corner.
 static size_t drop_bad_triangles(const AccessorView& positions, std::vector<uvec3>& triangles) {
-  constexpr float kSmallest = 1e-18f;  // m2; below, squared areas are no longer floats
+  constexpr float kSmallest = 1e-18f;  // m2; below this, squared areas underflow a float
   size_t broken = 0;
   std::erase_if(triangles, [&](const uvec3& t) {
     const vec3 a(positions.at(t.x)), b(positions.at(t.y)), c(positions.at(t.z));
@@ -134,12 +134,12 @@ namespace {
 struct Geometry {
   std::vector<Vertex> vertices;
   std::vector<uvec3> triangles;
-  std::vector<uint> order;  // which of the file's vertices each is
+  std::vector<uint> order;  // indices in the file
 };
 
 }  // namespace
 
-// Only the vertices that triangles use: files share one long list among many primitives.
+// Keeps only vertices that triangles use: many primitives may share one long list.
 static Geometry gather(const Attributes& attributes, const std::vector<uvec3>& triangles) {
   std::vector<uint> used;
   used.reserve(triangles.size() * 3);
@@ -158,7 +158,7 @@ static Geometry gather(const Attributes& attributes, const std::vector<uvec3>& t
 
 // --- repairs
 
-// Twice the area, along the side that the corners go round counter-clockwise.
+// Twice the area, along the normal of a counter-clockwise triangle.
 static vec3 area_vector(const Geometry& geometry, const uvec3& t) {
   const vec3 a = geometry.vertices[t.x].position;
   return cross(geometry.vertices[t.y].position - a, geometry.vertices[t.z].position - a);
@@ -180,7 +180,7 @@ static void make_flat(Geometry& geometry) {
   geometry = std::move(flat);
 }
 
-// A vertex whose normal has no length gets the mean of the faces around it.
+// Replaces zero-length normals by the mean of the adjacent faces'.
 static void repair_normals(Geometry& geometry) {
   std::vector<Vertex>& vertices = geometry.vertices;
   if (std::none_of(vertices.begin(), vertices.end(), [](const Vertex& v) { return v.normal == vec3(0.0f); })) return;
@@ -197,7 +197,7 @@ static void repair_normals(Geometry& geometry) {
 
 // --- meshes
 
-// Appends the Scene mesh of one primitive and returns it, or -1 when nothing of it can be seen.
+// Appends the Scene mesh of one primitive and returns it, or -1 if none of it is visible.
 static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Deformers& bending) {
   const int mode = integer(file, primitive, "mode", kTriangles);
   if (mode < kPoints || mode > kFan) fail(file, fmt::format("primitive mode {} does not exist", mode));

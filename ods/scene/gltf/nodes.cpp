@@ -53,14 +53,14 @@ namespace {
 struct Hierarchy {
   std::vector<std::vector<int>> children;
   std::vector<int> parents;  // -1: a root
-  std::vector<int> order;    // every node, parents before their children
+  std::vector<int> order;    // all nodes, parents before children
 };
 
 }  // namespace
 
 static Hierarchy read_hierarchy(const GltfFile& file) {
   const Records& nodes = file.nodes;
-  constexpr size_t kBytesPerNode = 256;  // what this file keeps of each while it reads
+  constexpr size_t kBytesPerNode = 256;  // memory needed while reading
   check_memory(nodes.size() * kBytesPerNode, file.path + ": its list of nodes", "use a machine with more");
   Hierarchy tree;
   tree.children.resize(nodes.size());
@@ -85,7 +85,7 @@ static Hierarchy read_hierarchy(const GltfFile& file) {
   return tree;
 }
 
-// Where every node stands in the world.
+// The world matrix of every node.
 static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& tree) {
   std::vector<dmat4> world(tree.order.size());
   for (const int node : tree.order) {
@@ -98,7 +98,7 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
   return world;
 }
 
-// The nodes of one scene of the file, in the order of the tree; -1 for its default, or all where it has no scenes.
+// The nodes of one scene, in tree order; -1 for the file's default scene, or all nodes if it has no scenes.
 static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen) {
   const Records& scenes = file.scenes;
   const bool is_asked_for = chosen != -1;
@@ -128,7 +128,7 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
 
 // --- what moves
 
-// The rows of the file's nodes that move, in Animation::nodes; those below one that moves go with it.
+// Adds the file's moving nodes to Animation::nodes, including all descendants of a moving one.
 static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy& tree, const std::vector<dmat4>& world,
                                           const std::vector<char>& named, Scene& scene) {
   std::vector<int> rows(tree.order.size(), -1);
@@ -173,7 +173,7 @@ class Placer {
     int index;
     Bounds bounds;
     int deformation = -1;
-    bool skinned = false;  // stands where its joints are
+    bool skinned = false;  // placed by its joints
   };
   using LoadedMeshes = std::vector<LoadedMesh>;
 
@@ -193,14 +193,14 @@ class Placer {
 
 }  // namespace
 
-// A row of weights for a node whose mesh has morph targets, and of a skin where it has one.
+// The node's weights, if its mesh has morph targets, and its skin.
 Deformers Placer::bending_of(int index) {
   const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
   const JsonValue& mesh = record(file_, file_.meshes, index_in(file_, node, "mesh"), "mesh");
   Deformers bending;
   size_t targets = 0;
   for (const JsonValue& primitive : mesh["primitives"]) {
-    spend(file_, 1);  // many nodes may name one mesh of many primitives
+    spend(file_, 1);  // many nodes may share a mesh of many primitives
     targets = std::max(targets, primitive["targets"].size());
   }
   if (targets > 0) {
@@ -237,7 +237,7 @@ Placer::LoadedMeshes Placer::read(int mesh, const Deformers& bending) {
   return loaded;
 }
 
-// Meshes that bend are the node's own: each bends in its own way.
+// A deforming mesh cannot be shared, because each node deforms it differently.
 const Placer::LoadedMeshes& Placer::load_mesh(int index) {
   const int mesh = index_in(file_, *file_.nodes[static_cast<size_t>(index)], "mesh");
   const Deformers bending = bending_of(index);
@@ -247,7 +247,7 @@ const Placer::LoadedMeshes& Placer::load_mesh(int index) {
   return *loaded;
 }
 
-// row: of the node among those that move, -1: it stands still.
+// row: the node's index in Animation::nodes; -1: static.
 void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local) {
   spend(file_, 1);
   const int instance = static_cast<int>(scene_.instances.size());
@@ -262,16 +262,16 @@ void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dm
   const dmat4 matrix = world * local;
   if (!is_bounded(matrix)) fail(file_, "has an instance whose matrix is not finite, or too large");
   if (!is_invertible(matrix)) {
-    warn(scene_, "instances that are scaled to nothing are left out");
+    warn(scene_, "instances scaled to zero are left out");
     return;
   }
   if (!stays_near(matrix, mesh.bounds)) {
-    fail(file_, fmt::format("a mesh stands more than {:.0e} m from the origin; the file is damaged", kFarthest));
+    fail(file_, fmt::format("a mesh is more than {:.0e} m from the origin; the file is damaged", kFarthest));
   }
   add_instance(scene_, mesh.index, glm::mat4(matrix));
 }
 
-// EXT_mesh_gpu_instancing: many places for the node's mesh, relative to the node.
+// EXT_mesh_gpu_instancing: many transforms of the node's mesh, relative to the node.
 std::vector<dmat4> Placer::instance_matrices(const JsonValue& node) {
   const JsonValue& instancing = extension(node, "EXT_mesh_gpu_instancing");
   if (instancing.is_null()) return {dmat4(1.0)};
@@ -283,7 +283,7 @@ std::vector<dmat4> Placer::instance_matrices(const JsonValue& node) {
   for (const AccessorView* attribute : {&translations, &rotations, &scales}) {
     if (attribute->count != 0 &&
         (attribute->count != count || attribute->components < (attribute == &rotations ? 4 : 3))) {
-      fail(file_, "has EXT_mesh_gpu_instancing attributes that do not fit each other; the file is damaged");
+      fail(file_, "has EXT_mesh_gpu_instancing attributes of different lengths; the file is damaged");
     }
   }
   spend(file_, count);

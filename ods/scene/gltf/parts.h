@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the parts of the glTF reader share; only ods/scene/gltf/gltf.cpp and its folder include this.
+// The internal interface of the glTF reader; only ods/scene/gltf/gltf.cpp and its folder include this.
 //   json      the text -> JsonValues; values reads their members
-//   source    bytes of the file, its buffers and pictures -> GltfFile
-//   accessor  numbers out of buffers
+//   source    the file's bytes, its buffers and pictures -> GltfFile
+//   accessor  numbers from buffers
 //   material  materials, samplers, textures
 //   mesh      primitives -> meshes
 //   bend      morph targets and skins of primitives -> deformations
 //   nodes     the hierarchy -> instances, lights, view points
-//   clips     animations -> clips, and what they move
-// Every function here throws Error(kInput) naming the file when the file does not hold what it promises.
+//   clips     animations -> clips and their targets
+// Every function here throws Error(kInput), naming the file, if the file is inconsistent.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -27,18 +27,18 @@ namespace ods {
 using Bytes = std::span<const unsigned char>;
 
 struct ImageSource {
-  std::string uri;  // empty where the picture lies in the buffer view
+  std::string uri;  // empty if the picture is in the buffer view
   int view = -1;
-  size_t first = 0;  // the first image with the same source: the one that is read
+  size_t first = 0;  // the first image with the same source, the only one read
 };
 
-// One thing that an animation of the file moves.
+// One animation channel of the file.
 struct ChannelSource {
-  int times = -1;  // accessors
+  int times = -1;  // index of an accessor
   int values = -1;
   std::string interpolation;
   int node = -1;
-  std::string path;  // of the node: translation, ...; of KHR_animation_pointer a JSON pointer, which starts with '/'
+  std::string path;  // of a node: translation, ...; for KHR_animation_pointer a JSON pointer, which starts with '/'
 };
 
 struct ClipSource {
@@ -52,20 +52,20 @@ using Records = std::vector<const JsonValue*>;
 // A file being read.
 struct GltfFile {
   std::string path;
-  std::string confine;  // as SceneOptions
+  std::string confine;  // as in SceneOptions
   JsonDocument json;
   Records accessors, buffer_views, cameras, lights, materials, meshes, nodes, samplers, scenes, skins, textures;
   std::vector<Bytes> buffers;
   std::vector<ImageSource> images;
   std::vector<ClipSource> clips;
-  std::vector<std::shared_ptr<const std::vector<unsigned char>>> storage;  // what buffers point into
-  size_t size = 0;                                                         // bytes of the file and of its buffers
-  size_t budget = 0;  // how many more corners and instances a file of this size may ask for
+  std::vector<std::shared_ptr<const std::vector<unsigned char>>> storage;  // owns what `buffers` point into
+  size_t size = 0;                                                         // bytes of the file and its buffers
+  size_t budget = 0;  // remaining corners and instances, in proportion to the file's size
 };
 
 [[noreturn]] void fail(const GltfFile& file, const std::string& what);
 
-// Element `index` of a list of the file; `what` is its name in the message when there is none.
+// Element `index` of a list; `what` names the list in the error message.
 template <class List>
 auto& element(const GltfFile& file, List& list, int index, const char* what) {
   if (index < 0 || static_cast<size_t>(index) >= list.size()) {
@@ -79,16 +79,16 @@ inline const JsonValue& record(const GltfFile& file, const Records& list, int in
   return *element(file, list, index, what);
 }
 
-// Whether the reader makes something of an extension.
+// Whether the reader supports an extension.
 bool is_read(std::string_view extension);
 
-// Text of the file as it may stand in a message: one line, not endless.
+// Text from the file, made safe for a message: one line, of limited length.
 std::string printable(const std::string& text);
 
-// A part of the file that is not rendered; said once.
+// Adds a warning about an unsupported feature, without duplicates.
 void warn(Scene& scene, const std::string& what);
 
-// Takes from the budget, so that a small file cannot ask for gigabytes by naming one accessor a million times.
+// Deducts from the budget, so that a small file cannot request gigabytes by naming one accessor a million times.
 void spend(GltfFile& file, size_t count);
 
 // --- source.cpp
@@ -96,12 +96,12 @@ GltfFile open_gltf(const std::string& path, const std::string& confine);
 GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine);
 Bytes buffer_view_bytes(const GltfFile& file, int view);
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
-// The size of the picture's own file; 0 where it lies in the glTF file, or nowhere.
+// The size of the picture's own file; 0 if it is embedded in the glTF file or missing.
 size_t external_bytes(const GltfFile& file, const ImageSource& image);
 
 // --- accessor.cpp
-// One accessor, checked to lie inside its buffer: at(i) is element i as floats (normalized integers mapped as the
-// specification says), components that it does not have are 0, w is 1.
+// One accessor, checked to lie inside its buffer. at(i) is element i as floats (normalized integers mapped as the
+// specification says); missing components are 0, w is 1.
 struct AccessorView {
   size_t count = 0;
   int components = 0;
@@ -114,71 +114,71 @@ struct AccessorView {
   size_t stride = 0;
   int component_type = 0;
   bool normalized = false;
-  std::shared_ptr<const std::vector<unsigned char>> expanded;  // what data points to in a sparse accessor
+  std::shared_ptr<const std::vector<unsigned char>> expanded;  // backs `data` of a sparse accessor
 };
 
-// accessor -1: an AccessorView with count 0.
+// accessor -1 gives an AccessorView with count 0.
 AccessorView open_accessor(GltfFile& file, int accessor);
 
 // --- material.cpp
-// Scene materials are the file's in their order, then one more: what a primitive without a material gets.
+// The scene's materials are the file's in order, then one more for primitives without a material.
 void read_materials(const GltfFile& file, Scene& scene);
 
-// A material's factors and places of textures one by one, as its animation starts from them.
+// A material's factors and texture transforms, from which its animation starts.
 MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int material);
 
 // --- mesh.cpp
-// What bends the vertices of a node's mesh: rows of Scene::animation.
+// What deforms a node's mesh: indices into Scene::animation.
 struct Deformers {
   int skin = -1;
   int weights = -1;
 };
 
-// The Scene meshes that a mesh of the file becomes: one for each primitive that has triangles. Where they bend, each
-// has a row in Animation::deformations.
+// Adds a mesh of the file and returns the resulting Scene meshes: one for each primitive that has triangles. If they
+// deform, each gets an element in Animation::deformations.
 std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Deformers& bending);
 
-// Floats of a primitive's attribute; count 0 where it has none. Fails unless there are `count` of them, each of so many
-// components or up to 4.
+// The floats of a primitive's attribute; count 0 if it is absent. Fails unless there are `count` elements with
+// `components` up to 4 components.
 AccessorView read_attribute(GltfFile& file, const JsonValue& attributes, const char* name, int components,
                             size_t count);
 
-// Vertices without a tangent get one that follows u of the normal map's coordinates.
+// Gives vertices without a tangent one along u of the normal map's coordinates.
 void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& normal_slot);
 
 // --- bend.cpp
 struct PrimitiveSource {
   const JsonValue& attributes;
   const JsonValue& targets;
-  size_t vertex_count;             // of the file
-  const std::vector<uint>& order;  // which of the file's vertices each of the mesh's is
+  size_t vertex_count;             // in the file
+  const std::vector<uint>& order;  // for each vertex of the mesh its index in the file
 };
 
-// Whether something bends the primitive.
+// Whether the primitive deforms.
 bool bends(const PrimitiveSource& primitive, const Deformers& bending);
 
-// Appends a row to Animation::deformations for a mesh of the Scene that stands as it is stored.
+// Appends to Animation::deformations for a Scene mesh in its stored pose.
 void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primitive, const Deformers& bending,
                       int mesh, bool flat);
 
-// Appends a row to Animation::skins. rows: of the file's nodes in Animation::nodes.
+// Appends to Animation::skins. rows: for each of the file's nodes its index in Animation::nodes.
 int read_skin(GltfFile& file, Scene& scene, int skin, const std::vector<int>& rows);
 
 // --- nodes.cpp
-// Where the file's things are in the Scene: for what moves them. -1: nowhere.
+// Where the file's objects are in the Scene, for animation. -1: nowhere.
 struct Places {
   struct PlacedLight {
-    int light;  // of the Scene
+    int light;  // index in the Scene
     int source;
     int node;
   };
-  std::vector<int> nodes;    // of each node its row in Animation::nodes
-  std::vector<int> weights;  // of each node its mesh's row in Animation::weights
+  std::vector<int> nodes;    // per node: its index in Animation::nodes
+  std::vector<int> weights;  // per node: its mesh's index in Animation::weights
   std::vector<PlacedLight> lights;
 };
 
-// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. moves: of each node
-// whether an animation or a skin names it.
+// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. moves: per node,
+// whether an animation or a skin refers to it.
 Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<char>& moves);
 
 Lamp read_lamp(const GltfFile& file, int light);

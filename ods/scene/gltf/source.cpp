@@ -52,7 +52,7 @@ static Chunks split_container(const GltfFile& file, Bytes bytes) {
   if (read_uint32(bytes, 4) != 2) fail(file, "is not glTF version 2; convert it to glTF 2.0");
   const size_t length = read_uint32(bytes, 8);
   if (length > bytes.size()) {
-    fail(file, fmt::format("has {} bytes, but its header says {}; it was not written or copied to its end",
+    fail(file, fmt::format("has {} bytes, but its header says {}; it was not completely written or copied",
                            bytes.size(), length));
   }
   constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
@@ -85,14 +85,14 @@ static std::string decode_percent(const std::string& uri) {
   return text;
 }
 
-// The same for every way to write the same file, so that nothing is read twice.
+// The same key for all spellings of a path, so that nothing is read twice.
 static std::string uri_key(const std::string& uri) {
   return uri.starts_with("data:") ? uri : std::filesystem::path(decode_percent(uri)).lexically_normal().string();
 }
 
 static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
   const size_t comma = uri.find(";base64,");
-  if (comma == std::string::npos) fail(file, "has a data URI that is not in base64");
+  if (comma == std::string::npos) fail(file, "has a data URI that is not base64");
   const std::string bytes = decode_base64(std::string_view(uri).substr(comma + 8));
   return share({bytes.begin(), bytes.end()});
 }
@@ -103,7 +103,7 @@ static bool has_scheme(const std::string& uri) {
   return colon != std::string::npos && uri[colon] == ':';
 }
 
-// The file that a URI names.
+// The path that a URI refers to.
 static std::string uri_path(const GltfFile& file, const std::string& uri) {
   const std::string name = decode_percent(uri);
   if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
@@ -115,7 +115,7 @@ static std::string uri_path(const GltfFile& file, const std::string& uri) {
   return (std::filesystem::path(file.path).parent_path() / name).string();
 }
 
-// The first `most` bytes of what a URI names: a file may be larger than what is asked of it.
+// The first `most` bytes of a URI's file, which may be larger than needed.
 static Storage read_uri(const GltfFile& file, const std::string& uri, size_t most) {
   if (uri.starts_with("data:")) return read_data_uri(file, uri);
   const std::string path = uri_path(file, uri);
@@ -123,14 +123,14 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
     const ConfinedFile opened(path, file.confine);
     return share(read_start(opened.path(), most));
   } catch (const Error& error) {
-    if (!file.confine.empty()) {  // says nothing of what is outside of the folder
+    if (!file.confine.empty()) {  // reveals nothing about files outside the folder
       if (error.kind() != ErrorKind::kInput) throw;
-      fail(file, fmt::format("refers to {}, which is not there, lies outside of the folder that scenes are confined "
+      fail(file, fmt::format("refers to {}, which does not exist, lies outside the folder that scenes are confined "
                              "to, or cannot be read",
                              printable(uri)));
     }
     std::string_view why = error.what();
-    const std::string known = fmt::format("cannot read '{}': ", path);  // the URI says it in few words
+    const std::string known = fmt::format("cannot read '{}': ", path);  // stripped below
     if (why.starts_with(known)) why.remove_prefix(known.size());
     throw Error(error.kind(), fmt::format("{}: refers to {}: {}", file.path, printable(uri), why));
   }
@@ -144,7 +144,7 @@ static const JsonValue& list_in(const GltfFile& file, const JsonValue& parent, c
   return list;
 }
 
-// The objects in a list of the file; none where it has no such list.
+// The objects in a list of the file; empty if it has no such list.
 static Records records(const GltfFile& file, const JsonValue& parent, const char* key) {
   Records found;
   for (const JsonValue& value : list_in(file, parent, key)) {
@@ -228,7 +228,7 @@ size_t external_bytes(const GltfFile& file, const ImageSource& image) {
   try {
     return file_size(ConfinedFile(path, file.confine).path());
   } catch (const Error&) {
-    return 0;  // whoever reads it says why
+    return 0;  // reading it reports the fault
   }
 }
 
@@ -246,7 +246,7 @@ std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& 
 
 static void check_version(const GltfFile& file) {
   const JsonValue& version = file.json.root()["asset"]["version"];
-  if (!version.is_text()) fail(file, "is not a glTF file: it does not say of which version it is");
+  if (!version.is_text()) fail(file, "is not a glTF file: it does not state its version");
   if (!version.text->starts_with("2.")) {
     fail(file, fmt::format("is glTF version {}, ods reads 2.0", printable(*version.text)));
   }
@@ -275,7 +275,7 @@ static void parse(GltfFile& file, Bytes bytes) {
   file.budget = (size_t(1) << 20) + 16 * file.size;
 }
 
-// A container says its length; what is no container is text, and should look like it before it is read.
+// A binary container states its length; anything else must look like JSON before it is read.
 static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   constexpr size_t kLongestText = size_t(1) << 30;
   const ConfinedFile opened(file.path, file.confine);

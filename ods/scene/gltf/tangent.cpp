@@ -7,8 +7,8 @@
 namespace ods {
 
 // Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", with glTF's signs: the bitangent is
-// cross(normal, tangent) * w and points up in the picture, where v falls. Exporters that bake with MikkTSpace store
-// their tangents; this is for the files that leave them out. (No MikkTSpace library is packaged where ods must build.)
+// cross(normal, tangent) * w and points up in the picture, towards decreasing v. Exporters that bake with MikkTSpace
+// store their tangents; this is for files without them. (The supported systems package no MikkTSpace library.)
 void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& slot) {
   auto uv = [&](const Vertex& vertex) {
     const vec2 p = slot.uv_set == 1 ? vertex.uv1 : vertex.uv0;

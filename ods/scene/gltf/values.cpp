@@ -12,7 +12,7 @@
 
 namespace ods {
 
-// The whole number that a value holds.
+// The integer that a value holds.
 static double whole(const GltfFile& file, const JsonValue& value) {
   if (!value.is_number() || value.number != std::floor(value.number)) {
     fail(file, fmt::format("has a value of {} that is not a whole number; the file is damaged", printable(*value.key)));
@@ -39,7 +39,7 @@ size_t size_in(const GltfFile& file, const JsonValue& object, const char* key) {
   if (value.is_null()) return 0;
   const double number = whole(file, value);
   if (number < 0.0) fail(file, fmt::format("has a negative value of {}; the file is damaged", key));
-  return static_cast<size_t>(std::min(number, 0x1p60));  // more is too much for every file
+  return static_cast<size_t>(std::min(number, 0x1p60));  // too large for any file
 }
 
 double number(const JsonValue& object, const char* key, double fallback) {

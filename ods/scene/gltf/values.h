@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Members of the JSON objects in a glTF file. What fails throws Error(kInput) naming the file.
+// Reads members of JSON objects in a glTF file. Failure throws Error(kInput), naming the file.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -12,7 +12,7 @@ namespace ods {
 
 struct GltfFile;
 
-// What numbers of accessors are stored as.
+// The component types of accessors.
 enum ComponentType {
   kByte = 5120,
   kUnsignedByte = 5121,
@@ -21,22 +21,22 @@ enum ComponentType {
   kUnsignedInt = 5125,
   kFloat = 5126
 };
-bool is_unsigned(int component_type);  // one that indices may have
+bool is_unsigned(int component_type);  // whether indices may have this type
 
-// A whole number, which may be written as a real; the fallback where it is absent. Fails where it is something else.
-// What is beyond the range of an int is its nearest.
+// An integer, which may be written as a real; the fallback if absent. Fails if it is anything else. Clamped to the
+// range of int.
 int integer(const GltfFile& file, const JsonValue& object, const char* key, int fallback);
-// The index of something in a list: -1 where it is absent or negative.
+// An index into a list; -1 if absent or negative.
 int index_in(const GltfFile& file, const JsonValue& object, const char* key);
-// A number of bytes or elements; 0 where it is absent. Fails where it is no whole number, or negative.
+// A number of bytes or elements; 0 if absent. Fails if it is negative or not an integer.
 size_t size_in(const GltfFile& file, const JsonValue& object, const char* key);
-// A real number, or the fallback where it is absent or something else.
+// A real number, or the fallback if absent or of another type.
 double number(const JsonValue& object, const char* key, double fallback);
 // As many real numbers as the fallback has, or the fallback.
 std::vector<double> numbers(const JsonValue& object, const char* key, const std::vector<double>& fallback);
-// All the indices in a list; none where it is absent. Fails where it is something else.
+// All indices in a list; empty if absent. Fails if it is anything else.
 std::vector<int> indices(const GltfFile& file, const JsonValue& object, const char* key);
-// An extension of the object; kNoJson where it has none of that name.
+// An extension of the object; kNoJson if absent.
 const JsonValue& extension(const JsonValue& object, const char* name);
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light from a picture of the whole sky.
+// Environment light from a picture of the sky.
 #pragma once
 #include <string>
 
@@ -9,11 +9,11 @@
 
 namespace ods {
 
-// A lat-long picture in any format that file_format.h names: .hdr and .exr hold radiance, the others what a display
-// shows; read_image() makes light of both, and says in `color_fault` what of a file's colours it ignores. It covers the
-// sphere whatever its shape; one that is not twice as wide as high looks stretched (compare width and height of what is
-// returned). Negative texels and those that are not numbers become 0, infinite ones 65504, the largest number of a half
-// float, and none exceeds 1e9. Throws Error(kInput).
+// A lat-long picture in any format of file_format.h: .hdr and .exr hold radiance, the others display-encoded colour;
+// read_image() converts both to linear light, and `color_fault` says which colour metadata is ignored. The picture
+// covers the whole sphere; one that is not twice as wide as high looks stretched (check the width and height returned).
+// Negative and NaN texels become 0, infinite ones 65504, the largest half float; others are clamped to 1e9. Throws
+// Error(kInput).
 Environment load_environment(const std::string& path, std::string* color_fault = nullptr);
 
 }  // namespace ods

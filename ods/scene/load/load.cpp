@@ -17,7 +17,7 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
   if (const BuiltinScene* builtin = find_builtin(name)) {
     if (options.scene > 0) {
       throw Error(ErrorKind::kUsage,
-                  fmt::format("--scene: '{}' has no scene {}: a built-in scene is only one", name, options.scene));
+                  fmt::format("--scene: '{}' has no scene {}: a built-in scene has only one", name, options.scene));
     }
     Scene scene = builtin->make();
     scene.name = name;

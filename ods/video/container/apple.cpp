@@ -28,7 +28,7 @@ bool fits_vexu(const SphericalMetadata& metadata) {
          (!metadata.is_partial() || metadata.bounds == kFrontHalf);
 }
 
-// --- written ---------------------------------------------------------------------------------------------------------
+// --- writing ---------------------------------------------------------------------------------------------------------
 
 static Box parent(BoxType type, std::vector<Box> children) {
   Box box;
@@ -77,7 +77,7 @@ Box hfov_box(const SphericalMetadata& metadata) {
   return box;
 }
 
-// Hangs what `old` has and `box` has not under it, which is already opened.
+// Adds the children that `old` has and `box`, which is open, lacks.
 static void take_over(Box& box, const Box& old, std::initializer_list<BoxType> but) {
   for (const Box& child : old.children) {
     const bool is_ours = std::find(but.begin(), but.end(), child.type) != but.end();
@@ -101,9 +101,9 @@ Box updated_vexu(Box old, const SphericalMetadata& metadata) {
   return vexu;
 }
 
-// --- read ------------------------------------------------------------------------------------------------------------
+// --- reading ---------------------------------------------------------------------------------------------------------
 
-// The number in a box of a box; nothing where there is none.
+// The number in a nested box; nothing if it is missing.
 static std::optional<uint64_t> find_number(Box& vexu, BoxType outer, BoxType inner, size_t bytes) {
   Box* holder = find_child(vexu, outer);
   if (holder == nullptr) return std::nullopt;

@@ -7,18 +7,17 @@
 namespace ods {
 
 uint64_t Move::operator()(uint64_t offset) const {
-  if (offset > file_size) throw MalformedFile("it is cut short: samples of it should lie behind its end");
+  if (offset > file_size) throw MalformedFile("it is truncated: its samples extend past its end");
   if (offset <= begin) return offset;
   if (offset < end) throw MalformedFile("its offsets point into its own header");
   return offset + static_cast<uint64_t>(growth);
 }
 
-// --- tables of a track
-// ------------------------------------------------------------------------------------------------
+// --- tables of a track -----------------------------------------------------------------------------------------------
 
 namespace {
 
-// Entries behind their number, all of a box to its end.
+// Entries that follow their count and fill the rest of the box.
 struct OffsetTable {
   size_t first;  // byte
   size_t width;
@@ -31,7 +30,7 @@ static OffsetTable table_of(const Box& box) {
   OffsetTable table{8, box.type == box_type("co64") ? size_t{8} : size_t{4}, 0};
   if (box.type == box_type("saio")) {
     table.width = get_number(box.body, 0, 1) == 0 ? 4 : 8;
-    if ((get_number(box.body, 3, 1) & 1) != 0) table.first += 8;  // what the information is about
+    if ((get_number(box.body, 3, 1) & 1) != 0) table.first += 8;  // type of the auxiliary information
   }
   table.count = get_number(box.body, table.first - 4, 4);
   if (table.count > (box.body.size() - table.first) / table.width)
@@ -83,27 +82,27 @@ void move_offsets(Box& sample_table, const Move& move) {
 
 // --- fragments -------------------------------------------------------------------------------------------------------
 
-// tfhd, where it has a base of its own: else offsets count from the fragment, which moves as a whole.
+// tfhd, if it has a base offset: otherwise offsets count from the fragment, which moves as a whole.
 static void move_fragment(Box& moof, const Move& move) {
   open_box(moof, 0);
   for (Box& track : moof.children) {
     if (track.type != box_type("traf")) continue;
     open_box(track, 0);
     Box* header = find_child(track, box_type("tfhd"));
-    if (header == nullptr) throw MalformedFile("a fragment of it has no header");
+    if (header == nullptr) throw MalformedFile("one of its fragments has no header");
     const bool has_base = (get_number(header->body, 3, 1) & 1) != 0;
     if (has_base) set_number(header->body, 8, move(get_number(header->body, 8, 8)), 8);
   }
 }
 
-// Sizes of pieces that follow each other, from the end of the box or further on.
+// The sizes of consecutive pieces, counted from the end of the box plus an offset.
 static void move_index(Box& sidx, const FileBox& place, const Move& move) {
   const size_t width = get_number(sidx.body, 0, 1) == 0 ? 4 : 8;
   const size_t first = 12 + width;
   const size_t count = get_number(sidx.body, first + width + 2, 2);
   uint64_t at = place.end();
   const uint64_t skipped = get_number(sidx.body, first, width);
-  if (skipped > move.file_size) throw MalformedFile("its index points behind its end");
+  if (skipped > move.file_size) throw MalformedFile("its index points past its end");
   set_number(sidx.body, first, move(at + skipped) - move(at), width);
   at += skipped;
   for (size_t i = 0; i < count; i++) {
@@ -111,7 +110,7 @@ static void move_index(Box& sidx, const FileBox& place, const Move& move) {
     const uint64_t word = get_number(sidx.body, entry, 4);
     const uint64_t size = word & 0x7fffffff;
     const uint64_t moved = move(at + size) - move(at);
-    if (moved > 0x7fffffff) throw MalformedFile("a piece in its index would become too large for it");
+    if (moved > 0x7fffffff) throw MalformedFile("a piece in its index would become too large for its field");
     set_number(sidx.body, entry, (word & 0x80000000) | moved, 4);
     at += size;
   }
@@ -137,7 +136,7 @@ static void move_random_access(Box& mfra, const Move& move) {
 
 namespace {
 
-// One item of iloc: its extents may count from a base, which is then what moves.
+// One item of iloc. If its extents have a common base, only the base is changed.
 class ItemLocations {
  public:
   ItemLocations(std::string& body, const Move& move) : body_(body), move_(move) {
@@ -147,7 +146,7 @@ class ItemLocations {
     offset_width_ = sizes >> 12, length_width_ = sizes >> 8 & 15, base_width_ = sizes >> 4 & 15;
     index_width_ = version_ == 0 ? 0 : sizes & 15;
     for (size_t width : {offset_width_, length_width_, base_width_, index_width_}) {
-      if (width != 0 && width != 4 && width != 8) throw MalformedFile("its list of items makes no sense");
+      if (width != 0 && width != 4 && width != 8) throw MalformedFile("its list of items is invalid");
     }
     const uint64_t count = take(version_ < 2 ? 2 : 4);
     for (uint64_t i = 0; i < count; i++) move_item();
@@ -175,7 +174,7 @@ class ItemLocations {
       if (!in_this_file || base_width_ + offset_width_ == 0) continue;
       const int64_t moved = static_cast<int64_t>(move_(offset) - offset);
       if (base_width_ == 0) set_number(body_, offset_at, offset + static_cast<uint64_t>(moved), offset_width_);
-      if (base_width_ != 0 && i > 0 && moved != all) throw MalformedFile("an item in it would be torn apart");
+      if (base_width_ != 0 && i > 0 && moved != all) throw MalformedFile("an item in it would be split");
       all = moved;
     }
     if (base_width_ != 0) set_number(body_, base_at, base + static_cast<uint64_t>(all), base_width_);
@@ -191,14 +190,13 @@ class ItemLocations {
 }  // namespace
 
 void move_item_offsets(Box& meta, const Move& move) {
-  // QuickTime's has no version in front of its boxes.
+  // QuickTime's meta has no version before its boxes.
   const bool is_quicktime = meta.body.size() >= 8 && get_number(meta.body, 4, 4) == box_type("hdlr");
   open_box(meta, is_quicktime ? 0 : 4);
   if (Box* items = find_child(meta, box_type("iloc"))) ItemLocations(items->body, move);
 }
 
-// --- boxes of the file
-// -------------------------------------------------------------------------------------------------
+// --- boxes of the file -----------------------------------------------------------------------------------------------
 
 bool may_have_offsets(BoxType type) {
   return type == box_type("moof") || type == box_type("sidx") || type == box_type("mfra") || type == box_type("meta");

@@ -24,12 +24,12 @@ namespace {
 struct BoxHeader {
   BoxType type;
   uint32_t size;   // of the header
-  uint64_t whole;  // of the box; 0: as far as there is anything
+  uint64_t whole;  // of the box; 0: to the end of the file
 };
 
 }  // namespace
 
-// Of bytes that are 8 or more.
+// Precondition: at least 8 bytes.
 static BoxHeader parse_header(std::string_view bytes) {
   BoxHeader header{static_cast<BoxType>(get_number(bytes, 4, 4)), 8, get_number(bytes, 0, 4)};
   if (header.whole == 1) {
@@ -41,24 +41,24 @@ static BoxHeader parse_header(std::string_view bytes) {
   }
   if (header.whole < header.size) {
     throw MalformedFile(
-        fmt::format("its box '{}' says that it has {} bytes, which no box can", type_text(header.type), header.whole));
+        fmt::format("its box '{}' claims an impossible size of {} bytes", type_text(header.type), header.whole));
   }
   return header;
 }
 
 static MalformedFile too_long(BoxType type) {
-  return MalformedFile(fmt::format("its box '{}' says that it is longer than what holds it", type_text(type)));
+  return MalformedFile(fmt::format("its box '{}' extends past the end of its parent", type_text(type)));
 }
 
 static MalformedFile too_many() {
-  return MalformedFile("a box of it holds more than a million others");
+  return MalformedFile("one of its boxes contains more than a million others");
 }
 
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail) {
   std::vector<Box> boxes;
   while (bytes.size() >= 8) {
     const BoxHeader header = parse_header(bytes);
-    // Only a box of the file itself may reach as far as there is anything.
+    // Only a top-level box may extend to the end of the file.
     if (header.whole == 0 || header.whole > bytes.size()) throw too_long(header.type);
     if (boxes.size() == kMaxChildren) throw too_many();
     Box box;
@@ -130,7 +130,7 @@ void write_box(const Box& box, AtomicFile& file) {
   append(file, box.tail);
 }
 
-// The header at a place from which 8 bytes or more are left.
+// Precondition: at least 8 bytes are left.
 static FileBox read_header(const FileInput& file, uint64_t at, uint64_t left) {
   const BoxHeader header = parse_header(file.read(at, std::min<uint64_t>(left, 16)));
   return {header.type, header.size, at, header.whole};
@@ -144,13 +144,13 @@ std::vector<FileBox> scan_boxes(const FileInput& file) {
     if (left < 8) throw MalformedFile("it is cut short");
     FileBox box = read_header(file, at, left);
     if (box.size > left) {
-      throw MalformedFile(fmt::format("it is cut short: its box '{}' should have {} bytes, and {} are there",
+      throw MalformedFile(fmt::format("it is cut short: its box '{}' should have {} bytes, but {} are left",
                                       type_text(box.type), box.size, left));
     }
     if (box.size == 0) box.size = left;
     boxes.push_back(box);
     at = box.end();
-    if (boxes.size() > kMax) throw MalformedFile("it consists of more than a million boxes");
+    if (boxes.size() > kMax) throw MalformedFile("it contains more than a million boxes");
   }
   return boxes;
 }

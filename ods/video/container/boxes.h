@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes, of which mp4 and mov files consist: a size, a type of four letters, a body, which may hold boxes again.
-// Source: ISO/IEC 14496-12 (ISO base media file format), 4.2; Apple, "QuickTime File Format" for how lists end there.
+// Boxes, the building blocks of mp4 and mov files: a size, a four-letter type and a body, which may contain boxes.
+// Sources: ISO/IEC 14496-12 (ISO base media file format), 4.2; Apple, "QuickTime File Format" for how lists end there.
 //
-// A size in a file is believed only as far as what holds the box reaches. Boxes are opened one by one by who knows what
-// is in them, so that no file decides how deep anything nests. Everything is written back byte for byte.
+// A box's size is checked against its parent's. Callers open a box only if they know its type, so the file does not
+// control the nesting depth. Everything is written back byte for byte.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -26,51 +26,51 @@ constexpr BoxType box_type(const char (&letters)[5]) {
   return type;
 }
 
-// "avc1"; what cannot be printed becomes a point.
+// "avc1"; unprintable characters become dots.
 std::string type_text(BoxType type);
 
 struct Box {
   BoxType type = 0;
-  std::string body;           // what stands behind the header; once opened, what stands before the first child
+  std::string body;           // all after the header; once opened, the bytes before the first child
   std::vector<Box> children;  // once opened
-  std::string tail;           // fewer than 8 bytes behind them
-  bool is_large = false;      // its size has 64 bits, as few have
+  std::string tail;           // fewer than 8 bytes after the last child
+  bool is_large = false;      // rare: a 64-bit size field
 };
 
-// The boxes that follow each other in these bytes; fewer than 8 that are left go into `tail`. Throws MalformedFile.
+// Parses consecutive boxes; fewer than 8 bytes left over go into `tail`. Throws MalformedFile.
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail);
 
-// Turns the body behind its first `prefix` bytes into children. Nothing happens where it is opened already. Throws
+// Parses the body after its first `prefix` bytes into children. Does nothing if the box is open already. Throws
 // MalformedFile.
 void open_box(Box& box, size_t prefix);
 
-// The first child of that type; null where there is none.
+// The first child of this type; null if there is none.
 Box* find_child(Box& box, BoxType type);
 const Box* find_child(const Box& box, BoxType type);
 
-// The child, opened; MalformedFile where there is none.
+// Opens that child; throws MalformedFile if there is none.
 Box& open_child(Box& box, BoxType type, size_t prefix = 0);
 
-// The bytes that write_box() appends, to others or to a file.
+// The size and the bytes of a box, its children included.
 uint64_t box_size(const Box& box);
 void write_box(const Box& box, std::string& bytes);
 void write_box(const Box& box, AtomicFile& file);
 
-// A box of the file itself, which stays there.
+// A top-level box that stays in the file.
 struct FileBox {
   BoxType type = 0;
   uint32_t header = 8;
   uint64_t offset = 0;
-  uint64_t size = 0;  // with its header
+  uint64_t size = 0;  // including its header
   uint64_t end() const { return offset + size; }
 };
 
-// All of them, from the first byte to the last. Throws MalformedFile, where one is longer than the file and where there
-// are more than a million; Error(kInput).
+// All top-level boxes in order. Throws MalformedFile if one is longer than the file or there are more than a million;
+// Error(kInput).
 std::vector<FileBox> scan_boxes(const FileInput& file);
 
-// A box of the file, in memory. `opened`: its type, then that of children which are opened, then that of theirs, and so
-// on: what is in them is in memory once, however large. Throws MalformedFile, where it has more than 256 MiB, too.
+// Reads a box into memory. `opened` is the chain of types to open, from the box down; the contents of these are kept in
+// memory only once, however large. Throws MalformedFile, also for more than 256 MiB.
 Box read_box(const FileInput& file, const FileBox& box, std::span<const BoxType> opened = {});
 
 }  // namespace ods

@@ -16,7 +16,7 @@ namespace ods {
 VideoStereo video_stereo(Layout layout) {
   const EyeArrangement eyes = arrangement_of(layout);
   if (!eyes.is_halves()) {
-    throw Error(ErrorKind::kUsage, fmt::format("videos have no word for eyes that are {}", layout_name(layout)));
+    throw Error(ErrorKind::kUsage, fmt::format("360 metadata of videos has no layout {}", layout_name(layout)));
   }
   return *stereo_with(eyes);
 }
@@ -29,7 +29,7 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
   }
   if (projection.kind != kLatLong || projection.longitude.x < -180.0f || projection.longitude.y > 180.0f) {
     throw Error(ErrorKind::kUsage,
-                fmt::format("videos have no word for the projection {}: they know lat-long, parts of it such as vr180, "
+                fmt::format("360 metadata of videos has no projection {}, only lat-long, parts of it such as vr180, "
                             "cubemap and flat",
                             projection_name(projection)));
   }
@@ -43,15 +43,15 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
 
 static FormatHint as_picture(const SphericalMetadata& known) {
   FormatHint metadata;
-  if (known.stereo) {  // alone: one eye, or eyes in a way that pictures do not know
+  if (known.stereo) {  // kAlone: one eye, or stereo that pictures do not support
     const EyeArrangement eyes = arrangement_of(*known.stereo);
     metadata.layout = eyes.is_halves() ? layout_with(eyes) : Layout::kSeparate;
   }
-  if (known.projection) metadata.projection = ProjectionSetting();  // which does not matter: it is not asked for
+  if (known.projection) metadata.projection = ProjectionSetting();  // any value: a known projection is not guessed
   return metadata;
 }
 
-// An eye as it was before it was squeezed.
+// The eye's size before squeezing.
 static Extent whole_eye(Layout layout, Extent file) {
   const Extent eye = unpacked_size(layout, file).value_or(file);
   const Extent squeeze = squeeze_of(layout, 2);
@@ -67,7 +67,7 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
       said = metadata;
     } else {
       if (!said->stereo) said->stereo = metadata.stereo;
-      if (!said->projection) {  // nor angles, then, nor a source
+      if (!said->projection) {  // then it has no angles and no source, either
         const std::optional<VideoStereo> stereo = said->stereo;
         said = metadata;
         said->stereo = stereo;
@@ -82,7 +82,7 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
   return said;
 }
 
-// Anything is taken as lat-long where nothing tells; a video of an ordinary camera must not be.
+// Pictures default to lat-long. Videos must not: an ordinary video must not become a sphere.
 static void guess_projection(SphericalMetadata& known, const StereoFormat& format, const VideoTrack& track,
                              const std::string& path) {
   const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size);
@@ -90,7 +90,7 @@ static void guess_projection(SphericalMetadata& known, const StereoFormat& forma
   if (!is_told && natural_height(format.camera.projection, eye.width) != eye.height) {
     throw Error(ErrorKind::kInput,
                 fmt::format("cannot tell what '{}' shows, from its name (_360_TB, _180_LR ...) or its shape "
-                            "({}x{}): say it with --layout and --projection",
+                            "({}x{}): give --layout and --projection",
                             path, track.size.width, track.size.height));
   }
   set_projection(known, format.camera.projection);
@@ -100,9 +100,9 @@ static StereoFormat found_format(const SphericalMetadata& known, const VideoTrac
   FileInfo info;
   info.width = track.size.width;
   info.height = track.size.height;
-  info.is_float = true;  // no XMP of pictures is looked for in it
+  info.is_float = true;  // skips the search for a picture's XMP
   if (info.width == 0 || info.height == 0) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': its pictures have no size", path));
+    throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': it does not give its picture size", path));
   }
   return find_format(info, path, as_picture(known));
 }
@@ -113,7 +113,7 @@ static void take_words(SphericalMetadata& known, const SphericalMetadata& said) 
     known.projection = said.projection;
     known.bounds = said.bounds;
   }
-  if (known.projection != VideoProjection::kFlat) {  // which has no place for angles
+  if (known.projection != VideoProjection::kFlat) {  // flat has no angles
     known.yaw = said.yaw, known.pitch = said.pitch, known.roll = said.roll;
   }
   known.source = said.source;
@@ -138,7 +138,7 @@ SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& t
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-// Eyes that were squeezed are as wide as high.
+// Squeezed eyes are square.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
   const double aspect = static_cast<double>(size.width) / size.height;
@@ -155,7 +155,7 @@ static std::optional<VideoStereo> stereo_of(std::optional<Layout> layout) {
   return eyes.is_halves() ? stereo_with(eyes) : std::nullopt;
 }
 
-// Whether a video of that form may be called by that projection: a cubemap or most of a sphere is 360, a mesh anything.
+// Whether a video may be named after this projection: a cubemap or most of a sphere is 360, a mesh may be anything.
 static bool may_be_called(const SphericalMetadata& metadata, const ProjectionSetting& called) {
   if (metadata.projection == VideoProjection::kMesh || metadata.projection == VideoProjection::kOther) return true;
   const double cut = (1.0 * metadata.bounds[2] + metadata.bounds[3]) / 4294967296.0;
@@ -194,7 +194,7 @@ static FormConflict projection_conflict(const SphericalMetadata& said, const Pro
   return {fmt::format("it says {}, but {}", metadata_text(eye), reason), fmt::format("{}", fmt::join(options, " or "))};
 }
 
-// What a sidecar says, or the name.
+// Contradictions from a sidecar, and from the name.
 static void compare_with_names(const SphericalMetadata& known, const SphericalMetadata& said, const StereoFormat& found,
                                const std::string& path, std::vector<FormConflict>& conflicts) {
   const NameWords words = read_name(path);
@@ -206,7 +206,7 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
   }
   if (known.projection) return;
   if (found.has_camera && !may_be_called(said, found.camera.projection)) {
-    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar says otherwise"));
+    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar disagrees"));
   } else if (!found.has_camera && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
     const std::string reason = fmt::format("its name ends in {}", words.projection_word);
     conflicts.push_back(projection_conflict(said, words.projection->setting, reason));
@@ -221,7 +221,7 @@ std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const V
   try {
     compare_with_names(known, *said, found_format({}, track, path), path, conflicts);
   } catch (const Error&) {
-    // a sidecar that cannot be read says nothing
+    // An unreadable sidecar says nothing.
   }
   const std::string fault = shape_fault(*said, track.size);
   if (known.stereo || known.projection || !conflicts.empty() || fault.empty()) return conflicts;
@@ -231,7 +231,7 @@ std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const V
   return conflicts;
 }
 
-// --- what will be written --------------------------------------------------------------------------------------------
+// --- the plan --------------------------------------------------------------------------------------------------------
 
 bool can_say(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
   const SphericalMetadata usual{VideoStereo::kOneView, VideoProjection::kEquirect, {}, 0.0, 0.0, 0.0, 0.0, false, ""};
@@ -266,10 +266,10 @@ static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, 
   }
   if (will_be && !track.v1) plan.says_more = true;
   if (!will_be && may_be_new && metadata.projection != VideoProjection::kFlat) {
-    plan.notes.push_back("V1 cannot say that, and is left out: players that read only V1 show a flat video");
+    plan.notes.push_back("V1 cannot express that and is left out: players that read only V1 show a flat video");
   }
   if (will_be && !has_whole_angles(metadata)) {
-    plan.notes.push_back("V1 holds whole degrees: only V2 has the angles as they are");
+    plan.notes.push_back("V1 holds whole degrees: only V2 has the exact angles");
   }
 }
 
@@ -277,7 +277,7 @@ static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata
   if (track.has_layers || !metadata.for_apple) return;
   if (!says(track.vexu, metadata)) plan.says_more = true;
   if (!says(track.vexu, metadata) && !fits_vexu(metadata)) {
-    plan.notes.push_back(fmt::format("vexu has no words for {}, and {}: Apple's players show a flat video",
+    plan.notes.push_back(fmt::format("vexu cannot express {} and {}: Apple's players show a flat video",
                                      metadata_text(metadata), track.vexu ? "is taken out" : "is left out"));
     return;
   }

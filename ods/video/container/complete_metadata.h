@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which form a video has: what the caller asks for, else what the video says of itself (Spherical Video V2, then V1,
-// then vexu), else what its sidecar, its name or its shape tells, as picture_form.h has it for pictures.
+// Determines a video's format. In order of precedence: what the caller asks for; the video's own metadata (Spherical
+// Video V2, then V1, then vexu); its sidecar, name and shape, as stereo_format.h does for pictures.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,43 +12,43 @@
 
 namespace ods {
 
-// A layout as videos have it; squeezed eyes are laid out as whole ones. Throws Error(kUsage) for those that videos have
-// no word for.
+// The video layout for a picture layout; squeezed layouts map to their full ones. Throws Error(kUsage) if videos have
+// no such layout.
 VideoStereo video_stereo(Layout layout);
-// A lat-long that does not cross the seam, or a flat window; throws Error(kUsage) for all others. (The cubemap of
-// videos has another order of faces than any that projection.h knows.)
+// Accepts a lat-long that does not cross the seam, and a flat window; throws Error(kUsage) for all others. (The cubemap
+// of videos orders its faces unlike any in projection.h.)
 void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projection);
 
-// All that a video says of itself, as one form; nothing where it says nothing. V2 goes before V1, and V1 before vexu;
-// vexu alone tells the distance of the eyes. A video that says one of stereo and projection says the other too: players
-// take no word on stereo for mono, and no word on a projection for flat.
+// All of a video's own metadata combined; nothing if there is none. V2 takes precedence over V1, and V1 over vexu; only
+// vexu has the eye distance. If only one of stereo and projection is given, the other gets the default that players
+// assume: mono, flat.
 std::optional<SphericalMetadata> said_metadata(const VideoTrack& track);
 
-// What `known` leaves open of stereo and projection, and all that it has no say in (angles, distance of the eyes,
-// source): from the video's own words; where it has none, from its sidecar, name and shape. `guesses` gets what was not
-// said: "top-bottom: its name ends in _TB". Throws Error(kInput) where nothing tells.
+// Completes `known`: missing stereo and projection, and everything that the caller cannot set (angles, eye distance,
+// source), come from the video's own metadata, else from its sidecar, name and shape. `guesses` lists what was guessed:
+// "top-bottom: its name ends in _TB". Throws Error(kInput) if nothing tells.
 SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& track, const std::string& path,
                                     std::vector<std::string>& guesses);
 
-// Something that says otherwise than the video's own words.
+// A contradiction to the video's own metadata.
 struct FormConflict {
   std::string text;     // "it says top-bottom, but its name ends in _LR"
-  std::string options;  // of ods inject, which settle it: "--layout top-bottom or --layout side-by-side"
+  std::string options;  // of ods inject, to resolve it: "--layout top-bottom or --layout side-by-side"
 };
-// Of the sidecar, the name and the shape, where `known` leaves open who is right.
+// Contradictions from the sidecar, the name and the shape, except those that `known` resolves.
 std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
                                          const std::string& path);
 
-// Why `size` cannot be that of a video of the whole sphere in this form, for people; empty where it can.
+// Why a whole-sphere video with this metadata cannot have this size, for messages; empty if it can.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size);
 
-// Whether V2, or StereoMode and Projection, have words for the form, or say it already.
+// Whether V2, or StereoMode and Projection, can express this metadata, or the track has it already.
 bool can_say(Container container, const VideoTrack& track, const SphericalMetadata& metadata);
 
 // What tag_video() is going to do to a track.
 struct TagPlan {
-  bool says_more = false;          // a place will say of stereo or projection what it did not say before
-  std::vector<std::string> notes;  // what a place cannot say, and what is made one, for people
+  bool says_more = false;          // a place gains stereo or projection metadata that it lacked
+  std::vector<std::string> notes;  // for people: what a place cannot express, and what is made consistent
 };
 TagPlan plan_tag(Container container, const VideoTrack& track, const SphericalMetadata& metadata);
 

@@ -19,16 +19,16 @@ namespace {
 struct ElementHeader {
   uint32_t id = 0;
   size_t size_width = 0;
-  uint32_t length = 0;  // of id and size
+  uint32_t length = 0;  // of id and size together
   uint64_t body = 0;
   bool is_endless = false;
 };
 
 }  // namespace
 
-// How long a number is, going by its first byte; MalformedFile where that is 0.
+// The length of a number, from its first byte; throws MalformedFile if that is 0.
 static size_t length_of(uint64_t first) {
-  if (first == 0) throw MalformedFile("a size in it makes no sense");
+  if (first == 0) throw MalformedFile("a size in it is invalid");
   return static_cast<size_t>(std::countl_zero(static_cast<uint8_t>(first))) + 1;
 }
 
@@ -51,9 +51,10 @@ void open_element(Element& element) {
     const ElementHeader header = parse_header(bytes);
     bytes.remove_prefix(header.length);
     if (header.is_endless || header.body > bytes.size()) {
-      throw MalformedFile(fmt::format("its element {:X} says that it is longer than what holds it", header.id));
+      throw MalformedFile(fmt::format("its element {:X} extends past the end of its parent", header.id));
     }
-    if (element.children.size() == kMaxChildren) throw MalformedFile("an element of it has more than a million parts");
+    if (element.children.size() == kMaxChildren)
+      throw MalformedFile("one of its elements contains more than a million others");
     element.children.push_back({header.id, header.size_width, std::string(bytes.substr(0, header.body)), {}});
     bytes.remove_prefix(header.body);
   }
@@ -112,7 +113,7 @@ static size_t id_length(uint32_t id) {
   return id > 0xffffff ? 4 : id > 0xffff ? 3 : id > 0xff ? 2 : 1;
 }
 
-// All bits set are no size.
+// A size with all bits set means unknown.
 static size_t size_length(uint64_t size, size_t width) {
   while (size >= (uint64_t{1} << (7 * width)) - 1) width++;
   return width;
@@ -141,7 +142,7 @@ void write_element(const Element& element, std::string& bytes) {
   for (const Element& child : element.children) write_element(child, bytes);
 }
 
-// Of all that follows it in what holds it; the low byte first.
+// A CRC covers everything after it in its parent, and is little endian.
 void update_crc(Element& element) {
   for (Element& child : element.children) update_crc(child);
   if (element.children.empty() || element.children[0].id != kCrc32) return;
@@ -161,7 +162,7 @@ FileElement scan_element(const FileInput& file, uint64_t offset, uint64_t end) {
   const uint64_t left = end - element.body();
   if (header.is_endless) return element;
   if (header.body > left) {
-    throw MalformedFile(fmt::format("it is cut short: its element {:X} should have {} bytes, and {} are there",
+    throw MalformedFile(fmt::format("it is cut short: its element {:X} should have {} bytes, but {} are left",
                                     header.id, header.body, left));
   }
   element.size = header.length + header.body;

@@ -22,7 +22,7 @@ struct Matroska {
   Element head;  // the EBML element
   FileElement head_place, segment;
   std::vector<FileElement> parts;    // of the segment
-  std::map<size_t, Element> opened;  // those of them that may change
+  std::map<size_t, Element> opened;  // the parts that may change
 };
 
 }  // namespace
@@ -66,10 +66,10 @@ static Matroska open_matroska(const FileInput& file) {
   for (at = video.segment.body(); at < video.segment.end();) {
     video.parts.push_back(scan_element(file, at, video.segment.end()));
     const FileElement& part = video.parts.back();
-    // Where such a one ends is only known by what is in it.
-    if (part.is_endless) throw MalformedFile("it is a live recording; mkvmerge makes a video of it");
+    // Only its contents tell where such a part ends.
+    if (part.is_endless) throw MalformedFile("it is a live recording; remux it with mkvmerge first");
     at = part.end();
-    if (video.parts.size() > kMax) throw MalformedFile("it consists of more than a million parts");
+    if (video.parts.size() > kMax) throw MalformedFile("it contains more than a million elements");
     if (part.id != kSeekHead && part.id != kTracks && part.id != kCues && part.id != kTags) continue;
     Element& opened = video.opened[video.parts.size() - 1] = read_element(file, part);
     open_part(opened);
@@ -136,13 +136,13 @@ static void tag_tracks(Matroska& video, uint64_t number, const std::optional<Sph
       Element* pictures = find_child(entry, kVideo);
       if (pictures == nullptr) continue;
       if (metadata && !can_say(Container::kMatroska, read_track(video, entry), *metadata)) {
-        throw MalformedFile(fmt::format("mkv and webm have no words for {}", metadata_text(*metadata)));
+        throw MalformedFile(fmt::format("mkv and webm cannot express {}", metadata_text(*metadata)));
       }
       tag_video(*pictures, metadata);
       tagged = &entry;
     }
   }
-  if (tagged == nullptr) throw MalformedFile("its video track does not say what its pictures are like");
+  if (tagged == nullptr) throw MalformedFile("its video track has no description of its pictures");
   for (auto& [index, part] : video.opened) {
     for (Element& tag : part.children) {
       if (part.id == kTags && is_about(tag, *tagged)) tag_v1(tag, metadata);
@@ -160,7 +160,7 @@ static void raise_version(Element& head, const std::optional<SphericalMetadata>&
 
 namespace {
 
-// Where every part of the segment comes to lie, counted from the segment's first byte behind its size.
+// The new place of each part, relative to the start of the segment's data.
 struct Places {
   std::vector<uint64_t> offsets;
   std::vector<uint64_t> sizes;
@@ -171,14 +171,14 @@ struct Places {
 
 static Places place_parts(const Matroska& video, const std::map<size_t, Element>& parts) {
   Places places;
-  int64_t growth = 0;  // of what is in memory
+  int64_t growth = 0;  // of the parts in memory
   for (size_t i = 0; i < video.parts.size(); i++) {
     const auto part = parts.find(i);
     places.sizes.push_back(part == parts.end() ? video.parts[i].size : element_size(part->second));
     growth += static_cast<int64_t>(places.sizes[i]) - static_cast<int64_t>(video.parts[i].size);
     if (video.parts[i].id == kCluster) break;
   }
-  for (size_t i = 0; i < places.sizes.size(); i++) {  // the first Void that can give or take as much
+  for (size_t i = 0; i < places.sizes.size(); i++) {  // the first Void that can absorb the growth
     const int64_t left = static_cast<int64_t>(places.sizes[i]) - growth;
     if (growth == 0 || video.parts[i].id != kVoid || (left != 0 && left < 2)) continue;
     places.sizes[i] = static_cast<uint64_t>(left);
@@ -195,7 +195,7 @@ static Places place_parts(const Matroska& video, const std::map<size_t, Element>
   return places;
 }
 
-// Where the part that starts at this place of the old segment starts in the new one.
+// The new position of the part that starts at this old position.
 static uint64_t moved(const Matroska& video, const Places& places, uint64_t position) {
   const uint64_t offset = video.segment.body() + position;
   const auto after = std::upper_bound(video.parts.begin(), video.parts.end(), offset,
@@ -214,10 +214,10 @@ static void move_positions(Element& element, const Matroska& video, const Places
   }
 }
 
-// Positions may need more bytes than before, and then all moves again.
+// Positions may need more bytes than before, and then everything moves again.
 static std::map<size_t, Element> move_parts(const Matroska& video, Places& places) {
   places = place_parts(video, video.opened);
-  constexpr int kRounds = 16;  // a handful of widths, each of which grows once
+  constexpr int kRounds = 16;  // each field can widen only a few times
   for (int i = 0; i < kRounds; i++) {
     std::map<size_t, Element> parts = video.opened;
     for (auto& [index, part] : parts) {
@@ -228,10 +228,10 @@ static std::map<size_t, Element> move_parts(const Matroska& video, Places& place
     if (again.sizes == places.sizes) return parts;
     places = again;
   }
-  throw MalformedFile("its index does not settle");
+  throw MalformedFile("its index cannot be updated");
 }
 
-// It stands before the first block.
+// The position comes before the first block.
 static bool says_position(const FileInput& file, const FileElement& cluster) {
   constexpr int kBefore = 6;
   uint64_t at = cluster.body();
@@ -243,7 +243,7 @@ static bool says_position(const FileInput& file, const FileElement& cluster) {
   return false;
 }
 
-// A cluster may say where it lies. It keeps its length: a place that is too small says nothing from then on.
+// A cluster may store its own position. Its length stays the same: if the new position does not fit, it is voided.
 static void write_moved_cluster(const FileInput& file, const FileElement& place, uint64_t position, AtomicFile& to) {
   Element cluster = read_element(file, place);
   open_element(cluster);

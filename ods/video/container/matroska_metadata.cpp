@@ -89,11 +89,11 @@ static Share share_of(const std::optional<SphericalMetadata>& metadata) {
   return {};
 }
 
-// RFC 9559, "Multi-planar and 3D Videos": of stereo videos, the size to display is one eye's.
+// RFC 9559, "Multi-planar and 3D Videos": the display size of a stereo video is one eye's.
 static void fit_display(Element& video, Share before, Share now) {
   const Element* width = find_child(video, kDisplayWidth);
   const Element* height = find_child(video, kDisplayHeight);
-  if (child_number(video, kDisplayUnit) != 0) return;  // a shape, not a size
+  if (child_number(video, kDisplayUnit) != 0) return;  // an aspect ratio, not a size
   const uint64_t pixels_across = child_number(video, kPixelWidth), pixels_down = child_number(video, kPixelHeight);
   const uint64_t across = width == nullptr ? pixels_across : number_of(*width) * before.across;
   const uint64_t down = height == nullptr ? pixels_down : number_of(*height) * before.down;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the elements of a Matroska track say of its form, and how they are made to say another. Source: RFC 9559.
+// Reads and writes the stereo and projection elements of a Matroska track. Source: RFC 9559.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -58,21 +58,21 @@ enum Id : uint32_t {
   kVoid = 0xec,
 };
 
-// The number or text of a child; 0 or empty where there is none. Throws MalformedFile.
+// The number or text of a child; 0 or empty if there is none. Throws MalformedFile.
 uint64_t child_number(const Element& element, uint32_t id);
 std::string child_text(const Element& element, uint32_t id);
 
-// What StereoMode and Projection of an opened Video element say. Throws MalformedFile.
+// Parses StereoMode and Projection of an opened Video element. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_video(const Element& video);
 
-// Makes them say a form, or nothing. What says it already stays as it is, but for the angles. The size to display
-// becomes that of an eye. Throws MalformedFile.
+// Sets, or removes, both elements. Elements that already match stay, apart from their angles. The display size becomes
+// one eye's. Throws MalformedFile.
 void tag_video(Element& video, const std::optional<SphericalMetadata>& metadata);
 
 // Whether a SimpleTag holds a V1.
 bool is_v1_tag(const Element& tag);
 
-// The V1s of an opened Tag get the angles of the form; those that contradict it go. None is written anew. Throws
+// Updates the angles of each V1 in an opened Tag and removes those that contradict the metadata. Adds none. Throws
 // MalformedFile.
 void tag_v1(Element& tag, const std::optional<SphericalMetadata>& metadata);
 

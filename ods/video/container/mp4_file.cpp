@@ -21,11 +21,11 @@ constexpr size_t kVisualEntry = 78;  // bytes of a visual sample entry before it
 
 struct Mp4 {
   std::vector<FileBox> boxes;
-  size_t header = 0;  // which of them is moov
+  size_t header = 0;  // index of moov
   Box moov;
 };
 
-// What holds the tables, which are all that is long in a header.
+// The ancestors of the sample tables, the only large data in a header.
 constexpr BoxType kSampleTables[] = {box_type("moov"), box_type("trak"), box_type("mdia"), box_type("minf"),
                                      box_type("stbl")};
 
@@ -34,7 +34,7 @@ static Mp4 open_mp4(const FileInput& file) {
   video.boxes = scan_boxes(file);
   const auto is_header = [](const FileBox& box) { return box.type == box_type("moov"); };
   const auto found = std::find_if(video.boxes.begin(), video.boxes.end(), is_header);
-  if (found == video.boxes.end()) throw MalformedFile("it has no header (moov): its recording was not finished");
+  if (found == video.boxes.end()) throw MalformedFile("it has no header (moov): the recording was not finished");
   if (std::find_if(found + 1, video.boxes.end(), is_header) != video.boxes.end())
     throw MalformedFile("it has two headers");
   video.header = static_cast<size_t>(found - video.boxes.begin());
@@ -59,7 +59,7 @@ static bool is_video(Box& track) {
 
 static uint64_t id_of(const Box& track) {
   const Box* header = find_child(track, box_type("tkhd"));
-  if (header == nullptr) throw MalformedFile("a track of it has no header");
+  if (header == nullptr) throw MalformedFile("one of its tracks has no header");
   return get_number(header->body, get_number(header->body, 0, 1) == 0 ? 12 : 20, 4);
 }
 
@@ -67,7 +67,7 @@ static double number_at(std::string_view bytes, size_t at) {
   return static_cast<double>(get_number(bytes, at, 4));
 }
 
-// Samples by the time they take; where fragments hold them all, by the time each takes unless they say otherwise.
+// The rate from the sample durations; if fragments hold all samples, from their default duration.
 static double rate_of(Box& track, Box& moov) {
   const Box* header = find_child(open_child(track, box_type("mdia")), box_type("mdhd"));
   const Box* times = find_child(sample_table(track), box_type("stts"));
@@ -95,7 +95,7 @@ static bool is_v1(const Box& box) {
   return box.type == box_type("uuid") && box.body.starts_with(kV1Id);
 }
 
-// What cannot be read says nothing: it is for one maker's players.
+// An unreadable vexu is ignored: it serves only one vendor's players.
 static std::optional<SphericalMetadata> read_vexu(const Box& entry) {
   try {
     return parse_vexu(entry);
@@ -130,7 +130,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
   return video;
 }
 
-// What cannot be read says nothing.
+// Unreadable sound metadata is ignored.
 static SoundTrack read_sound(Box& track) {
   SoundTrack sound;
   sound.id = id_of(track);
@@ -158,8 +158,8 @@ bool is_mp4(std::string_view first_bytes) {
 
 static Container container_of(const FileInput& file, const std::vector<FileBox>& boxes) {
   const FileBox& first = boxes.front();
-  if (first.type != box_type("ftyp")) return Container::kMov;  // QuickTime did without
-  if (first.size < first.header + 4) throw MalformedFile("it does not say which kind of mp4 it is");
+  if (first.type != box_type("ftyp")) return Container::kMov;  // QuickTime files may lack it
+  if (first.size < first.header + 4) throw MalformedFile("it does not state its kind of mp4 (ftyp)");
   return file.read(first.offset + first.header, 4) == "qt  " ? Container::kMov : Container::kMp4;
 }
 
@@ -180,14 +180,14 @@ VideoFile read_mp4(const FileInput& file) {
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
-// The first box of that type; further ones go, as nobody reads them.
+// The first box of this type; removes further ones, which nobody reads.
 static Box* only_child(Box& entry, BoxType type) {
   bool is_first = true;
   std::erase_if(entry.children, [&](const Box& box) { return box.type == type && !std::exchange(is_first, false); });
   return find_child(entry, type);
 }
 
-// Removes the box, or puts one in its place, or a new one behind the codec's own boxes.
+// Replaces or removes the box, or adds a new one after the codec's own boxes.
 static void put_child(Box& entry, BoxType type, const std::optional<Box>& box) {
   std::vector<Box>& boxes = entry.children;
   Box* there = only_child(entry, type);
@@ -203,7 +203,7 @@ static void put_child(Box& entry, BoxType type, const std::optional<Box>& box) {
   }
 }
 
-// What says it already stays byte for byte, but for the angles and the source.
+// Keeps boxes that already match byte-identical, apart from angles and source.
 static void tag_v2(Box& entry, const SphericalMetadata& metadata) {
   const std::optional<SphericalMetadata> old = parse_v2(entry);
   const bool has_sphere = find_child(entry, box_type("sv3d")) != nullptr;
@@ -224,8 +224,8 @@ static bool same_ipd(double a, double b) {
   return std::llround(a * 1e6) == std::llround(b * 1e6);
 }
 
-// True: it has a vexu of this form. One that cannot be read stays, unless another is asked for. Where the eyes are
-// layers of the stream (MV-HEVC), vexu says what they are, and is left as it is.
+// Returns whether there is a vexu for this metadata. An unreadable one stays unless a new one is requested. If the eyes
+// are layers of the stream (MV-HEVC), vexu describes those and stays as it is.
 static bool tag_vexu(Box& entry, const SphericalMetadata& metadata) {
   if (has_layers(entry)) return false;
   const std::optional<SphericalMetadata> old = read_vexu(entry);
@@ -253,7 +253,7 @@ static void untag_entry(Box& entry) {
   put_child(entry, box_type("hfov"), std::nullopt);
 }
 
-// The first V1 is changed where it can say the form; else it goes, and a new one comes where that is possible.
+// Updates the first V1 if it can express the metadata; otherwise removes it, and writes a new one if possible.
 static bool tag_v1(Box& track, const std::optional<SphericalMetadata>& metadata, bool has_new_source) {
   const auto first = std::find_if(track.children.begin(), track.children.end(), is_v1);
   const std::string old = first == track.children.end() ? "" : first->body.substr(kV1Id.size());
@@ -276,7 +276,7 @@ static bool tag_v1(Box& track, const std::optional<SphericalMetadata>& metadata,
 static TagResult tag_track(Box& track, const std::optional<SphericalMetadata>& metadata, const VideoTrack& before) {
   TagResult result;
   if (metadata && !can_say(Container::kMp4, before, *metadata)) {
-    throw MalformedFile(fmt::format("mp4 and mov have no words for {}", metadata_text(*metadata)));
+    throw MalformedFile(fmt::format("mp4 and mov cannot express {}", metadata_text(*metadata)));
   }
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     open_box(entry, kVisualEntry);
@@ -288,7 +288,7 @@ static TagResult tag_track(Box& track, const std::optional<SphericalMetadata>& m
       untag_entry(entry);
     }
   }
-  if (metadata && !result.has_v2) throw MalformedFile("its video track does not say what its pictures are like");
+  if (metadata && !result.has_v2) throw MalformedFile("its video track has no description of its pictures");
   const std::optional<SphericalMetadata> said = said_metadata(before);
   result.has_v1 = tag_v1(track, metadata, metadata && said && said->source != metadata->source);
   return result;
@@ -302,7 +302,7 @@ static void tag_sound(Box& track, const Ambisonics& sound) {
   }
 }
 
-// Offsets into other files are not ours to move.
+// Offsets into other files must not be moved.
 static void refuse_other_files(Box& track) {
   Box& media = open_child(open_child(track, box_type("mdia")), box_type("minf"));
   Box* information = find_child(media, box_type("dinf"));
@@ -313,7 +313,7 @@ static void refuse_other_files(Box& track) {
   open_box(*references, 8);
   for (const Box& reference : references->children) {
     if ((get_number(reference.body, 3, 1) & 1) == 0)
-      throw MalformedFile("its samples lie in other files; export it as one");
+      throw MalformedFile("its samples are in other files; export it as one file");
   }
 }
 
@@ -321,8 +321,8 @@ namespace {
 
 struct Plan {
   Move move;
-  bool uses_free = false;  // the box behind the header
-  uint64_t free = 0;       // bytes of what is left of it
+  bool uses_free = false;  // shrinks or grows the box after the header
+  uint64_t free = 0;       // bytes left in it
 };
 
 }  // namespace
@@ -344,7 +344,7 @@ static Plan plan_once(const Mp4& video, uint64_t file_size) {
   return plan;
 }
 
-// Moving may make the header longer, and then it has to be done for that length.
+// Widening offsets may lengthen the header, so repeat until its length is stable.
 static Plan plan_move(Mp4& video, uint64_t file_size) {
   for (;;) {
     const Plan plan = plan_once(video, file_size);

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Videos as ISO base media files: mp4, mov, m4v; whole or in fragments, header before or behind the samples. Sources:
-// ISO/IEC 14496-12; Apple, "QuickTime File Format"; ods/video/container/spherical.h.
+// Reads and tags ISO base media videos: mp4, mov, m4v; whole or fragmented, with the header before or after the
+// samples. Sources: ISO/IEC 14496-12; Apple, "QuickTime File Format"; ods/video/container/spherical.h.
 //
-// What is written into the video track: V2 as st3d and sv3d in every sample entry, behind the codec's own boxes and
-// before pasp and clap, and vexu and hfov (ods/video/container/apple.h) behind them; V1 as the last box of the track,
-// where it can say the form. Boxes that say the form already keep their place and their bytes.
+// Tags in the video track: V2 as st3d and sv3d in every sample entry, after the codec's own boxes and before pasp and
+// clap, then vexu and hfov (ods/video/container/apple.h); V1 as the last box of the track, if it can express the
+// metadata. Boxes that already have the right values keep their place and bytes.
 #pragma once
 #include <optional>
 
@@ -20,8 +20,8 @@ bool is_mp4(std::string_view first_bytes);
 // Throws MalformedFile, Error(kInput).
 VideoFile read_mp4(const FileInput& file);
 
-// Throws MalformedFile, Error(kInput), Error(kOutput). The header keeps its place; a `free` box behind it is used up,
-// or grown, before anything is moved.
+// Throws MalformedFile, Error(kInput), Error(kOutput). The header keeps its place; a `free` box after it is shrunk or
+// grown before any data is moved.
 TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track,
                   const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound = {});
 

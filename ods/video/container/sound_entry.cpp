@@ -17,7 +17,7 @@ enum Descriptor : uint64_t { kStream = 3, kDecoder = 4, kSpecific = 5 };
 
 }  // namespace
 
-// Steps into a descriptor of this kind: past its tag and its size, which has 7 bits a byte.
+// Enters a descriptor of this kind: skips its tag and its size, which has 7 bits per byte.
 static bool enter(std::string_view& bytes, Descriptor tag) {
   if (get_number(bytes, 0, 1) != tag) return false;
   size_t at = 1;
@@ -31,7 +31,7 @@ static void skip(std::string_view& bytes, size_t count) {
   bytes.remove_prefix(count);
 }
 
-// AudioSpecificConfig: 5 bits of kind, 4 of rate, 4 of channels; more where the first two are all ones.
+// AudioSpecificConfig: 5 bits type, 4 rate, 4 channels; type and rate are longer if all their bits are set.
 static int aac_channels(std::string_view bytes) {
   constexpr int kChannels[] = {0, 1, 2, 3, 4, 5, 6, 8};
   uint64_t bits = 0;

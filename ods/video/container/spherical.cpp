@@ -83,7 +83,7 @@ constexpr V1Angle kV1Angles[] = {{"InitialViewHeadingDegrees", &SphericalMetadat
                                  {"InitialViewPitchDegrees", &SphericalMetadata::pitch},
                                  {"InitialViewRollDegrees", &SphericalMetadata::roll}};
 
-// No spaces between the elements: some players look for `<GSpherical:Spherical>true<` as it stands.
+// No whitespace inside elements: some players search for the literal `<GSpherical:Spherical>true<`.
 std::string v1_xml(const SphericalMetadata& metadata) {
   assert(fits_v1(metadata));
   std::string xml =
@@ -155,7 +155,7 @@ bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadat
   return v1.projection == VideoProjection::kEquirect && same_sphere(v1, metadata) && has_v1_stereo(metadata);
 }
 
-// Sets an element, which is added where there is none. False where the XML is not understood.
+// Sets an element, adding it if missing. False if the XML cannot be parsed.
 static bool set_v1_word(std::string& xml, const std::string& name, const std::string& value) {
   const std::string open = "<GSpherical:" + name + ">", close = "</GSpherical:" + name + ">";
   if (const size_t from = xml.find(open); from != std::string::npos) {
@@ -263,7 +263,7 @@ void parse_projection_body(const std::string& body, SphericalMetadata& metadata)
     for (size_t i = 0; i < 4; i++) metadata.bounds[i] = static_cast<uint32_t>(get_number(body, 4 + 4 * i, 4));
   }
   if (metadata.projection == VideoProjection::kCubemap && get_number(body, 4, 4) != 0) {
-    metadata.projection = VideoProjection::kOther;  // faces that nobody has described yet
+    metadata.projection = VideoProjection::kOther;  // a face layout that is not specified yet
   }
 }
 
@@ -333,7 +333,7 @@ Box sa3d_box(const Ambisonics& sound) {
   Box box;
   box.type = box_type("SA3D");
   append_number(box.body, 0, 1);                                 // version
-  append_number(box.body, sound.has_head_locked ? 0x80 : 0, 1);  // and that it is periphonic
+  append_number(box.body, sound.has_head_locked ? 0x80 : 0, 1);  // zero: periphonic
   append_number(box.body, sound.order, 4);
   append_number(box.body, 0, 2);  // ACN, SN3D
   append_number(box.body, sound.channels, 4);

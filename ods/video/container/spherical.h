@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a video says of itself: how its eyes share a frame and what of the sphere a frame shows, and the bytes that say
-// so. Sources: google/spatial-media, "Spherical Video RFC" (V1) and "Spherical Video V2 RFC"; "Spatial Audio RFC".
-// Degrees; angles as V2 has them: yaw turns the picture to the left, pitch up, roll clockwise.
+// The metadata of 360 videos: how the eyes share a frame and what part of the sphere it shows, and their encoding.
+// Sources: google/spatial-media, "Spherical Video RFC" (V1) and "Spherical Video V2 RFC"; "Spatial Audio RFC". Angles
+// in degrees, as in V2: yaw turns the picture to the left, pitch up, roll clockwise.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -21,10 +21,10 @@ enum class VideoStereo {
   kOneView,
   kTopBottom,   // the left eye on top
   kSideBySide,  // the left eye on the left
-  kCustom,      // as its mesh has it
+  kCustom,      // as the mesh defines it
   kRightLeft,   // the right eye on the left
-  kBottomTop,   // the right eye on top: only Matroska can say so
-  kOther,       // what Matroska can say besides: interleaved, anaglyph
+  kBottomTop,   // the right eye on top: only Matroska supports it
+  kOther,       // Matroska's other modes: interleaved, anaglyph
 };
 struct VideoStereoRow {
   VideoStereo member;
@@ -38,7 +38,7 @@ inline constexpr VideoStereoRow kVideoStereoTable[] = {
     {VideoStereo::kCustom, "stereo of a mesh", {EyePacking::kMixed}},
     {VideoStereo::kRightLeft, "cross-eyed", {EyePacking::kBeside, true}},
     {VideoStereo::kBottomTop, "bottom-top", {EyePacking::kStacked, true}},
-    {VideoStereo::kOther, "stereo of a rare kind", {EyePacking::kMixed}},
+    {VideoStereo::kOther, "stereo of an unusual kind", {EyePacking::kMixed}},
 };
 static_assert(has_every_member(kVideoStereoTable));
 inline constexpr auto kVideoStereos = members_of(kVideoStereoTable);
@@ -54,8 +54,8 @@ std::optional<VideoStereo> stereo_with(EyeArrangement eyes);
 enum class VideoProjection {
   kFlat,
   kEquirect,
-  kCubemap,  // right, left, up over down, front, back; up has front at its top, down has back
-  kMesh,     // as its own triangles have it
+  kCubemap,  // right, left, up over down, front, back; front is at the top of up, back at that of down
+  kMesh,     // as the mesh defines it
   kOther,
 };
 inline constexpr NameRow<VideoProjection> kVideoProjectionTable[] = {
@@ -72,14 +72,14 @@ constexpr std::string_view projection_name(VideoProjection projection) {
 }
 
 struct SphericalMetadata {
-  std::optional<VideoStereo> stereo;          // none: it does not say
+  std::optional<VideoStereo> stereo;          // none: unspecified
   std::optional<VideoProjection> projection;  // likewise
-  // kEquirect: what is left out of the sphere at the top, bottom, left and right, in parts of 2^32 of the whole.
+  // kEquirect: the fractions of the sphere cropped at top, bottom, left and right, in units of 2^-32.
   std::array<uint32_t, 4> bounds{};
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
-  double ipd = 0.0;        // metres between the eyes; 0: it does not say. Only vexu has a place for it.
-  bool for_apple = false;  // vexu is written, too: apple.h has what that costs
-  std::string source;      // the program that says so
+  double ipd = 0.0;        // metres between the eyes; 0: unspecified. Only vexu stores it
+  bool for_apple = false;  // also write vexu; see apple.h for the drawback
+  std::string source;      // the program that wrote it
 
   bool is_partial() const { return bounds != std::array<uint32_t, 4>{}; }
   bool operator==(const SphericalMetadata&) const = default;
@@ -88,52 +88,52 @@ struct SphericalMetadata {
 // "top-bottom, lat-long", "side-by-side, lat-long 180x180", "mono, flat".
 std::string metadata_text(const SphericalMetadata& metadata);
 
-// Whether both show the same part of the sphere, and lay out their eyes likewise. To players no word on the projection
-// is flat, and no word on the eyes is mono. Bounds that differ by less than a thousandth of the sphere are the same:
-// V1 has them in pixels.
+// Whether both show the same part of the sphere, and arrange the eyes alike. As players do, counts a missing projection
+// as flat, and missing stereo as mono. Bounds that differ by less than a thousandth of the sphere count as equal,
+// because V1 stores them in pixels.
 bool same_sphere(const SphericalMetadata& a, const SphericalMetadata& b);
 bool same_stereo(const SphericalMetadata& a, const SphericalMetadata& b);
 
-// The id of V1's `uuid` box in moov/trak, in front of its XML.
+// The id of V1's `uuid` box in moov/trak, before its XML.
 inline constexpr std::string_view kV1Id = "\xff\xcc\x82\x63\xf8\x55\x4a\x93\x88\x14\x58\x7a\x02\x52\x1f\xdd";
 
-// V1 is written of the whole sphere in lat-long, in mono, top-bottom or side-by-side. It has the angles as whole
-// degrees of the initial view, as FFmpeg reads them.
+// V1 is written for whole-sphere lat-long in mono, top-bottom or side-by-side. It stores the angles as the initial
+// view, in whole degrees, as FFmpeg reads them.
 bool fits_v1(const SphericalMetadata& metadata);
 std::string v1_xml(const SphericalMetadata& metadata);
-// Nothing where the XML is about something else.
+// Nothing if the XML is about something else.
 std::optional<SphericalMetadata> parse_v1(const std::string& xml);
 
-// Whether a V1 that says `v1` can be changed to say `form`: both show the same part of the sphere, which may be a part
-// that fits_v1() knows nothing of, and V1 has a word for the eyes.
+// Whether `v1` can be updated to `metadata`: both show the same part of the sphere, possibly one that fits_v1()
+// rejects, and V1 can express the eyes.
 bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadata);
-// The XML with only those elements changed that say otherwise than `form`: StereoMode, angles that differ by a degree,
-// and the software where `has_new_source`. Nothing where can_update_v1() is false or the XML is not understood.
+// The XML with only those elements changed that differ from `metadata`: StereoMode, angles that differ by a degree, and
+// the software if `has_new_source`. Nothing if can_update_v1() is false or the XML cannot be parsed.
 std::optional<std::string> updated_v1(const std::string& xml, const SphericalMetadata& metadata, bool has_new_source);
 
-// V2 knows no kBottomTop and no kOther; kMesh is not written.
+// V2 has no kBottomTop and no kOther; a kMesh is never written.
 bool fits_v2(const SphericalMetadata& metadata);
-// Preconditions: `form` has such eyes; it has such a projection, which is not flat.
+// Preconditions: V2 can express the stereo of `metadata`, and its projection, which is not flat.
 Box st3d_box(const SphericalMetadata& metadata);
 Box sv3d_box(const SphericalMetadata& metadata);
-// Changes the angles and the source of an sv3d box; all else in it stays byte for byte. Throws MalformedFile.
+// Updates the angles and the source of an sv3d box; all else stays byte-identical. Throws MalformedFile.
 void update_sv3d(Box& sphere, const SphericalMetadata& metadata);
-// From the boxes of a sample entry; nothing where it has neither. Throws MalformedFile.
+// Parses the boxes of a sample entry; nothing if it has neither st3d nor sv3d. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_v2(const Box& sample_entry);
 
-// The body of an equi or cbmp box, version and flags included, which Matroska has as ProjectionPrivate.
+// The body of an equi or cbmp box including version and flags, which is Matroska's ProjectionPrivate.
 std::string projection_body(const SphericalMetadata& metadata);
-// The way back, for the projection that `form` has already.
+// Parses such a body for the projection that `metadata` already has.
 void parse_projection_body(const std::string& body, SphericalMetadata& metadata);
 
 // An SA3D box: ambisonic sound.
 struct Ambisonics {
   uint32_t order = 1;
   uint32_t channels = 4;
-  bool has_head_locked = false;  // stereo that does not turn with the head
+  bool has_head_locked = false;  // plus stereo that does not turn with the head
 };
 std::optional<Ambisonics> parse_sa3d(const std::string& body);
-// Channels in the order of ambisonics (ACN), normalised as SN3D has it.
+// Channels in ACN order with SN3D normalization.
 Box sa3d_box(const Ambisonics& sound);
 
 }  // namespace ods

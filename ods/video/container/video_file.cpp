@@ -28,12 +28,12 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
 }
 
-// One of the two families, or an Error.
+// Which of the two container families; throws if neither.
 static bool is_of_matroska(const FileInput& file) {
   const std::string start = first_bytes(file);
   if (is_matroska(start)) return true;
   if (is_mp4(start)) return false;
-  throw unusable(file.path(), "it is no video that is known (mp4, mov, mkv, webm)");
+  throw unusable(file.path(), "it is not a supported video (mp4, mov, mkv, webm)");
 }
 
 VideoFile read_video_file(const std::string& path) {
@@ -50,7 +50,7 @@ static int64_t pixels(const VideoTrack& track) {
 }
 
 const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, const std::string& path) {
-  if (video.tracks.empty()) throw unusable(path, "there are no pictures in it");
+  if (video.tracks.empty()) throw unusable(path, "it has no video track");
   std::string ids;
   for (const VideoTrack& track : video.tracks) {
     if (id && track.id == static_cast<uint64_t>(*id)) return track;
@@ -63,7 +63,7 @@ const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, co
   const VideoTrack& largest = *std::max_element(video.tracks.begin(), video.tracks.end(), smaller);
   const auto as_large = [&](const VideoTrack& track) { return pixels(track) == pixels(largest); };
   if (std::count_if(video.tracks.begin(), video.tracks.end(), as_large) > 1) {
-    throw unusable(path, fmt::format("several tracks are the largest, of {}: choose one with --track", ids));
+    throw unusable(path, fmt::format("several tracks share the largest size, of {}: choose one with --track", ids));
   }
   return largest;
 }

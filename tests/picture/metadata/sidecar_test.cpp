@@ -188,7 +188,7 @@ TEST(Sidecar, NullAndWrongTypesAreNoDefaults) {
   }
   EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "axis": null, "merge_map": null})"), "");
   EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "ipd": null})"),
-            "'x.camera.json' is no camera: ipd is a number from 0 to 10000, not null");
+            "'x.camera.json' is not a valid camera: ipd must be a number from 0 to 10000, not null");
 }
 
 // Bytes changed at random: an error of one line, or a camera whose rays are numbers.

@@ -120,7 +120,7 @@ TEST(Metadata, SenselessAttributesAreLeftAsideAndSaidSo) {
     EXPECT_FALSE(camera_of(worse, warnings)) << name;
   }
   EXPECT_EQ(warnings.size(), std::size(bad));
-  EXPECT_EQ(warnings[0], "its ods:ipd makes no sense: all that it says of its camera is left aside");
+  EXPECT_EQ(warnings[0], "its ods:ipd is invalid: ignoring its camera metadata");
   info.text["ods:projection"] = "mercator";
   EXPECT_FALSE(camera_of(info, warnings));
   EXPECT_FALSE(camera_of(FileInfo(), warnings));
@@ -200,7 +200,7 @@ TEST(Sidecar, OfAnotherPictureIsLeftOut) {
   const StoredPicture picture = open_picture(folder.path("a.png"));
   EXPECT_EQ(picture.layout, Layout::kTopBottom);
   EXPECT_EQ(picture.camera.yaw, 0.0f);
-  EXPECT_NE(picture.guesses[0].find("of another picture"), std::string::npos) << picture.guesses[0];
+  EXPECT_NE(picture.guesses[0].find("belong to another picture"), std::string::npos) << picture.guesses[0];
 }
 
 TEST(Sidecar, OfAPictureThatIsGoneIsWrittenAnew) {
@@ -234,13 +234,13 @@ TEST(Sidecar, DamagedIsAnErrorWithACure) {
     open_picture(folder.path("a.png"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("mend or remove it"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("fix or remove it"), std::string::npos) << error.what();
   }
   OpenOptions known;
   known.format.layout = Layout::kTopBottom;
   const StoredPicture picture = open_picture(folder.path("a.png"), known);
   EXPECT_EQ(picture.eyes.size(), 2u);
-  EXPECT_NE(picture.guesses[0].find("left aside"), std::string::npos) << picture.guesses[0];
+  EXPECT_NE(picture.guesses[0].find("ignored"), std::string::npos) << picture.guesses[0];
 }
 
 TEST(GuessLayout, WhatIsNoLayoutIsLeftAside) {
@@ -253,7 +253,7 @@ TEST(GuessLayout, WhatIsNoLayoutIsLeftAside) {
   EXPECT_EQ(guess.source, LayoutSource::kName);
   EXPECT_TRUE(is_guess(guess));
   const StereoFormat format = find_format(info, "a_LR.png", {});
-  EXPECT_NE(format.guesses[0].find("no layout"), std::string::npos) << format.guesses[0];
+  EXPECT_NE(format.guesses[0].find("ods:layout is invalid"), std::string::npos) << format.guesses[0];
 }
 
 TEST(NameFault, IsWhatReadersWouldGetWrong) {

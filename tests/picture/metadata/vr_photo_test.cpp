@@ -103,7 +103,7 @@ TEST_F(Photo, BothEyesComeBack) {
   const StoredPicture picture = open_picture(path);
   EXPECT_EQ(picture.size.width, 64);
   EXPECT_EQ(picture.size.height, 32);
-  EXPECT_EQ(picture.layout_reason, "it is a Cardboard photo, with the right eye in it");
+  EXPECT_EQ(picture.layout_reason, "it is a Cardboard photo with an embedded right eye");
   EXPECT_TRUE(picture.guesses.empty());
   EXPECT_FLOAT_EQ(picture.camera.yaw, 30.0f);
   const LoadedEyes loaded = load_eyes(path);
@@ -182,10 +182,10 @@ struct Lie {
 TEST_F(Photo, PacketsThatLieAreRefused) {
   const size_t id = 35, length = id + 32, offset = length + 4, data = offset + 4;
   const Lie lies[] = {{"another MD5", id, std::string(32, 'A'), "it is not there"},
-                      {"a length of 2^32 - 1", length, "\xff\xff\xff\xff", "longer or shorter"},
-                      {"no length", length, std::string(4, '\0'), "longer or shorter"},
-                      {"an offset beyond the end", offset, "\xff\xff\xff\xf0", "missing or stand there twice"},
-                      {"an offset before another", offset, std::string("\0\0\0\1", 4), "missing or stand there twice"},
+                      {"a length of 2^32 - 1", length, "\xff\xff\xff\xff", "its length differs"},
+                      {"no length", length, std::string(4, '\0'), "its length differs"},
+                      {"an offset beyond the end", offset, "\xff\xff\xff\xf0", "missing or duplicated"},
+                      {"an offset before another", offset, std::string("\0\0\0\1", 4), "missing or duplicated"},
                       {"other bytes", data + 200, "AAAAAAAAAAAA", "MD5"}};
   make({256, 128});
   const std::string whole = folder.read("a.vr.jpg");
@@ -205,9 +205,9 @@ TEST_F(Photo, PacketsThatLieAreRefused) {
     EXPECT_NE(error().find(lie.error), std::string::npos) << lie.what << ": " << error();
   }
   folder.write("a.vr.jpg", whole.substr(0, first - 4) + whole.substr(second - 4));
-  EXPECT_NE(error().find("missing or stand there twice"), std::string::npos) << error();
+  EXPECT_NE(error().find("missing or duplicated"), std::string::npos) << error();
   folder.write("a.vr.jpg", whole.substr(0, second - 4) + whole.substr(first - 4));
-  EXPECT_NE(error().find("missing or stand there twice"), std::string::npos) << error();
+  EXPECT_NE(error().find("missing or duplicated"), std::string::npos) << error();
 }
 
 // A photo with this in place of the right eye's letters, and an MD5 that is right.

@@ -97,7 +97,7 @@ TEST(MotionRender, WhatMovedIsWhereItIsAndNowhereElse) {
     const int x = static_cast<int>((azimuth / (2.0 * std::acos(-1.0)) + 0.5) * 256.0);
     return *picture.eyes[0].depth.at(x, 64);
   };
-  EXPECT_EQ(depth_at(0.0), kFarDepth) << "scaled to nothing";
+  EXPECT_EQ(depth_at(0.0), kFarDepth) << "scaled to zero";
   renderer.update(set_time(scene, 0.5));
   EXPECT_NEAR(depth_at(0.0), 1.75f, 0.01f) << "half its size, in the middle";
   renderer.update(set_time(scene, 1.0));

@@ -409,8 +409,8 @@ TEST_F(Mp4Video, DepthAndWidthAreNotBelieved) {
 }
 
 TEST_F(Mp4Video, WhatIsNotAVideoSaysSo) {
-  EXPECT_NE(error_of("").find("no video"), std::string::npos);
-  EXPECT_NE(error_of("plain text that is long enough").find("no video"), std::string::npos);
+  EXPECT_NE(error_of("").find("not a supported video"), std::string::npos);
+  EXPECT_NE(error_of("plain text that is long enough").find("not a supported video"), std::string::npos);
   EXPECT_NE(error_of(made::box("ftyp", "isom") + made::box("mdat", "x")).find("no header"), std::string::npos);
   EXPECT_NE(error_of(made::mp4({}) + made::box("moov", "")).find("two headers"), std::string::npos);
   EXPECT_NE(error_of(made::box("moov", made::box("cmov", ""))).find("compressed"), std::string::npos);
