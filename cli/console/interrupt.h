@@ -4,6 +4,10 @@
 // Handles Ctrl-C, kill and a terminal that goes away.
 #pragma once
 
+// Returns what is printed on stderr when a signal of this number ends the process.
+using LastWords = const char* (*)(int signal);
+const char* plain_last_words(int signal);  // "ods: interrupted"
+
 // From now on such a signal removes unfinished files, prints the last words and ends the process at once with 128 + its
 // number, even while loading, rendering or saving. `last_words` runs in the signal handler: it must only return a
 // literal.
