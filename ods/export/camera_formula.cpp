@@ -203,11 +203,12 @@ class Writer {
     const Formula height = parameter("sensor_height", setting_.sensor.y, "millimetres");
     const Formula px = step("lens_x", width * (eye_u_ - 0.5)), py = step("lens_y", height * (0.5 - eye_v_));
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
-    Formula polynomial = 0.0;
-    for (size_t i = setting_.polynomial.size(); i-- > 0;) {
-      const std::string name = fmt::format("k{}", i);
-      polynomial = parameter(name, setting_.polynomial[i], "of the lens polynomial") + radius * polynomial;
+    std::vector<Formula> k;
+    for (const float each : setting_.polynomial) {
+      k.push_back(parameter(fmt::format("k{}", k.size()), each, "of the lens polynomial"));
     }
+    Formula polynomial = 0.0;
+    for (size_t i = k.size(); i-- > 0;) polynomial = k[i] + radius * polynomial;
     const Formula angle = step("from_axis", max(-polynomial, 0.0));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");

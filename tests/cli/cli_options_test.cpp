@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "ods/camera/camera_fields.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
@@ -169,6 +171,7 @@ TEST_F(Cli, ALensPolynomialHasItsNumbersAndIsChecked) {
   EXPECT_EQ(back.eye.height, 32) << "of the sensor's shape";
   EXPECT_EQ(back.camera.projection.sensor, ods::vec2(20.0f, 10.0f));
   EXPECT_EQ(back.camera.projection.polynomial, (std::array{0.0f, -0.05f, 0.0f, -1e-5f, 0.0f}));
+  std::filesystem::remove(sidecar);
   for (const char* words : {"--lens-polynomial 0,-0.05", "--lens-polynomial 0,0.05,0,0,0", "--sensor 20",
                             "--sensor 0,10", "--lens-polynomial 0,-0.05,0,1e-3,0", "--lens-polynomial a,b,c,d,e"}) {
     EXPECT_EQ(run(lens + words), 2) << words;
