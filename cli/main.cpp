@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "cli/console/exit_code.h"
+#include "cli/console/manual.h"
 #include "ods/base/suggest.h"
 
 namespace {
@@ -48,28 +49,6 @@ constexpr Command kCommands[] = {
     {"sizes", "list the named sizes", "ods_sizes"},
 };
 
-void print_help(std::FILE* out) {
-  std::fputs(
-      "ods renders omni-directional stereo (stereo 360 degree) pictures and videos of glTF scenes.\n\n"
-      "Examples:\n"
-      "  ods render scene.glb -o picture.png        left eye on top, ready for a headset\n"
-      "  ods render room -o room.png                a built-in scene\n"
-      "  ods info scene.glb                         what is in the scene\n\n"
-      "Commands:\n",
-      out);
-  for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
-  std::fputs(
-      "\nods COMMAND --help explains a command; ods --version prints the versions of ods and its libraries.\n"
-      "Exit codes:\n"
-      "  0    done\n"
-      "  1    anything else: not enough memory, a limit of ods compare, a fault that ods lint found\n"
-      "  2    the command line is wrong: a value, a conflict, a name that is unknown or not in the file\n"
-      "  3    a file is absent, broken or not supported\n"
-      "  4    a file could not be written\n"
-      "  130  interrupted (Ctrl-C), 143 terminated (SIGTERM), 129 hung up (SIGHUP)\n",
-      out);
-}
-
 int run(const Command& command, int argc, char** argv) {
   void* library = dlopen(command.library, RTLD_NOW | RTLD_LOCAL);  // found beside ods, or where install put it
   void* symbol = library ? dlsym(library, command.function) : nullptr;
@@ -78,6 +57,25 @@ int run(const Command& command, int argc, char** argv) {
     return kExitFailure;
   }
   return reinterpret_cast<int (*)(int, char**)>(symbol)(argc, argv);
+}
+
+// Help, a man page or a completion script, of which every command writes its own part.
+std::string overview(ManualFormat format) {
+  std::vector<CommandSummary> commands;
+  for (const Command& command : kCommands) commands.push_back({command.name, command.summary});
+  return write_overview(commands, format);
+}
+
+int print_overview(ManualFormat format, char* help_option) {
+  std::fputs(overview(format).c_str(), stdout);
+  if (format == ManualFormat::kHelp || format == ManualFormat::kMan) return kExitOk;
+  for (const Command& command : kCommands) {
+    std::string name = command.name;
+    char* arguments[] = {name.data(), help_option, nullptr};
+    if (const int code = run(command, 2, arguments); code != kExitOk) return code;
+  }
+  std::fputs(end_of_overview(format).c_str(), stdout);
+  return kExitOk;
 }
 
 // The first picture would get the number of a stream that is closed, and with it what is printed there.
@@ -100,14 +98,12 @@ int unknown_command(const char* name) {
 int main(int argc, char** argv) {
   open_closed_streams();
   if (argc < 2) {
-    print_help(stderr);
+    std::fputs(overview(ManualFormat::kHelp).c_str(), stderr);
     return kExitUsage;
   }
   const char* name = argv[1];
-  if (std::strcmp(name, "--help") == 0 || std::strcmp(name, "-h") == 0 || std::strcmp(name, "help") == 0) {
-    print_help(stdout);
-    return kExitOk;
-  }
+  const auto format = manual_format(std::strcmp(name, "help") == 0 ? "--help" : name);
+  if (format) return print_overview(*format, argv[1]);
   if (std::strcmp(name, "--version") == 0) {
     std::puts("ods " ODS_VERSION "\n" ODS_LIBRARIES);
     return kExitOk;

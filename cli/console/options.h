@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/console/manual.h"
+
 namespace CLI {
 class App;
 }
@@ -24,7 +26,7 @@ class Options {
   ~Options();
 
   // Options added from here on stand under this heading in help.
-  void group(const std::string& heading) { help_ += "\n" + heading + ":\n"; }
+  void group(const std::string& heading);
 
   // Words that are no options, in their order.
   void argument(const std::string& name, std::string& value, const std::string& text);
@@ -69,21 +71,24 @@ class Options {
   void custom(const std::string& name, const std::string& unit, const std::string& fallback,
               const std::function<void(const std::string&)>& set, const std::string& text);
 
+  // What completion offers for this option or argument, which was added before.
+  void offer(const std::string& name, const std::vector<std::string>& values);
+
   // Sets this option while the command line is read, before the values of others are judged.
   void at_once(const std::string& name);
 
   bool given(const std::string& name) const;
 
-  // False when help was asked for: it has been printed. Throws UsageError.
+  // False when help was asked for: it has been printed, in the format of --help=FORMAT. Throws UsageError.
   bool parse(int argc, char** argv);
 
  private:
-  void explain(const std::string& name, const std::string& unit, const std::string& text);
+  void add_argument(const std::string& name, const std::string& usage, const std::string& text);
+  ManualEntry& add_option(const std::string& name, const std::string& unit, const std::string& text);
   std::string describe_extras() const;
 
   std::unique_ptr<CLI::App> app_;
-  std::string usage_;  // what help starts with, up to the arguments
-  std::string help_;   // their explanation and the options'
+  Manual manual_;
 };
 
 // --quiet and --no-color, which every command has, under their heading.
