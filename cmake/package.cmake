@@ -5,7 +5,7 @@
 # linked with, so it is for the release of Debian or Ubuntu that it was made on.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME ods)
-set(CPACK_PACKAGE_CONTACT "The Omnistereo authors <authors@omnistereo.invalid>")
+set(CPACK_PACKAGE_CONTACT ${contact})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stereo 360 degree pictures and videos")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -22,10 +22,3 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 include(CPack)
-
-# Debian wants a changelog.
-string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
-file(WRITE ${CMAKE_BINARY_DIR}/changelog.Debian "ods (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; \
-urgency=medium\n\n  * Version ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
-execute_process(COMMAND gzip -9nf ${CMAKE_BINARY_DIR}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-install(FILES ${CMAKE_BINARY_DIR}/changelog.Debian.gz cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
