@@ -252,14 +252,24 @@ class Pages : public ::testing::Test {
   std::set<std::string> made_;
 };
 
+// Which tests/install_test.cmake compiles.
+TEST_F(Pages, TheReadmeShowsAnExample) {
+  const std::string readme = read_file(fs::path(ODS_SOURCE_DIR) / "README.md");
+  const std::string example = read_file(fs::path(ODS_SOURCE_DIR) / "examples/minimal.cpp");
+  const size_t begin = readme.find("```cpp\n") + 7;
+  const std::string code = readme.substr(begin, readme.find("```", begin) - begin);
+  EXPECT_GT(code.size(), 100u);
+  EXPECT_NE(example.find("{\n  " + std::regex_replace(code, std::regex("\n(?!$)"), "\n  ") + "}"), std::string::npos);
+}
+
 class Docs : public Pages, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(Docs, CommandsOfThisPageWork) {
   const std::string text = read_file(fs::path(ODS_SOURCE_DIR) / GetParam());
   std::vector<Command> commands = commands_of_page(text);
-  if (GetParam() == "docs/tasks.md") {  // its table has whole commands
+  if (GetParam() == "docs/tasks.md" || GetParam() == "README.md") {  // whose text has whole commands
     for (const std::string& span : code_spans(text)) {
-      if (span.starts_with("ods ")) commands.push_back(parse_line(span));
+      if (span.starts_with("ods ") && words_of(span).size() > 2) commands.push_back(parse_line(span));
     }
   }
   for (const Command& command : commands) try_command(command);
