@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command: a table. Each command is one file beside this one.
+// The command: a table. Each command is a file of its own in a folder beside this one.
 //
-// The commands live in a shared object that is opened when one is run: the image library beneath them takes a quarter
-// of a second to load (hundreds of libraries on Debian), and some 100 MB of memory. The list of commands, --version and
-// a misspelt command do not wait for that; `ods COMMAND --help` does. A command that needs neither that library nor
-// FFmpeg has a shared object of its own.
+// What reads and writes image files is in ods_images.so, which is opened when a command meets its first image
+// (ods/image/image_codec.h says why).
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -17,47 +15,58 @@
 
 #include "cli/console/exit_code.h"
 #include "cli/console/manual.h"
+#include "ods/base/error.h"
 #include "ods/base/suggest.h"
+#include "ods/image/image_codec.h"
+
+// One a file, in the folders beside this one.
+int ods_camera(int argc, char** argv);
+int ods_compare(int argc, char** argv);
+int ods_convert(int argc, char** argv);
+int ods_encode(int argc, char** argv);
+int ods_info(int argc, char** argv);
+int ods_inject(int argc, char** argv);
+int ods_lint(int argc, char** argv);
+int ods_over(int argc, char** argv);
+int ods_probe(int argc, char** argv);
+int ods_project(int argc, char** argv);
+int ods_render(int argc, char** argv);
+int ods_rig(int argc, char** argv);
+int ods_scenes(int argc, char** argv);
+int ods_sizes(int argc, char** argv);
+int ods_stitch(int argc, char** argv);
+int ods_testcard(int argc, char** argv);
+int ods_title(int argc, char** argv);
+int ods_video(int argc, char** argv);
 
 namespace {
 
 struct Command {
   const char* name;
   const char* summary;
-  const char* function;  // int function(int argc, char** argv), argv[0] being the command's name
-  const char* library = "ods_commands.so";
+  int (*run)(int argc, char** argv);  // argv[0] is the command's name
 };
 
 constexpr Command kCommands[] = {
-    {"render", "render a scene as a stereo 360 picture or frames", "ods_render"},
-    {"convert", "change a picture's projection, layout, size or eyes", "ods_convert"},
-    {"video", "render a scene as a stereo 360 video", "ods_video"},
-    {"encode", "encode frames as a stereo 360 video", "ods_encode"},
-    {"title", "make a title with depth for stereo 360", "ods_title"},
-    {"over", "composite a picture or video over another", "ods_over"},
-    {"rig", "plan perspective cameras for other renderers", "ods_rig"},
-    {"stitch", "combine the views of those cameras into a picture", "ods_stitch"},
-    {"info", "show what is in a scene", "ods_info"},
-    {"camera", "export a camera to another renderer", "ods_camera"},
-    {"project", "project world points into each eye's picture", "ods_project"},
-    {"compare", "measure the difference between two pictures", "ods_compare"},
-    {"lint", "find faults in a stereo 360 picture", "ods_lint"},
-    {"probe", "show a file's 360 metadata and how players will interpret it", "ods_probe"},
-    {"inject", "write 360 and stereo metadata into a video or picture", "ods_inject", "ods_inject.so"},
-    {"testcard", "make a test card for players and headsets", "ods_testcard"},
-    {"scenes", "list the built-in scenes", "ods_scenes"},
-    {"sizes", "list the named sizes", "ods_sizes"},
+    {"render", "render a scene as a stereo 360 picture or frames", ods_render},
+    {"convert", "change a picture's projection, layout, size or eyes", ods_convert},
+    {"video", "render a scene as a stereo 360 video", ods_video},
+    {"encode", "encode frames as a stereo 360 video", ods_encode},
+    {"title", "make a title with depth for stereo 360", ods_title},
+    {"over", "composite a picture or video over another", ods_over},
+    {"rig", "plan perspective cameras for other renderers", ods_rig},
+    {"stitch", "combine the views of those cameras into a picture", ods_stitch},
+    {"info", "show what is in a scene", ods_info},
+    {"camera", "export a camera to another renderer", ods_camera},
+    {"project", "project world points into each eye's picture", ods_project},
+    {"compare", "measure the difference between two pictures", ods_compare},
+    {"lint", "find faults in a stereo 360 picture", ods_lint},
+    {"probe", "show a file's 360 metadata and how players will interpret it", ods_probe},
+    {"inject", "write 360 and stereo metadata into a video or picture", ods_inject},
+    {"testcard", "make a test card for players and headsets", ods_testcard},
+    {"scenes", "list the built-in scenes", ods_scenes},
+    {"sizes", "list the named sizes", ods_sizes},
 };
-
-int run(const Command& command, int argc, char** argv) {
-  void* library = dlopen(command.library, RTLD_NOW | RTLD_LOCAL);  // found beside ods, or where install put it
-  void* symbol = library ? dlsym(library, command.function) : nullptr;
-  if (!symbol) {
-    std::fprintf(stderr, "ods: error: the commands cannot be loaded: %s\n", dlerror());
-    return kExitFailure;
-  }
-  return reinterpret_cast<int (*)(int, char**)>(symbol)(argc, argv);
-}
 
 // Help, a man page or a completion script, of which every command writes its own part.
 std::string overview(ManualFormat format) {
@@ -72,7 +81,7 @@ int print_overview(ManualFormat format, char* help_option) {
   for (const Command& command : kCommands) {
     std::string name = command.name;
     char* arguments[] = {name.data(), help_option, nullptr};
-    if (const int code = run(command, 2, arguments); code != kExitOk) return code;
+    if (const int code = command.run(2, arguments); code != kExitOk) return code;
   }
   std::fputs(end_of_overview(format).c_str(), stdout);
   return kExitOk;
@@ -95,6 +104,17 @@ int unknown_command(const char* name) {
 
 }  // namespace
 
+// Found beside ods, or where `make install` puts it.
+const ods::ImageCodec& ods::image_codec() {
+  static const ImageCodec* const codec = [] {
+    void* library = dlopen("ods_images.so", RTLD_NOW | RTLD_LOCAL);
+    void* symbol = library ? dlsym(library, "ods_image_codec") : nullptr;
+    if (!symbol) throw Error(ErrorKind::kInput, std::string("the image library cannot be loaded: ") + dlerror());
+    return reinterpret_cast<const ImageCodec* (*)()>(symbol)();
+  }();
+  return *codec;
+}
+
 int main(int argc, char** argv) {
   open_closed_streams();
   if (argc < 2) {
@@ -108,8 +128,12 @@ int main(int argc, char** argv) {
     std::puts("ods " ODS_VERSION "\n" ODS_LIBRARIES);
     return kExitOk;
   }
+  if (std::strcmp(name, "film") == 0) {
+    std::fputs("ods: 'film' is now called 'video'; the old name ends with the next version\n", stderr);
+    name = argv[1] = const_cast<char*>("video");
+  }
   for (const Command& command : kCommands) {
-    if (std::strcmp(name, command.name) == 0) return run(command, argc - 1, argv + 1);
+    if (std::strcmp(name, command.name) == 0) return command.run(argc - 1, argv + 1);
   }
   return unknown_command(name);
 }

@@ -26,28 +26,28 @@ sheet() {
   rm "$parts"/tile-*.png
 }
 
-for name in lat-long vr180 cylinder fisheye fisheye-equisolid dome perspective cube-3x2 cube-6x1 cube-1x6 eac; do
+for name in lat-long vr180 cylinder fisheye fisheye-equisolid fisheye-polynomial mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac eac-face; do
   width=480
   [ $name = cube-1x6 ] && width=120
   tile $name --eyes left --projection $name --width $width
 done
 tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
-sheet 4x3 projections.jpg
+sheet 5x3 projections.jpg
 
-for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved anaglyph \
-  anaglyph-half anaglyph-dubois; do
+for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved \
+  column-interleaved checkerboard anaglyph anaglyph-half anaglyph-dubois; do
   tile $name --layout $name --width 480
 done
 tile "--eyes left" --eyes left --width 480
 tile "--eyes mono" --eyes mono --width 480
-sheet 4x3 layouts.jpg
+sheet 5x3 layouts.jpg
 
 # Straight down at the floor's grid, where a merge shows most: red-cyan, with eyes far apart.
-for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 gaussian,0,90 power,0,90,10 \
+for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 smootherstep,30,90 gaussian,0,90 power,0,90,10 \
   tilt-brush,0,72; do
   tile "$merge" --layout anaglyph --projection fisheye --lens-direction 0,-90 --ipd 0.4 --merge "$merge" --width 320
 done
-sheet 4x2 merges.jpg
+sheet 3x3 merges.jpg
 
 # Ahead and a little down, red-cyan, eyes 20 cm apart where nothing else is said.
 window="--layout anaglyph --projection perspective --fov 80 --lens-direction 0,-15 --width 320"

@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 const std::set<std::string> kAvFiles = {"ods/video/av.cpp", "ods/video/decode.cpp", "ods/video/encode.cpp",
                                         "ods/video/sound.cpp"};
 const std::map<std::string, std::set<std::string>> kHidden = {
-    {"OpenImageIO/", {"ods/image/image_file.cpp", "ods/image/image_writer.cpp"}},
+    {"OpenImageIO/", {"ods/image/codec/image_reader.cpp", "ods/image/codec/image_writer.cpp"}},
     {"embree", {"ods/render/cpu/embree_scene.cpp"}},
     {"CLI/", {"cli/console/options.cpp"}},
-    {"OpenEXR/", {"ods/image/exr_rows.cpp"}},
-    {"libdeflate.h", {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/exr_rows.cpp"}},
+    {"OpenEXR/", {"ods/image/codec/exr_rows.cpp"}},
+    {"libdeflate.h", {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp"}},
     {"lcms2", {"ods/image/icc_profile.cpp"}},
     {"libavcodec/", kAvFiles},
     {"libavformat/", kAvFiles},
@@ -301,6 +301,67 @@ TEST(House, PathsThatThePagesNameExist) {
     }
   }
   EXPECT_GT(found, 30u);
+}
+
+// The files that a row of CONTRIBUTING.md's recipes names by their whole paths.
+std::set<std::string> files_of_recipe(const std::string& name) {
+  const std::regex path("`((ods|cli|tests|docs)/[A-Za-z0-9_/.-]+)`");
+  std::set<std::string> files;
+  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+    if (!line.starts_with("| " + name + " |")) continue;
+    for (std::sregex_iterator match(line.begin(), line.end(), path), end; match != end; ++match) {
+      files.insert((*match)[1].str());
+    }
+  }
+  EXPECT_FALSE(files.empty()) << name;
+  return files;
+}
+
+// The files that speak of a member of a closed set, by its name in the code or by the word of the command line.
+std::set<std::string> files_that_name(const std::string& member, const std::string& word) {
+  const std::regex either("(^|[^A-Za-z0-9_])" + member + "($|[^A-Za-z0-9_])|(^|[^A-Za-z0-9_])" + word +
+                          "($|[^A-Za-z0-9_])");
+  const fs::path root = ODS_SOURCE_DIR;
+  std::set<std::string> files;
+  for (const char* folder : {"ods", "cli", "tests", "docs"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::set<std::string> texts = {".cpp", ".h", ".md", ".sh", ".glsl", ".frag"};
+      const std::string path = fs::relative(entry.path(), root).generic_string();
+      if (!texts.contains(entry.path().extension()) || path == "tests/house_test.cpp") continue;
+      for (const std::string& line : read_lines(entry.path())) {
+        if (line.find(member) == std::string::npos && line.find(word) == std::string::npos) continue;
+        if (std::regex_search(line, either)) files.insert(path);
+      }
+    }
+  }
+  return files;
+}
+
+// Each of these was added by its recipe: the recipe names the files that know of it, all of them and no other.
+TEST(House, RecipesNameTheFilesThatAMemberTouches) {
+  struct Added {
+    const char* recipe;
+    const char* member;
+    const char* word;
+  };
+  for (const Added& added : {Added{"a projection", "kEacFace", "eac-face"},
+                             Added{"a name for a projection with other defaults", "mirror-ball", "mirror-ball"},
+                             Added{"a pole merge", "kMergeSmootherstep", "smootherstep"},
+                             Added{"a layout of the eyes", "kColumnInterleaved", "column-interleaved"}}) {
+    EXPECT_EQ(files_that_name(added.member, added.word), files_of_recipe(added.recipe)) << added.recipe;
+  }
+}
+
+// Recipes give the names of some files without their folders.
+TEST(House, FilesThatRecipesNameExist) {
+  std::set<std::string> names;
+  for (const Source& source : all_sources()) names.insert(fs::path(source.path).filename());
+  const std::regex file("`([a-z0-9_]+\\.(cpp|h))`");
+  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+    for (std::sregex_iterator match(line.begin(), line.end(), file), end; match != end; ++match) {
+      EXPECT_TRUE(names.contains((*match)[1].str())) << (*match)[1].str();
+    }
+  }
 }
 
 }  // namespace

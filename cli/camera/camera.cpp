@@ -29,7 +29,7 @@ void camera(int argc, char** argv) {
                   "Exports a camera to another renderer. What that renderer cannot do is a comment in the result.",
                   kExamples);
   options.group("Output");
-  options.choice("--for", target, ods::kCameraTargets, ods::camera_target_name,
+  options.choice("--for", target, ods::kCameraTargetTable,
                  "the target; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");
   options.text("-o,--output", "FILE", output, "output file; by default stdout");
   add_camera_source(options, source);
@@ -54,6 +54,6 @@ void camera(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_camera(int argc, char** argv) {
+int ods_camera(int argc, char** argv) {
   return run_command([=] { camera(argc, argv); });
 }

@@ -130,6 +130,6 @@ void project(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_project(int argc, char** argv) {
+int ods_project(int argc, char** argv) {
   return run_command([=] { project(argc, argv); });
 }

@@ -113,6 +113,6 @@ void sizes(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_sizes(int argc, char** argv) {
+int ods_sizes(int argc, char** argv) {
   return run_command([=] { sizes(argc, argv); });
 }

@@ -12,12 +12,13 @@
 
 namespace {
 
-const char* words = "";
+LastWords words_of = plain_last_words;
 std::atomic<bool> said{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
 
 void on_signal(int number) {
   ods::remove_unfinished_files();
+  const char* const words = words_of(number);
   const ssize_t ignored = said.exchange(true) ? 0 : write(STDERR_FILENO, words, std::strlen(words));
   static_cast<void>(ignored);
   _exit(128 + number);
@@ -25,8 +26,12 @@ void on_signal(int number) {
 
 }  // namespace
 
-void end_on_interrupts(const char* last_words) {
-  words = last_words;
+const char* plain_last_words(int) {
+  return "ods: interrupted\n";
+}
+
+void end_on_interrupts(LastWords last_words) {
+  words_of = last_words;
   signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
   const int kNumbers[] = {SIGHUP, SIGINT, SIGTERM};
   for (int number : kNumbers) {

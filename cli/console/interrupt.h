@@ -4,6 +4,11 @@
 // Ctrl-C, kill and a terminal that goes away.
 #pragma once
 
-// From here on such a signal removes what is not complete, says last_words on stderr and ends the process at once with
-// 128 + its number, whatever is being loaded, rendered or saved. last_words must outlive the process.
-void end_on_interrupts(const char* last_words);
+// What is said on stderr when a signal of this number ends the process.
+using LastWords = const char* (*)(int signal);
+const char* plain_last_words(int signal);  // "ods: interrupted"
+
+// From here on such a signal removes what is not complete, says the last words and ends the process at once with
+// 128 + its number, whatever is being loaded, rendered or saved. `last_words` runs in a signal handler: it must only
+// return a literal.
+void end_on_interrupts(LastWords last_words = plain_last_words);

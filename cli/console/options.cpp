@@ -86,6 +86,12 @@ void Options::argument(const std::string& name, std::string& value, const std::s
   add_argument(name, name, text);
 }
 
+void Options::argument(const std::string& name, const std::function<void(const std::string&)>& set,
+                       const std::string& text) {
+  app_->add_option_function<std::string>(name, set)->required();
+  add_argument(name, name, text);
+}
+
 void Options::optional_argument(const std::string& name, std::string& value, const std::string& text) {
   app_->add_option(name, value);
   add_argument(name, fmt::format("[{}]", name), text);

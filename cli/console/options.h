@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/console/manual.h"
+#include "ods/base/names.h"
 
 namespace CLI {
 class App;
@@ -30,6 +31,8 @@ class Options {
 
   // Words that are no options, in their order.
   void argument(const std::string& name, std::string& value, const std::string& text);
+  // The options that were added before it are set by then, those after it are not yet.
+  void argument(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& text);
   void optional_argument(const std::string& name, std::string& value, const std::string& text);
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
@@ -43,14 +46,15 @@ class Options {
   void number(const std::string& name, std::optional<float>& value, float low, float high, const std::string& text);
   void number(const std::string& name, uint32_t& value, const std::string& text);
 
-  // One of a closed set, by its name.
-  template <class T, size_t kCount>
-  void choice(const std::string& name, T& value, const T (&all)[kCount], std::string_view (*name_of)(T),
+  // One of a closed set, by its name in the set's table (ods/base/names.h).
+  template <class Row, size_t kCount>
+  void choice(const std::string& name, ods::MemberOf<Row[kCount]>& value, const Row (&table)[kCount],
               const std::string& text) {
     std::vector<std::string> names;
-    for (T member : all) names.emplace_back(name_of(member));
+    for (const Row& row : table) names.emplace_back(row.name);
     choice(
-        name, names, std::string(name_of(value)), [&value, &all](size_t i) { value = all[i]; }, text);
+        name, names, std::string(ods::name_in(table, value)), [&value, &table](size_t i) { value = table[i].member; },
+        text);
   }
 
   // The same, by its place in the list of names.
@@ -58,13 +62,13 @@ class Options {
               const std::function<void(size_t)>& set, const std::string& text);
 
   // The same where nobody need choose.
-  template <class T, size_t kCount>
-  void choice(const std::string& name, std::optional<T>& value, const T (&all)[kCount], std::string_view (*name_of)(T),
+  template <class Row, size_t kCount>
+  void choice(const std::string& name, std::optional<ods::MemberOf<Row[kCount]>>& value, const Row (&table)[kCount],
               const std::string& text) {
     std::vector<std::string> names;
-    for (T member : all) names.emplace_back(name_of(member));
+    for (const Row& row : table) names.emplace_back(row.name);
     choice(
-        name, names, "", [&value, &all](size_t i) { value = all[i]; }, text);
+        name, names, "", [&value, &table](size_t i) { value = table[i].member; }, text);
   }
 
   // Whatever set makes of the word; it throws UsageError.

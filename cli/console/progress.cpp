@@ -3,6 +3,7 @@
 #include "cli/console/progress.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,35 +12,23 @@
 
 #include "ods/base/text.h"
 
-std::string_view progress_mode_name(ProgressMode mode) {
-  switch (mode) {
-    case ProgressMode::kAuto:
-      return "auto";
-    case ProgressMode::kBar:
-      return "bar";
-    case ProgressMode::kPlain:
-      return "plain";
-    case ProgressMode::kJson:
-      return "json";
-    case ProgressMode::kNone:
-      return "none";
-    case ProgressMode::kDeadline:
-      return "deadline";
-    case ProgressMode::kOpenJd:
-      return "openjd";
-    case ProgressMode::kTractor:
-      return "tractor";
-  }
-  return "";
-}
-
 bool progress_is_for_farm(ProgressMode mode) {
   return mode == ProgressMode::kDeadline || mode == ProgressMode::kOpenJd || mode == ProgressMode::kTractor;
 }
 
-const char* interrupted_line(ProgressMode mode) {
-  if (mode == ProgressMode::kJson) return "{\"error\":\"interrupted\"}\n";
-  return mode == ProgressMode::kBar ? "\r\x1b[Kods: interrupted\n" : "ods: interrupted\n";
+static const char* json_last_words(int signal) {
+  if (signal == SIGHUP) return "{\"error\":\"interrupted\",\"exit_code\":129}\n";
+  if (signal == SIGTERM) return "{\"error\":\"interrupted\",\"exit_code\":143}\n";
+  return "{\"error\":\"interrupted\",\"exit_code\":130}\n";
+}
+
+static const char* bar_last_words(int) {
+  return "\r\x1b[Kods: interrupted\n";
+}
+
+LastWords interrupted_line(ProgressMode mode) {
+  if (mode == ProgressMode::kJson) return json_last_words;
+  return mode == ProgressMode::kBar ? bar_last_words : plain_last_words;
 }
 
 std::string duration_text(double seconds) {

@@ -8,6 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "cli/console/interrupt.h"
+#include "ods/base/names.h"
+
 enum class ProgressMode {
   kAuto,      // the bar on a terminal, plain lines elsewhere
   kBar,       // one line that redraws itself
@@ -19,16 +22,22 @@ enum class ProgressMode {
   kTractor,   // "ALF_PROGRESS 42%"        Pixar Tractor
 };
 
-inline constexpr ProgressMode kProgressModes[] = {ProgressMode::kAuto,   ProgressMode::kBar,    ProgressMode::kPlain,
-                                                  ProgressMode::kJson,   ProgressMode::kNone,   ProgressMode::kDeadline,
-                                                  ProgressMode::kOpenJd, ProgressMode::kTractor};
-std::string_view progress_mode_name(ProgressMode mode);
+inline constexpr ods::NameRow<ProgressMode> kProgressModeTable[] = {
+    {ProgressMode::kAuto, "auto"},     {ProgressMode::kBar, "bar"},         {ProgressMode::kPlain, "plain"},
+    {ProgressMode::kJson, "json"},     {ProgressMode::kNone, "none"},       {ProgressMode::kDeadline, "deadline"},
+    {ProgressMode::kOpenJd, "openjd"}, {ProgressMode::kTractor, "tractor"},
+};
+static_assert(ods::has_every_member(kProgressModeTable));
+inline constexpr auto kProgressModes = ods::members_of(kProgressModeTable);
+constexpr std::string_view progress_mode_name(ProgressMode mode) {
+  return ods::name_in(kProgressModeTable, mode);
+}
 
 // A farm reads stdout; everything else is for stderr.
 bool progress_is_for_farm(ProgressMode mode);
 
 // The last line on stderr of a job that a signal ends; a bar is taken off the screen.
-const char* interrupted_line(ProgressMode mode);
+LastWords interrupted_line(ProgressMode mode);
 
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);

@@ -45,7 +45,8 @@ fs::path folder_of(const std::string& path) {
 double largest_frame(const std::string& path, const ods::RenderOptions& options, const ods::SaveOptions& save) {
   const auto eyes = static_cast<int>(ods::eye_list(options.eyes).size());
   const ods::Extent eye = ods::squeezed_eye(save.layout, {options.width, options.height}, eyes);
-  const int stored = ods::is_anaglyph(save.layout) ? 1 : eyes;
+  const ods::EyePacking how = ods::arrangement_of(save.layout).how;
+  const int stored = how == ods::EyePacking::kMixed || how == ods::EyePacking::kCheckerboard ? 1 : eyes;
   return 1.0 * eye.width * eye.height * stored * pixel_bytes(*ods::format_of_path(path), options);
 }
 

@@ -32,7 +32,7 @@ void add_camera_source(Options& options, CameraSource& source) {
       "--from", "FILE", "", [&](const std::string& path) { load(path, source); },
       "take the camera from a .camera.json file or a picture that carries it");
   options.number("--width", source.width, 2, 32768, "width of one eye in pixels");
-  options.choice("--eyes", source.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  options.choice("--eyes", source.eyes, ods::kEyesTable, "which eyes to make");
   add_layout_option(options, source.layout,
                     "how both eyes share the file; by default top-bottom, side-by-side for vr180");
   add_sceneless_camera_options(options, source.camera);

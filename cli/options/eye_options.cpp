@@ -34,6 +34,12 @@ WordAndNumbers split(const std::string& text) {
   return parts;
 }
 
+std::string merge_names() {
+  std::vector<std::string_view> names;
+  for (const int each : ods::kMerges) names.push_back(ods::merge_name(each));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // MODE[,START[,END[,EXPONENT]]]
 PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
   const WordAndNumbers parts = split(text);
@@ -48,12 +54,10 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
                      range_of(CameraField::kMergeEnd).contains(merge.end) &&
                      range_of(CameraField::kMergeExponent).contains(merge.exponent);
   if (!legal) {
-    std::vector<std::string_view> names;
-    for (int each : ods::kMerges) names.push_back(ods::merge_name(each));
     throw UsageError(
         fmt::format("{} is {}, then ,START,END in degrees (0 <= START < END <= 90) and ,EXP (0.000001 to 100), "
                     "not '{}'",
-                    name, fmt::join(names, ", "), text));
+                    name, merge_names(), text));
   }
   merge.mode = *mode;
   return merge;
@@ -150,9 +154,11 @@ void add_circle_options(Options& options, CameraOptions& camera) {
   const auto set_top = [&](const std::string& text) { stereo.top = parse_merge("--merge-top", text); };
   const auto set_bottom = [&](const std::string& text) { stereo.bottom = parse_merge("--merge-bottom", text); };
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
-  options.custom("--merge", merge_unit, "none,60,90,1", set_both,
-                 "reduce the eye distance to 0 towards the poles: none, linear, cosine, smoothstep, gaussian, power, "
-                 "tilt-brush or map; between the elevations START and END, degrees; EXP is the curve's exponent");
+  options.custom(
+      "--merge", merge_unit, "none,60,90,1", set_both,
+      fmt::format("reduce the eye distance to 0 towards the poles: {}; between the elevations START and END, "
+                  "degrees; EXP is the curve's exponent",
+                  merge_names()));
   options.custom("--merge-top", merge_unit, "", set_top, "the same for the upper pole only");
   options.custom("--merge-bottom", merge_unit, "", set_bottom, "the same for the lower pole only");
   options.text("--merge-map", "FILE", camera.merge_map,

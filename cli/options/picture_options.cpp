@@ -46,7 +46,7 @@ void add_picture_options(Options& options, ods::RenderOptions& picture, ods::Sav
   options.number("--width", picture.width, 1, 32768, "width of one eye in pixels");
   options.number("--height", picture.height, 0, 32768,
                  "height of one eye in pixels; 0: follows from the width and projection (lat-long: half the width)");
-  options.choice("--eyes", picture.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  options.choice("--eyes", picture.eyes, ods::kEyesTable, "which eyes to make");
   add_layout_option(options, save.layout, "how both eyes share the file (default for vr180: side-by-side)");
   options.flag("--sidecar", save.sidecar,
                "also write the camera to picture.camera.json, which --from of other commands reads");

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -24,19 +25,15 @@ constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"bac
                            {"left", -90.0f, 0.0f}, {"up", 0.0f, 90.0f},    {"down", 0.0f, -90.0f}};
 
 // An option that a projection has no use for would otherwise be lost without a word.
-void expect(bool useful, const char* option, const char* owners, const ProjectionSetting& projection) {
+void expect(bool useful, const char* option, const std::string& owners, const ProjectionSetting& projection) {
   if (useful) return;
   throw UsageError(
       fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
 }
 
-void expect_lens(const char* option, const ProjectionSetting& projection) {
-  expect(ods::has_lens(projection.kind), option, "fisheye and perspective", projection);
-}
-
 // LON0,LON1[,LAT0,LAT1]
 void parse_range(const std::string& text, ProjectionSetting& projection) {
-  expect(ods::has_range(projection.kind), "--range", "lat-long and cylinder", projection);
+  expect(ods::has_range(projection.kind), "--range", ods::kinds_with(ods::has_range), projection);
   const std::vector<float> numbers = parse_numbers(text);
   if (numbers.size() != 2 && numbers.size() != 4) {
     throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));
@@ -46,7 +43,7 @@ void parse_range(const std::string& text, ProjectionSetting& projection) {
 }
 
 void parse_look(const std::string& text, ProjectionSetting& projection) {
-  expect_lens("--lens-direction", projection);
+  expect(ods::has_lens(projection.kind), "--lens-direction", ods::kinds_with(ods::has_lens), projection);
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 2 && range_of(ods::CameraField::kPan).contains(numbers[0]) &&
                      range_of(ods::CameraField::kTilt).contains(numbers[1]);
@@ -55,10 +52,26 @@ void parse_look(const std::string& text, ProjectionSetting& projection) {
 }
 
 void parse_fov(const std::string& text, ProjectionSetting& projection) {
-  expect_lens("--fov", projection);
+  expect(ods::has_fov(projection.kind), "--fov", ods::kinds_with(ods::has_fov), projection);
   const std::vector<float> numbers = parse_numbers(text);
   if (numbers.size() != 1) throw UsageError(fmt::format("--fov is an angle in degrees, not '{}'", text));
   projection.fov = numbers[0];
+}
+
+void parse_sensor(const std::string& text, ProjectionSetting& projection) {
+  expect(projection.kind == ods::kFisheyePolynomial, "--sensor", "fisheye-polynomial", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != 2) throw UsageError(fmt::format("--sensor is WIDTH,HEIGHT in millimetres, not '{}'", text));
+  projection.sensor = vec2(numbers[0], numbers[1]);
+}
+
+void parse_polynomial(const std::string& text, ProjectionSetting& projection) {
+  expect(projection.kind == ods::kFisheyePolynomial, "--lens-polynomial", "fisheye-polynomial", projection);
+  const std::vector<float> numbers = parse_numbers(text);
+  if (numbers.size() != projection.polynomial.size()) {
+    throw UsageError(fmt::format("--lens-polynomial is K0,K1,K2,K3,K4, not '{}'", text));
+  }
+  std::copy(numbers.begin(), numbers.end(), projection.polynomial.begin());
 }
 
 void parse_face(const std::string& name, bool has_other, ProjectionSetting& projection) {
@@ -110,8 +123,15 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
       "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
       "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
   options.custom(
+      "--lens-polynomial", "K0,K1,K2,K3,K4", "", [&](const std::string& text) { parse_polynomial(text, projection); },
+      "fisheye-polynomial: at R millimetres from the middle of the sensor it looks -(K0 + K1 R + K2 R^2 + K3 R^3 + K4 "
+      "R^4) radians off axis, as in Cycles");
+  options.custom(
+      "--sensor", "WIDTH,HEIGHT", "", [&](const std::string& text) { parse_sensor(text, projection); },
+      "fisheye-polynomial: size of the sensor, millimetres [36,24]");
+  options.custom(
       "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
-      "direction of a fisheye or perspective view, degrees right and up; the eyes stay level");
+      fmt::format("where it points ({}), degrees right and up; the eyes stay level", ods::kinds_with(ods::has_lens)));
 }
 
 void finish_projection(ProjectionSetting& projection, int width, int& height) {

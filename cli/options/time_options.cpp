@@ -13,16 +13,6 @@
 #include "ods/base/suggest.h"
 #include "ods/files/frames.h"
 
-std::string_view video_noise_name(VideoNoise noise) {
-  switch (noise) {
-    case VideoNoise::kFixed:
-      return "fixed";
-    case VideoNoise::kChanging:
-      return "changing";
-  }
-  return "";
-}
-
 namespace {
 
 void read_turntable(const std::string& word, ods::CameraMove& move) {
@@ -72,7 +62,7 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 is none");
-  options.choice("--noise", time.noise, kVideoNoises, video_noise_name,
+  options.choice("--noise", time.noise, kVideoNoiseTable,
                  "noise pattern: the same in every frame, or different in each");
   options.flag("--skip-existing", time.skip_existing,
                "do not render frames whose files exist; several processes with this option share the rest");

@@ -9,13 +9,21 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "ods/base/names.h"
 #include "ods/camera/camera_move.h"
 #include "ods/scene/scene.h"
 
 // Whether every frame of a video has the same noise, or each its own.
 enum class VideoNoise { kFixed, kChanging };
-inline constexpr VideoNoise kVideoNoises[] = {VideoNoise::kFixed, VideoNoise::kChanging};
-std::string_view video_noise_name(VideoNoise noise);  // fixed, changing
+inline constexpr ods::NameRow<VideoNoise> kVideoNoiseTable[] = {
+    {VideoNoise::kFixed, "fixed"},
+    {VideoNoise::kChanging, "changing"},
+};
+static_assert(ods::has_every_member(kVideoNoiseTable));
+inline constexpr auto kVideoNoises = ods::members_of(kVideoNoiseTable);
+constexpr std::string_view video_noise_name(VideoNoise noise) {
+  return ods::name_in(kVideoNoiseTable, noise);
+}
 
 struct TimeOptions {
   std::optional<float> time;  // seconds

@@ -165,10 +165,9 @@ void add_video_options(Options& options, VideoWishes& wishes) {
 }
 
 void add_packing_options(Options& options, VideoWishes& wishes) {
-  options.choice("--target", wishes.target, ods::kVideoTargets, ods::video_target_name,
+  options.choice("--target", wishes.target, ods::kVideoTargetTable,
                  "preset for a destination; the options below override it");
-  options.choice("--codec", wishes.codec, ods::kVideoCodecs, ods::video_codec_name,
-                 "video codec; by default the target's");
+  options.choice("--codec", wishes.codec, ods::kVideoCodecTable, "video codec; by default the target's");
   options.custom(
       "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
       "encoder for the codec: " + encoder_list());
@@ -177,7 +176,7 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
                  "quality, lower is better; by default 18 for h264, 20 for hevc, 28 for av1, 24 for vp9");
   options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "bit rate in Mbit/s, instead of --crf");
   options.number("--bits", wishes.bits, 8, 10, "bits per channel: 8 or 10");
-  options.choice("--chroma", wishes.chroma, ods::kChromas, ods::chroma_name, "chroma subsampling");
+  options.choice("--chroma", wishes.chroma, ods::kChromaTable, "chroma subsampling");
   options.text("--audio", "FILE", wishes.sound,
                "sound file: mono, stereo, or first-order ambisonics with four channels (AmbiX)");
   add_apple_option(options, wishes.for_apple);
@@ -206,8 +205,8 @@ ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int th
 }
 
 ods::VideoPlan expect_video(Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection) {
-  const Layout kLayouts[] = {Layout::kTopBottom, Layout::kSideBySide, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
-  if (eyes == 2 && std::find(std::begin(kLayouts), std::end(kLayouts), layout) == std::end(kLayouts)) {
+  const ods::EyeArrangement shared = ods::arrangement_of(layout);
+  if (eyes == 2 && (!shared.is_halves() || shared.right_first)) {
     throw UsageError(
         fmt::format("a video's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
   }

@@ -135,7 +135,7 @@ void check_limits(const CompareJob& job, const ods::Errors& whole) {
 void run(int argc, char** argv) {
   CompareJob job;
   if (!read_options(job, argc, argv)) return;
-  end_on_interrupts("ods: interrupted\n");
+  end_on_interrupts();
   for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
   const CompareReport report = compare(job);
   job.json ? print_json(report) : print_text(report);
@@ -145,6 +145,6 @@ void run(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_compare(int argc, char** argv) {
+int ods_compare(int argc, char** argv) {
   return run_command([=] { run(argc, argv); });
 }

@@ -42,7 +42,6 @@ void say_what_is_missing(const ods::Conversion& conversion) {
 }
 
 void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
-  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
   const std::string fault = ods::conversion_fault(job.picture, job.target);
   if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
   const auto start = std::chrono::steady_clock::now();
@@ -66,13 +65,13 @@ void convert(int argc, char** argv) {
   ConvertJob job;
   if (!read_convert_job(job, argc, argv)) return;
   run_long_job(job.progress, job.threads, [&](ProgressLines& lines) {
-    open_convert_job(job, argc, argv);
+    open_input(job);
     convert_to_file(job, lines);
   });
 }
 
 }  // namespace
 
-extern "C" int ods_convert(int argc, char** argv) {
+int ods_convert(int argc, char** argv) {
   return run_command([=] { convert(argc, argv); });
 }

@@ -31,21 +31,22 @@ constexpr const char* kSummary =
     "stays\n"
     "as it is.";
 
-// What the command line says, on top of the picture's own camera.
+// What the command line says.
 struct Wishes {
   ods::RenderOptions size;  // width, height and eyes of it
   std::optional<Layout> layout;
-  CameraOptions camera;
+  CameraOptions camera;  // the input's, changed
   bool mono = false;
 };
 
-struct Given {
-  bool size, eyes, tone, exposure;
-};
+// Opens the input's header as soon as all is known of it: the options after it change what it says.
+void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
+  job.input = path;
+  job.picture = ods::open_picture_header(path, {job.known});
+  wishes.camera.stereo = job.picture.camera;
+}
 
-void add_input_options(Options& options, ConvertJob& job) {
-  options.argument("IN", job.input,
-                   "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
   options.group("Input, if neither the file nor its name tells");
   options.custom(
       "--from-projection", "NAME", "",
@@ -62,6 +63,9 @@ void add_input_options(Options& options, ConvertJob& job) {
         for (const std::string& warning : warnings) note(warning);
       },
       "its camera: a .camera.json file or a picture that carries it");
+  options.argument(
+      "IN", [&](const std::string& path) { open_header(path, job, wishes); },
+      "input file: .png .jpg .tif .webp .hdr .exr; %V in the name reads one file per eye");
 }
 
 void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
@@ -72,7 +76,7 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
   options.number("--width", wishes.size.width, 0, 32768, "width of one eye in pixels; 0: keeps the input's resolution");
   options.number("--height", wishes.size.height, 0, 32768,
                  "height of one eye in pixels; 0: follows from the width and projection");
-  options.choice("--eyes", wishes.size.eyes, ods::kAllEyes, ods::eyes_name, "which eyes to make");
+  options.choice("--eyes", wishes.size.eyes, ods::kEyesTable, "which eyes to make");
   options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
   add_layout_option(options, wishes.layout,
                     "how both eyes share the file; by default the input's, side-by-side for --to vr180");
@@ -80,7 +84,7 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
                "also write the camera to picture.camera.json, which --from of other commands reads");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable,
                  "tone curve, when converting .hdr or .exr to another format");
 }
 
@@ -91,26 +95,6 @@ void add_camera(Options& options, CameraOptions& camera) {
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; mono pictures only");
   add_field_option(options, "--roll", camera.roll, CameraField::kRoll, "roll clockwise, degrees; mono pictures only");
   add_circle_options(options, camera);
-}
-
-// What is written into `wishes` stands on what is there.
-bool parse(ConvertJob& job, Wishes& wishes, Given& given, int argc, char** argv) {
-  Options options("convert", kSummary, kExamples);
-  Layout layout_of_size = Layout::kTopBottom;
-  wishes.size.width = 0;
-  add_input_options(options, job);
-  add_output_options(options, job, wishes, layout_of_size);
-  add_camera(options, wishes.camera);
-  options.group("Console");
-  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
-  add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  given = {wishes.size.width > 0, options.given("--eyes") || options.given("--size"), options.given("--tone"),
-           options.given("--exposure")};
-  if (options.given("--width") && !options.given("--height")) wishes.size.height = 0;
-  if (options.given("--height") && !given.size) throw UsageError("--height goes with --width");
-  if (options.given("--size") && !wishes.layout) wishes.layout = layout_of_size;
-  return true;
 }
 
 // A mono picture is one of the eyes that there are, wherever eyes are wanted.
@@ -127,7 +111,7 @@ std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool g
   return same_format(job.picture).eyes;
 }
 
-// Where the output will lie, or what there is of the way to it.
+// Where the output will be, or what exists of the way to it.
 std::string folder_of(const std::string& output) {
   std::filesystem::path folder = std::filesystem::path(output).parent_path();
   std::error_code ignored;
@@ -135,46 +119,54 @@ std::string folder_of(const std::string& output) {
   return folder.empty() ? "." : folder.string();
 }
 
+void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
+  finish_eye_options(wishes.camera);
+  StereoCamera& stereo = job.target.camera = wishes.camera.stereo;
+  const CameraOptions& by = wishes.camera;
+  turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
+  job.target.eyes = wished_eyes(job, wishes, options.given("--eyes") || options.given("--size"));
+  note_unmoved(job, stereo);
+  if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
+  save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, options.given("--tone"), job.save);
+  if (options.given("--exposure") && keeps_light(job.output))
+    note("--exposure leaves .exr and .hdr as the scene is lit");
+
+  ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, stereo.projection);
+  if (wishes.size.width > 0) eye = {wishes.size.width, wishes.size.height};
+  finish_projection(stereo.projection, eye.width, eye.height);
+  note_misleading_name(job.output, job.save, job.target.eyes.size(), stereo.projection);
+}
+
 }  // namespace
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
-  Given ignored{};
-  Wishes first;
-  try {
-    if (!parse(job, first, ignored, argc, argv)) return false;
-  } catch (const UsageError&) {
-    if (job.input.empty() || job.output.empty()) throw;  // else judged again, knowing what there is
-  }
+  Options options("convert", kSummary, kExamples);
+  Wishes wishes;
+  wishes.size.width = 0;
+  Layout layout_of_size = Layout::kTopBottom;
+  add_input_options(options, job, wishes);
+  add_output_options(options, job, wishes, layout_of_size);
+  add_camera(options, wishes.camera);
+  options.group("Console");
+  options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
+  add_progress_options(options, job.progress);
+  if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
-  ods::check_output(job.output, {}, {ods::kLeft, ods::kRight},
-                    {2, 2});  // before the picture is opened, which takes time
+  if (options.given("--width") && !options.given("--height")) wishes.size.height = 0;
+  if (options.given("--height") && wishes.size.width == 0) throw UsageError("--height goes with --width");
+  if (options.given("--size") && !wishes.layout) wishes.layout = layout_of_size;
   refuse_overwriting(job.output, job.input);
+  set_target(options, wishes, job);
+  ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
+  const std::string fault = ods::conversion_fault(job.picture, job.target);
+  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
   return true;
 }
 
-void open_convert_job(ConvertJob& job, int argc, char** argv) {
+void open_input(ConvertJob& job) {
   ods::OpenOptions open;
   open.format = job.known;
   open.scratch_folder = folder_of(job.output);
   job.picture = ods::open_picture(job.input, open);
   note_guesses(job.input, job.picture);
-
-  Given given{};
-  Wishes wishes;
-  wishes.camera.stereo = job.picture.camera;
-  parse(job, wishes, given, argc, argv);
-  finish_eye_options(wishes.camera);
-  StereoCamera& stereo = job.target.camera = wishes.camera.stereo;
-  const CameraOptions& by = wishes.camera;
-  turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
-  job.target.eyes = wished_eyes(job, wishes, given.eyes);
-  note_unmoved(job, stereo);
-  if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
-  save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, given.tone, job.save);
-  if (given.exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
-
-  ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, stereo.projection);
-  if (given.size) eye = {wishes.size.width, wishes.size.height};
-  finish_projection(stereo.projection, eye.width, eye.height);
-  note_misleading_name(job.output, job.save, job.target.eyes.size(), stereo.projection);
 }

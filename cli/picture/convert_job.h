@@ -13,16 +13,16 @@
 struct ConvertJob {
   std::string input;
   std::string output;
-  ods::FormatHint known;  // of the input
-  ods::StoredPicture picture;
+  ods::FormatHint known;       // of the input
+  ods::StoredPicture picture;  // its header until open_input()
   ods::ConvertTarget target;
   ods::SaveOptions save;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// False when help was asked for. Throws UsageError and ods::Error.
+// What is not given stays as the input has it. False when help was asked for. Throws UsageError and ods::Error.
 bool read_convert_job(ConvertJob& job, int argc, char** argv);
 
-// Opens the input: what is not given stays as it is there. The same arguments; throws likewise.
-void open_convert_job(ConvertJob& job, int argc, char** argv);
+// Reads the input's pixels. Throws ods::Error.
+void open_input(ConvertJob& job);

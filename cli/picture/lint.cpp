@@ -124,7 +124,7 @@ void print_json(const LintJob& job, const LintReport& report) {
 void run(int argc, char** argv) {
   LintJob job;
   if (!read_options(job, argc, argv)) return;
-  end_on_interrupts("ods: interrupted\n");
+  end_on_interrupts();
   const LintReport report = ods::lint(job.path, job.lint);
   job.json ? print_json(job, report) : print_text(job, report);
   if (has_finding(report, Severity::kFault, static_cast<double>(job.min_certainty))) {
@@ -134,6 +134,6 @@ void run(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_lint(int argc, char** argv) {
+int ods_lint(int argc, char** argv) {
   return run_command([=] { run(argc, argv); });
 }

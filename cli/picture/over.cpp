@@ -111,6 +111,6 @@ void over(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_over(int argc, char** argv) {
+int ods_over(int argc, char** argv) {
   return run_command([=] { over(argc, argv); });
 }

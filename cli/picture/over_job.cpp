@@ -52,7 +52,7 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "opacity of the foreground");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable,
                  "tone curve, when converting .hdr or .exr to another format");
   options.group("Video (by default encoded like the background)");
   add_packing_options(options, job.video);

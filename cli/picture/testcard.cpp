@@ -98,7 +98,7 @@ void testcard(int argc, char** argv) {
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
   if (!job.video.is_video) {
-    end_on_interrupts("ods: interrupted\n");
+    end_on_interrupts();
     return draw(job, stereo, eye, eyes);
   }
   warn_if_illegible(stereo.projection, eye.width);
@@ -109,6 +109,6 @@ void testcard(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_testcard(int argc, char** argv) {
+int ods_testcard(int argc, char** argv) {
   return run_command([=] { testcard(argc, argv); });
 }

@@ -29,9 +29,7 @@ void add_testcard_video_options(Options& options, TestcardVideoWishes& wishes) {
 // As it will lie in the video.
 static ods::VideoPlan plan_card(ods::Extent eye, size_t eyes, Layout layout, const ods::ProjectionSetting& projection,
                                 Container container) {
-  const Layout kVideos[] = {Layout::kTopBottom, Layout::kBottomTop,     Layout::kSideBySide,
-                            Layout::kCrossEyed, Layout::kTopBottomHalf, Layout::kSideBySideHalf};
-  if (eyes == 2 && std::find(std::begin(kVideos), std::end(kVideos), layout) == std::end(kVideos)) {
+  if (eyes == 2 && !ods::arrangement_of(layout).is_halves()) {
     throw UsageError(
         fmt::format("a video's layout is top-bottom, bottom-top, side-by-side or cross-eyed, perhaps -half, "
                     "not {}",

@@ -67,7 +67,7 @@ void save(const TitleJob& job, const ods::Title& title, const ods::StereoCamera&
 void title(int argc, char** argv) {
   TitleJob job;
   if (!read_title_job(job, argc, argv)) return;
-  end_on_interrupts("ods: interrupted\n");
+  end_on_interrupts();
   const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
@@ -85,6 +85,6 @@ void title(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_title(int argc, char** argv) {
+int ods_title(int argc, char** argv) {
   return run_command([=] { title(argc, argv); });
 }

@@ -59,7 +59,7 @@ void add_text_options(Options& options, TitleJob& job) {
       "position of the text's centre: degrees right, degrees up, distance in metres");
   options.number("--text-height", job.title.height, 1e-3f, 1e5f, "line height, metres");
   options.text("--font", "FONT", job.lettering.font, "font name, e.g. 'DejaVu Serif Bold Italic', or a font file");
-  options.choice("--align", job.lettering.align, ods::kTextAligns, ods::text_align_name, "alignment of the lines");
+  options.choice("--align", job.lettering.align, ods::kTextAlignTable, "alignment of the lines");
   options.number("--spacing", job.lettering.spacing, 0.1f, 10.0f, "line spacing, as a multiple of the font's own");
   options.custom(
       "--color", "COLOR", "#ffffff", [&](const std::string& text) { parse_color(text, job.title.color); },
@@ -102,7 +102,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   if (fades && !job.frames) throw UsageError("--fps and fades are for videos: --frames 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
-  job.save.tone = ods::ToneCurve::kLinear;               // a colour is shown as it is given
+  job.save.tone = ods::ToneCurve::kLinear;  // a colour is shown as it is given
   finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
   finish_camera_options(job.camera, job.picture.width, job.picture.height);
   return true;

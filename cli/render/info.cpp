@@ -111,6 +111,6 @@ void info(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_info(int argc, char** argv) {
+int ods_info(int argc, char** argv) {
   return run_command([=] { info(argc, argv); });
 }

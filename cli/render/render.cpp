@@ -19,6 +19,6 @@ void render(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_render(int argc, char** argv) {
+int ods_render(int argc, char** argv) {
   return run_command([=] { render(argc, argv); });
 }

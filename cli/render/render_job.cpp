@@ -34,8 +34,7 @@ void add_picture_options(Options& options, RenderJob& job) {
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name,
-                 "tone curve; ignored as --exposure is");
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
 }
 
 // A rig has cameras and a size of its own.
@@ -53,12 +52,17 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
   quality = kQualities[1];
   options.group("Quality");
   std::string sizes;
-  for (const Quality& q : kQualities) sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
-  auto name_of = [](Quality each) { return each.name; };
-  options.choice("--quality", quality, kQualities, +name_of, "set width and samples together" + sizes);
+  std::vector<std::string> names;
+  for (const Quality& q : kQualities) {
+    sizes += fmt::format(", {} {} x {} samples", q.name, q.width, q.samples);
+    names.emplace_back(q.name);
+  }
+  options.choice(
+      "--quality", names, std::string(quality.name), [&](size_t i) { quality = kQualities[i]; },
+      "set width and samples together" + sizes);
   options.number("--samples", job.render.samples, 1, 1 << 20, "samples per pixel");
   options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
-  options.choice("--filter", job.render.filter, ods::kPixelFilters, ods::pixel_filter_name, "pixel filter");
+  options.choice("--filter", job.render.filter, ods::kPixelFilterTable, "pixel filter");
   options.number("--seed", job.render.seed, "random seed; the same seed gives the same picture");
   options.number("--threads", job.render.threads, 0, 1024, "number of threads; 0: all processors");
 }

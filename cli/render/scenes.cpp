@@ -8,7 +8,7 @@
 #include "cli/console/options.h"
 #include "ods/scene/builtin/builtin.h"
 
-extern "C" int ods_scenes(int argc, char** argv) {
+int ods_scenes(int argc, char** argv) {
   return run_command([=] {
     Options options("scenes", "Lists the built-in scenes, whose names can be used in place of a file.",
                     "  ods render room -o room.png");

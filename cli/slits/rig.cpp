@@ -45,7 +45,7 @@ void add_slit_options(Options& options, RigJob& job) {
   options.number("--blend", job.slits.blend, 0.0f, 1.0f, "share of a slit that blends into the next one");
   options.number("--padding", job.slits.padding, 0, 4096, "extra pixels around each view, for effects such as bloom");
   options.number("--scale", job.slits.scale, 0.01f, 16.0f, "resolution of the views relative to the picture");
-  options.choice("--depth", job.slits.depth, ods::kViewDepths, ods::view_depth_name,
+  options.choice("--depth", job.slits.depth, ods::kViewDepthTable,
                  "depth that the views will have: along the ray, or of a depth buffer (plane); with depth, a tenth of "
                  "the slits is enough");
 }
@@ -95,13 +95,14 @@ void rig(int argc, char** argv) {
   job.slits.slits = job.count ? *job.count : ods::slits_for(file.camera, file.eye, job.slits, nearest, job.max_error);
   const std::string fault = slit_fault(file.camera, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);
-  const ods::SlitRig made = make_slit_rig(file.camera, file.eye, file.eyes, job.slits);
+  ods::SlitRig made = make_slit_rig(file.camera, file.eye, file.eyes, job.slits);
+  made.layout = file.layout;
   if (job.output.empty() || !console.quiet) print_plan(made, nearest);
   if (!job.output.empty()) write_rig(made, job.targets, job.output);
 }
 
 }  // namespace
 
-extern "C" int ods_rig(int argc, char** argv) {
+int ods_rig(int argc, char** argv) {
   return run_command([=] { rig(argc, argv); });
 }

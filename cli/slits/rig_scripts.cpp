@@ -25,9 +25,8 @@ static std::vector<RigTarget> parse_targets(const std::string& words) {
   std::vector<RigTarget> targets;
   std::istringstream stream(words);
   for (std::string word; std::getline(stream, word, ',');) {
-    const auto found = std::find_if(std::begin(ods::kRigTargets), std::end(ods::kRigTargets),
-                                    [&](RigTarget target) { return ods::rig_target_name(target) == word; });
-    if (found == std::end(ods::kRigTargets)) {
+    const std::optional<RigTarget> found = ods::find_in(ods::kRigTargetTable, word);
+    if (!found) {
       throw UsageError(fmt::format("--for: '{}' is none of {}", word, fmt::join(all_names(), ", ")));
     }
     if (std::find(targets.begin(), targets.end(), *found) == targets.end()) targets.push_back(*found);

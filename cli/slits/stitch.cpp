@@ -46,6 +46,6 @@ void stitch(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_stitch(int argc, char** argv) {
+int ods_stitch(int argc, char** argv) {
   return run_command([=] { stitch(argc, argv); });
 }

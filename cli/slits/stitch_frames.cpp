@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "cli/console/console.h"
+#include "cli/frames/disk_room.h"
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
 #include "ods/base/error.h"
@@ -84,7 +85,7 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   }
   if (!color_fault.empty()) warn("the views: " + color_fault);
   ods::SaveOptions save = job.save;
-  save.layout = job.layout.value_or(default_layout(rig.camera.projection));
+  save.layout = job.layout.value_or(rig.layout);
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
   const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);
   if (stitched.unseen > 0) {
@@ -107,6 +108,15 @@ static FrameNames folder_names(const std::string& views) {
   throw UsageError("--frames: the views' folder has no mark for the frame: 'views/####/####.exr'");
 }
 
+static void say_room(const StitchJob& job, const ods::SlitRig& rig, const std::vector<SharedFrame>& files) {
+  const auto is_left = [&](const SharedFrame& file) { return !job.skip_existing || !ods::is_saved(file.path); };
+  const auto left = std::count_if(files.begin(), files.end(), is_left);
+  ods::RenderOptions picture;
+  picture.width = rig.eye.width, picture.height = rig.eye.height;
+  picture.eyes = rig.eyes.size() == 2 ? ods::Eyes::kBothEyes : ods::Eyes::kMonoEye;
+  if (left > 0) say_disk_room(job.output, static_cast<size_t>(left), largest_frame(job.output, picture, job.save));
+}
+
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report) {
   const FrameNames folders = folder_names(job.views.names), outputs = video_names(job.output);
   const std::string file = std::filesystem::path(job.views.names).filename().string();
@@ -124,6 +134,7 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
   };
   std::vector<SharedFrame> files;
   for (const int frame : frames) files.push_back({frame, outputs.path(frame)});
+  say_room(job, rig, files);
   if (job.skip_existing && job.claims) {
     make_shared_frames(files, "frame", stitch_frame);
     return frames;

@@ -28,10 +28,10 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.group("Picture");
   options.text("-o,--output", "FILE", job.output,
                "output file: .exr .png .jpg .tif .webp .hdr; .exr keeps layers and depth");
-  add_layout_option(options, job.layout, "how both eyes share the file; by default top-bottom, side-by-side for vr180");
+  add_layout_option(options, job.layout, "how both eyes share the file; by default as ods rig was told");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve, for scene-linear views");
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve, for scene-linear views");
   options.flag("--sidecar", job.save.sidecar, "also write the camera to picture.camera.json");
   options.group("Views");
   options.text("--frames", "RANGE", job.frames,

@@ -58,8 +58,7 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
                     "the frames' layout, if neither the files nor their names tell; separate: one eye",
                     "--from-layout");
   options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
-  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name,
-                 "tone curve; ignored as --exposure is");
+  options.choice("--tone", job.development.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
   add_video_options(options, job.video);
   options.custom(
       "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); }, "frames per second");
@@ -102,6 +101,6 @@ void encode(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_encode(int argc, char** argv) {
+int ods_encode(int argc, char** argv) {
   return run_command([=] { encode(argc, argv); });
 }

@@ -73,11 +73,15 @@ void add_scene(Settings& settings, const SceneSource& source) {
 }
 
 void add_projection(Settings& settings, const ods::ProjectionSetting& projection) {
-  const auto& [kind, longitude, latitude, fov, aspect, pan, tilt] = projection;
+  const auto& [kind, longitude, latitude, fov, aspect, sensor, polynomial, pan, tilt] = projection;
   add(settings, "--projection", std::string(ods::projection_name(projection)));
   add(settings, "--range", fmt::format("{},{},{},{}", longitude.x, longitude.y, latitude.x, latitude.y));
   add_float(settings, "--fov", fov);
   add_float(settings, "width over height", aspect);
+  if (kind == ods::kFisheyePolynomial) {
+    add(settings, "--sensor", fmt::format("{},{}", sensor.x, sensor.y));
+    add(settings, "--lens-polynomial", fmt::format("{}", fmt::join(polynomial, ",")));
+  }
   add(settings, "--lens-direction", fmt::format("{},{}", pan, tilt));
 }
 

@@ -72,6 +72,6 @@ void inject(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_inject(int argc, char** argv) {
+int ods_inject(int argc, char** argv) {
   return run_command([=] { inject(argc, argv); });
 }

@@ -74,13 +74,13 @@ void run(int argc, char** argv) {
   options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
-  end_on_interrupts("ods: interrupted\n");
+  end_on_interrupts();
   const ProbeReport report = probe(path);
   json ? print_json(report) : print_text(report);
 }
 
 }  // namespace
 
-extern "C" int ods_probe(int argc, char** argv) {
+int ods_probe(int argc, char** argv) {
   return run_command([=] { run(argc, argv); });
 }

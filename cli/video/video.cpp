@@ -50,7 +50,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
   options.number("--exposure", job.development.exposure, -30.0f, 30.0f, "exposure in stops");
-  options.choice("--tone", job.development.tone, ods::kToneCurves, ods::tone_curve_name, "tone curve");
+  options.choice("--tone", job.development.tone, ods::kToneCurveTable, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);
@@ -87,7 +87,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
-  if (rig && !render.has_layout) job.render.save.layout = ods::default_layout(rig->camera.projection);
+  if (rig && !render.has_layout) job.render.save.layout = rig->layout;
   const ods::VideoPlan expected =
       rig ? expect_video(render.save.layout, rig->eyes.size(), rig->eye, rig->camera.projection)
           : expect_video(render.save.layout, ods::eye_list(render.render.eyes).size(),
@@ -132,6 +132,6 @@ void video(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" int ods_video(int argc, char** argv) {
+int ods_video(int argc, char** argv) {
   return run_command([=] { video(argc, argv); });
 }

@@ -64,6 +64,18 @@ const FieldRow& row_of(CameraField field) {
       {"aspect", {1.0f / 32768.0f, 32768.0f}, [](StereoCamera& camera) { return Numbers{&camera.projection.aspect}; }},
       {"pan", kAngle, [](StereoCamera& camera) { return Numbers{&camera.projection.pan}; }},
       {"tilt", kAngle, [](StereoCamera& camera) { return Numbers{&camera.projection.tilt}; }},
+      {"sensor",
+       {0.1f, 1000.0f},
+       [](StereoCamera& camera) {
+         return Numbers{&camera.projection.sensor.x, &camera.projection.sensor.y};
+       }},
+      {"lens polynomial",
+       {-10.0f, 10.0f},
+       [](StereoCamera& camera) {
+         Numbers numbers;
+         for (float& k : camera.projection.polynomial) numbers.push_back(&k);
+         return numbers;
+       }},
   };
   static_assert(std::size(kRows) == std::size(kCameraFields));
   return kRows[static_cast<size_t>(field)];

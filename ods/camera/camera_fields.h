@@ -4,10 +4,12 @@
 // The numbers of a camera and the range of each. The command line, sidecars, EXR attributes and the presets of other
 // systems all read this one table, so that each takes what the others write.
 #pragma once
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/stereo_camera.h"
 
 namespace ods {
@@ -32,6 +34,8 @@ enum class CameraField {
   kAspect,
   kPan,
   kTilt,
+  kSensor,
+  kPolynomial,
 };
 
 inline constexpr CameraField kCameraFields[] = {CameraField::kPosition,      CameraField::kYaw,
@@ -43,7 +47,9 @@ inline constexpr CameraField kCameraFields[] = {CameraField::kPosition,      Cam
                                                 CameraField::kFocusDistance, CameraField::kLongitude,
                                                 CameraField::kLatitude,      CameraField::kFov,
                                                 CameraField::kAspect,        CameraField::kPan,
-                                                CameraField::kTilt};
+                                                CameraField::kTilt,          CameraField::kSensor,
+                                                CameraField::kPolynomial};
+static_assert(std::size(kCameraFields) == enumerator_count<CameraField>());
 std::string_view field_name(CameraField field);  // for people: "yaw"
 
 // Of every number of a field, both ends included. Degrees, metres.

@@ -69,7 +69,6 @@ static constexpr Level kVp9Levels[] = {
 namespace {
 
 struct CodecFacts {
-  std::string_view name;
   int block;  // sides are coded in multiples of it
   std::span<const Level> levels;
 };
@@ -79,19 +78,15 @@ struct CodecFacts {
 static CodecFacts facts_of(Codec codec) {
   switch (codec) {
     case Codec::kH264:
-      return {"H.264", 16, kH264Levels};
+      return {16, kH264Levels};
     case Codec::kHevc:
-      return {"HEVC", 8, kHevcLevels};
+      return {8, kHevcLevels};
     case Codec::kAv1:
-      return {"AV1", 1, kAv1Levels};
+      return {1, kAv1Levels};
     case Codec::kVp9:
       break;
   }
-  return {"VP9", 1, kVp9Levels};
-}
-
-std::string_view codec_name(Codec codec) {
-  return facts_of(codec).name;
+  return {1, kVp9Levels};
 }
 
 static bool holds(const Level& level, int64_t width, int64_t height, double fps) {

@@ -8,14 +8,20 @@
 #pragma once
 #include <string_view>
 
+#include "ods/base/names.h"
 #include "ods/camera/layout.h"
 
 namespace ods {
 
 enum class Codec { kH264, kHevc, kAv1, kVp9 };
 
-inline constexpr Codec kCodecs[] = {Codec::kH264, Codec::kHevc, Codec::kAv1, Codec::kVp9};
-std::string_view codec_name(Codec codec);  // H.264, HEVC, AV1, VP9
+inline constexpr NameRow<Codec> kCodecTable[] = {
+    {Codec::kH264, "H.264"}, {Codec::kHevc, "HEVC"}, {Codec::kAv1, "AV1"}, {Codec::kVp9, "VP9"}};
+static_assert(has_every_member(kCodecTable));
+inline constexpr auto kCodecs = members_of(kCodecTable);
+constexpr std::string_view codec_name(Codec codec) {
+  return name_in(kCodecTable, codec);
+}
 
 // The smallest level, as its standard writes it ("5.1"), of a video of such pictures; empty when none is large enough.
 // Precondition: sides above 0, fps >= 0.

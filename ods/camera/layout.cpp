@@ -11,36 +11,6 @@
 
 namespace ods {
 
-std::string_view layout_name(Layout layout) {
-  switch (layout) {
-    case Layout::kTopBottom:
-      return "top-bottom";
-    case Layout::kBottomTop:
-      return "bottom-top";
-    case Layout::kSideBySide:
-      return "side-by-side";
-    case Layout::kCrossEyed:
-      return "cross-eyed";
-    case Layout::kTopBottomHalf:
-      return "top-bottom-half";
-    case Layout::kSideBySideHalf:
-      return "side-by-side-half";
-    case Layout::kRowInterleaved:
-      return "row-interleaved";
-    case Layout::kAnaglyph:
-      return "anaglyph";
-    case Layout::kAnaglyphHalf:
-      return "anaglyph-half";
-    case Layout::kAnaglyphDubois:
-      return "anaglyph-dubois";
-    case Layout::kSeparate:
-      return "separate";
-    case Layout::kMultiview:
-      return "multiview";
-  }
-  return {};
-}
-
 const std::vector<LayoutAlias>& layout_aliases() {
   static const std::vector<LayoutAlias> aliases = {
       {"over-under", Layout::kTopBottom}, {"ou", Layout::kTopBottom},          {"tb", Layout::kTopBottom},
@@ -54,9 +24,7 @@ const std::vector<LayoutAlias>& layout_aliases() {
 
 std::optional<Layout> layout_of(std::string_view word) {
   const std::string small = small_letters(std::string(word));
-  for (Layout layout : kLayouts) {
-    if (small == layout_name(layout)) return layout;
-  }
+  if (const std::optional<Layout> layout = find_in(kLayoutTable, small)) return layout;
   for (const LayoutAlias& alias : layout_aliases()) {
     if (small == alias.word) return alias.layout;
   }
@@ -65,43 +33,11 @@ std::optional<Layout> layout_of(std::string_view word) {
 
 // --- where the eyes lie --------------------------------------------------------------------------------------------
 
-namespace {
-
-// What the layouts are made of.
-enum class Arrangement { kStacked, kBeside, kInterleaved, kAlone };
-
-struct Form {
-  Arrangement arrangement;
-  bool right_first = false;
-  bool squeezed = false;
-};
-
-}  // namespace
-
-static Form form_of(Layout layout) {
-  switch (layout) {
-    case Layout::kTopBottom:
-      return {Arrangement::kStacked};
-    case Layout::kBottomTop:
-      return {Arrangement::kStacked, true};
-    case Layout::kSideBySide:
-      return {Arrangement::kBeside};
-    case Layout::kCrossEyed:
-      return {Arrangement::kBeside, true};
-    case Layout::kTopBottomHalf:
-      return {Arrangement::kStacked, false, true};
-    case Layout::kSideBySideHalf:
-      return {Arrangement::kBeside, false, true};
-    case Layout::kRowInterleaved:
-      return {Arrangement::kInterleaved};
-    case Layout::kAnaglyph:
-    case Layout::kAnaglyphHalf:
-    case Layout::kAnaglyphDubois:
-    case Layout::kSeparate:
-    case Layout::kMultiview:
-      break;
+std::optional<Layout> layout_with(const EyeArrangement& eyes) {
+  for (const LayoutRow& row : kLayoutTable) {
+    if (row.eyes == eyes) return row.member;
   }
-  return {Arrangement::kAlone};
+  return std::nullopt;
 }
 
 Layout default_layout(const ProjectionSetting& projection) {
@@ -109,25 +45,34 @@ Layout default_layout(const ProjectionSetting& projection) {
 }
 
 Layout layout_of_converted(Layout own, const ProjectionSetting& from, const ProjectionSetting& to) {
-  const Arrangement arrangement = form_of(own).arrangement;
-  const bool packed = arrangement == Arrangement::kStacked || arrangement == Arrangement::kBeside;
-  return packed && default_layout(from) != default_layout(to) ? default_layout(to) : own;
+  return arrangement_of(own).is_halves() && default_layout(from) != default_layout(to) ? default_layout(to) : own;
 }
 
 bool is_anaglyph(Layout layout) {
-  return layout == Layout::kAnaglyph || layout == Layout::kAnaglyphHalf || layout == Layout::kAnaglyphDubois;
+  return arrangement_of(layout).how == EyePacking::kMixed;
 }
 
 Extent squeeze_of(Layout layout, int eye_count) {
-  const Form form = form_of(layout);
-  if (!form.squeezed || eye_count == 1) return {1, 1};
-  return form.arrangement == Arrangement::kBeside ? Extent{2, 1} : Extent{1, 2};
+  const EyeArrangement eyes = arrangement_of(layout);
+  if (!eyes.squeezed || eye_count == 1) return {1, 1};
+  return eyes.how == EyePacking::kBeside ? Extent{2, 1} : Extent{1, 2};
 }
 
 // In how many eyes the packed image is cut.
-static Extent cuts_of(Arrangement arrangement, int eye_count) {
-  if (arrangement == Arrangement::kAlone) return {1, 1};
-  return arrangement == Arrangement::kBeside ? Extent{eye_count, 1} : Extent{1, eye_count};
+static Extent cuts_of(EyePacking how, int eye_count) {
+  switch (how) {
+    case EyePacking::kStacked:
+    case EyePacking::kRows:
+      return {1, eye_count};
+    case EyePacking::kBeside:
+    case EyePacking::kColumns:
+      return {eye_count, 1};
+    case EyePacking::kCheckerboard:
+    case EyePacking::kMixed:
+    case EyePacking::kAlone:
+      break;
+  }
+  return {1, 1};
 }
 
 Extent squeezed_eye(Layout layout, Extent eye, int eye_count) {
@@ -136,46 +81,103 @@ Extent squeezed_eye(Layout layout, Extent eye, int eye_count) {
 }
 
 Extent packed_size(Layout layout, Extent eye, int eye_count) {
-  const Extent cuts = cuts_of(form_of(layout).arrangement, eye_count);
+  const Extent cuts = cuts_of(arrangement_of(layout).how, eye_count);
   return {eye.width * cuts.width, eye.height * cuts.height};
 }
 
 std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y) {
   assert(y >= 0 && y < packed_size(layout, eye, eye_count).height);
   if (eye_count == 1) return {{0, y}};
-  const Form form = form_of(layout);
-  const int first = form.right_first ? 1 : 0;
-  switch (form.arrangement) {
-    case Arrangement::kStacked:
+  const EyeArrangement eyes = arrangement_of(layout);
+  const int first = eyes.right_first ? 1 : 0;
+  switch (eyes.how) {
+    case EyePacking::kStacked:
       return {{y < eye.height ? first : 1 - first, y % eye.height}};
-    case Arrangement::kInterleaved:
+    case EyePacking::kRows:
       return {{y % 2, y / 2}};
-    case Arrangement::kBeside:
-    case Arrangement::kAlone:
+    case EyePacking::kBeside:
+      return {{first, y}, {1 - first, y, eye.width}};
+    case EyePacking::kColumns:
+      return {{0, y, 0, 2}, {1, y, 1, 2}};
+    case EyePacking::kCheckerboard: {
+      const int left = y % 2, right = 1 - left;
+      return {{0, y, left, 2, left, 2}, {1, y, right, 2, right, 2}};
+    }
+    case EyePacking::kMixed:
+    case EyePacking::kAlone:
       break;
   }
-  return {{first, y}, {1 - first, y}};
+  return {{0, y}, {1, y}};
+}
+
+EyeCorner eye_corner(Layout layout, Extent eye, int index) {
+  const EyeArrangement eyes = arrangement_of(layout);
+  const int place = eyes.right_first ? 1 - index : index;
+  switch (eyes.how) {
+    case EyePacking::kStacked:
+      return {0, place * eye.height};
+    case EyePacking::kBeside:
+      return {place * eye.width, 0};
+    case EyePacking::kRows:
+    case EyePacking::kColumns:
+    case EyePacking::kCheckerboard:
+    case EyePacking::kMixed:
+      assert(false);
+      break;
+    case EyePacking::kAlone:
+      break;
+  }
+  return {};
 }
 
 std::optional<Extent> unpacked_size(Layout layout, Extent packed) {
   assert(!is_anaglyph(layout));
-  const Extent cuts = cuts_of(form_of(layout).arrangement, 2);
+  const Extent cuts = cuts_of(arrangement_of(layout).how, 2);
   if (packed.width % cuts.width != 0 || packed.height % cuts.height != 0) return std::nullopt;
+  const bool too_small = packed.width == 1 && packed.height == 1;  // the right eye would have no pixel at all
+  if (arrangement_of(layout).how == EyePacking::kCheckerboard && too_small) return std::nullopt;
   return Extent{packed.width / cuts.width, packed.height / cuts.height};
 }
 
+Neighbours neighbours_of(int x, int y, Extent eye) {
+  Neighbours found;
+  const auto add = [&](int nx, int ny) {
+    if (nx < 0 || ny < 0 || nx >= eye.width || ny >= eye.height) return;
+    found.x[found.count] = nx, found.y[found.count] = ny;
+    found.count++;
+  };
+  add(x, y - 1), add(x - 1, y), add(x + 1, y), add(x, y + 1);
+  return found;
+}
+
+static void fill_left_out(Image& eye, int index) {
+  for (int y = 0; y < eye.height; y++) {
+    for (int x = 0; x < eye.width; x++) {
+      if (!is_left_out(index, x, y)) continue;
+      const Neighbours from = neighbours_of(x, y, {eye.width, eye.height});
+      for (int c = 0; c < eye.channels; c++) {
+        float sum = 0.0f;
+        for (int i = 0; i < from.count; i++) sum += eye.at(from.x[i], from.y[i])[c];
+        eye.at(x, y)[c] = sum / static_cast<float>(from.count);
+      }
+    }
+  }
+}
+
 std::vector<Image> unpack(Layout layout, const Image& packed) {
-  if (form_of(layout).arrangement == Arrangement::kAlone) return {packed};
+  if (arrangement_of(layout).how == EyePacking::kAlone) return {packed};
   const Extent eye = *unpacked_size(layout, {packed.width, packed.height});
   std::vector<Image> eyes(2, Image(eye.width, eye.height, packed.channels));
   for (int y = 0; y < packed.height; y++) {
-    int x = 0;
     for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
-      const float* in = packed.at(x, y);
-      std::copy(in, in + eye.width * packed.channels, eyes[static_cast<size_t>(part.index)].at(0, part.y));
-      x += eye.width;
+      Image& to = eyes[static_cast<size_t>(part.index)];
+      int from = part.x;
+      for (int x = part.first; x < eye.width; x += part.every, from += part.step) {
+        std::copy_n(packed.at(from, y), packed.channels, to.at(x, part.y));
+      }
     }
   }
+  if (arrangement_of(layout).how == EyePacking::kCheckerboard) fill_left_out(eyes[0], 0), fill_left_out(eyes[1], 1);
   return eyes;
 }
 

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/camera/projection.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/camera_fields.h"
 
 namespace ods {
@@ -37,12 +42,16 @@ std::span<const NamedProjection> named_projections() {
       {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
       {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
+      {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial)},
+      // Where an orthographic camera sees the ball at the radius sin(b), the ball turns its ray by 2 b.
+      {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f)},
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
       {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
       {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2)},
       {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1)},
       {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6)},
       {"eac", "equi-angular cube, 3x2", of_kind(kEac)},
+      {"eac-face", "one face of it", of_kind(kEacFace)},
   };
   return kAll;
 }
@@ -55,7 +64,8 @@ const NamedProjection* find_projection(std::string_view name) {
 }
 
 static bool same_numbers(const ProjectionSetting& a, const ProjectionSetting& b) {
-  return a.longitude == b.longitude && a.latitude == b.latitude && a.fov == b.fov && a.pan == b.pan && a.tilt == b.tilt;
+  return a.longitude == b.longitude && a.latitude == b.latitude && a.fov == b.fov && a.pan == b.pan &&
+         a.tilt == b.tilt && a.sensor == b.sensor && a.polynomial == b.polynomial;
 }
 
 std::string_view projection_name(const ProjectionSetting& setting) {
@@ -97,10 +107,61 @@ static std::string range_fault(const ProjectionSetting& setting) {
   return {};
 }
 
+// Minus the polynomial, and what it grows by for a millimetre. Radians.
+static double polynomial_angle(const std::array<float, 5>& k, double r) {
+  return -(double{k[0]} + r * (double{k[1]} + r * (double{k[2]} + r * (double{k[3]} + r * double{k[4]}))));
+}
+
+static double polynomial_slope(const std::array<float, 5>& k, double r) {
+  return -(double{k[1]} + r * (2.0 * double{k[2]} + r * (3.0 * double{k[3]} + r * 4.0 * double{k[4]})));
+}
+
+constexpr int kPolynomialSteps = 4096;  // from the axis to the corner, looking for where a polynomial reaches an angle
+
+// The radius of the image circle, millimetres: where the angle first is half the field of view, at most the corner.
+static double polynomial_edge(const ProjectionSetting& setting) {
+  const double corner = std::hypot(double{setting.sensor.x}, double{setting.sensor.y}) / 2.0;
+  const double half = glm::radians(double{setting.fov}) / 2.0;
+  const auto is_beyond = [&](double r) { return polynomial_angle(setting.polynomial, r) > half; };
+  int step = 1;
+  while (step <= kPolynomialSteps && !is_beyond(corner * step / kPolynomialSteps)) step++;
+  if (step > kPolynomialSteps) return corner;
+  double low = corner * (step - 1) / kPolynomialSteps, high = corner * step / kPolynomialSteps;
+  for (int i = 0; i < 60; i++) {
+    const double middle = (low + high) / 2.0;
+    (is_beyond(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+static std::string polynomial_fault(const ProjectionSetting& setting) {
+  for (const float side : {setting.sensor.x, setting.sensor.y}) {
+    if (!range_of(CameraField::kSensor).contains(side)) return "a sensor's sides are 0.1 to 1000 millimetres";
+  }
+  for (const float k : setting.polynomial) {
+    if (!range_of(CameraField::kPolynomial).contains(k)) return "a lens polynomial's numbers are within 10";
+  }
+  if (!(std::abs(setting.polynomial[0]) <= 0.01f)) return "a lens polynomial's K0 is within 0.01 radians of the axis";
+  const double corner = std::hypot(double{setting.sensor.x}, double{setting.sensor.y}) / 2.0;
+  const double half = glm::radians(double{setting.fov}) / 2.0;
+  for (int i = 0; i <= kPolynomialSteps; i++) {
+    const double r = corner * i / kPolynomialSteps;
+    if (!(polynomial_slope(setting.polynomial, r) > 1e-6)) {
+      return fmt::format("a lens polynomial's angle grows with the radius, and this one turns back at {:.4g} mm", r);
+    }
+    if (polynomial_angle(setting.polynomial, r) > half) break;
+  }
+  return {};
+}
+
 static std::string lens_fault(const ProjectionSetting& setting) {
   const FieldRange fov = range_of(CameraField::kFov);
-  if (is_fisheye(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
+  if (has_image_circle(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
     return "a fisheye sees 1 to 360 degrees";
+  }
+  if (setting.kind == kFisheyePolynomial) {
+    const std::string fault = polynomial_fault(setting);
+    if (!fault.empty()) return fault;
   }
   if (setting.kind == kPerspective) {
     if (!(setting.fov >= fov.least && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
@@ -118,63 +179,92 @@ std::string projection_fault(const ProjectionSetting& setting) {
   return has_lens(setting.kind) ? lens_fault(setting) : "";
 }
 
-// Kinds are numbers, which GLSL reads too: no compiler sees that a switch leaves one out.
-static_assert(kProjectionCount == 9, "a new projection needs its name, shape and sharpness in this file");
+// --- what each kind is like ------------------------------------------------------------------------------------------
 
-static double tangent(float degrees) {
+namespace {
+
+double tangent(float degrees) {
   return std::tan(glm::radians(static_cast<double>(degrees)));
 }
 
+double turn_of(const ProjectionSetting& setting) {
+  return glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
+}
+
+double fov_of(const ProjectionSetting& setting) {
+  return glm::radians(static_cast<double>(setting.fov));
+}
+
+using Setting = const ProjectionSetting&;
+
+// One row per kind of ods/kernel/camera/projection.h.
+struct KindRow {
+  int member;
+  std::string_view name;                               // of the kind, for messages
+  double (*aspect)(Setting);                           // width over height of a picture in its true shape
+  double (*pixels_per_radian)(Setting, double width);  // in the middle, from left to right
+};
+
+double square(Setting) {
+  return 1.0;
+}
+
+double turn_pixels(Setting setting, double width) {
+  return width / turn_of(setting);
+}
+
+double face_pixels(Setting setting, double width) {
+  return width / cube_columns(setting.kind) / 2.0;
+}
+
+double lat_long_aspect(Setting setting) {
+  return turn_of(setting) / glm::radians(static_cast<double>(setting.latitude.y - setting.latitude.x));
+}
+
+double cylinder_aspect(Setting setting) {
+  return turn_of(setting) / (tangent(setting.latitude.y) - tangent(setting.latitude.x));
+}
+
+constexpr KindRow kKinds[] = {
+    {kLatLong, "lat-long", lat_long_aspect, turn_pixels},
+    {kCylinder, "cylinder", cylinder_aspect, turn_pixels},
+    {kFisheye, "fisheye", square, [](Setting s, double width) { return width / fov_of(s); }},
+    {kFisheyeEquisolid, "fisheye-equisolid", square,
+     [](Setting s, double width) { return width / (4.0 * std::sin(fov_of(s) / 4.0)); }},
+    {kPerspective, "perspective", [](Setting s) { return static_cast<double>(s.aspect); },
+     [](Setting s, double width) { return width / (2.0 * std::tan(fov_of(s) / 2.0)); }},
+    {kCube3x2, "cube-3x2", [](Setting) { return 1.5; }, face_pixels},
+    {kCube6x1, "cube-6x1", [](Setting) { return 6.0; }, face_pixels},
+    {kCube1x6, "cube-1x6", [](Setting) { return 1.0 / 6.0; }, face_pixels},
+    {kEac, "eac", [](Setting) { return 1.5; },
+     [](Setting, double width) { return width / 3.0 * (2.0 / static_cast<double>(kPi)); }},
+    {kEacFace, "eac-face", square, [](Setting, double width) { return width * (2.0 / static_cast<double>(kPi)); }},
+    {kFisheyePolynomial, "fisheye-polynomial",
+     [](Setting s) { return static_cast<double>(s.sensor.x) / static_cast<double>(s.sensor.y); },
+     [](Setting s, double width) {
+       return width / (static_cast<double>(s.sensor.x) * polynomial_slope(s.polynomial, 0.0));
+     }},
+};
+static_assert(has_each_of(kKinds, kProjectionCount), "a new projection needs its row");
+
+}  // namespace
+
 int natural_height(const ProjectionSetting& setting, int width) {
-  const double turn = glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
-  double aspect = 1.0;
-  switch (setting.kind) {
-    case kLatLong:
-      aspect = turn / glm::radians(static_cast<double>(setting.latitude.y - setting.latitude.x));
-      break;
-    case kCylinder:
-      aspect = turn / (tangent(setting.latitude.y) - tangent(setting.latitude.x));
-      break;
-    case kPerspective:
-      aspect = static_cast<double>(setting.aspect);
-      break;
-    case kCube3x2:
-    case kEac:
-      aspect = 1.5;
-      break;
-    case kCube6x1:
-      aspect = 6.0;
-      break;
-    case kCube1x6:
-      aspect = 1.0 / 6.0;
-      break;
-    case kFisheye:
-    case kFisheyeEquisolid:
-      break;
-  }
-  return std::max(1, static_cast<int>(std::lround(width / aspect)));
+  return std::max(1, static_cast<int>(std::lround(width / row_in(kKinds, setting.kind).aspect(setting))));
 }
 
 double pixels_per_radian(const ProjectionSetting& setting, double width) {
-  const double fov = glm::radians(static_cast<double>(setting.fov));
-  switch (setting.kind) {
-    case kLatLong:
-    case kCylinder:
-      return width / glm::radians(static_cast<double>(setting.longitude.y - setting.longitude.x));
-    case kFisheye:
-      return width / fov;
-    case kFisheyeEquisolid:
-      return width / (4.0 * std::sin(fov / 4.0));
-    case kPerspective:
-      return width / (2.0 * std::tan(fov / 2.0));
-    case kEac:
-      return width / 3.0 * (2.0 / static_cast<double>(kPi));
-    case kCube3x2:
-    case kCube6x1:
-    case kCube1x6:
-      break;
+  return row_in(kKinds, setting.kind).pixels_per_radian(setting, width);
+}
+
+std::string kinds_with(bool (*trait)(int kind)) {
+  std::vector<std::string_view> names;
+  for (const KindRow& row : kKinds) {
+    if (trait(row.member)) names.push_back(row.name);
   }
-  return width / cube_columns(setting.kind) / 2.0;
+  const std::string last = names.size() > 1 ? fmt::format(" and {}", names.back()) : "";
+  if (!last.empty()) names.pop_back();
+  return fmt::format("{}{}", fmt::join(names, ", "), last);
 }
 
 int width_step(const ProjectionSetting& setting) {
@@ -202,6 +292,13 @@ Projection make_projection(const ProjectionSetting& setting) {
   projection.center = vec2((longitude.x + longitude.y) / 2.0, (height.x + height.y) / 2.0);
   projection.span = vec2(longitude.y - longitude.x, height.y - height.x);
   projection.angle = glm::radians(setting.fov);
+  projection.circle = vec2(1.0f);
+  projection.sensor = setting.sensor;
+  if (setting.kind == kFisheyePolynomial) {
+    projection.circle = vec2(2.0 * polynomial_edge(setting) / glm::dvec2(setting.sensor));
+  }
+  const std::array<float, 5>& k = setting.polynomial;
+  projection.k0 = k[0], projection.k1 = k[1], projection.k2 = k[2], projection.k3 = k[3], projection.k4 = k[4];
   const double half = setting.kind == kPerspective ? tangent(setting.fov / 2.0f) : 1.0;
   projection.half_size = vec2(half, half / static_cast<double>(setting.aspect));
   const auto [right, up, back] =

@@ -12,6 +12,10 @@
 
 namespace ods {
 
+inline constexpr std::array<float, 5> kCyclesPolynomial = {-1.1735143712967577e-05f, -0.019988736953434998f,
+                                                           -3.3525322965709175e-06f, 3.099275275886036e-06f,
+                                                           -2.6064646454854524e-08f};
+
 // Degrees throughout. Longitudes grow to the right, latitudes upwards, 0 is ahead.
 struct ProjectionSetting {
   int kind = kLatLong;
@@ -20,8 +24,13 @@ struct ProjectionSetting {
   vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; of a cylinder within +-89
   float fov = 180.0f;               // kFisheye...: from edge to edge, at most 360; kPerspective: horizontal, below 180
   float aspect = 1.0f;              // kPerspective: width over height
-  float pan = 0.0f;                 // kFisheye..., kPerspective: where the lens points, to the right
-  float tilt = 0.0f;                // and up; the viewing circle stays as it is
+  // kFisheyePolynomial, which sees up to `fov`: a sensor in millimetres, and K0 .. K4. At r millimetres from its middle
+  // it looks -(K0 + K1 r + K2 r^2 + K3 r^3 + K4 r^4) radians away from the axis. These are Cycles' parameters and
+  // defaults, which are close to a lens of 50 mm.
+  vec2 sensor{36.0f, 24.0f};
+  std::array<float, 5> polynomial = kCyclesPolynomial;
+  float pan = 0.0f;   // has_lens(): where the lens points, to the right
+  float tilt = 0.0f;  // and up; the viewing circle stays as it is
 
   bool operator==(const ProjectionSetting&) const = default;
 };
@@ -38,6 +47,9 @@ const NamedProjection* find_projection(std::string_view name);
 
 // The name of a setting: the first whose kind fits and whose numbers are its defaults, else the first of the kind.
 std::string_view projection_name(const ProjectionSetting& setting);
+
+// The kinds that are of a family, such as has_lens, in words for a message: "fisheye and perspective".
+std::string kinds_with(bool (*trait)(int kind));
 
 // Whether a setting is the whole sphere in lat-long, which players know without being told more.
 bool is_full_lat_long(const ProjectionSetting& setting);

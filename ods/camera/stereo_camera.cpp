@@ -10,50 +10,9 @@
 
 namespace ods {
 
-std::string_view merge_name(int mode) {
-  switch (mode) {
-    case kMergeNone:
-      return "none";
-    case kMergeLinear:
-      return "linear";
-    case kMergeCosine:
-      return "cosine";
-    case kMergeSmoothstep:
-      return "smoothstep";
-    case kMergeGaussian:
-      return "gaussian";
-    case kMergePower:
-      return "power";
-    case kMergeTiltBrush:
-      return "tilt-brush";
-    default:
-      assert(mode == kMergeMap);
-      return "map";
-  }
-}
-
-std::optional<int> merge_of(std::string_view name) {
-  for (int mode : kMerges) {
-    if (merge_name(mode) == name) return mode;
-  }
-  return std::nullopt;
-}
-
 bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b) {
   const bool none = a.mode == kMergeNone && b.mode == kMergeNone;
   return none || (a.mode == b.mode && a.start == b.start && a.end == b.end && a.exponent == b.exponent);
-}
-
-std::string_view convergence_name(int convergence) {
-  switch (convergence) {
-    case kParallel:
-      return "parallel";
-    case kToeIn:
-      return "toe-in";
-    default:
-      assert(convergence == kShift);
-      return "shift";
-  }
 }
 
 static PoleMerge make_merge(const PoleMergeSetting& setting) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "ods/base/names.h"
 #include "ods/camera/projection.h"
 #include "ods/image/image.h"
 #include "ods/kernel/camera/camera.h"
@@ -27,16 +28,33 @@ struct PoleMergeSetting {
   bool operator==(const PoleMergeSetting&) const = default;
 };
 
-// kMergeNone .. <-> none, linear, cosine, smoothstep, gaussian, power, tilt-brush, map.
-inline constexpr int kMerges[] = {kMergeNone,     kMergeLinear, kMergeCosine,    kMergeSmoothstep,
-                                  kMergeGaussian, kMergePower,  kMergeTiltBrush, kMergeMap};
-std::string_view merge_name(int mode);
-std::optional<int> merge_of(std::string_view name);
+inline constexpr NameRow<int> kMergeTable[] = {
+    {kMergeNone, "none"},
+    {kMergeLinear, "linear"},
+    {kMergeCosine, "cosine"},
+    {kMergeSmoothstep, "smoothstep"},
+    {kMergeSmootherstep, "smootherstep"},
+    {kMergeGaussian, "gaussian"},
+    {kMergePower, "power"},
+    {kMergeTiltBrush, "tilt-brush"},
+    {kMergeMap, "map"},
+};
+static_assert(has_each_of(kMergeTable, kMergeCount));
+inline constexpr auto kMerges = members_of(kMergeTable);
+constexpr std::string_view merge_name(int mode) {
+  return name_in(kMergeTable, mode);
+}
+constexpr std::optional<int> merge_of(std::string_view name) {
+  return find_in(kMergeTable, name);
+}
 bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b);  // numbers of kMergeNone do not count
 
-// kParallel .. <-> parallel, toe-in, shift.
-inline constexpr int kConvergences[] = {kParallel, kToeIn, kShift};
-std::string_view convergence_name(int convergence);
+inline constexpr NameRow<int> kConvergenceTable[] = {{kParallel, "parallel"}, {kToeIn, "toe-in"}, {kShift, "shift"}};
+static_assert(has_each_of(kConvergenceTable, kConvergenceCount));
+inline constexpr auto kConvergences = members_of(kConvergenceTable);
+constexpr std::string_view convergence_name(int convergence) {
+  return name_in(kConvergenceTable, convergence);
+}
 
 struct StereoCamera {
   vec3 position{0.0f, 0.0f, 0.0f};

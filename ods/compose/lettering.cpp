@@ -19,18 +19,6 @@
 
 namespace ods {
 
-std::string_view text_align_name(TextAlign align) {
-  switch (align) {
-    case TextAlign::kFlushLeft:
-      return "left";
-    case TextAlign::kCentered:
-      return "center";
-    case TextAlign::kFlushRight:
-      break;
-  }
-  return "right";
-}
-
 namespace {
 
 struct Unref {

@@ -7,13 +7,22 @@
 #include <string>
 #include <string_view>
 
+#include "ods/base/names.h"
 #include "ods/image/image.h"
 
 namespace ods {
 
 enum class TextAlign { kFlushLeft, kCentered, kFlushRight };
-inline constexpr TextAlign kTextAligns[] = {TextAlign::kFlushLeft, TextAlign::kCentered, TextAlign::kFlushRight};
-std::string_view text_align_name(TextAlign align);  // left, center, right
+inline constexpr NameRow<TextAlign> kTextAlignTable[] = {
+    {TextAlign::kFlushLeft, "left"},
+    {TextAlign::kCentered, "center"},
+    {TextAlign::kFlushRight, "right"},
+};
+static_assert(has_every_member(kTextAlignTable));
+inline constexpr auto kTextAligns = members_of(kTextAlignTable);
+constexpr std::string_view text_align_name(TextAlign align) {
+  return name_in(kTextAlignTable, align);
+}
 
 struct LetteringOptions {
   std::string font = "Sans";  // as fontconfig knows it ("DejaVu Serif Bold Italic"), or a file (.ttf, .otf, .ttc ...)

@@ -271,7 +271,7 @@ Footprint Converter::find_footprint(int index, const Cell& cell, int x, int y, c
   const Projection& projection = mapping_.source.camera.projection;
   const Extent size = mapping_.source.picture->size;
   const Cell own = cell_of(projection, size, place.at);
-  const bool round = projection.kind == kLatLong || projection.kind == kCylinder;
+  const bool round = has_range(projection.kind);
   const float turn = static_cast<float>(size.width) * 2.0f * kPi / projection.span.x;
   const auto neighbour = [&](vec2 way, bool away) {
     for (const float step : {away ? -1.0f : 1.0f, away ? 1.0f : -1.0f, 0.1f, -0.1f}) {

@@ -121,16 +121,18 @@ static vec2 middle_of(const Source& source, int x, int y) {
 bool has_texel(const Source& source, const Cell& cell, int x, int y) {
   if (x < cell.left || x >= cell.right || y < cell.top || y >= cell.bottom) return false;
   if (!has_image_circle(source.camera.projection.kind)) return true;
-  const vec2 p = 2.0f * middle_of(source, x, y) - 1.0f;
+  const vec2 p = (2.0f * middle_of(source, x, y) - 1.0f) / source.camera.projection.circle;
   return dot(p, p) <= 1.0f;
 }
 
 static Texel nearest_of_edge(const Source& source, int eye, const Cell& cell, int x, int y) {
   if (has_image_circle(source.camera.projection.kind)) {
     // Inwards until a texel around it has its middle in the circle.
-    const vec2 p = 2.0f * middle_of(source, x, y) - 1.0f;
-    const float r = length(p), texel = 2.0f / std::min(size_of(source).x, size_of(source).y);
-    const vec2 at = (0.5f + 0.5f * p * std::min(std::max(1.0f - 0.75f * texel, 0.0f) / r, 1.0f)) * size_of(source);
+    const vec2 circle = source.camera.projection.circle, across = circle * size_of(source);
+    const vec2 p = (2.0f * middle_of(source, x, y) - 1.0f) / circle;
+    const float r = length(p), texel = 2.0f / std::min(across.x, across.y);
+    const vec2 at =
+        (0.5f + 0.5f * circle * p * std::min(std::max(1.0f - 0.75f * texel, 0.0f) / r, 1.0f)) * size_of(source);
     x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
   }
   return {eye, std::clamp(x, cell.left, cell.right - 1), std::clamp(y, cell.top, cell.bottom - 1)};

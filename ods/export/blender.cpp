@@ -146,18 +146,16 @@ class Script {
     if (file_.layout == Layout::kMultiview) return views("MULTIVIEW");
     views("STEREO_3D");
     line("packing = image.stereo_3d_format");
-    const bool wide = file_.layout == Layout::kSideBySide || file_.layout == Layout::kCrossEyed ||
-                      file_.layout == Layout::kSideBySideHalf;
-    const bool half = file_.layout == Layout::kSideBySideHalf || file_.layout == Layout::kTopBottomHalf;
-    const bool high = file_.layout == Layout::kTopBottom || file_.layout == Layout::kTopBottomHalf;
+    const EyeArrangement eyes = arrangement_of(file_.layout);
+    const bool wide = eyes.how == EyePacking::kBeside;
+    const bool high = eyes.how == EyePacking::kStacked && !eyes.right_first;
     if (!wide && !high) {
       warn(fmt::format("Blender is not told the layout {}; top-bottom stands in", layout_name(file_.layout)));
     }
     line("packing.display_mode = \"{}\"", wide ? "SIDEBYSIDE" : "TOPBOTTOM");
-    line("packing.use_squeezed_frame = {}", half ? "True" : "False");
+    line("packing.use_squeezed_frame = {}", eyes.squeezed ? "True" : "False");
     if (wide) {
-      const char* crossed = file_.layout == Layout::kCrossEyed ? "True" : "False";
-      line("put(packing, \"use_sidebyside_crosseyed\", {})", crossed);
+      line("put(packing, \"use_sidebyside_crosseyed\", {})", eyes.right_first ? "True" : "False");
     }
   }
 

@@ -10,40 +10,6 @@
 
 namespace ods {
 
-std::string_view camera_target_name(CameraTarget target) {
-  switch (target) {
-    case CameraTarget::kPovray:
-      return "povray";
-    case CameraTarget::kPovrayFork:
-      return "povray-fork";
-    case CameraTarget::kBlender:
-      return "blender";
-    case CameraTarget::kOsl:
-      return "osl";
-    case CameraTarget::kOspray:
-      return "ospray";
-    case CameraTarget::kArnold:
-      return "arnold";
-    case CameraTarget::kMtoa:
-      return "mtoa";
-    case CameraTarget::kUnity:
-      return "unity";
-    case CameraTarget::kUnreal:
-      return "unreal";
-    case CameraTarget::kGlsl:
-      return "glsl";
-    case CameraTarget::kHlsl:
-      return "hlsl";
-    case CameraTarget::kPython:
-      return "python";
-    case CameraTarget::kJson:
-      return "json";
-    case CameraTarget::kNumbers:
-      return "numbers";
-  }
-  return {};
-}
-
 CameraExport export_camera(const Sidecar& file, CameraTarget target) {
   switch (target) {
     case CameraTarget::kPovray:

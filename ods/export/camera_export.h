@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/picture/metadata/sidecar.h"
 
 namespace ods {
@@ -29,14 +30,21 @@ enum class CameraTarget {
   kNumbers,  // for people and spreadsheets
 };
 
-inline constexpr CameraTarget kCameraTargets[] = {
-    CameraTarget::kPovray, CameraTarget::kPovrayFork, CameraTarget::kBlender, CameraTarget::kOsl,
-    CameraTarget::kOspray, CameraTarget::kArnold,     CameraTarget::kMtoa,    CameraTarget::kUnity,
-    CameraTarget::kUnreal, CameraTarget::kGlsl,       CameraTarget::kHlsl,    CameraTarget::kPython,
-    CameraTarget::kJson,   CameraTarget::kNumbers};
-
 // povray, povray-fork, blender, ...
-std::string_view camera_target_name(CameraTarget target);
+inline constexpr NameRow<CameraTarget> kCameraTargetTable[] = {
+    {CameraTarget::kPovray, "povray"},   {CameraTarget::kPovrayFork, "povray-fork"},
+    {CameraTarget::kBlender, "blender"}, {CameraTarget::kOsl, "osl"},
+    {CameraTarget::kOspray, "ospray"},   {CameraTarget::kArnold, "arnold"},
+    {CameraTarget::kMtoa, "mtoa"},       {CameraTarget::kUnity, "unity"},
+    {CameraTarget::kUnreal, "unreal"},   {CameraTarget::kGlsl, "glsl"},
+    {CameraTarget::kHlsl, "hlsl"},       {CameraTarget::kPython, "python"},
+    {CameraTarget::kJson, "json"},       {CameraTarget::kNumbers, "numbers"},
+};
+static_assert(has_every_member(kCameraTargetTable));
+inline constexpr auto kCameraTargets = members_of(kCameraTargetTable);
+constexpr std::string_view camera_target_name(CameraTarget target) {
+  return name_in(kCameraTargetTable, target);
+}
 
 struct CameraExport {
   std::string text;

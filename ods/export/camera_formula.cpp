@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "ods/base/decimal.h"
 
@@ -32,6 +34,28 @@ Vector combine(const std::array<glm::dvec3, 3>& columns, const Vector& v) {
     }
   }
   return result;
+}
+
+// What a merge leaves of the circle at t, before its exponent: the curves of ods/kernel/camera/merge.h.
+struct MergeCurve {
+  int mode;
+  Formula (*left)(const Formula& t);
+};
+const MergeCurve kMergeCurves[] = {
+    {kMergeLinear, [](const Formula& t) { return 1.0 - t; }},
+    {kMergeCosine, [](const Formula& t) { return max(cos(kExactPi / 2.0 * t), 0.0); }},
+    {kMergeSmoothstep, [](const Formula& t) { return 1.0 - t * t * (3.0 - 2.0 * t); }},
+    {kMergeSmootherstep, [](const Formula& t) { return 1.0 - t * t * t * (t * (6.0 * t - 15.0) + 10.0); }},
+    {kMergeGaussian, [](const Formula& t) { return (exp(-(t * t)) - std::exp(-1.0)) / (1.0 - std::exp(-1.0)); }},
+    {kMergeTiltBrush, [](const Formula& t) { return 1.0 - sin(t / (2.0 * kExactPi)); }},
+};
+static_assert(std::size(kMergeCurves) == kMergeCount - 3, "a new merge needs its curve; none, power and map have none");
+
+Formula merge_curve(int mode, const Formula& t) {
+  const MergeCurve* curve = std::find_if(std::begin(kMergeCurves), std::end(kMergeCurves),
+                                         [&](const MergeCurve& each) { return each.mode == mode; });
+  assert(curve != std::end(kMergeCurves));
+  return curve->left(t);
 }
 
 class Writer {
@@ -84,18 +108,20 @@ class Writer {
       place = step(name, select(second_half, 2.0 * place, 2.0 * place - 1.0));
     };
     if (file_.eyes.size() == 2) {
-      switch (file_.layout) {
-        case Layout::kTopBottom:
-        case Layout::kTopBottomHalf:
-          return share("eye_v", eye_v_, -1.0);
-        case Layout::kBottomTop:
-          return share("eye_v", eye_v_, 1.0);
-        case Layout::kSideBySide:
-        case Layout::kSideBySideHalf:
-          return share("eye_u", eye_u_, -1.0);
-        case Layout::kCrossEyed:
-          return share("eye_u", eye_u_, 1.0);
-        default:
+      const EyeArrangement eyes = arrangement_of(file_.layout);
+      const double first = eyes.right_first ? 1.0 : -1.0;
+      switch (eyes.how) {
+        case EyePacking::kStacked:
+          return share("eye_v", eye_v_, first);
+        case EyePacking::kBeside:
+          return share("eye_u", eye_u_, first);
+        case EyePacking::kRows:
+        case EyePacking::kColumns:
+        case EyePacking::kCheckerboard:
+        case EyePacking::kMixed:
+          assert(false);  // formula_fault() refuses them
+          break;
+        case EyePacking::kAlone:
           break;
       }
     }
@@ -150,7 +176,7 @@ class Writer {
 
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
-    static_assert(kProjectionCount == 9, "a new projection needs its formula here");
+    static_assert(kProjectionCount == 11, "a new projection needs its formula here");
     const std::array<glm::dvec3, 3> columns = orientation(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
     if (setting_.kind == kPerspective) {
@@ -158,13 +184,34 @@ class Writer {
       return combine(columns, {half * x, half / decimal(setting_.aspect) * y, -1.0});
     }
     if (is_cube(setting_.kind)) return cube_direction();
+    if (setting_.kind == kEacFace) return combine(columns, {tan(kExactPi / 4.0 * x), tan(kExactPi / 4.0 * y), -1.0});
+    if (setting_.kind == kFisheyePolynomial) return polynomial_direction(columns);
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
+    assert(is_fisheye(setting_.kind));
     const Formula angle = step(
         "from_axis", setting_.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
     seen_ = step("seen", select(1.0 - radius, 0.0, 1.0));
+    return combine(columns, {px * outwards, py * outwards, -cos(angle)});
+  }
+
+  // Millimetres on the sensor.
+  Vector polynomial_direction(const std::array<glm::dvec3, 3>& columns) {
+    const Formula width = parameter("sensor_width", setting_.sensor.x, "millimetres");
+    const Formula height = parameter("sensor_height", setting_.sensor.y, "millimetres");
+    const Formula px = step("lens_x", width * (eye_u_ - 0.5)), py = step("lens_y", height * (0.5 - eye_v_));
+    const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
+    Formula polynomial = 0.0;
+    for (size_t i = setting_.polynomial.size(); i-- > 0;) {
+      const std::string name = fmt::format("k{}", i);
+      polynomial = parameter(name, setting_.polynomial[i], "of the lens polynomial") + radius * polynomial;
+    }
+    const Formula angle = step("from_axis", max(-polynomial, 0.0));
+    const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
+    const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
+    seen_ = step("seen", select(full / 2.0 - angle, 0.0, 1.0));
     return combine(columns, {px * outwards, py * outwards, -cos(angle)});
   }
 
@@ -239,11 +286,7 @@ class Writer {
     const Formula elevation = 180.0 / kExactPi * abs(phi_);
     const Formula t = step(pole + "merge_t", min(max((elevation - start) / (end - start), 0.0), 1.0));
     if (merge.mode == kMergePower) return 1.0 - pow(t, merge_exponent(merge, pole));
-    Formula left = 1.0 - t;
-    if (merge.mode == kMergeCosine) left = max(cos(kExactPi / 2.0 * t), 0.0);
-    if (merge.mode == kMergeSmoothstep) left = 1.0 - t * t * (3.0 - 2.0 * t);
-    if (merge.mode == kMergeGaussian) left = (exp(-(t * t)) - std::exp(-1.0)) / (1.0 - std::exp(-1.0));
-    if (merge.mode == kMergeTiltBrush) left = 1.0 - sin(t / (2.0 * kExactPi));
+    const Formula left = merge_curve(merge.mode, t);
     return merge.exponent == 1.0f ? left : pow(max(left, 0.0), merge_exponent(merge, pole));
   }
 
@@ -325,8 +368,8 @@ class Writer {
 std::string formula_fault(const Sidecar& file) {
   const StereoCamera& stereo = file.camera;
   if (stereo.top.mode == kMergeMap || stereo.bottom.mode == kMergeMap) return "a merge map is no formula";
-  const bool mixed = file.layout == Layout::kRowInterleaved || is_anaglyph(file.layout);
-  if (file.eyes.size() == 2 && mixed) {
+  const EyeArrangement eyes = arrangement_of(file.layout);
+  if (file.eyes.size() == 2 && !eyes.is_halves() && eyes.how != EyePacking::kAlone) {
     return fmt::format("{} mixes the eyes in a way that is no formula of the image position; export top-bottom",
                        layout_name(file.layout));
   }

@@ -13,28 +13,6 @@
 
 namespace ods {
 
-std::string_view rig_target_name(RigTarget target) {
-  switch (target) {
-    case RigTarget::kBlender:
-      return "blender";
-    case RigTarget::kPovray:
-      return "povray";
-    case RigTarget::kThree:
-      return "three";
-    case RigTarget::kUsd:
-      return "usd";
-    case RigTarget::kGltf:
-      return "gltf";
-    case RigTarget::kUnity:
-      return "unity";
-    case RigTarget::kUnreal:
-      return "unreal";
-    case RigTarget::kCsv:
-      return "csv";
-  }
-  return "";
-}
-
 RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& file_name) {
   const std::string name = one_line(file_name);
   switch (target) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/stitch/slit_rig.h"
 
 namespace ods {
@@ -26,12 +27,17 @@ enum class RigTarget {
   kCsv,      // for spreadsheets and what we have not thought of: a line a view
 };
 
-inline constexpr RigTarget kRigTargets[] = {RigTarget::kBlender, RigTarget::kPovray, RigTarget::kThree,
-                                            RigTarget::kUsd,     RigTarget::kGltf,   RigTarget::kUnity,
-                                            RigTarget::kUnreal,  RigTarget::kCsv};
-
 // blender, povray, three, usd, ...
-std::string_view rig_target_name(RigTarget target);
+inline constexpr NameRow<RigTarget> kRigTargetTable[] = {
+    {RigTarget::kBlender, "blender"}, {RigTarget::kPovray, "povray"}, {RigTarget::kThree, "three"},
+    {RigTarget::kUsd, "usd"},         {RigTarget::kGltf, "gltf"},     {RigTarget::kUnity, "unity"},
+    {RigTarget::kUnreal, "unreal"},   {RigTarget::kCsv, "csv"},
+};
+static_assert(has_every_member(kRigTargetTable));
+inline constexpr auto kRigTargets = members_of(kRigTargetTable);
+constexpr std::string_view rig_target_name(RigTarget target) {
+  return name_in(kRigTargetTable, target);
+}
 
 struct RigScript {
   std::string ending;  // of its file, behind the rig's name: ".blender.py"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Image files of every format of file_format.h, through OpenImageIO (only image_file.cpp and image_writer.cpp know it).
+// Image files of every format of file_format.h, read and written by image_codec().
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,37 +30,33 @@ Image read_image(const std::string& path, std::string* color_fault = nullptr);
 // Throws Error(kInput).
 FileInfo read_info(const std::string& path);
 
-// A file that is read in bands from the top, so that it is never in memory as a whole (but WebP, progressive JPEG and
-// interlaced PNG, whose decoders know no other way). In a file of integers colours are sRGB code values that are not
-// multiplied by alpha, whatever the file's colour space is: they are converted, to 16 bits, where it is another. In a
-// file of floats they are light that is multiplied, of the file's primaries: color_space() converts it. Whole numbers
-// in a file of floats (ids, 32 bits) become floats.
+// Reads a file in bands from the top, so that it is never in memory as a whole (except WebP, progressive JPEG and
+// interlaced PNG, whose decoders know no other way). Colours of integer files are sRGB code values with unassociated
+// alpha; a file of another colour space is converted to sRGB in 16 bits. Colours of float files are linear with
+// associated alpha, in the primaries of the file: color_space() converts them. Whole numbers in a float file (ids,
+// 32 bits) become floats.
 class RowReader {
  public:
-  // Throws Error(kInput): as read_image(), and an EXR whose data window is not its whole picture.
-  explicit RowReader(const std::string& path);
-  RowReader(RowReader&&) noexcept;
-  ~RowReader();
+  virtual ~RowReader() = default;
+  virtual const FileInfo& info() const = 0;
+  virtual const ColorSpace& color_space() const = 0;
 
-  const FileInfo& info() const;
-  const ColorSpace& color_space() const;
-  // Integers of 8 bits become such of 16. Before the first read().
-  void widen();
-  bool is_whole_number(size_t channel) const;
+  // Reads 8-bit integers as 16-bit ones. Call it before the first read().
+  virtual void widen() = 0;
+  virtual bool is_whole_number(size_t channel) const = 0;
 
-  // Bands are `band_rows()` high, but for the last: what the file packs together.
-  int band_rows() const;
+  // The height of a band, except the last: what the file packs together.
+  virtual int band_rows() const = 0;
 
-  // The first `channels` channels of rows begin..end, one sample behind the other. Throws Error(kInput).
-  void read(int begin, int end, size_t channels, std::byte* to);
+  // The first `channels` channels of rows begin..end, one sample after the other. Throws Error(kInput).
+  virtual void read(int begin, int end, size_t channels, std::byte* to) = 0;
 
-  // Channels that are of no use: a whole number above 2^24 was met there, which no float can hold. The number, too.
-  const std::map<size_t, unsigned>& beyond_floats() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+  // Channels in which a whole number above 2^24 was met, which no float can hold, and that number.
+  virtual const std::map<size_t, unsigned>& beyond_floats() const = 0;
 };
+
+// Throws Error(kInput): as read_image(), and an EXR whose data window is not its whole picture.
+std::unique_ptr<RowReader> open_rows(const std::string& path);
 
 // Some channels of a file, by their names and in their order. Integers are decoded from sRGB, floats taken as they are.
 // Throws Error(kInput), also where there is no such channel.

@@ -7,16 +7,6 @@
 
 namespace ods {
 
-std::string_view tone_curve_name(ToneCurve curve) {
-  switch (curve) {
-    case ToneCurve::kNeutral:
-      return "neutral";
-    case ToneCurve::kLinear:
-      return "linear";
-  }
-  return {};
-}
-
 static vec3 neutral(vec3 color) {
   const float kFresnel = 0.04f;  // what a dielectric reflects straight on, taken off so that base colours come back
   const float kStart = 0.8f - kFresnel;

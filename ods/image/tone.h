@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/kernel/math.h"
 
 namespace ods {
@@ -16,8 +17,15 @@ enum class ToneCurve {
 };
 
 // `neutral`, `linear`: the words of the command line.
-inline constexpr ToneCurve kToneCurves[] = {ToneCurve::kNeutral, ToneCurve::kLinear};
-std::string_view tone_curve_name(ToneCurve curve);
+inline constexpr NameRow<ToneCurve> kToneCurveTable[] = {
+    {ToneCurve::kNeutral, "neutral"},
+    {ToneCurve::kLinear, "linear"},
+};
+static_assert(has_every_member(kToneCurveTable));
+inline constexpr auto kToneCurves = members_of(kToneCurveTable);
+constexpr std::string_view tone_curve_name(ToneCurve curve) {
+  return name_in(kToneCurveTable, curve);
+}
 
 // Any number in, 0..1 out, both linear Rec. 709. The light is first multiplied by 2^exposure.
 // NaN and negative light become 0; infinite light is treated as the largest number.

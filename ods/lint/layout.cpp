@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
-#include "ods/lint/match.h"
 
 namespace ods {
 
@@ -27,7 +27,7 @@ struct Cut {
 Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes) {
   Cut cut;
   cut.layout = layout;
-  const std::vector<View> views = make_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
+  const std::vector<GrayView> views = make_gray_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
   Search search;
   search.correlation = 0.7f;
   search.down = 0.04f;
@@ -49,9 +49,9 @@ std::string cut_name(const Subject& subject, Layout layout) {
   const Extent eye = *unpacked_size(layout, {subject.packed.width, subject.packed.height});
   const double aspect = static_cast<double>(eye.width) / eye.height;
   const double natural = 1000.0 / natural_height(subject.projection(), 1000);
-  if (layout == Layout::kTopBottom && aspect > 1.5 * natural) return "top-bottom-half";
-  if (layout == Layout::kSideBySide && aspect < 0.75 * natural) return "side-by-side-half";
-  return std::string(layout_name(layout));
+  const EyeArrangement eyes = arrangement_of(layout);
+  const bool squeezed = eyes.how == EyePacking::kStacked ? aspect > 1.5 * natural : aspect < 0.75 * natural;
+  return std::string(layout_name(layout_with({eyes.how, eyes.right_first, squeezed}).value_or(layout)));
 }
 
 // The layouts that a file may have in truth, other than the one it was read in.
@@ -61,11 +61,7 @@ std::vector<Cut> other_cuts(const Subject& subject) {
   const Extent size{subject.packed.width, subject.packed.height};
   for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
     if (subject.packed.pixels.empty() || !unpacked_size(layout, size)) continue;
-    const bool stacked = layout == Layout::kTopBottom;
-    const bool same =
-        read &&
-        (stacked ? *read == Layout::kTopBottom || *read == Layout::kBottomTop || *read == Layout::kTopBottomHalf
-                 : *read == Layout::kSideBySide || *read == Layout::kCrossEyed || *read == Layout::kSideBySideHalf);
+    const bool same = read && arrangement_of(*read).how == arrangement_of(layout).how;
     if (!same) cuts.push_back(try_cut(subject, layout, unpack(layout, subject.packed)));
   }
   return cuts;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/layout.h"
 #include "ods/camera/projection.h"
 
@@ -32,20 +33,52 @@ enum class Fault {
   kVideoLevels,     // too large for a video
 };
 
-inline constexpr Fault kFaults[] = {Fault::kEyesSwapped,  Fault::kRightOnTop,    Fault::kOneEyeTwice,
-                                    Fault::kMonoAsStereo, Fault::kLayoutMisread, Fault::kMirroredCircle,
-                                    Fault::kTwoCameras,   Fault::kNoPoleMerge,   Fault::kRaggedSeam,
-                                    Fault::kWrongAspect,  Fault::kMetadata,      Fault::kVideoLevels};
-std::string_view fault_name(Fault fault);   // eyes-swapped, right-on-top, ...
-std::string_view fault_title(Fault fault);  // a few words for people
-
 enum class Severity {
   kFault,        // looks wrong, to everybody
   kWarning,      // looks wrong in places, or is a matter of taste
   kInformation,  // good to know
 };
-Severity severity_of(Fault fault);
-std::string_view severity_name(Severity severity);  // fault, warning, information
+inline constexpr NameRow<Severity> kSeverityTable[] = {
+    {Severity::kFault, "fault"},
+    {Severity::kWarning, "warning"},
+    {Severity::kInformation, "information"},
+};
+static_assert(has_every_member(kSeverityTable));
+constexpr std::string_view severity_name(Severity severity) {
+  return name_in(kSeverityTable, severity);
+}
+
+struct FaultRow {
+  Fault member;
+  std::string_view name;
+  std::string_view title;  // a few words for people
+  Severity severity;
+};
+inline constexpr FaultRow kFaultTable[] = {
+    {Fault::kEyesSwapped, "eyes-swapped", "the eyes are swapped", Severity::kFault},
+    {Fault::kRightOnTop, "right-on-top", "the right eye is on top", Severity::kFault},
+    {Fault::kOneEyeTwice, "one-eye-twice", "both eyes see the same picture", Severity::kFault},
+    {Fault::kMonoAsStereo, "mono-as-stereo", "one picture is taken for two eyes", Severity::kFault},
+    {Fault::kLayoutMisread, "layout-misread", "the eyes lie otherwise in the file", Severity::kFault},
+    {Fault::kMirroredCircle, "mirrored-circle", "the eyes' circle is mirrored", Severity::kFault},
+    {Fault::kTwoCameras, "two-cameras", "two fixed cameras in place of a circle", Severity::kFault},
+    {Fault::kNoPoleMerge, "no-pole-merge", "full stereo at a pole", Severity::kWarning},
+    {Fault::kRaggedSeam, "ragged-seam", "the seam shows", Severity::kFault},
+    {Fault::kWrongAspect, "wrong-aspect", "the shape does not fit", Severity::kFault},
+    {Fault::kMetadata, "metadata", "its words do not fit its pixels", Severity::kFault},
+    {Fault::kVideoLevels, "video-levels", "too large for videos", Severity::kInformation},
+};
+static_assert(has_every_member(kFaultTable));
+inline constexpr auto kFaults = members_of(kFaultTable);
+constexpr std::string_view fault_name(Fault fault) {
+  return name_in(kFaultTable, fault);
+}
+constexpr std::string_view fault_title(Fault fault) {
+  return row_in(kFaultTable, fault).title;
+}
+constexpr Severity severity_of(Fault fault) {
+  return row_in(kFaultTable, fault).severity;
+}
 
 struct Finding {
   Fault fault = Fault::kEyesSwapped;
@@ -69,10 +102,24 @@ enum class Check {
   kBetweenEyes,  // height, roll, colour and sharpness: nothing here measures them
 };
 
-inline constexpr Check kChecks[] = {Check::kLayout,   Check::kTwoEyes,     Check::kEyeOrder,   Check::kCircle,
-                                    Check::kTopPole,  Check::kBottomPole,  Check::kSeam,       Check::kShape,
-                                    Check::kMetadata, Check::kVideoLevels, Check::kBetweenEyes};
-std::string_view check_name(Check check);  // in words: "which eye is which"
+inline constexpr NameRow<Check> kCheckTable[] = {
+    {Check::kLayout, "the layout of the eyes"},
+    {Check::kTwoEyes, "whether the eyes see from two places"},
+    {Check::kEyeOrder, "which eye is which"},
+    {Check::kCircle, "a circle of eyes or two cameras"},
+    {Check::kTopPole, "stereo at the top pole"},
+    {Check::kBottomPole, "stereo at the bottom pole"},
+    {Check::kSeam, "the seam"},
+    {Check::kShape, "the shape"},
+    {Check::kMetadata, "metadata"},
+    {Check::kVideoLevels, "video levels"},
+    {Check::kBetweenEyes, "height, roll, colour and sharpness between the eyes"},
+};
+static_assert(has_every_member(kCheckTable));
+inline constexpr auto kChecks = members_of(kCheckTable);
+constexpr std::string_view check_name(Check check) {
+  return name_in(kCheckTable, check);
+}
 
 struct NotJudged {
   Check check = Check::kLayout;

@@ -38,7 +38,7 @@ static void check_name(const Subject& subject, LintReport& report) {
   if (named.layout) {
     const std::optional<Extent> other = unpacked_size(*named.layout, size);
     if (other && report.layout && other->width == report.eye.width && other->height == report.eye.height &&
-        *named.layout != Layout::kBottomTop && *named.layout != Layout::kCrossEyed) {
+        !arrangement_of(*named.layout).right_first) {
       return;  // the same halves by a looser word
     }
   }

@@ -11,8 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
-#include "ods/lint/match.h"
 
 namespace ods {
 
@@ -217,9 +217,9 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
     certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
     evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
-  const Layout layout = subject.layout();
-  const bool stacked = layout == Layout::kTopBottom || layout == Layout::kTopBottomHalf;
-  const char* cure = layout == Layout::kTopBottom
+  const EyeArrangement eyes = arrangement_of(subject.layout());
+  const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
+  const char* cure = stacked && !eyes.squeezed
                          ? "the right eye is on top: exchange the halves, or tell the player bottom-top"
                      : stacked ? "the right eye is on top: exchange the halves"
                                : "exchange the eyes, or tell the player the other order";
@@ -245,7 +245,7 @@ static void check_waves(const Parallaxes& parallaxes, double upright, LintReport
 }
 
 // Share of the horizon.
-static double seen_around(const View& view) {
+static double seen_around(const GrayView& view) {
   const float* row = view.at(0, view.height / 2);
   return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;
 }
@@ -255,7 +255,8 @@ void check_parallax(const Subject& subject, LintReport& report) {
   std::vector<Matches> scales;
   double around = 0.0;
   for (int width : {256, 512, 1024}) {
-    const std::vector<View> views = make_views(subject.eyes, subject.projection(), subject.info.is_float, width);
+    const std::vector<GrayView> views =
+        make_gray_views(subject.eyes, subject.projection(), subject.info.is_float, width);
     scales.push_back(match_tiles(views[0], views[1], {}));
     add_matches(parallaxes, scales.back(), subject);
     around = seen_around(views[0]);

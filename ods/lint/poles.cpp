@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
-#include "ods/lint/match.h"
 
 namespace ods {
 
@@ -43,7 +43,7 @@ Band measure(const Subject& subject, const Matches& matches, bool top, double fr
 }  // namespace
 
 void check_poles(const Subject& subject, LintReport& report) {
-  const std::vector<View> views = make_views(subject.eyes, subject.projection(), subject.info.is_float, 512);
+  const std::vector<GrayView> views = make_gray_views(subject.eyes, subject.projection(), subject.info.is_float, 512);
   Search search;
   search.rows = std::max(4, views[0].height / 36);
   search.columns = std::max(4, views[0].width / 30);

@@ -64,6 +64,11 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
 
 static FileFormat format_for(const std::string& path) {
   const std::optional<FileFormat> format = format_of_path(path);
+  std::error_code ignored;
+  if (path.ends_with('/') || (!format && std::filesystem::is_directory(path, ignored))) {
+    throw unfit(path, fmt::format("it is a folder: add the name of a file, as in '{}'",
+                                  (std::filesystem::path(path) / "picture.png").string()));
+  }
   if (!format) throw unfit(path, fmt::format("unknown extension; known are {}", known_extensions()));
   return *format;
 }
@@ -327,17 +332,29 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   return header;
 }
 
+// The pixels of an eye's row that an interleaved row has, to their places in it.
+static void scatter_row(const std::vector<float>& eye, const EyeRow& part, size_t stride, std::span<float> row) {
+  const auto first = static_cast<size_t>(part.first), every = static_cast<size_t>(part.every);
+  size_t to = static_cast<size_t>(part.x);
+  for (size_t x = first; x < eye.size() / stride; x += every, to += static_cast<size_t>(part.step)) {
+    std::copy_n(&eye[x * stride], stride, &row[to * stride]);
+  }
+}
+
 static void write_picture(AtomicFile& out, const File& file, const StereoCamera* camera) {
   const FileHeader header = make_header(file, camera);
   const int count = static_cast<int>(file.indices.size());
   const Extent eye = stored_eye(file);
   const size_t stride = header.channels.size();
-  const size_t step = file.layout == Layout::kMultiview ? file.channels : static_cast<size_t>(eye.width) * stride;
   const auto fill = [&](int y, std::span<float> row) {
     if (is_anaglyph(file.layout)) return put_anaglyph_row(file, y, row.data());
-    float* to = row.data();
     for (const EyeRow& part : packed_row(file.layout, eye, count, y)) {
       const std::vector<float> made = read_row(file, file.indices[static_cast<size_t>(part.index)], part.y);
+      const size_t start = file.layout == Layout::kMultiview ? static_cast<size_t>(part.index) * file.channels
+                                                             : static_cast<size_t>(part.x) * stride;
+      const bool scatters = part.step > 1;
+      std::vector<float> whole(scatters ? static_cast<size_t>(eye.width) * stride : 0);
+      float* to = scatters ? whole.data() : row.data() + start;
       if (file.format == FileFormat::kExr) {
         put_exr_row(file, made, to, stride);
       } else if (file.format == FileFormat::kHdr) {
@@ -345,7 +362,7 @@ static void write_picture(AtomicFile& out, const File& file, const StereoCamera*
       } else {
         put_display_row(file, made, to);
       }
-      to += step;
+      if (scatters) scatter_row(whole, part, stride, row);
     }
   };
   write_image(out, header, fill, file.picture.band_done);

@@ -14,6 +14,8 @@
 #include "ods/base/text.h"
 #include "ods/files/memory_file.h"
 #include "ods/files/scratch.h"
+#include "ods/picture/channel_layers.h"
+#include "ods/picture/checkerboard.h"
 #include "ods/picture/metadata/vr_photo.h"
 
 namespace ods {
@@ -22,117 +24,17 @@ static Error unreadable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
 }
 
-// --- which channels are what -----------------------------------------------------------------------------------------
-
-namespace {
-
-// A layer of one view of a file, and where it comes to lie.
-struct Plane {
-  std::string name;                   // N, albedo; of the colour and single channels empty
-  std::vector<std::string> channels;  // without the view
-  std::vector<size_t> from;           // their numbers in the file
-  LayerRule rule = LayerRule::kMean;
-  SampleType sample = SampleType::kUint8;
-  std::byte* to = nullptr;
-  size_t pixel_size() const { return channels.size() * bytes_of(sample); }
-};
-
-}  // namespace
-
-// `ViewLayer.Depth.Z` is Z of ViewLayer.Depth.
-static std::pair<std::string, std::string> split_name(const std::string& channel) {
-  const size_t point = channel.rfind('.');
-  if (point == std::string::npos) return {"", channel};
-  return {channel.substr(0, point), channel.substr(point + 1)};
-}
-
-static LayerRule rule_of(const std::string& layer, const std::string& channel, bool is_whole_number) {
-  static const char* const kWords[] = {"z", "zback", "depth", "id", "ids", "index", "object", "material", "variance"};
-  const std::string group = small_letters(layer), last = split_name(group).second;
-  const bool packed = last.size() > 2 && last.find_first_not_of("0123456789", last.size() - 2) == std::string::npos;
-  bool nearest = is_whole_number || packed || group.find("crypto") != std::string::npos || last.starts_with("index");
-  for (const std::string& name : {last, small_letters(channel), group.substr(0, group.find('.'))}) {
-    nearest = nearest || std::find(std::begin(kWords), std::end(kWords), name) != std::end(kWords);
-  }
-  // Normals and positions have a Z, too.
-  if (small_letters(channel) == "z" && !layer.empty() && last != "depth" && last != "z") nearest = packed;
-  return nearest ? LayerRule::kNearest : LayerRule::kMean;
-}
-
-// Channels of one view: name without it, number in the file.
-using View = std::map<std::string, size_t>;
-
-// `right.R`, `N.right.X`; bare names are those of the view that has no others. Of a file of one view: all.
-static View channels_of_view(const FileInfo& info, const std::string& view, bool is_default) {
-  View channels;
-  for (size_t c = 0; c < info.channels.size(); c++) {
-    const auto [layer, last] = split_name(info.channels[c]);
-    const auto [outer, inner] = split_name(layer);
-    if (view.empty() || (is_default && layer.empty())) {
-      channels.emplace(info.channels[c], c);
-    } else if (inner == view) {
-      channels.emplace(outer.empty() ? last : outer + "." + last, c);
-    }
-  }
-  return channels;
-}
-
-// R, G, B, perhaps A, of some layer; of grey files Y and A. Taken out of `channels`.
-static std::optional<Plane> take_color(View& channels, const std::string& layer) {
-  const std::string prefix = layer.empty() ? "" : layer + ".";
-  Plane light;
-  light.name = layer;
-  light.rule = LayerRule::kLight;
-  const auto take = [&](std::initializer_list<const char*> names) {
-    for (const char* name : names) {
-      if (!channels.contains(prefix + name)) return false;
-    }
-    for (const char* name : names) light.from.push_back(channels.at(prefix + name));
-    for (const char* name : names) channels.erase(prefix + name);
-    return true;
-  };
-  if (!take({"R", "G", "B"})) {
-    if (!take({"Y"})) return std::nullopt;
-    light.from = {light.from[0], light.from[0], light.from[0]};
-  }
-  take({"A"});
-  light.channels = {"R", "G", "B", "A"};
-  light.channels.resize(light.from.size());
-  return light;
-}
-
-static std::optional<Plane> find_light(View& channels) {
-  if (std::optional<Plane> light = take_color(channels, "")) return light;
-  for (const auto& [name, number] : channels) {
-    const std::string layer = split_name(name).first;
-    if (split_name(layer).second == "Combined") return take_color(channels, layer);
-  }
-  return std::nullopt;
-}
-
-// Channels in the order of the file, layers in that of their names: it is the same for both views.
-static std::vector<Plane> other_planes(const View& channels, const RowReader& reader) {
-  const FileInfo& info = reader.info();
-  std::map<size_t, std::string> ordered;
-  for (const auto& [name, number] : channels) ordered[number] = name;
-  std::vector<Plane> planes;
-  for (const auto& [number, name] : ordered) {
-    const auto [layer, last] = split_name(name);
-    const LayerRule rule = rule_of(layer, last, reader.is_whole_number(number));
-    const bool joins = !planes.empty() && !layer.empty() && planes.back().name == layer && planes.back().rule == rule &&
-                       planes.back().sample == info.samples[number];
-    if (!joins) planes.push_back({layer, {}, {}, rule, info.samples[number]});
-    planes.back().channels.push_back(name);
-    planes.back().from.push_back(number);
-  }
-  std::stable_sort(planes.begin(), planes.end(),
-                   [](const Plane& a, const Plane& b) { return a.channels[0] < b.channels[0]; });
-  return planes;
-}
-
 // --- the files -------------------------------------------------------------------------------------------------------
 
 namespace {
+
+using Readers = std::vector<std::unique_ptr<RowReader>>;  // of the files of a picture
+
+// A layer of one view of a file, and where its pixels go.
+struct Plane : ChannelLayer {
+  std::byte* to = nullptr;
+  size_t pixel_size() const { return channels.size() * bytes_of(sample); }
+};
 
 // One view of one file.
 struct FileShare {
@@ -142,22 +44,22 @@ struct FileShare {
 
 }  // namespace
 
-static FileShare make_share(RowReader& reader, const std::string& path, View channels, bool color_only) {
+static FileShare make_share(RowReader& reader, const std::string& path, ViewChannels channels, bool color_only) {
   const FileInfo& info = reader.info();
   FileShare share{&reader, {}};
-  std::optional<Plane> light = find_light(channels);
+  std::optional<ChannelLayer> light = take_color(channels);
   // Files of a display have their colour first, whatever they call it.
   if (!light && !info.is_float && info.channels.size() >= 3) {
-    light = Plane{"", {"R", "G", "B"}, {0, 1, 2}, LayerRule::kLight};
+    light = ChannelLayer{"", {"R", "G", "B"}, {0, 1, 2}, LayerRule::kLight, {}};
   }
   if (!light) throw unreadable(path, "it has no colour: no channels R, G and B");
   light->sample = info.samples[light->from[0]];
   for (size_t c : light->from) {
     if (info.samples[c] != light->sample) throw unreadable(path, "its colours are not of one kind of number");
   }
-  share.planes.push_back(*light);
+  share.planes.push_back({*light});
   if (color_only || !info.is_float) return share;
-  for (Plane& plane : other_planes(channels, reader)) share.planes.push_back(std::move(plane));
+  for (ChannelLayer& layer : other_layers(channels, reader)) share.planes.push_back({std::move(layer)});
   return share;
 }
 
@@ -192,22 +94,21 @@ static void keep_common(std::vector<FileShare>& shares, const std::string& path,
   if (!lost.empty()) guesses.push_back("only one eye has" + lost + ": left out");
 }
 
-static std::vector<FileShare> shares_of(std::vector<RowReader>& readers, const std::string& path, Layout layout,
-                                        bool color_only) {
+static std::vector<FileShare> shares_of(Readers& readers, const std::string& path, Layout layout, bool color_only) {
   std::vector<FileShare> shares;
   if (layout != Layout::kMultiview) {
-    for (RowReader& reader : readers) {
-      shares.push_back(make_share(reader, path, channels_of_view(reader.info(), "", true), color_only));
+    for (const auto& reader : readers) {
+      shares.push_back(make_share(*reader, path, channels_of_view(reader->info(), "", true), color_only));
     }
     return shares;
   }
-  const FileInfo& info = readers[0].info();
-  const View left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
-  const View bare = channels_of_view(info, "left", true);
+  const FileInfo& info = readers[0]->info();
+  const ViewChannels left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
+  const ViewChannels bare = channels_of_view(info, "left", true);
   if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
   if (left.contains("R") || right.contains("R")) {
-    shares.push_back(make_share(readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
-    shares.push_back(make_share(readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
     return shares;
   }
   throw unreadable(path, "it does not hold two views");
@@ -331,11 +232,12 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
 
 namespace {
 
-// Row `y` and the first column of every eye in a packed image.
+// The first row and column of an eye in a packed image, and how many of the image's it is to the next.
 struct EyeView {
   int x = 0;
   int y = 0;
   int row_step = 1;
+  int pixel_step = 1;
 };
 
 }  // namespace
@@ -344,12 +246,10 @@ static std::vector<EyeView> views_of(Layout layout, Extent eye) {
   std::vector<EyeView> views(2);
   const Extent file = packed_size(layout, eye, 2);
   for (int y = 0; y < file.height; y++) {
-    int x = 0;
     for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
-      const size_t i = static_cast<size_t>(part.index);
-      if (part.y == 0) views[i].x = x, views[i].y = y;
-      if (part.y == 1) views[i].row_step = y - views[i].y;
-      x += eye.width;
+      EyeView& view = views[static_cast<size_t>(part.index)];
+      if (part.y == 0) view.x = part.x, view.y = y, view.pixel_step = part.step;
+      if (part.y == 1) view.row_step = y - view.y;
     }
   }
   return views;
@@ -361,39 +261,40 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   const ptrdiff_t width = share.reader->info().width;
   for (const Plane& plane : share.planes) {
     const ptrdiff_t pixel = static_cast<ptrdiff_t>(plane.pixel_size()), row = width * pixel;
-    eye.layers.push_back({plane.channels, plane.rule, plane.sample, plane.to + view.y * row + view.x * pixel, pixel,
-                          view.row_step * row});
+    const std::byte* first = plane.to != nullptr ? plane.to + view.y * row + view.x * pixel : nullptr;
+    eye.layers.push_back(
+        {plane.channels, plane.rule, plane.sample, first, view.pixel_step * pixel, view.row_step * row});
   }
   return eye;
 }
 
-static void check_pair(std::vector<RowReader>& readers, const std::string& path) {
-  const FileInfo &one = readers[0].info(), &other = readers[1].info();
+static void check_pair(Readers& readers, const std::string& path) {
+  const FileInfo &one = readers[0]->info(), &other = readers[1]->info();
   if (one.width != other.width || one.height != other.height) {
     throw unreadable(
         path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
   }
   if (one.is_float != other.is_float) throw unreadable(path, "one eye is light, the other what a display shows");
   const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
-  if (!is_ours(readers[0]) || !is_ours(readers[1])) {  // both become 16 bits if one has been converted to them
-    for (RowReader& reader : readers) reader.widen();
+  if (!is_ours(*readers[0]) || !is_ours(*readers[1])) {  // both become 16 bits if one has been converted to them
+    for (const auto& reader : readers) reader->widen();
   }
 }
 
-static std::vector<RowReader> open_files(const std::string& path) {
-  std::vector<RowReader> readers;
+static Readers open_files(const std::string& path) {
+  Readers readers;
   if (!names_eye(path)) {
-    readers.emplace_back(path);
+    readers.push_back(open_rows(path));
     return readers;
   }
-  for (int eye : {kLeft, kRight}) readers.emplace_back(path_for_eye(path, eye));
+  for (int eye : {kLeft, kRight}) readers.push_back(open_rows(path_for_eye(path, eye)));
   check_pair(readers, path);
   return readers;
 }
 
-static void open_right_eye(std::vector<RowReader>& readers, const MemoryFile& file, const std::string& path) {
+static void open_right_eye(Readers& readers, const MemoryFile& file, const std::string& path) {
   try {
-    readers.emplace_back(file.path());
+    readers.push_back(open_rows(file.path()));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
     throw unreadable(path, "the JPEG of its right eye is damaged");
@@ -432,8 +333,9 @@ static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const 
 
 static std::vector<StoredEye> make_eyes(const std::vector<FileShare>& shares, Layout layout, Extent size, int eye) {
   if (shares.size() == 2) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[1], {})};
-  const Extent file = packed_size(layout, size, 2);
-  if (file.width == size.width && file.height == size.height) return {make_eye(eye, shares[0], {})};
+  const EyePacking how = arrangement_of(layout).how;
+  if (how == EyePacking::kAlone) return {make_eye(eye, shares[0], {})};
+  if (how == EyePacking::kCheckerboard) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[0], {})};
   const std::vector<EyeView> views = views_of(layout, size);
   return {make_eye(kLeft, shares[0], views[0]), make_eye(kRight, shares[0], views[1])};
 }
@@ -460,12 +362,12 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
   }
 }
 
-StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
-  std::vector<RowReader> readers = open_files(path);
-  StereoFormat format = find_format(readers[0].info(), path, options.format);
+static StoredPicture open_picture(const std::string& path, const OpenOptions& options, bool with_pixels) {
+  Readers readers = open_files(path);
+  StereoFormat format = find_format(readers[0]->info(), path, options.format);
   const MemoryFile right(format.is_photo ? read_right_eye(path) : "");
   if (format.is_photo) open_right_eye(readers, right, path);
-  const FileInfo& info = readers[0].info();
+  const FileInfo& info = readers[0]->info();
   StoredPicture picture;
   picture.is_float = info.is_float;
   picture.layout = format.layout.layout.value_or(Layout::kSeparate);
@@ -474,8 +376,8 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.has_ipd = format.has_ipd;
   picture.guesses = std::move(format.guesses);
   if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
-  for (const RowReader& reader : readers) {
-    if (picture.color_fault.empty()) picture.color_fault = reader.info().color_fault;
+  for (const auto& reader : readers) {
+    if (picture.color_fault.empty()) picture.color_fault = reader->info().color_fault;
   }
   if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
   const auto parts = info.numbers.find("oiio:subimages");
@@ -485,12 +387,24 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options) 
   picture.size = eye_size(picture, info, path);
   std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);
   keep_common(shares, path, picture.guesses);
-  picture.memory = make_room(shares, info, options);
-  for (RowReader& reader : readers) read_file(reader, shares, *picture.memory);
-  leave_out_unreadable(shares, path, picture.guesses);
-  picture.memory->release();
+  if (with_pixels) {
+    picture.memory = make_room(shares, info, options);
+    for (const auto& reader : readers) read_file(*reader, shares, *picture.memory);
+    leave_out_unreadable(shares, path, picture.guesses);
+    picture.memory->release();
+  }
   picture.eyes = make_eyes(shares, picture.layout, picture.size, format.eye);
+  const bool is_checkerboard = arrangement_of(picture.layout).how == EyePacking::kCheckerboard;
+  if (with_pixels && is_checkerboard) take_checkerboard_apart(picture, options);
   return picture;
+}
+
+StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
+  return open_picture(path, options, true);
+}
+
+StoredPicture open_picture_header(const std::string& path, const OpenOptions& options) {
+  return open_picture(path, options, false);
 }
 
 }  // namespace ods

@@ -43,7 +43,7 @@ struct StoredPicture {
   std::vector<StoredEye> eyes;  // one, or left and right; of the same layers
   bool is_float = false;        // the file holds light; else what a display shows
   Layout layout = Layout::kSeparate;
-  std::string layout_reason;        // how that is known: "its name ends in _TB"
+  std::string layout_reason;         // how that is known: "its name ends in _TB"
   StereoCamera camera;               // how it was taken, as far as is known: projection, ipd, merge, convergence, pose
   bool has_ipd = false;              // by the caller, the file or its sidecar; else it is the usual one
   std::string rig_mark;              // ods:rig: the rig of slits that it is a view of; empty: not said
@@ -72,5 +72,8 @@ struct OpenOptions {
 // Throws Error(kInput): a file that cannot be read or has no colour, an anaglyph, a size that the layout or the
 // projection cannot have, eyes of two sizes; Error(kOutput), Error(kMemory) as Scratch.
 StoredPicture open_picture(const std::string& path, const OpenOptions& options = {});
+
+// The same without pixels: those of every layer are nullptr. Faults that only reading the pixels shows are not found.
+StoredPicture open_picture_header(const std::string& path, const OpenOptions& options = {});
 
 }  // namespace ods

@@ -6,20 +6,6 @@
 
 namespace ods {
 
-std::string_view eyes_name(Eyes eyes) {
-  switch (eyes) {
-    case Eyes::kBothEyes:
-      return "both";
-    case Eyes::kLeftEye:
-      return "left";
-    case Eyes::kRightEye:
-      return "right";
-    case Eyes::kMonoEye:
-      return "mono";
-  }
-  return {};
-}
-
 std::vector<int> eye_list(Eyes eyes) {
   switch (eyes) {
     case Eyes::kBothEyes:
@@ -30,16 +16,6 @@ std::vector<int> eye_list(Eyes eyes) {
       return {kRight};
     case Eyes::kMonoEye:
       return {kMono};
-  }
-  return {};
-}
-
-std::string_view pixel_filter_name(PixelFilter filter) {
-  switch (filter) {
-    case PixelFilter::kBlackmanHarris:
-      return "blackman-harris";
-    case PixelFilter::kBox:
-      return "box";
   }
   return {};
 }

@@ -8,17 +8,35 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
+
 namespace ods {
 
 enum class Eyes { kBothEyes, kLeftEye, kRightEye, kMonoEye };
 
-inline constexpr Eyes kAllEyes[] = {Eyes::kBothEyes, Eyes::kLeftEye, Eyes::kRightEye, Eyes::kMonoEye};
-std::string_view eyes_name(Eyes eyes);  // both, left, right, mono
-std::vector<int> eye_list(Eyes eyes);   // as EyeImage has them: kLeft, kRight, kMono
+inline constexpr NameRow<Eyes> kEyesTable[] = {
+    {Eyes::kBothEyes, "both"},
+    {Eyes::kLeftEye, "left"},
+    {Eyes::kRightEye, "right"},
+    {Eyes::kMonoEye, "mono"},
+};
+static_assert(has_every_member(kEyesTable));
+inline constexpr auto kAllEyes = members_of(kEyesTable);
+constexpr std::string_view eyes_name(Eyes eyes) {
+  return name_in(kEyesTable, eyes);
+}
+std::vector<int> eye_list(Eyes eyes);  // as EyeImage has them: kLeft, kRight, kMono
 
 enum class PixelFilter { kBlackmanHarris, kBox };
-inline constexpr PixelFilter kPixelFilters[] = {PixelFilter::kBlackmanHarris, PixelFilter::kBox};
-std::string_view pixel_filter_name(PixelFilter filter);  // blackman-harris, box
+inline constexpr NameRow<PixelFilter> kPixelFilterTable[] = {
+    {PixelFilter::kBlackmanHarris, "blackman-harris"},
+    {PixelFilter::kBox, "box"},
+};
+static_assert(has_every_member(kPixelFilterTable));
+inline constexpr auto kPixelFilters = members_of(kPixelFilterTable);
+constexpr std::string_view pixel_filter_name(PixelFilter filter) {
+  return name_in(kPixelFilterTable, filter);
+}
 
 // Which of the two ways to find light is used; both is right, one alone is for proving that they agree.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };

@@ -62,7 +62,7 @@ std::vector<float> view_matrix(const SlitRig& rig, size_t view) {
 
 std::string write_slit_rig(const SlitRig& rig) {
   const SlitOptions& options = rig.options;
-  const Sidecar camera{rig.camera, rig.eye, default_layout(rig.camera.projection), rig.eyes};
+  const Sidecar camera{rig.camera, rig.eye, rig.layout, rig.eyes};
   Json json = {{"omnistereo_slits", kSlitFileVersion},
                {"made_by", "ods " ODS_VERSION},
                {"conventions", conventions()},
@@ -101,9 +101,7 @@ namespace {
 ViewDepth depth_of(JsonReader& in) {
   if (!in.find("depth")) return ViewDepth::kNone;
   const std::string word = in.word("depth");
-  for (const ViewDepth depth : kViewDepths) {
-    if (word == view_depth_name(depth)) return depth;
-  }
+  if (const std::optional<ViewDepth> depth = find_in(kViewDepthTable, word)) return *depth;
   in.fail("depth", "is none, ray or plane");
 }
 
@@ -164,6 +162,7 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   const std::string fault = slit_fault(file.camera, file.eye, options);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);
   SlitRig rig = make_slit_rig(file.camera, file.eye, file.eyes, options);
+  rig.layout = file.layout;
   in.part("view", [&](JsonReader& view) {
     view.integer("width", rig.view.width, 1, kMaxSide);
     view.integer("height", rig.view.height, 1, kMaxSide);

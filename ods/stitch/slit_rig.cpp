@@ -12,18 +12,6 @@
 
 namespace ods {
 
-std::string_view view_depth_name(ViewDepth depth) {
-  switch (depth) {
-    case ViewDepth::kNone:
-      return "none";
-    case ViewDepth::kRay:
-      return "ray";
-    case ViewDepth::kPlane:
-      return "plane";
-  }
-  return "";
-}
-
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch) {
   const size_t slits = static_cast<size_t>(rig.options.slits), pitches = static_cast<size_t>(rig.options.pitches);
   return (eye * slits + static_cast<size_t>(slit)) * pitches + static_cast<size_t>(pitch);

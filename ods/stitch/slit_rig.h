@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 
@@ -28,8 +29,16 @@ enum class ViewDepth {
   kRay,    // metres from the view's own place, as our pictures have it
   kPlane,  // metres along the view's axis, as depth buffers have it
 };
-inline constexpr ViewDepth kViewDepths[] = {ViewDepth::kNone, ViewDepth::kRay, ViewDepth::kPlane};
-std::string_view view_depth_name(ViewDepth depth);  // none, ray, plane
+inline constexpr NameRow<ViewDepth> kViewDepthTable[] = {
+    {ViewDepth::kNone, "none"},
+    {ViewDepth::kRay, "ray"},
+    {ViewDepth::kPlane, "plane"},
+};
+static_assert(has_every_member(kViewDepthTable));
+inline constexpr auto kViewDepths = members_of(kViewDepthTable);
+constexpr std::string_view view_depth_name(ViewDepth depth) {
+  return name_in(kViewDepthTable, depth);
+}
 
 struct SlitOptions {
   int slits = 360;     // of each eye, evenly over the picture's longitudes
@@ -53,6 +62,7 @@ struct SlitRig {
   // Of a rig that was read from a file: each view's matrix as it stands there, 16 numbers, row by row. `views` are the
   // same places and directions, but angles round them.
   std::vector<std::vector<float>> matrices;
+  Layout layout = default_layout(camera.projection);  // how the eyes of the picture share a file
 };
 
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);

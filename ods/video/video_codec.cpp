@@ -9,22 +9,6 @@
 
 namespace ods {
 
-std::string_view video_codec_name(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::kH264:
-      return "h264";
-    case VideoCodec::kHevc:
-      return "hevc";
-    case VideoCodec::kAv1:
-      return "av1";
-    case VideoCodec::kVp9:
-      return "vp9";
-    case VideoCodec::kProRes:
-      return "prores";
-  }
-  return {};
-}
-
 std::optional<Codec> level_codec(VideoCodec codec) {
   switch (codec) {
     case VideoCodec::kH264:
@@ -44,12 +28,7 @@ std::optional<Codec> level_codec(VideoCodec codec) {
 std::optional<Container> container_of_path(const std::string& path) {
   const std::string extension = small_letters(std::filesystem::path(path).extension().string());
   if (extension == ".m4v") return Container::kMp4;
-  for (Container container : kContainers) {
-    if (extension.ends_with(container_name(container)) && extension.size() == 1 + container_name(container).size()) {
-      return container;
-    }
-  }
-  return std::nullopt;
+  return extension.empty() ? std::nullopt : find_in(kContainerTable, std::string_view(extension).substr(1));
 }
 
 bool can_hold(Container container, VideoCodec codec) {
@@ -78,20 +57,6 @@ bool can_have(VideoCodec codec, int bits, Chroma chroma) {
   if (bits != 8 && bits != 10) return false;
   if (codec == VideoCodec::kProRes) return bits == 10 && chroma != Chroma::k420;
   return codec != VideoCodec::kAv1 || chroma != Chroma::k422;  // no decoder of today's devices knows its 422
-}
-
-std::string_view video_target_name(VideoTarget target) {
-  switch (target) {
-    case VideoTarget::kVrPlayers:
-      return "vr-players";
-    case VideoTarget::kQuest:
-      return "quest";
-    case VideoTarget::kYoutube:
-      return "youtube";
-    case VideoTarget::kMaster:
-      return "master";
-  }
-  return {};
 }
 
 Packing packing_for(VideoTarget target, Extent size, double fps) {

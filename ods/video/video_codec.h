@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/codec_level.h"
 #include "ods/video/container/video_file.h"
 #include "ods/video/ycbcr.h"
@@ -16,9 +17,15 @@
 namespace ods {
 
 enum class VideoCodec { kH264, kHevc, kAv1, kVp9, kProRes };
-inline constexpr VideoCodec kVideoCodecs[] = {VideoCodec::kH264, VideoCodec::kHevc, VideoCodec::kAv1, VideoCodec::kVp9,
-                                              VideoCodec::kProRes};
-std::string_view video_codec_name(VideoCodec codec);  // h264, hevc, av1, vp9, prores
+inline constexpr NameRow<VideoCodec> kVideoCodecTable[] = {
+    {VideoCodec::kH264, "h264"}, {VideoCodec::kHevc, "hevc"},     {VideoCodec::kAv1, "av1"},
+    {VideoCodec::kVp9, "vp9"},   {VideoCodec::kProRes, "prores"},
+};
+static_assert(has_every_member(kVideoCodecTable));
+inline constexpr auto kVideoCodecs = members_of(kVideoCodecTable);
+constexpr std::string_view video_codec_name(VideoCodec codec) {
+  return name_in(kVideoCodecTable, codec);
+}
 
 // Of those whose levels video_level.h knows.
 std::optional<Codec> level_codec(VideoCodec codec);
@@ -33,9 +40,17 @@ bool can_have(VideoCodec codec, int bits, Chroma chroma);
 
 // Whom a video is for.
 enum class VideoTarget { kVrPlayers, kQuest, kYoutube, kMaster };
-inline constexpr VideoTarget kVideoTargets[] = {VideoTarget::kVrPlayers, VideoTarget::kQuest, VideoTarget::kYoutube,
-                                                VideoTarget::kMaster};
-std::string_view video_target_name(VideoTarget target);  // vr-players, quest, youtube, master
+inline constexpr NameRow<VideoTarget> kVideoTargetTable[] = {
+    {VideoTarget::kVrPlayers, "vr-players"},
+    {VideoTarget::kQuest, "quest"},
+    {VideoTarget::kYoutube, "youtube"},
+    {VideoTarget::kMaster, "master"},
+};
+static_assert(has_every_member(kVideoTargetTable));
+inline constexpr auto kVideoTargets = members_of(kVideoTargetTable);
+constexpr std::string_view video_target_name(VideoTarget target) {
+  return name_in(kVideoTargetTable, target);
+}
 
 // What is packed how. Sources: DeoVR, its page on formats (H.264 up to 4096x4096 at 30 or 4096x2048 at 60 frames a
 // second, HEVC above); Meta, "Browser video" (8K with HEVC). vr-players: H.264 up to there, HEVC above; quest: HEVC;

@@ -138,25 +138,18 @@ static void read_codes(const RowOfCodes& row, const DisplayTransform& developmen
 // --- the frame -------------------------------------------------------------------------------------------------------
 
 Layout video_layout(const StoredPicture& picture) {
-  switch (picture.layout) {
-    case Layout::kSideBySide:
-    case Layout::kSideBySideHalf:
-    case Layout::kTopBottomHalf:
-      return picture.layout;
-    case Layout::kCrossEyed:
-      return Layout::kSideBySide;
-    default:
-      return default_layout(picture.camera.projection);
-  }
+  EyeArrangement eyes = arrangement_of(picture.layout);
+  if (eyes.how != EyePacking::kBeside && !eyes.squeezed) return default_layout(picture.camera.projection);
+  eyes.right_first = false;
+  return *layout_with(eyes);
 }
 
 void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& development, VideoFrame& frame) {
-  const bool beside = layout == Layout::kSideBySide || layout == Layout::kSideBySideHalf;
   const Extent eye = picture.size;
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     const LayerPixels& layer = picture.eyes[i].layers[0];
-    const int place = static_cast<int>(i);
-    const Planes planes = frame.planes().at(beside ? place * eye.width : 0, beside ? 0 : place * eye.height);
+    const EyeCorner corner = eye_corner(layout, eye, static_cast<int>(i));
+    const Planes planes = frame.planes().at(corner.x, corner.y);
     const auto rows = [&](int y, std::span<float> row) {
       read_codes({layer, layer.first + y * layer.row_stride, row}, development);
     };

@@ -23,9 +23,8 @@ static Error unusable(const std::string& path, const std::string& why) {
 // None: one eye.
 static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::string& path) {
   if (stereo == VideoStereo::kOneView) return Layout::kSeparate;
-  for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
-    if (stereo == video_stereo(layout)) return layout;
-  }
+  const EyeArrangement eyes = arrangement_of(stereo);
+  if (eyes.is_halves()) return layout_with(eyes);
   throw unusable(path, fmt::format("how its eyes share a picture is {}", stereo_name(stereo)));
 }
 
@@ -100,23 +99,6 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
 }
 
 // --- its pictures ----------------------------------------------------------------------------------------------------
-
-EyeCorner eye_corner(Layout layout, Extent eye, int index) {
-  switch (layout) {
-    case Layout::kTopBottom:
-    case Layout::kTopBottomHalf:
-      return {0, index * eye.height};
-    case Layout::kBottomTop:
-      return {0, (1 - index) * eye.height};
-    case Layout::kSideBySide:
-    case Layout::kSideBySideHalf:
-      return {index * eye.width, 0};
-    case Layout::kCrossEyed:
-      return {(1 - index) * eye.width, 0};
-    default:
-      return {};
-  }
-}
 
 static uint16_t code16(float code) {
   return static_cast<uint16_t>(std::clamp(code, 0.0f, 1.0f) * 65535.0f + 0.5f);

@@ -27,13 +27,6 @@ struct VideoInput {
 // tells.
 VideoInput open_video(const std::string& path, const FormatHint& known = {});
 
-// Where an eye of a video's picture begins. Precondition: a layout that open_video() finds.
-struct EyeCorner {
-  int x = 0;
-  int y = 0;
-};
-EyeCorner eye_corner(Layout layout, Extent eye, int index);
-
 // Its colours as code values of 16 bits, whatever the video's are.
 StoredPicture picture_of(const VideoInput& video, const VideoStream& stream, const DecodedFrame& frame);
 

@@ -12,18 +12,6 @@
 
 namespace ods {
 
-std::string_view chroma_name(Chroma chroma) {
-  switch (chroma) {
-    case Chroma::k420:
-      return "420";
-    case Chroma::k422:
-      return "422";
-    case Chroma::k444:
-      return "444";
-  }
-  return {};
-}
-
 Extent chroma_block(Chroma chroma) {
   return {chroma == Chroma::k444 ? 1 : 2, chroma == Chroma::k420 ? 2 : 1};
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string_view>
 
+#include "ods/base/names.h"
 #include "ods/camera/layout.h"
 
 namespace ods {
@@ -18,9 +19,17 @@ namespace ods {
 // How many pixels share a colour: a block of 2x2, two beside each other, none. A shared colour lies on the left pixels,
 // half way between the rows: it is the mean of both rows and, 1 2 1, of the pixel's neighbours.
 enum class Chroma { k420, k422, k444 };
-inline constexpr Chroma kChromas[] = {Chroma::k420, Chroma::k422, Chroma::k444};
-std::string_view chroma_name(Chroma chroma);  // 420, 422, 444
-Extent chroma_block(Chroma chroma);           // 2x2, 2x1, 1x1
+inline constexpr NameRow<Chroma> kChromaTable[] = {
+    {Chroma::k420, "420"},
+    {Chroma::k422, "422"},
+    {Chroma::k444, "444"},
+};
+static_assert(has_every_member(kChromaTable));
+inline constexpr auto kChromas = members_of(kChromaTable);
+constexpr std::string_view chroma_name(Chroma chroma) {
+  return name_in(kChromaTable, chroma);
+}
+Extent chroma_block(Chroma chroma);  // 2x2, 2x1, 1x1
 
 // Y, Cb and Cr of a frame or a part of it, rows `stride` bytes apart. Bytes for 8 bits, words of 16 for more.
 struct Planes {

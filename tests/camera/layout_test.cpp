@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "ods/camera/projection.h"
@@ -63,6 +64,8 @@ TEST(Layout, EveryEyeIsWhereItsLayoutSays) {
         return "1:0 0:0 / 1:1 0:1 / ";
       case Layout::kRowInterleaved:
         return "0:0 / 1:0 / 0:1 / 1:1 / ";
+      case Layout::kColumnInterleaved:
+      case Layout::kCheckerboard:
       case Layout::kSideBySide:
       case Layout::kSideBySideHalf:
       case Layout::kAnaglyph:
@@ -78,6 +81,28 @@ TEST(Layout, EveryEyeIsWhereItsLayoutSays) {
     EXPECT_EQ(rows(layout, 2), expected(layout)) << layout_name(layout);
     EXPECT_EQ(rows(layout, 1), "0:0 / 0:1 / ") << layout_name(layout);
   }
+}
+
+// eye_corner() and packed_row() say the same, each in its own way.
+TEST(Layout, HalvesBeginWhereTheirRowsDo) {
+  const Extent eye{4, 2};
+  for (Layout layout : kLayouts) {
+    const EyeArrangement eyes = arrangement_of(layout);
+    if (!eyes.is_halves()) continue;
+    EXPECT_EQ(layout_with(eyes), layout) << layout_name(layout);
+    for (int y = 0; y < packed_size(layout, eye, 2).height; y++) {
+      int x = 0;
+      for (const EyeRow& part : packed_row(layout, eye, 2, y)) {
+        const EyeCorner corner = eye_corner(layout, eye, part.index);
+        EXPECT_EQ(corner.x, x) << layout_name(layout);
+        EXPECT_EQ(part.x, x) << layout_name(layout);
+        EXPECT_EQ(corner.y, y - part.y) << layout_name(layout);
+        x += eye.width;
+      }
+    }
+  }
+  EXPECT_EQ(layout_with({EyePacking::kAlone}), Layout::kSeparate);
+  EXPECT_EQ(layout_with({EyePacking::kStacked, true, true}), std::nullopt);
 }
 
 TEST(Layout, HalvesHaveTheSizeOfAnEye) {
@@ -98,23 +123,76 @@ Image eye_image(int eye) {
   return image;
 }
 
+Image pack(Layout layout, const Image (&eyes)[2], int count) {
+  const Extent eye{eyes[0].width, eyes[0].height}, size = packed_size(layout, eye, count);
+  Image packed(size.width, size.height, 3);
+  for (int y = 0; y < size.height; y++) {
+    for (const EyeRow& part : packed_row(layout, eye, count, y)) {
+      for (int x = part.first, to = part.x; x < eye.width; x += part.every, to += part.step) {
+        for (int c = 0; c < 3; c++) packed.at(to, y)[c] = eyes[part.index].at(x, part.y)[c];
+      }
+    }
+  }
+  return packed;
+}
+
+// Which eye each pixel is of, row by row.
+std::string eyes_of(Layout layout, Extent eye) {
+  const Image eyes[] = {Image(eye.width, eye.height, 3), [&] {
+                          Image right(eye.width, eye.height, 3);
+                          for (float& value : right.pixels) value = 1.0f;
+                          return right;
+                        }()};
+  const Image packed = pack(layout, eyes, 2);
+  std::string text;
+  for (int y = 0; y < packed.height; y++) {
+    for (int x = 0; x < packed.width; x++) text += *packed.at(x, y) == 0.0f ? 'L' : 'R';
+    text += ' ';
+  }
+  return text;
+}
+
+TEST(Layout, InterleavedEyesAlternate) {
+  EXPECT_EQ(eyes_of(Layout::kRowInterleaved, {3, 2}), "LLL RRR LLL RRR ");
+  EXPECT_EQ(eyes_of(Layout::kColumnInterleaved, {3, 2}), "LRLRLR LRLRLR ");
+  EXPECT_EQ(eyes_of(Layout::kCheckerboard, {3, 3}), "LRL RLR LRL ");
+  EXPECT_EQ(eyes_of(Layout::kCheckerboard, {4, 2}), "LRLR RLRL ");
+}
+
+// Each keeps what the file has of it; the rest is the mean of the neighbours, so a ramp comes back whole inside.
+TEST(Layout, CheckerboardsAreFilledFromNeighbours) {
+  Image ramp(5, 4, 3);
+  for (int y = 0; y < 4; y++) {
+    for (int x = 0; x < 5; x++) std::fill_n(ramp.at(x, y), 3, static_cast<float>(10 * x + y));
+  }
+  const Image eyes[] = {ramp, ramp};
+  const std::vector<Image> unpacked = unpack(Layout::kCheckerboard, pack(Layout::kCheckerboard, eyes, 2));
+  ASSERT_EQ(unpacked.size(), 2u);
+  for (int i = 0; i < 2; i++) {
+    for (int y = 0; y < 4; y++) {
+      for (int x = 0; x < 5; x++) {
+        const bool is_edge = x == 0 || y == 0 || x == 4 || y == 3;
+        if (is_edge && is_left_out(i, x, y)) continue;
+        EXPECT_EQ(*unpacked[static_cast<size_t>(i)].at(x, y), *ramp.at(x, y)) << i << ' ' << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_EQ(*unpacked[1].at(0, 0), 5.5f) << "right eye: the mean of 10 and 1";
+  EXPECT_EQ(*unpacked[0].at(4, 3), 37.5f) << "left eye: the mean of 42 and 33";
+  EXPECT_EQ(unpacked_size(Layout::kCheckerboard, {1, 1}), std::nullopt);
+  EXPECT_TRUE(unpacked_size(Layout::kCheckerboard, {2, 1}));
+}
+
 TEST(Layout, UnpackUndoesEveryPacking) {
   const Extent eye{4, 2};
   const Image eyes[] = {eye_image(0), eye_image(1)};
   for (Layout layout : kLayouts) {
-    if (is_anaglyph(layout)) continue;
+    if (is_anaglyph(layout) || layout == Layout::kCheckerboard) continue;
     SCOPED_TRACE(layout_name(layout));
     const bool alone = layout == Layout::kSeparate || layout == Layout::kMultiview;
     const int count = alone ? 1 : 2;
     const Extent size = packed_size(layout, eye, count);
-    Image packed(size.width, size.height, 3);
-    for (int y = 0; y < size.height; y++) {
-      int x = 0;
-      for (const EyeRow& part : packed_row(layout, eye, count, y)) {
-        for (int i = 0; i < 12; i++) packed.at(x, y)[i] = eyes[part.index].at(0, part.y)[i];
-        x += eye.width;
-      }
-    }
+    const Image packed = pack(layout, eyes, count);
     EXPECT_EQ(unpacked_size(layout, size)->width, eye.width);
     EXPECT_EQ(unpacked_size(layout, size)->height, eye.height);
     const std::vector<Image> unpacked = unpack(layout, packed);
@@ -127,6 +205,7 @@ TEST(Layout, OddSizesCannotBeUnpacked) {
   EXPECT_FALSE(unpacked_size(Layout::kTopBottom, {4, 3}));
   EXPECT_FALSE(unpacked_size(Layout::kRowInterleaved, {4, 1}));
   EXPECT_FALSE(unpacked_size(Layout::kCrossEyed, {5, 2}));
+  EXPECT_FALSE(unpacked_size(Layout::kColumnInterleaved, {5, 2}));
   EXPECT_TRUE(unpacked_size(Layout::kTopBottom, {5, 2}));
 }
 
@@ -169,7 +248,7 @@ TEST(Layout, OfAConvertedPictureFollowsTheProjectionOnlyWhereTheDefaultDoes) {
     EXPECT_EQ(layout_of_converted(layout, half, half), layout);
     const Extent packed = packed_size(layout, {8, 8}, 2);
     const bool stays =
-        (packed.width == 8 && packed.height == 8 && !squeezed(layout)) || layout == Layout::kRowInterleaved;
+        (packed.width == 8 && packed.height == 8 && !squeezed(layout)) || arrangement_of(layout).is_interleaved();
     EXPECT_EQ(layout_of_converted(layout, whole, half), stays ? layout : Layout::kSideBySide) << layout_name(layout);
     EXPECT_EQ(layout_of_converted(layout, half, whole), stays ? layout : Layout::kTopBottom) << layout_name(layout);
   }

@@ -142,6 +142,7 @@ TEST_F(CliErrors, OfPicturesThatAreRead) {
           {"over @absent.png @p_TB.png -o @a.png", kInput, "absent.png"},
           {"over @p.exr @p.exr -o @a.mp4", kUsage, "a video is made over a video"},
           {"camera --from @absent.json", kInput, "absent.json"},
+          {"render furnace -o @", kUsage, "it is a folder: add the name of a file"},
           {"camera --from @empty.json", kInput, "empty.json"},
           {"camera --from @broken.json", kInput, "broken.json"}});
 }

@@ -133,7 +133,8 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
         const ods::FieldRange range = range_of(field);
         const bool derived = field == ods::CameraField::kAspect || field == ods::CameraField::kLongitude ||
                              field == ods::CameraField::kLatitude || field == ods::CameraField::kMergeStart ||
-                             field == ods::CameraField::kMergeEnd || field == ods::CameraField::kFov;
+                             field == ods::CameraField::kMergeEnd || field == ods::CameraField::kFov ||
+                             field == ods::CameraField::kSensor || field == ods::CameraField::kPolynomial;
         for (float* number : numbers_of(camera, field)) *number = derived ? *number : most ? range.most : range.least;
       }
       const bool lens = projection != "lat-long";
@@ -157,6 +158,24 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
       ASSERT_EQ(run("camera --for json --from " + sidecar + " -o " + sidecar), 0) << err;
     }
   }
+}
+
+TEST_F(Cli, ALensPolynomialHasItsNumbersAndIsChecked) {
+  const std::string sidecar = folder.path("a.camera.json");
+  const std::string lens = "camera --for json --width 64 --projection fisheye-polynomial ";
+  ASSERT_EQ(run(lens + "--fov 100 --sensor 20,10 --lens-polynomial 0,-0.05,0,-1e-5,0 -o " + sidecar), 0) << err;
+  std::vector<std::string> warnings;
+  const ods::Sidecar back = ods::load_sidecar(sidecar, warnings);
+  EXPECT_EQ(back.eye.height, 32) << "of the sensor's shape";
+  EXPECT_EQ(back.camera.projection.sensor, ods::vec2(20.0f, 10.0f));
+  EXPECT_EQ(back.camera.projection.polynomial, (std::array{0.0f, -0.05f, 0.0f, -1e-5f, 0.0f}));
+  for (const char* words : {"--lens-polynomial 0,-0.05", "--lens-polynomial 0,0.05,0,0,0", "--sensor 20",
+                            "--sensor 0,10", "--lens-polynomial 0,-0.05,0,1e-3,0", "--lens-polynomial a,b,c,d,e"}) {
+    EXPECT_EQ(run(lens + words), 2) << words;
+    expect_one_error();
+  }
+  EXPECT_EQ(run("camera --width 64 --projection fisheye --sensor 20,10"), 2);
+  EXPECT_NE(err.find("--sensor is for fisheye-polynomial, not for --projection fisheye"), std::string::npos) << err;
 }
 
 TEST_F(Cli, CamerasBeyondTheirRangesAreUsageErrors) {

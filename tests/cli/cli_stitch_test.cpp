@@ -53,6 +53,13 @@ TEST_F(CliStitch, Vr180LiesSideBySide) {
   EXPECT_EQ(ods::open_picture(folder.path("told.exr")).layout, ods::Layout::kTopBottom);
 }
 
+TEST_F(CliStitch, TheLayoutOfTheRigIsThePictures) {
+  ASSERT_EQ(plan("--slits 12 --width 64 --layout bottom-top"), 0) << err;
+  ASSERT_EQ(render(), 0) << err;
+  ASSERT_EQ(stitch("picture.exr"), 0) << err;
+  EXPECT_EQ(ods::open_picture(folder.path("picture.exr")).layout, ods::Layout::kBottomTop);
+}
+
 TEST_F(CliStitch, ScriptsStandBesideTheRig) {
   ASSERT_EQ(plan("--slits 12 --width 64 --depth plane --for povray,csv"), 0) << err;
   const std::string base = folder.path("rig");

@@ -215,9 +215,19 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--seed", "7"},
 };
 // These ask for other files (tested elsewhere), say where, or need another one; --time and --sidecar are refused.
-const std::set<std::string> kOthers = {
-    "--output",         "--audio", "--rig",     "--restart",           "--size", "--merge-map", "--fov",
-    "--lens-direction", "--time",  "--sidecar", "--merge-map-inverted"};
+const std::set<std::string> kOthers = {"--output",
+                                       "--audio",
+                                       "--rig",
+                                       "--restart",
+                                       "--size",
+                                       "--merge-map",
+                                       "--fov",
+                                       "--lens-direction",
+                                       "--time",
+                                       "--sidecar",
+                                       "--merge-map-inverted",
+                                       "--sensor",
+                                       "--lens-polynomial"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
   ASSERT_EQ(run("video --help"), 0);

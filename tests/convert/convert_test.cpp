@@ -161,21 +161,29 @@ Distance distance(const std::vector<Image>& images, const ConvertTarget& target,
   return all;
 }
 
+// A lens of 40 degrees shows little: so many times as many pixels as other pictures have keep its edges few.
+double density_of(const ProjectionSetting& setting, double pixels_per_radian) {
+  return setting.kind == kFisheyePolynomial ? 4.0 * pixels_per_radian : pixels_per_radian;
+}
+
 // The circle is merged at the poles, so that each eye's world is its own all over. Half a texel at a picture's edge is
-// not in the picture.
+// not in the picture. The outermost texels of a mirror ball this small have the last 20 degrees behind it to
+// themselves.
 TEST(Convert, AnyProjectionToAnyOther) {
   for (const NamedProjection& from : named_projections()) {
     StereoCamera stereo = camera_of(std::string(from.name));
     stereo.top.mode = stereo.bottom.mode = kMergeCosine;
-    const MadePicture made = smooth_picture(stereo, even_extent(stereo.projection, 20.0));
-    const bool has_edge = stereo.projection.kind < kCube3x2 && from.name != "lat-long";
+    const MadePicture made =
+        smooth_picture(stereo, even_extent(stereo.projection, density_of(stereo.projection, 20.0)));
+    const bool has_edge = !is_cube(stereo.projection.kind) && from.name != "lat-long";
     for (const NamedProjection& to : named_projections()) {
-      ConvertTarget target = target_of(made, to.setting, even_extent(to.setting, 15.0));
+      ConvertTarget target = target_of(made, to.setting, even_extent(to.setting, density_of(to.setting, 15.0)));
       target.camera.yaw = 20.0f;
       const std::vector<Image> images = images_of(convert(made.picture, target).rows);
       const Distance error = distance(images, target, seen_by(make_camera(target.camera)));
-      EXPECT_LT(error.largest, has_edge ? 0.15f : 0.03f) << from.name << " to " << to.name;
-      EXPECT_GT(error.psnr(), has_edge ? 42.0 : 45.0) << from.name << " to " << to.name;
+      const bool is_ball = from.name == "mirror-ball" || to.name == "mirror-ball";
+      EXPECT_LT(error.largest, is_ball ? 0.5f : has_edge ? 0.15f : 0.03f) << from.name << " to " << to.name;
+      EXPECT_GT(error.psnr(), is_ball ? 30.0 : has_edge ? 42.0 : 45.0) << from.name << " to " << to.name;
       EXPECT_GT(error.count, 100) << from.name << " to " << to.name;
     }
   }

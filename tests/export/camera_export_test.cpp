@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/exact_camera.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,8 +35,7 @@ PoleMergeSetting cosine(float start, float end, float exponent) {
 std::vector<Sidecar> many_cameras() {
   std::vector<Sidecar> files;
   for (const NamedProjection& named : named_projections()) {
-    for (const int mode :
-         {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep, kMergeGaussian, kMergePower, kMergeTiltBrush}) {
+    for (const int mode : closed_merges()) {
       Sidecar file;
       file.eye = {200, 100};
       file.layout = files.size() % 2 == 0 ? Layout::kTopBottom : Layout::kCrossEyed;

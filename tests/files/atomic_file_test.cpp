@@ -89,7 +89,7 @@ TEST(AtomicFile, ASignalEndsTheProcessAndLeavesNothing) {
       const int out = open(folder.path("words").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
       dup2(out, STDERR_FILENO);
       signal(number, SIG_DFL);
-      end_on_interrupts("stopped\n");
+      end_on_interrupts([](int) { return "stopped\n"; });
       const AtomicFile file(folder.path("a.txt"));
       std::fputs("half", file.stream());
       raise(number);

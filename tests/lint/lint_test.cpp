@@ -265,7 +265,8 @@ TEST_P(LintScene, IsSilentAboutEveryLayout) {
     const std::string word = name;
     expect_silence(save_as(pair, *layout_of(word.substr(0, word.find('_'))), name));
   }
-  for (Layout layout : {Layout::kRowInterleaved, Layout::kMultiview}) {
+  for (Layout layout :
+       {Layout::kRowInterleaved, Layout::kColumnInterleaved, Layout::kCheckerboard, Layout::kMultiview}) {
     expect_silence(save_as(pair, layout, std::string(layout_name(layout)) + ".exr"));
   }
   save_as(pair, Layout::kSeparate, "eye_%V.png");

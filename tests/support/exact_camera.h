@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "ods/camera/stereo_camera.h"
+#include "tests/support/statistics.h"
 
 namespace ods {
 
@@ -16,6 +18,18 @@ inline const double kExactPi = std::numbers::pi;
 struct ExactRay {
   glm::dvec3 origin, direction;
 };
+
+// The merges that are functions of the elevation: all but maps.
+inline std::vector<int> closed_merges() {
+  std::vector<int> merges(kMerges.begin(), kMerges.end());
+  std::erase(merges, kMergeMap);
+  return merges;
+}
+
+inline int any_closed_merge(Dice& dice) {
+  const std::vector<int> merges = closed_merges();
+  return merges[static_cast<size_t>(dice.next() * static_cast<float>(merges.size())) % merges.size()];
+}
 
 // phi: radians above the horizon or below it.
 inline double exact_factor(const PoleMergeSetting& merge, double phi) {
@@ -26,6 +40,7 @@ inline double exact_factor(const PoleMergeSetting& merge, double phi) {
   if (merge.mode == kMergePower) return 1.0 - std::pow(t, double{merge.exponent});
   if (merge.mode == kMergeCosine) left = std::max(std::cos(t * kExactPi / 2.0), 0.0);
   if (merge.mode == kMergeSmoothstep) left = 1.0 - t * t * (3.0 - 2.0 * t);
+  if (merge.mode == kMergeSmootherstep) left = 1.0 - t * t * t * (10.0 + t * (-15.0 + t * 6.0));
   if (merge.mode == kMergeGaussian) left = (std::exp(-t * t) - 0.36787944117144233) / 0.63212055882855767;
   if (merge.mode == kMergeTiltBrush) left = 1.0 - std::sin(t / (2.0 * kExactPi));
   return std::pow(left, double{merge.exponent});

@@ -4,10 +4,12 @@
 // The image files that are read and written.
 #pragma once
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "ods/base/names.h"
 #include "ods/files/file_input.h"
 
 namespace ods {
@@ -16,6 +18,7 @@ enum class FileFormat { kPng, kJpeg, kTiff, kWebp, kHdr, kExr };
 
 inline constexpr FileFormat kFileFormats[] = {FileFormat::kPng,  FileFormat::kJpeg, FileFormat::kTiff,
                                               FileFormat::kWebp, FileFormat::kHdr,  FileFormat::kExr};
+static_assert(std::size(kFileFormats) == enumerator_count<FileFormat>());
 
 // By extension, in capitals or not.
 std::optional<FileFormat> format_of_path(const std::string& path);

@@ -23,6 +23,7 @@ const int kMono = 2;
 const int kParallel = 0;
 const int kToeIn = 1;  // both eyes' rays of one direction meet at the distance
 const int kShift = 2;  // the eyes' pictures are turned against each other: no parallax at the distance
+const int kConvergenceCount = 3;
 
 struct Camera {
   vec3 center;  // of the viewing circle

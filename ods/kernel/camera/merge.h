@@ -15,10 +15,12 @@ const int kMergeNone = 0;
 const int kMergeLinear = 1;
 const int kMergeCosine = 2;  // POV-Ray page, OSPRay, Arnold, Cycles
 const int kMergeSmoothstep = 3;
-const int kMergeGaussian = 4;   // eVRydayVR
-const int kMergePower = 5;      // Mandelbulber: 1 - t^exponent
-const int kMergeTiltBrush = 6;  // Google's Unity kit: never below 0.84
-const int kMergeMap = 7;        // a lat-long picture: the VR camera for Arnold's shader mode
+const int kMergeGaussian = 4;      // eVRydayVR
+const int kMergePower = 5;         // Mandelbulber: 1 - t^exponent
+const int kMergeTiltBrush = 6;     // Google's Unity kit: never below 0.84
+const int kMergeMap = 7;           // a lat-long picture: the VR camera for Arnold's shader mode
+const int kMergeSmootherstep = 8;  // Perlin's curve: without a jump of the second derivative at its ends
+const int kMergeCount = 9;
 
 // Elevations in radians from the horizon towards the pole, start < end. t runs 0..1 between them.
 struct PoleMerge {
@@ -36,6 +38,7 @@ inline float merge_factor(PoleMerge merge, float elevation) {
   float left = 1.0f - t;
   if (merge.mode == kMergeCosine) left = max(0.0f, cos(t * (0.5f * kPi)));
   if (merge.mode == kMergeSmoothstep) left = 1.0f - t * t * (3.0f - 2.0f * t);
+  if (merge.mode == kMergeSmootherstep) left = left * left * left * (left * (6.0f * left - 15.0f) + 10.0f);
   if (merge.mode == kMergeGaussian) left = (exp(-t * t) - exp(-1.0f)) / (1.0f - exp(-1.0f));
   if (merge.mode == kMergeTiltBrush) left = 1.0f - sin(t * (0.5f / kPi));
   return merge.exponent == 1.0f ? left : pow(max(left, 0.0f), merge.exponent);

@@ -14,16 +14,18 @@
 namespace ods {
 #endif
 
-const int kLatLong = 0;           // theta and phi run evenly, over the whole sphere or a part of it
-const int kCylinder = 1;          // theta runs evenly, and so does the tangent of phi
-const int kFisheye = 2;           // equidistant: the angle from the lens axis grows evenly
-const int kFisheyeEquisolid = 3;  // equal areas see equal solid angles
-const int kPerspective = 4;       // a flat window; with 90 degrees a face of a cube
-const int kCube3x2 = 5;           // as the VR camera for Arnold packs them
-const int kCube6x1 = 6;           // likewise ("NVIDIA" order)
-const int kCube1x6 = 7;           // the faces of kCube6x1 in a column
-const int kEac = 8;               // equi-angular cube, 3x2 as players of 360 video have it
-const int kProjectionCount = 9;
+const int kLatLong = 0;             // theta and phi run evenly, over the whole sphere or a part of it
+const int kCylinder = 1;            // theta runs evenly, and so does the tangent of phi
+const int kFisheye = 2;             // equidistant: the angle from the lens axis grows evenly
+const int kFisheyeEquisolid = 3;    // equal areas see equal solid angles
+const int kPerspective = 4;         // a flat window; with 90 degrees a face of a cube
+const int kCube3x2 = 5;             // as the VR camera for Arnold packs them
+const int kCube6x1 = 6;             // likewise ("NVIDIA" order)
+const int kCube1x6 = 7;             // the faces of kCube6x1 in a column
+const int kEac = 8;                 // equi-angular cube, 3x2 as players of 360 video have it
+const int kEacFace = 9;             // one face of it, which can be pointed
+const int kFisheyePolynomial = 10;  // the angle from the lens axis is a polynomial of the radius on a sensor
+const int kProjectionCount = 11;
 
 // Headings and heights run evenly from edge to edge.
 inline bool has_range(int kind) {
@@ -34,14 +36,19 @@ inline bool is_fisheye(int kind) {
   return kind == kFisheye || kind == kFisheyeEquisolid;
 }
 
-// The picture is a circle that touches the edges of its frame; its corners are empty.
+// The picture is a circle, Projection::circle; outside it the frame is empty. A fisheye's touches the frame's edges.
 inline bool has_image_circle(int kind) {
-  return is_fisheye(kind);
+  return is_fisheye(kind) || kind == kFisheyePolynomial;
 }
 
-// Can be pointed, and has an angle of view.
+// Has an angle of view that can be set.
+inline bool has_fov(int kind) {
+  return has_image_circle(kind) || kind == kPerspective;
+}
+
+// Can be pointed.
 inline bool has_lens(int kind) {
-  return is_fisheye(kind) || kind == kPerspective;
+  return has_fov(kind) || kind == kEacFace;
 }
 
 // Six faces, each in a cell of its own.
@@ -51,11 +58,18 @@ inline bool is_cube(int kind) {
 
 struct Projection {
   int kind;
-  vec2 center;      // kLatLong, kCylinder: theta and phi of the picture's middle, radians; kCylinder: tan(phi)
-  vec2 span;        // and how far the picture reaches from edge to edge, likewise
-  float angle;      // kFisheye...: from edge to edge of the image circle, radians
+  vec2 center;  // kLatLong, kCylinder: theta and phi of the picture's middle, radians; kCylinder: tan(phi)
+  vec2 span;    // and how far the picture reaches from edge to edge, likewise
+  float angle;  // kFisheye...: from edge to edge of the image circle, radians
+  vec2 circle;  // has_image_circle(): its half axes, where 1 is half the frame's width or height
+  vec2 sensor;  // kFisheyePolynomial: the frame's width and height, millimetres
+  float k0;     // and what stands before the radius to the power of 0, 1 .. in minus the angle, radians
+  float k1;
+  float k2;
+  float k3;
+  float k4;
   vec2 half_size;   // kPerspective: tangents of half the horizontal and vertical angle
-  vec3 lens_right;  // kFisheye..., kPerspective: where the lens points, in the camera's frame
+  vec3 lens_right;  // has_lens(): where the lens points, in the camera's frame
   vec3 lens_up;
   vec3 lens_back;
 };
@@ -167,7 +181,64 @@ inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
   ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
+  if (out_of_axis == 0.0f && p.z > 0.0f) place.uv.x = 0.5f + 0.5f * r;  // straight behind is the whole rim
   place.seen = r <= 1.0f;
+  return place;
+}
+
+// Source: Cycles, fisheye_lens_polynomial_to_direction(). Angles below 0, beside the axis, are taken as 0.
+inline float polynomial_angle(Projection projection, float r) {
+  float k = projection.k1 + r * (projection.k2 + r * (projection.k3 + r * projection.k4));
+  return max(-(projection.k0 + r * k), 0.0f);
+}
+
+// How much it grows for a millimetre. Above 0 as far as the picture reaches: projection_fault() sees to it.
+inline float polynomial_slope(Projection projection, float r) {
+  return -(projection.k1 + r * (2.0f * projection.k2 + r * (3.0f * projection.k3 + r * 4.0f * projection.k4)));
+}
+
+inline ViewDirection polynomial_look(Projection projection, vec2 home, vec2 uv) {
+  vec2 p = vec2((uv.x - 0.5f) * projection.sensor.x, (0.5f - uv.y) * projection.sensor.y);
+  float r = length(p);
+  float angle = polynomial_angle(projection, r);
+  float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
+  ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
+  look.seen = length(vec2(2.0f * home.x - 1.0f, 1.0f - 2.0f * home.y) / projection.circle) <= 1.0f;
+  return look;
+}
+
+// Newton's method, kept between two radii that have the angle between theirs. Beyond the circle the radius goes on in
+// proportion.
+inline float polynomial_radius(Projection projection, float angle) {
+  float high = 0.5f * projection.circle.x * projection.sensor.x;
+  float widest = polynomial_angle(projection, high);
+  if (angle >= widest) return high * angle / widest;
+  float low = 0.0f;
+  float r = high * angle / widest;
+  for (int i = 0; i < 40; i++) {
+    float beyond = polynomial_angle(projection, r) - angle;
+    if (beyond > 0.0f) {
+      high = r;
+    } else {
+      low = r;
+    }
+    float next = r - beyond / polynomial_slope(projection, r);
+    if (!(next > low && next < high)) next = 0.5f * (low + high);
+    if (next == r) return r;
+    r = next;
+  }
+  return r;
+}
+
+inline ImagePoint polynomial_place(Projection projection, vec3 direction) {
+  vec3 p = to_lens(projection, direction);
+  float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
+  float r = polynomial_radius(projection, atan(out_of_axis, -p.z));
+  vec2 outwards = vec2(p.z > 0.0f ? 1.0f : 0.0f, 0.0f);  // straight behind is the whole rim
+  if (out_of_axis > 0.0f) outwards = vec2(p.x, p.y) * (1.0f / out_of_axis);
+  ImagePoint place;
+  place.uv = vec2(0.5f + outwards.x * r / projection.sensor.x, 0.5f - outwards.y * r / projection.sensor.y);
+  place.seen = r <= 0.5f * projection.circle.x * projection.sensor.x && inside_picture(place.uv);
   return place;
 }
 
@@ -182,6 +253,19 @@ inline ImagePoint perspective_place(Projection projection, vec3 direction) {
   ImagePoint place;
   place.uv =
       vec2(0.5f + 0.5f * p.x / (ahead * projection.half_size.x), 0.5f - 0.5f * p.y / (ahead * projection.half_size.y));
+  place.seen = p.z < 0.0f && inside_picture(place.uv);
+  return place;
+}
+
+inline ViewDirection eac_face_look(Projection projection, vec2 uv) {
+  vec3 p = vec3(tan(0.25f * kPi * (2.0f * uv.x - 1.0f)), tan(0.25f * kPi * (1.0f - 2.0f * uv.y)), -1.0f);
+  return look_along(from_lens(projection, p));
+}
+
+inline ImagePoint eac_face_place(Projection projection, vec3 direction) {
+  vec3 p = to_lens(projection, direction);
+  ImagePoint place;
+  place.uv = vec2(0.5f + atan(p.x, -p.z) * (2.0f / kPi), 0.5f - atan(p.y, -p.z) * (2.0f / kPi));
   place.seen = p.z < 0.0f && inside_picture(place.uv);
   return place;
 }
@@ -285,6 +369,8 @@ inline ViewDirection look_of(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kPerspective) return perspective_look(projection, uv);
   if (is_fisheye(projection.kind)) return fisheye_look(projection, home, uv);
   if (is_cube(projection.kind)) return cube_look(projection.kind, home, uv);
+  if (projection.kind == kEacFace) return eac_face_look(projection, uv);
+  if (projection.kind == kFisheyePolynomial) return polynomial_look(projection, home, uv);
   ViewDirection nothing = lat_long_look(projection, uv);  // no projection
   nothing.seen = false;
   return nothing;
@@ -297,14 +383,16 @@ inline ImagePoint place_of(Projection projection, vec3 direction) {
   if (projection.kind == kPerspective) return perspective_place(projection, direction);
   if (is_fisheye(projection.kind)) return fisheye_place(projection, direction);
   if (is_cube(projection.kind)) return cube_place(projection.kind, direction);
+  if (projection.kind == kEacFace) return eac_face_place(projection, direction);
+  if (projection.kind == kFisheyePolynomial) return polynomial_place(projection, direction);
   ImagePoint nothing = lat_long_place(projection, direction);
   nothing.seen = false;
   return nothing;
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(Projection) == 68);
-static_assert(kProjectionCount == 9,
+static_assert(sizeof(Projection) == 104);
+static_assert(kProjectionCount == 11,
               "a new projection is named in is_cube() .. above, cube_cell(), look_of(), place_of()");
 }  // namespace ods
 #endif

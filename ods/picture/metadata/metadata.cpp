@@ -30,11 +30,15 @@ static void add_projection(std::vector<Attribute>& attributes, const ProjectionS
     pair("ods:longitude", projection.longitude.x, projection.longitude.y);
     pair("ods:latitude", projection.latitude.x, projection.latitude.y);
   }
-  if (has_lens(projection.kind)) {
-    attributes.push_back({"ods:fov", projection.fov});
-    pair("ods:look", projection.pan, projection.tilt);
-  }
+  if (has_fov(projection.kind)) attributes.push_back({"ods:fov", projection.fov});
+  if (has_lens(projection.kind)) pair("ods:look", projection.pan, projection.tilt);
   if (projection.kind == kPerspective) attributes.push_back({"ods:aspect", projection.aspect});
+  if (projection.kind == kFisheyePolynomial) {
+    pair("ods:sensor", projection.sensor.x, projection.sensor.y);
+    for (size_t i = 0; i < projection.polynomial.size(); i++) {
+      attributes.push_back({fmt::format("ods:lensK{}", i), projection.polynomial[i]});
+    }
+  }
 }
 
 // What few cameras have is named only where it is.
@@ -133,16 +137,18 @@ static void read_projection(AttributeReader& in, const std::string& name, Projec
   in.number("ods:fov", setting.fov, CameraField::kFov);
   in.number("ods:aspect", setting.aspect, CameraField::kAspect);
   in.numbers("ods:look", {{&setting.pan, CameraField::kPan}, {&setting.tilt, CameraField::kTilt}});
+  in.numbers("ods:sensor", {{&setting.sensor.x, CameraField::kSensor}, {&setting.sensor.y, CameraField::kSensor}});
+  for (size_t i = 0; i < setting.polynomial.size(); i++) {
+    in.number(fmt::format("ods:lensK{}", i), setting.polynomial[i], CameraField::kPolynomial);
+  }
   if (!projection_fault(setting).empty()) in.refuse("ods:projection");
 }
 
 static void read_extras(AttributeReader& in, StereoCamera& camera) {
   if (const auto word = in.word("ods:convergence")) {
-    bool known = false;
-    for (int convergence : kConvergences) {
-      if (*word == convergence_name(convergence)) camera.convergence = convergence, known = true;
-    }
-    if (!known) in.refuse("ods:convergence");
+    const std::optional<int> convergence = find_in(kConvergenceTable, *word);
+    if (convergence) camera.convergence = *convergence;
+    if (!convergence) in.refuse("ods:convergence");
   }
   in.number("ods:convergenceDistance", camera.convergence_distance, CameraField::kConvergenceDistance);
   in.number("ods:neck", camera.neck, CameraField::kNeck);

@@ -46,10 +46,16 @@ Json to_json(const PoleMergeSetting& merge) {
 }
 
 Json to_json(const ProjectionSetting& setting) {
-  return {{"name", projection_name(setting)},      {"longitude", to_json(setting.longitude)},
-          {"latitude", to_json(setting.latitude)}, {"fov", decimal(setting.fov)},
-          {"aspect", decimal(setting.aspect)},     {"pan", decimal(setting.pan)},
-          {"tilt", decimal(setting.tilt)}};
+  Json json = {{"name", projection_name(setting)},      {"longitude", to_json(setting.longitude)},
+               {"latitude", to_json(setting.latitude)}, {"fov", decimal(setting.fov)},
+               {"aspect", decimal(setting.aspect)},     {"pan", decimal(setting.pan)},
+               {"tilt", decimal(setting.tilt)}};
+  if (setting.kind == kFisheyePolynomial) {
+    json["sensor"] = to_json(setting.sensor);
+    json["polynomial"] = Json::array();
+    for (const float k : setting.polynomial) json["polynomial"].push_back(decimal(k));
+  }
+  return json;
 }
 
 Json to_json(const Image& map) {
@@ -102,17 +108,21 @@ void read_projection(JsonReader& in, ProjectionSetting& setting) {
   read_number(in, "aspect", setting.aspect, CameraField::kAspect);
   read_number(in, "pan", setting.pan, CameraField::kPan);
   read_number(in, "tilt", setting.tilt, CameraField::kTilt);
+  read_vector(in, "sensor", setting.sensor, CameraField::kSensor);
+  const FieldRange range = range_of(CameraField::kPolynomial);
+  std::vector<float> k;
+  if (in.numbers("polynomial", k, setting.polynomial.size(), range.least, range.most)) {
+    std::copy(k.begin(), k.end(), setting.polynomial.begin());
+  }
   const std::string fault = projection_fault(setting);
   if (!fault.empty()) in.fail("", "cannot be: " + fault);
 }
 
 void read_convergence(JsonReader& in, StereoCamera& camera) {
   const std::string mode = in.word("mode");
-  bool known = mode.empty();
-  for (int convergence : kConvergences) {
-    if (mode == convergence_name(convergence)) camera.convergence = convergence, known = true;
-  }
-  if (!known) in.fail("mode", fmt::format("is no convergence '{}'", mode));
+  const std::optional<int> convergence = find_in(kConvergenceTable, mode);
+  if (convergence) camera.convergence = *convergence;
+  if (!convergence && !mode.empty()) in.fail("mode", fmt::format("is no convergence '{}'", mode));
   read_number(in, "distance", camera.convergence_distance, CameraField::kConvergenceDistance);
 }
 

@@ -22,7 +22,8 @@ namespace ods {
 // --- the name --------------------------------------------------------------------------------------------------------
 
 static bool is_packing(Layout layout) {
-  return !is_anaglyph(layout) && layout != Layout::kSeparate && layout != Layout::kMultiview;
+  const EyePacking how = arrangement_of(layout).how;
+  return how != EyePacking::kMixed && how != EyePacking::kAlone;
 }
 
 // Words that stand behind the others: frame numbers, fields of view.
@@ -45,7 +46,9 @@ NameWords read_name(const std::string& path) {
     const std::optional<Layout> layout = layout_of(word);
     // Behind a point stands the number of a frame, not an angle.
     const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
-    if ((layout && is_packing(*layout)) || word == "mono") {
+    // A file called checkerboard shows one more often than it is one.
+    const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
+    if (is_word || word == "mono") {
       words.layout = layout;
       words.is_mono = word == "mono";
       words.layout_word = marked;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/render/cpu/render.h"
 
-#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -16,10 +15,12 @@
 #include <vector>
 
 #include "ods/base/error.h"
-#include "ods/base/memory.h"
 #include "ods/kernel/path.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/lights.h"
+#include "ods/render/media_at.h"
+#include "ods/render/moving_camera.h"
+#include "ods/render/render_target.h"
 #include "ods/scene/catchers.h"
 
 namespace ods {
@@ -60,23 +61,6 @@ struct Pixel {
   }
 }
 
-// The camera of a time: between two that are near each other.
-Camera camera_at(const Job& job, float time) {
-  const auto last = static_cast<float>(job.cameras.size() - 1);
-  const size_t before = std::min(static_cast<size_t>(time * last), job.cameras.size() - 2);
-  const Camera &a = job.cameras[before], &b = job.cameras[before + 1];
-  const float share = time * last - static_cast<float>(before);
-  Camera camera = job.camera;
-  camera.center = mix(a.center, b.center, share);
-  camera.back = normalize(mix(a.back, b.back, share));
-  const vec3 up = mix(a.up, b.up, share);
-  camera.up = normalize(up - camera.back * dot(up, camera.back));
-  camera.right = cross(camera.up, camera.back) * (dot(cross(a.up, a.back), a.right) < 0.0f ? -1.0f : 1.0f);
-  camera.axis = mix(a.axis, b.axis, share);
-  if (a.axis != b.axis) camera.axis = normalize(camera.axis);
-  return camera;
-}
-
 vec2 pixel_center(const Job& job, int x, int y) {
   return {(static_cast<float>(x) + 0.5f) / static_cast<float>(job.options.width),
           (static_cast<float>(y) + 0.5f) / static_cast<float>(job.options.height)};
@@ -112,8 +96,9 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
     const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
     const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
     if (job.shutter) job.tracer.ray_time = random_pair(seed, index, kTimePair).x;
-    const Ray ray = job.cameras.size() > 1 ? camera_ray(camera_at(job, job.tracer.ray_time), eye, home, uv, lens)
-                                           : camera_ray(job.camera, eye, home, uv, lens);
+    const Ray ray = job.cameras.size() > 1
+                        ? camera_ray(camera_at(job.cameras, job.tracer.ray_time), eye, home, uv, lens)
+                        : camera_ray(job.camera, eye, home, uv, lens);
     if (ray.direction == vec3(0.0f)) return {};
     job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
@@ -163,29 +148,6 @@ void render_tile(Job job, int tile, EyeImage& image) {
   }
 }
 
-// The volumes that a point is inside of: those which a ray from there leaves more often than it enters.
-Media media_at(const EmbreeScene& embree, PathTracer& tracer, vec3 point) {
-  Media inside = no_media();
-  std::vector<int> entered;
-  Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};
-  for (int i = 0; i < kMaxPassed; i++) {
-    const Hit hit = embree.closest_hit(tracer, ray, kHalfAlphaRay);
-    if (hit.t < 0.0f) break;
-    const auto surface = tracer.surface_at(hit, ray.direction, false);
-    const int material = tracer.scene_mesh(tracer.scene_instance(hit.instance).mesh).material;
-    if (surface.volume && surface.front) entered.push_back(material);
-    if (surface.volume && !surface.front) {
-      const auto entry = std::find(entered.begin(), entered.end(), material);
-      if (entry != entered.end())
-        entered.erase(entry);
-      else
-        inside = enter_medium(inside, material);
-    }
-    ray.origin = offset_point(surface.position, -surface.geometric);
-  }
-  return inside;
-}
-
 // Both eyes' tiles in one pool of work; progress is told by whoever finishes a tile.
 void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   const Image& first = picture.eyes.front().radiance;
@@ -209,30 +171,6 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   });
   if (stop) throw Error(ErrorKind::kCancelled, "rendering was stopped");
   if (progress.report) progress.report(1.0);
-}
-
-void check_picture_memory(const RenderOptions& options) {
-  check_memory(picture_bytes(options), fmt::format("a picture {} pixels wide", options.width),
-               "a smaller width or a single eye needs less");
-}
-
-Picture blank_picture(const RenderOptions& options) {
-  Picture picture;
-  for (int eye : eye_list(options.eyes)) {
-    const int w = options.width, h = options.height;
-    EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}, {}});
-    if (options.transparent) image.alpha = Image(w, h, 1);
-    if (!options.layers) continue;
-    image.depth = Image(w, h, 1);
-    image.normal = image.albedo = Image(w, h, 3);
-  }
-  return picture;
-}
-
-RenderOptions with_height(RenderOptions options, const StereoCamera& stereo) {
-  assert(options.width > 0 && options.height >= 0 && options.samples > 0 && options.bounces >= 0);
-  if (options.height == 0) options.height = natural_height(stereo.projection, options.width);
-  return options;
 }
 
 }  // namespace
@@ -288,7 +226,8 @@ Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOpti
                   cameras,
                   cameras[cameras.size() / 2],
                   path.size() > 1 || parts_->scene.motion_keys > 1,
-                  media_at(*parts_->embree, tracer, stereo.position),
+                  media_at(tracer, stereo.position,
+                           [&](const Ray& ray) { return parts_->embree->closest_hit(tracer, ray, kHalfAlphaRay); }),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},
                   options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris};

@@ -10,9 +10,11 @@
 //   lamps      what lights are made of: colour, strength, range, cone
 //   materials  factors and the places of textures
 #pragma once
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/scene/animation/deformation.h"
 #include "ods/scene/animation/keyframes.h"
 
@@ -44,6 +46,7 @@ inline constexpr Property kProperties[] = {
     Property::kLampOuterCone, Property::kBaseColor,     Property::kEmission,  Property::kEmissionStrength,
     Property::kMetallic,      Property::kRoughness,     Property::kUvOffset,  Property::kUvRotation,
     Property::kUvScale};
+static_assert(std::size(kProperties) == enumerator_count<Property>());
 
 // How many numbers change together; 0: as many as there are morph targets.
 size_t property_width(Property property);

@@ -17,25 +17,13 @@ enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
 
 }  // namespace
 
-static bool is_stacked(VideoStereo stereo) {
-  return stereo == VideoStereo::kTopBottom || stereo == VideoStereo::kBottomTop;
-}
-
-static bool is_beside(VideoStereo stereo) {
-  return stereo == VideoStereo::kSideBySide || stereo == VideoStereo::kRightLeft;
-}
-
-static bool has_right_first(VideoStereo stereo) {
-  return stereo == VideoStereo::kBottomTop || stereo == VideoStereo::kRightLeft;
-}
-
 static VideoStereo stereo_of(const SphericalMetadata& metadata) {
   return metadata.stereo.value_or(VideoStereo::kOneView);
 }
 
 bool fits_vexu(const SphericalMetadata& metadata) {
   const VideoStereo stereo = stereo_of(metadata);
-  const bool is_known = stereo == VideoStereo::kOneView || is_stacked(stereo) || is_beside(stereo);
+  const bool is_known = stereo == VideoStereo::kOneView || arrangement_of(stereo).is_halves();
   return is_known && metadata.projection == VideoProjection::kEquirect &&
          (!metadata.is_partial() || metadata.bounds == kFrontHalf);
 }
@@ -64,7 +52,7 @@ Box vexu_box(const SphericalMetadata& metadata) {
   Box vexu = parent(box_type("vexu"), {});
   if (stereo != VideoStereo::kOneView) {
     uint64_t flags = kHasLeft | kHasRight;
-    if (has_right_first(stereo)) flags |= kRightFirst;
+    if (arrangement_of(stereo).right_first) flags |= kRightFirst;
     Box eyes = parent(box_type("eyes"), {leaf(box_type("stri"), flags, 1), leaf(box_type("hero"), 1, 1)});
     const auto micrometres = static_cast<uint64_t>(std::llround(metadata.ipd * 1e6));
     if (micrometres > 0 && micrometres <= 0xffffffff) {
@@ -75,7 +63,7 @@ Box vexu_box(const SphericalMetadata& metadata) {
   const BoxType kind = metadata.is_partial() ? box_type("hequ") : box_type("equi");
   vexu.children.push_back(parent(box_type("proj"), {leaf(box_type("prji"), kind, 4)}));
   if (stereo != VideoStereo::kOneView) {
-    const BoxType packing = is_stacked(stereo) ? box_type("over") : box_type("side");
+    const BoxType packing = arrangement_of(stereo).how == EyePacking::kStacked ? box_type("over") : box_type("side");
     vexu.children.push_back(parent(box_type("pack"), {leaf(box_type("pkin"), packing, 4)}));
   }
   return vexu;
@@ -131,11 +119,6 @@ static double find_ipd(Box& vexu) {
   return static_cast<double>(find_number(*eyes, box_type("cams"), box_type("blin"), 4).value_or(0)) / 1e6;
 }
 
-static VideoStereo packed(bool is_over, bool right_first) {
-  if (is_over) return right_first ? VideoStereo::kBottomTop : VideoStereo::kTopBottom;
-  return right_first ? VideoStereo::kRightLeft : VideoStereo::kSideBySide;
-}
-
 std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry) {
   const Box* found = find_child(sample_entry, box_type("vexu"));
   if (found == nullptr) return std::nullopt;
@@ -147,9 +130,10 @@ std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry) {
   SphericalMetadata metadata;
   if (flags && (*flags & kHasLeft) != 0 && (*flags & kHasRight) != 0) {
     if (!packing) return std::nullopt;
-    const bool is_known = *packing == box_type("over") || *packing == box_type("side");
-    metadata.stereo =
-        is_known ? packed(*packing == box_type("over"), (*flags & kRightFirst) != 0) : VideoStereo::kOther;
+    EyeArrangement eyes{EyePacking::kMixed, (*flags & kRightFirst) != 0};
+    if (*packing == box_type("over")) eyes.how = EyePacking::kStacked;
+    if (*packing == box_type("side")) eyes.how = EyePacking::kBeside;
+    metadata.stereo = stereo_with(eyes).value_or(VideoStereo::kOther);
     metadata.ipd = find_ipd(vexu);
   } else {
     metadata.stereo = VideoStereo::kOneView;

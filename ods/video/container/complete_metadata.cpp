@@ -14,20 +14,11 @@
 namespace ods {
 
 VideoStereo video_stereo(Layout layout) {
-  switch (layout) {
-    case Layout::kTopBottom:
-    case Layout::kTopBottomHalf:
-      return VideoStereo::kTopBottom;
-    case Layout::kSideBySide:
-    case Layout::kSideBySideHalf:
-      return VideoStereo::kSideBySide;
-    case Layout::kBottomTop:
-      return VideoStereo::kBottomTop;
-    case Layout::kCrossEyed:
-      return VideoStereo::kRightLeft;
-    default:
-      throw Error(ErrorKind::kUsage, fmt::format("videos have no word for eyes that are {}", layout_name(layout)));
+  const EyeArrangement eyes = arrangement_of(layout);
+  if (!eyes.is_halves()) {
+    throw Error(ErrorKind::kUsage, fmt::format("videos have no word for eyes that are {}", layout_name(layout)));
   }
+  return *stereo_with(eyes);
 }
 
 void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projection) {
@@ -52,9 +43,9 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
 
 static FormatHint as_picture(const SphericalMetadata& known) {
   FormatHint metadata;
-  if (known.stereo) metadata.layout = Layout::kSeparate;  // one eye, or eyes in a way that pictures do not know
-  for (Layout layout : {Layout::kTopBottom, Layout::kBottomTop, Layout::kSideBySide, Layout::kCrossEyed}) {
-    if (known.stereo == video_stereo(layout)) metadata.layout = layout;
+  if (known.stereo) {  // alone: one eye, or eyes in a way that pictures do not know
+    const EyeArrangement eyes = arrangement_of(*known.stereo);
+    metadata.layout = eyes.is_halves() ? layout_with(eyes) : Layout::kSeparate;
   }
   if (known.projection) metadata.projection = ProjectionSetting();  // which does not matter: it is not asked for
   return metadata;
@@ -147,32 +138,21 @@ SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& t
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-static bool is_stacked(const SphericalMetadata& metadata) {
-  return metadata.stereo == VideoStereo::kTopBottom || metadata.stereo == VideoStereo::kBottomTop;
-}
-
-static bool is_beside(const SphericalMetadata& metadata) {
-  return metadata.stereo == VideoStereo::kSideBySide || metadata.stereo == VideoStereo::kRightLeft;
-}
-
 // Eyes that were squeezed are as wide as high.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
   const double aspect = static_cast<double>(size.width) / size.height;
-  const bool is_packed = is_stacked(metadata) || is_beside(metadata);
-  const double whole = is_stacked(metadata) ? 1.0 : is_beside(metadata) ? 4.0 : 2.0;
-  if (std::abs(aspect / whole - 1.0) < 0.02 || (is_packed && std::abs(aspect / 2.0 - 1.0) < 0.02)) return {};
+  const EyeArrangement eyes = arrangement_of(metadata.stereo.value_or(VideoStereo::kOneView));
+  const double whole = !eyes.is_halves() ? 2.0 : eyes.how == EyePacking::kStacked ? 1.0 : 4.0;
+  if (std::abs(aspect / whole - 1.0) < 0.02 || (eyes.is_halves() && std::abs(aspect / 2.0 - 1.0) < 0.02)) return {};
   return fmt::format("it says {}, and {}x{} is not the shape of that", metadata_text(metadata), size.width,
                      size.height);
 }
 
 static std::optional<VideoStereo> stereo_of(std::optional<Layout> layout) {
   if (!layout || *layout == Layout::kSeparate) return VideoStereo::kOneView;
-  try {
-    return video_stereo(*layout);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
+  const EyeArrangement eyes = arrangement_of(*layout);
+  return eyes.is_halves() ? stereo_with(eyes) : std::nullopt;
 }
 
 // Whether a video of that form may be called by that projection: a cubemap or most of a sphere is 360, a mesh anything.
@@ -184,7 +164,7 @@ static bool may_be_called(const SphericalMetadata& metadata, const ProjectionSet
   if (metadata.projection == VideoProjection::kFlat) return false;
   const bool is_part = called.kind == kLatLong && called.longitude.y - called.longitude.x < 270.0f;
   if (metadata.projection == VideoProjection::kCubemap)
-    return called.kind >= kCube3x2 || (called.kind == kLatLong && !is_part);
+    return is_cube(called.kind) || (called.kind == kLatLong && !is_part);
   return called.kind == kLatLong && is_wide != is_part;
 }
 

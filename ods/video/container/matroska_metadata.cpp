@@ -83,8 +83,9 @@ struct Share {
 
 static Share share_of(const std::optional<SphericalMetadata>& metadata) {
   const VideoStereo stereo = metadata && metadata->stereo ? *metadata->stereo : VideoStereo::kOneView;
-  if (stereo == VideoStereo::kTopBottom || stereo == VideoStereo::kBottomTop) return {1, 2};
-  if (stereo == VideoStereo::kSideBySide || stereo == VideoStereo::kRightLeft) return {2, 1};
+  const EyePacking how = arrangement_of(stereo).how;
+  if (how == EyePacking::kStacked) return {1, 2};
+  if (how == EyePacking::kBeside) return {2, 1};
   return {};
 }
 

@@ -13,40 +13,13 @@
 
 namespace ods {
 
-std::string_view stereo_name(VideoStereo stereo) {
-  switch (stereo) {
-    case VideoStereo::kOneView:
-      return "mono";
-    case VideoStereo::kTopBottom:
-      return "top-bottom";
-    case VideoStereo::kSideBySide:
-      return "side-by-side";
-    case VideoStereo::kCustom:
-      return "stereo of a mesh";
-    case VideoStereo::kRightLeft:
-      return "cross-eyed";
-    case VideoStereo::kBottomTop:
-      return "bottom-top";
-    case VideoStereo::kOther:
-      break;
+std::optional<VideoStereo> stereo_with(EyeArrangement eyes) {
+  if (eyes.how == EyePacking::kMixed) return std::nullopt;
+  eyes.squeezed = false;
+  for (const VideoStereo stereo : kVideoStereos) {
+    if (arrangement_of(stereo) == eyes) return stereo;
   }
-  return "stereo of a rare kind";
-}
-
-std::string_view projection_name(VideoProjection projection) {
-  switch (projection) {
-    case VideoProjection::kFlat:
-      return "flat";
-    case VideoProjection::kEquirect:
-      return "lat-long";
-    case VideoProjection::kCubemap:
-      return "cubemap";
-    case VideoProjection::kMesh:
-      return "mesh";
-    case VideoProjection::kOther:
-      break;
-  }
-  return "unknown projection";
+  return std::nullopt;
 }
 
 constexpr double kWhole = 4294967296.0;  // 2^32

@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "ods/base/names.h"
+#include "ods/camera/layout.h"
 #include "ods/video/container/boxes.h"
 
 namespace ods {
@@ -24,10 +26,30 @@ enum class VideoStereo {
   kBottomTop,   // the right eye on top: only Matroska can say so
   kOther,       // what Matroska can say besides: interleaved, anaglyph
 };
-inline constexpr VideoStereo kVideoStereos[] = {
-    VideoStereo::kOneView,   VideoStereo::kTopBottom, VideoStereo::kSideBySide, VideoStereo::kCustom,
-    VideoStereo::kRightLeft, VideoStereo::kBottomTop, VideoStereo::kOther};
-std::string_view stereo_name(VideoStereo stereo);  // by the names of layout.h: a kRightLeft is cross-eyed
+struct VideoStereoRow {
+  VideoStereo member;
+  std::string_view name;  // by layout.h, where it has one
+  EyeArrangement eyes;    // kMixed: in a way that we do not know
+};
+inline constexpr VideoStereoRow kVideoStereoTable[] = {
+    {VideoStereo::kOneView, "mono", {EyePacking::kAlone}},
+    {VideoStereo::kTopBottom, "top-bottom", {EyePacking::kStacked}},
+    {VideoStereo::kSideBySide, "side-by-side", {EyePacking::kBeside}},
+    {VideoStereo::kCustom, "stereo of a mesh", {EyePacking::kMixed}},
+    {VideoStereo::kRightLeft, "cross-eyed", {EyePacking::kBeside, true}},
+    {VideoStereo::kBottomTop, "bottom-top", {EyePacking::kStacked, true}},
+    {VideoStereo::kOther, "stereo of a rare kind", {EyePacking::kMixed}},
+};
+static_assert(has_every_member(kVideoStereoTable));
+inline constexpr auto kVideoStereos = members_of(kVideoStereoTable);
+constexpr std::string_view stereo_name(VideoStereo stereo) {
+  return name_in(kVideoStereoTable, stereo);
+}
+constexpr EyeArrangement arrangement_of(VideoStereo stereo) {
+  return row_in(kVideoStereoTable, stereo).eyes;
+}
+// Of eyes squeezed or not. None: videos have no word for it.
+std::optional<VideoStereo> stereo_with(EyeArrangement eyes);
 
 enum class VideoProjection {
   kFlat,
@@ -36,10 +58,18 @@ enum class VideoProjection {
   kMesh,     // as its own triangles have it
   kOther,
 };
-inline constexpr VideoProjection kVideoProjections[] = {VideoProjection::kFlat, VideoProjection::kEquirect,
-                                                        VideoProjection::kCubemap, VideoProjection::kMesh,
-                                                        VideoProjection::kOther};
-std::string_view projection_name(VideoProjection projection);
+inline constexpr NameRow<VideoProjection> kVideoProjectionTable[] = {
+    {VideoProjection::kFlat, "flat"},
+    {VideoProjection::kEquirect, "lat-long"},
+    {VideoProjection::kCubemap, "cubemap"},
+    {VideoProjection::kMesh, "mesh"},
+    {VideoProjection::kOther, "unknown projection"},
+};
+static_assert(has_every_member(kVideoProjectionTable));
+inline constexpr auto kVideoProjections = members_of(kVideoProjectionTable);
+constexpr std::string_view projection_name(VideoProjection projection) {
+  return name_in(kVideoProjectionTable, projection);
+}
 
 struct SphericalMetadata {
   std::optional<VideoStereo> stereo;          // none: it does not say

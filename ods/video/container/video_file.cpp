@@ -14,20 +14,6 @@
 
 namespace ods {
 
-std::string_view container_name(Container container) {
-  switch (container) {
-    case Container::kMp4:
-      return "mp4";
-    case Container::kMov:
-      return "mov";
-    case Container::kMatroska:
-      return "mkv";
-    case Container::kWebm:
-      break;
-  }
-  return "webm";
-}
-
 static std::string first_bytes(const FileInput& file) {
   return file.read(0, std::min<uint64_t>(file.size(), 16));
 }

@@ -10,14 +10,24 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/layout.h"
 #include "ods/video/container/spherical.h"
 
 namespace ods {
 
 enum class Container { kMp4, kMov, kMatroska, kWebm };
-inline constexpr Container kContainers[] = {Container::kMp4, Container::kMov, Container::kMatroska, Container::kWebm};
-std::string_view container_name(Container container);  // mp4, mov, mkv, webm
+inline constexpr NameRow<Container> kContainerTable[] = {
+    {Container::kMp4, "mp4"},
+    {Container::kMov, "mov"},
+    {Container::kMatroska, "mkv"},
+    {Container::kWebm, "webm"},
+};
+static_assert(has_every_member(kContainerTable));
+inline constexpr auto kContainers = members_of(kContainerTable);
+constexpr std::string_view container_name(Container container) {
+  return name_in(kContainerTable, container);
+}
 inline bool has_boxes(Container container) {
   return container == Container::kMp4 || container == Container::kMov;
 }

@@ -13,7 +13,7 @@ namespace ods {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-const int kModes[] = {kMergeNone, kMergeLinear, kMergeCosine, kMergeSmoothstep};
+const std::vector<int> kModes = closed_merges();
 const int kEyes[] = {kLeft, kRight, kMono};
 
 // The camera once more, in double precision and from the definitions alone.
@@ -142,6 +142,12 @@ TEST(Camera, PoleMergesAreThoseOfOtherRenderers) {
       {"POV-Ray, OSPRay",
        {kMergeCosine, 0, 90, 1},
        {.9659f, .8660f, .7071f, .5f, .3827f, .2588f, .1736f, .0872f, .0349f}},
+      {"smoothstep, exact fractions",
+       {kMergeSmoothstep, 0, 90, 1},
+       {.9259f, .7407f, .5f, .2593f, .1563f, .0741f, .0343f, .0089f, .0015f}},
+      {"smootherstep, exact fractions",
+       {kMergeSmootherstep, 0, 90, 1},
+       {.9645f, .7901f, .5f, .2099f, .1035f, .0355f, .0115f, .0016f, .0001f}},
       {"Cycles", {kMergeCosine, 60, 75, 1}, {1, 1, 1, 1, .7071f, 0, 0, 0, 0}},
       {"Arnold cosine", {kMergeCosine, 60, 90, 1}, {1, 1, 1, 1, .9239f, .7071f, .5f, .2588f, .1045f}},
       {"Arnold linear", {kMergeLinear, 60, 90, 1}, {1, 1, 1, 1, .75f, .5f, .3333f, .1667f, .0667f}},

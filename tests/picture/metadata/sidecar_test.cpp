@@ -29,7 +29,7 @@ std::string error_of(const std::string& text) {
 
 PoleMergeSetting random_merge(Dice& dice) {
   PoleMergeSetting merge;
-  merge.mode = kMerges[static_cast<size_t>(dice.next() * 7.999f)];
+  merge.mode = kMerges[static_cast<size_t>(dice.next() * static_cast<float>(kMerges.size())) % kMerges.size()];
   merge.start = dice.between(0.0f, 60.0f);
   merge.end = dice.between(60.1f, 90.0f);
   merge.exponent = dice.between(0.01f, 9.0f);

@@ -62,10 +62,14 @@ TEST(Metadata, EveryCameraComesBackBitForBitFromAnExr) {
         stereo.projection.latitude = vec2(-50.0f / 7.0f, 80.3f);
       }
       if (!plain && has_lens(named.setting.kind)) {
-        stereo.projection.fov = 400.0f / 3.0f;
+        if (has_fov(named.setting.kind)) stereo.projection.fov = 400.0f / 3.0f;
         stereo.projection.pan = 1.0f / 3.0f;
         stereo.projection.tilt = -20.0f / 3.0f;
         if (named.setting.kind == kPerspective) stereo.projection.aspect = 16.0f / 9.0f;
+        if (named.setting.kind == kFisheyePolynomial) {
+          stereo.projection.sensor = vec2(70.0f / 3.0f, 10.0f);
+          stereo.projection.polynomial = {-1e-5f / 3.0f, -0.1f / 3.0f, -1e-4f / 7.0f, -1e-7f / 3.0f, -1e-9f / 3.0f};
+        }
       }
       const TemporaryFolder folder;
       save_picture(grey({kLeft, kRight}, {24, 24}), &stereo, {}, folder.path("a.exr"));

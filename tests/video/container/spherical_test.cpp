@@ -40,6 +40,19 @@ std::string from_hex(std::string_view hex) {
   return bytes;
 }
 
+TEST(VideoStereo, HasTheArrangementsOfLayouts) {
+  for (const VideoStereo stereo : kVideoStereos) {
+    const EyeArrangement eyes = arrangement_of(stereo);
+    EXPECT_EQ(stereo_with(eyes), eyes.how == EyePacking::kMixed ? std::nullopt : std::optional(stereo));
+    if (eyes.is_halves()) {
+      ASSERT_TRUE(layout_with(eyes));
+      EXPECT_EQ(stereo_name(stereo), layout_name(*layout_with(eyes)));
+    }
+  }
+  EXPECT_EQ(stereo_with(arrangement_of(Layout::kTopBottomHalf)), VideoStereo::kTopBottom);
+  EXPECT_EQ(stereo_with(arrangement_of(Layout::kRowInterleaved)), std::nullopt);
+}
+
 TEST(Spherical, V2IsTheBytesOfItsSpecification) {
   const SphericalMetadata metadata = metadata_of(VideoStereo::kTopBottom, VideoProjection::kEquirect);
   EXPECT_EQ(bytes_of(st3d_box(metadata)), from_hex("0000000d 73743364 00000000 01"));

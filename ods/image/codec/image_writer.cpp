@@ -15,11 +15,11 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/image/codec/openimageio.h"
 #include "ods/image/format/png_chunks.h"
-#include "ods/image/image_file.h"
-#include "ods/image/openimageio.h"
+#include "ods/image/image_codec.h"
 
-namespace ods {
+namespace ods::openimageio {
 
 const char* plugin_name(FileFormat format) {
   constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // as FileFormat counts
@@ -186,4 +186,15 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   }
 }
 
-}  // namespace ods
+static constexpr ImageCodec kCodec = {read_image, read_info, open_rows, read_channels, decode_image, write_image};
+
+const ImageCodec& codec() {
+  return kCodec;
+}
+
+}  // namespace ods::openimageio
+
+// For programs that open this at run time.
+extern "C" const ods::ImageCodec* ods_image_codec() {
+  return &ods::openimageio::codec();
+}

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // OpenImageIO is the judge.
-#include "ods/image/exr_rows.h"
+#include "ods/image/codec/exr_rows.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/image/exr_rows.h"
+#include "ods/image/codec/exr_rows.h"
 
 #include <OpenEXR/openexr.h>
 #include <fmt/format.h>

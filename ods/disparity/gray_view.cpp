@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/lint/view.h"
+#include "ods/disparity/gray_view.h"
 
 #include <algorithm>
 #include <cassert>
@@ -79,14 +79,14 @@ static float mean_grey(const Image& eye, const std::vector<size_t>& places, floa
   return srgb_encode(sum / static_cast<float>(places.size()));  // of no place: NaN
 }
 
-std::vector<View> make_views(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
-                             int max_width) {
+std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const ProjectionSetting& projection,
+                                      bool is_float, int max_width) {
   assert(!eyes.empty() && eyes[0].channels == 1);
   const int detail = static_cast<int>(pixels_around(projection, eyes[0].width));
   const int width = std::clamp(detail / 4 * 4, 4, max_width);
   Sampler sampler(projection, eyes[0], width);
   const float exposure = is_float ? exposure_of(eyes) : 1.0f;
-  std::vector<View> views(eyes.size(), View(width, width / 2, 1));
+  std::vector<GrayView> views(eyes.size(), GrayView(width, width / 2, 1));
   for (int y = 0; y < width / 2; y++) {
     for (int x = 0; x < width; x++) {
       const std::vector<size_t>& places = sampler.at(x, y);

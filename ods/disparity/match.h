@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "ods/lint/view.h"
+#include "ods/disparity/gray_view.h"
 
 namespace ods {
 
@@ -41,6 +41,6 @@ struct Matches {
 };
 
 // Precondition: views of one size.
-Matches match_tiles(const View& left, const View& right, const Search& search);
+Matches match_tiles(const GrayView& left, const GrayView& right, const Search& search);
 
 }  // namespace ods

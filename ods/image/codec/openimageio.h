@@ -1,14 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What image_file.cpp and image_writer.cpp, which alone know OpenImageIO, share.
+// Image files through OpenImageIO, which only image_reader.cpp and image_writer.cpp know.
 #pragma once
 #include <string>
 
 #include "ods/image/format/file_format.h"
 #include "ods/image/format/sample_type.h"
+#include "ods/image/image_codec.h"
 
-namespace ods {
+namespace ods::openimageio {
+
+const ImageCodec& codec();
+
+// What it holds: see image_file.h.
+Image read_image(const std::string& path, std::string* color_fault);
+FileInfo read_info(const std::string& path);
+std::unique_ptr<RowReader> open_rows(const std::string& path);
+Image read_channels(const std::string& path, const std::vector<std::string>& names);
+CodeImage decode_image(std::span<const std::byte> file, const std::string& name);
+void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
+                 const std::function<void()>& band_done);
 
 // OpenImageIO's names of its plugin and of a number type.
 const char* plugin_name(FileFormat format);
@@ -23,4 +35,4 @@ void set_up_openimageio();
 // was lacking to make it.
 std::string no_plugin(const char* plugin, const char* kind);
 
-}  // namespace ods
+}  // namespace ods::openimageio

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lint looks at: an eye as a small grey lat-long picture, whatever its projection was.
+// What is compared: an eye as a small grey lat-long picture, whatever its projection was.
 #pragma once
 #include <vector>
 
@@ -12,11 +12,11 @@ namespace ods {
 
 // One channel, twice as wide as high, the whole sphere: about what a display shows, 0..1; NaN where the picture does
 // not reach or has no number.
-using View = Image;
+using GrayView = Image;
 
 // Two eyes are shown with one exposure. Never more than max_width wide, nor wider than the eyes have detail for.
 // Precondition: one or two eyes of one size, 1 channel.
-std::vector<View> make_views(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
-                             int max_width);
+std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const ProjectionSetting& projection,
+                                      bool is_float, int max_width);
 
 }  // namespace ods

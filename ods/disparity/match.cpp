@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/lint/match.h"
+#include "ods/disparity/match.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ struct Found {
 // A view that goes on beyond its edges, and sums over any rectangle of it.
 class Sums {
  public:
-  explicit Sums(const View& view) : width_(3 * view.width), row_(static_cast<size_t>(width_) + 1) {
+  explicit Sums(const GrayView& view) : width_(3 * view.width), row_(static_cast<size_t>(width_) + 1) {
     const size_t rows = static_cast<size_t>(view.height);
     values.resize(rows * static_cast<size_t>(width_));
     table_.resize((rows + 1) * row_);
@@ -76,7 +76,7 @@ class Sums {
 
 class Matcher {
  public:
-  Matcher(const View& from, const Sums& from_sums, const Sums& to_sums, int reach_x, int reach_y)
+  Matcher(const GrayView& from, const Sums& from_sums, const Sums& to_sums, int reach_x, int reach_y)
       : view_(from), from_(from_sums), to_(to_sums), reach_x_(reach_x), reach_y_(reach_y) {}
 
   // False where there is no detail or no picture.
@@ -159,7 +159,7 @@ class Matcher {
     return peak(correlate(x, y - 1), best.correlation, correlate(x, y + 1));
   }
 
-  const View& view_;
+  const GrayView& view_;
   const Sums& from_;
   const Sums& to_;
   int reach_x_, reach_y_;
@@ -170,7 +170,7 @@ class Matcher {
 
 }  // namespace
 
-Matches match_tiles(const View& left, const View& right, const Search& search) {
+Matches match_tiles(const GrayView& left, const GrayView& right, const Search& search) {
   Matches matches;
   matches.pixel = static_cast<float>(2.0 * std::numbers::pi / left.width);
   const int reach_x = std::min(static_cast<int>(std::ceil(search.around / matches.pixel)), left.width / 2 - 1);
