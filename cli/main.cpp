@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "cli/console/exit_code.h"
+#include "cli/console/manual.h"
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/image/image_codec.h"
@@ -67,26 +68,23 @@ constexpr Command kCommands[] = {
     {"sizes", "list the named sizes", ods_sizes},
 };
 
-void print_help(std::FILE* out) {
-  std::fputs(
-      "ods renders omni-directional stereo (stereo 360 degree) pictures and videos of glTF scenes.\n\n"
-      "Examples:\n"
-      "  ods render scene.glb -o picture.png        left eye on top, ready for a headset\n"
-      "  ods render room -o room.png                a built-in scene\n"
-      "  ods info scene.glb                         what is in the scene\n\n"
-      "Commands:\n",
-      out);
-  for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
-  std::fputs(
-      "\nods COMMAND --help explains a command; ods --version prints the versions of ods and its libraries.\n"
-      "Exit codes:\n"
-      "  0    done\n"
-      "  1    anything else: not enough memory, a limit of ods compare, a fault that ods lint found\n"
-      "  2    the command line is wrong: a value, a conflict, a name that is unknown or not in the file\n"
-      "  3    a file is absent, broken or not supported\n"
-      "  4    a file could not be written\n"
-      "  130  interrupted (Ctrl-C), 143 terminated (SIGTERM), 129 hung up (SIGHUP)\n",
-      out);
+// Help, a man page or a completion script, of which every command writes its own part.
+std::string overview(ManualFormat format) {
+  std::vector<CommandSummary> commands;
+  for (const Command& command : kCommands) commands.push_back({command.name, command.summary});
+  return write_overview(commands, format);
+}
+
+int print_overview(ManualFormat format, char* help_option) {
+  std::fputs(overview(format).c_str(), stdout);
+  if (format == ManualFormat::kHelp || format == ManualFormat::kMan) return kExitOk;
+  for (const Command& command : kCommands) {
+    std::string name = command.name;
+    char* arguments[] = {name.data(), help_option, nullptr};
+    if (const int code = command.run(2, arguments); code != kExitOk) return code;
+  }
+  std::fputs(end_of_overview(format).c_str(), stdout);
+  return kExitOk;
 }
 
 // The first picture would get the number of a stream that is closed, and with it what is printed there.
@@ -120,14 +118,12 @@ const ods::ImageCodec& ods::image_codec() {
 int main(int argc, char** argv) {
   open_closed_streams();
   if (argc < 2) {
-    print_help(stderr);
+    std::fputs(overview(ManualFormat::kHelp).c_str(), stderr);
     return kExitUsage;
   }
   const char* name = argv[1];
-  if (std::strcmp(name, "--help") == 0 || std::strcmp(name, "-h") == 0 || std::strcmp(name, "help") == 0) {
-    print_help(stdout);
-    return kExitOk;
-  }
+  const auto format = manual_format(std::strcmp(name, "help") == 0 ? "--help" : name);
+  if (format) return print_overview(*format, argv[1]);
   if (std::strcmp(name, "--version") == 0) {
     std::puts("ods " ODS_VERSION "\n" ODS_LIBRARIES);
     return kExitOk;

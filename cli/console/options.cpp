@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <sstream>
+#include <cstdio>
 
 #include "cli/console/console.h"
 #include "ods/base/suggest.h"
@@ -49,68 +49,63 @@ std::vector<float> parse_numbers(const std::string& text) {
 }
 
 Options::Options(const std::string& command, const std::string& summary, const std::string& examples)
-    : app_(std::make_unique<CLI::App>("", "ods " + command)) {
-  usage_ = fmt::format("{}\n\nExamples:\n{}\n\nUsage: ods {}", summary, examples, command);
+    : app_(std::make_unique<CLI::App>("", "ods " + command)), manual_{command, summary, examples, "", {}} {
   app_->set_help_flag("-h,--help");
 }
 
 Options::~Options() = default;
 
-// A row of help: the name, and beside it the text, wrapped to fit a terminal.
-void Options::explain(const std::string& name, const std::string& unit, const std::string& text) {
-  const size_t kTextColumn = 30, kLineWidth = 100;
-  std::string line = "  " + name + (unit.empty() ? "" : " " + unit);
-  if (line.size() + 2 > kTextColumn) {
-    help_ += line + "\n";
-    line.clear();
+void Options::group(const std::string& heading) {
+  manual_.entries.push_back({ManualEntry::Kind::kHeading, heading});
+}
+
+void Options::add_argument(const std::string& name, const std::string& usage, const std::string& text) {
+  manual_.usage += usage + " ";
+  manual_.entries.push_back({ManualEntry::Kind::kArgument, name, "", text});
+}
+
+ManualEntry& Options::add_option(const std::string& name, const std::string& unit, const std::string& text) {
+  return manual_.entries.emplace_back(ManualEntry{ManualEntry::Kind::kOption, name, unit, text});
+}
+
+void Options::offer(const std::string& name, const std::vector<std::string>& values) {
+  for (ManualEntry& entry : manual_.entries) {
+    if (entry.kind != ManualEntry::Kind::kHeading && entry.name == name) entry.values = values;
   }
-  line.resize(kTextColumn, ' ');
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (line.size() + word.size() > kLineWidth) {
-      help_ += line + "\n";
-      line.assign(kTextColumn, ' ');
-    }
-    line += (line.back() == ' ' ? "" : " ") + word;
-  }
-  help_ += line + "\n";
 }
 
 void Options::custom(const std::string& name, const std::string& unit, const std::string& fallback,
                      const std::function<void(const std::string&)>& set, const std::string& text) {
-  explain(name, unit, fallback.empty() ? text : text + " [" + fallback + "]");
+  add_option(name, unit, fallback.empty() ? text : text + " [" + fallback + "]");
   // The last value wins, so that a script can append to a command line.
   app_->add_option_function<std::string>(name, set)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
 void Options::argument(const std::string& name, std::string& value, const std::string& text) {
   app_->add_option(name, value)->required();
-  usage_ += " " + name;
-  explain(name, "", text);
+  add_argument(name, name, text);
 }
 
 void Options::argument(const std::string& name, const std::function<void(const std::string&)>& set,
                        const std::string& text) {
   app_->add_option_function<std::string>(name, set)->required();
-  usage_ += " " + name;
-  explain(name, "", text);
+  add_argument(name, name, text);
 }
 
 void Options::optional_argument(const std::string& name, std::string& value, const std::string& text) {
   app_->add_option(name, value);
-  usage_ += fmt::format(" [{}]", name);
-  explain(name, "", text);
+  add_argument(name, fmt::format("[{}]", name), text);
 }
 
 void Options::arguments(const std::string& name, std::vector<std::string>& values, const std::string& text) {
   app_->add_option("words", values);
-  usage_ += fmt::format(" [{}]", name);
-  explain(name, "", text);
+  add_argument(name, fmt::format("[{}]", name), text);
+  manual_.entries.back().repeats = true;
 }
 
 void Options::flag(const std::string& name, bool& value, const std::string& text) {
   app_->add_flag(name, value);
-  explain(name, "", text);
+  add_option(name, "", text);
 }
 
 void Options::text(const std::string& name, const std::string& unit, std::string& value, const std::string& text) {
@@ -125,7 +120,7 @@ void Options::text(const std::string& name, const std::string& unit, std::string
 
 void Options::texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
                     const std::string& text) {
-  explain(name, unit, text + "; may be given several times");
+  add_option(name, unit, text + "; may be given several times").repeats = true;
   app_->add_option(name, values)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
 }
 
@@ -165,6 +160,7 @@ void Options::choice(const std::string& name, const std::vector<std::string>& na
     set(static_cast<size_t>(found - names.begin()));
   };
   custom(name, fmt::format("{}", fmt::join(names, "|")), fallback, pick, text);
+  offer(name, names);
 }
 
 void add_console_options(Options& options) {
@@ -192,12 +188,20 @@ std::string Options::describe_extras() const {
 }
 
 bool Options::parse(int argc, char** argv) {
+  const auto print = [this](ManualFormat format) {
+    manual_.usage += "[OPTION...]";
+    std::fputs(write_manual(manual_, format).c_str(), stdout);
+    return false;
+  };
+  if (argc == 2 && std::string_view(argv[1]).starts_with("--help")) {
+    if (const auto format = manual_format(argv[1])) return print(*format);
+    throw UsageError(fmt::format("there is no option '{}': give --help alone, or --help=man, bash or zsh", argv[1]));
+  }
   try {
     app_->parse(argc, argv);
     return true;
   } catch (const CLI::CallForHelp&) {
-    std::fputs((usage_ + " [OPTION...]\n" + help_).c_str(), stdout);
-    return false;
+    return print(ManualFormat::kHelp);
   } catch (const CLI::ExtrasError&) {
     throw UsageError(describe_extras());
   } catch (const CLI::ParseError& error) {

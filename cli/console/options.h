@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/console/manual.h"
 #include "ods/base/names.h"
 
 namespace CLI {
@@ -26,7 +27,7 @@ class Options {
   ~Options();
 
   // Starts a group: options added from here on are under this heading in help.
-  void group(const std::string& heading) { help_ += "\n" + heading + ":\n"; }
+  void group(const std::string& heading);
 
   // Positional arguments, in order.
   void argument(const std::string& name, std::string& value, const std::string& text);
@@ -74,21 +75,24 @@ class Options {
   void custom(const std::string& name, const std::string& unit, const std::string& fallback,
               const std::function<void(const std::string&)>& set, const std::string& text);
 
+  // The values that shell completion offers for this option or argument, which was added before.
+  void offer(const std::string& name, const std::vector<std::string>& values);
+
   // Applies this option immediately during parsing, before other options are validated.
   void at_once(const std::string& name);
 
   bool given(const std::string& name) const;
 
-  // False if help was requested; it has been printed. Throws UsageError.
+  // False if help was requested; it has been printed, in the format of --help=FORMAT. Throws UsageError.
   bool parse(int argc, char** argv);
 
  private:
-  void explain(const std::string& name, const std::string& unit, const std::string& text);
+  void add_argument(const std::string& name, const std::string& usage, const std::string& text);
+  ManualEntry& add_option(const std::string& name, const std::string& unit, const std::string& text);
   std::string describe_extras() const;
 
   std::unique_ptr<CLI::App> app_;
-  std::string usage_;  // the start of help, up to the arguments
-  std::string help_;   // the arguments and options in help
+  Manual manual_;
 };
 
 // Adds --quiet and --no-color, which every command has, under their own heading.

@@ -99,14 +99,19 @@ void parse_lens(const std::string& text, StereoCamera& stereo) {
   stereo.lens_radius = numbers[0], stereo.focus_distance = numbers[1];
 }
 
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const ods::CameraPreset& each : ods::camera_presets()) names.emplace_back(each.name);
+  return names;
+}
+
 // NAME[:PARAMETER=VALUE,...]
 void parse_camera_preset(const std::string& text, CameraOptions& camera) {
   const size_t colon = std::min(text.find(':'), text.size());
   const std::string name = text.substr(0, colon);
   const ods::CameraPreset* preset = ods::find_camera_preset(name);
   if (!preset) {
-    std::vector<std::string> names;
-    for (const ods::CameraPreset& each : ods::camera_presets()) names.emplace_back(each.name);
+    const std::vector<std::string> names = preset_names();
     throw UsageError(fmt::format("--camera-preset knows no '{}'{}; it knows {}", name, ods::did_you_mean(name, names),
                                  fmt::join(names, ", ")));
   }
@@ -137,6 +142,7 @@ void add_camera_preset_option(Options& options, CameraOptions& camera) {
       [&](const std::string& text) { parse_camera_preset(text, camera); },
       "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
       "the options below override it");
+  options.offer("--camera-preset", preset_names());
 }
 
 void add_circle_options(Options& options, CameraOptions& camera) {

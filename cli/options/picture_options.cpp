@@ -14,13 +14,18 @@
 
 using ods::Layout;
 
-const ods::NamedSize& size_by_name(const std::string& name) {
+static std::vector<std::string> size_names() {
   std::vector<std::string> names;
+  for (const ods::NamedSize& size : ods::named_sizes()) names.emplace_back(size.name);
+  return names;
+}
+
+const ods::NamedSize& size_by_name(const std::string& name) {
   for (const ods::NamedSize& size : ods::named_sizes()) {
     if (size.name == name) return size;
-    names.emplace_back(size.name);
   }
-  throw UsageError(fmt::format("there is no size '{}'{} (ods sizes lists them)", name, ods::did_you_mean(name, names)));
+  throw UsageError(
+      fmt::format("there is no size '{}'{} (ods sizes lists them)", name, ods::did_you_mean(name, size_names())));
 }
 
 void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layout) {
@@ -33,6 +38,7 @@ void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layo
   };
   options.custom("--size", "NAME", "", set,
                  "set width, height, layout and eyes to a named size (ods sizes lists them)");
+  options.offer("--size", size_names());
 }
 
 void add_picture_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {

@@ -87,20 +87,21 @@ void parse_face(const std::string& name, bool has_other, ProjectionSetting& proj
 
 }  // namespace
 
-ProjectionSetting projection_by_name(const std::string& option, const std::string& name) {
-  if (const NamedProjection* named = ods::find_projection(name)) return named->setting;
+static std::vector<std::string> projection_names() {
   std::vector<std::string> names;
   for (const NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
+  return names;
+}
+
+ProjectionSetting projection_by_name(const std::string& option, const std::string& name) {
+  if (const NamedProjection* named = ods::find_projection(name)) return named->setting;
+  const std::vector<std::string> names = projection_names();
   throw UsageError(
       fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
 }
 
 void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& name) {
   options.group("Projection");
-  std::string names;
-  for (const NamedProjection& each : ods::named_projections()) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
-  }
   const std::string option = name.empty() ? "--projection" : name;
   const auto is_named = std::make_shared<bool>(false);
   options.custom(
@@ -109,7 +110,8 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
         projection = projection_by_name(option, text);
         *is_named = true;
       },
-      "projection of each eye's picture: " + names);
+      fmt::format("projection of each eye's picture: {}", fmt::join(projection_names(), ", ")));
+  options.offer(name.empty() ? option : name + ",--projection", projection_names());
   options.custom(
       "--face", "NAME", "",
       [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },

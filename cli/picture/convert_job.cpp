@@ -42,7 +42,9 @@ struct Wishes {
 // Opens the input's header as soon as all is known of it: the options after it change what it says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
-  job.picture = ods::open_picture_header(path, {job.known});
+  ods::OpenOptions open;
+  open.format = job.known;
+  job.picture = ods::open_picture_header(path, open);
   wishes.camera.stereo = job.picture.camera;
 }
 

@@ -117,16 +117,16 @@ Json video_to_json(const ProbeReport& report) {
                {"sound", Json::array()}};
   for (size_t i = 0; i < video.tracks.size(); i++) {
     const ods::VideoTrack& track = video.tracks[i];
-    Json video = {{"track", track.id},
-                  {"codec", track.codec},
-                  {"size", {track.size.width, track.size.height}},
-                  {"fps", nullptr},
-                  {"v1", to_json(track.v1)},
-                  {"v2", to_json(track.v2)},
-                  {"vexu", to_json(track.vexu)}};
-    if (track.fps > 0.0) video["fps"] = track.fps;
-    video.update(views_to_json(report, i));
-    json["video"].push_back(video);
+    Json picture = {{"track", track.id},
+                    {"codec", track.codec},
+                    {"size", {track.size.width, track.size.height}},
+                    {"fps", nullptr},
+                    {"v1", to_json(track.v1)},
+                    {"v2", to_json(track.v2)},
+                    {"vexu", to_json(track.vexu)}};
+    if (track.fps > 0.0) picture["fps"] = track.fps;
+    picture.update(views_to_json(report, i));
+    json["video"].push_back(picture);
   }
   for (const ods::SoundTrack& track : video.sound) {
     Json sound = {{"track", track.id}, {"codec", track.codec}, {"ambisonics", nullptr}};

@@ -464,17 +464,17 @@ TEST(Convert, SaysWhatItCannotDo) {
   };
   const auto nothing = [](StereoCamera&) {};
   EXPECT_EQ(fault(stereo, kBoth, nothing), "");
-  EXPECT_EQ(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.yaw = 77.0f; }), "");
-  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.pitch = 5.0f; }).find("yaw"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.roll = 5.0f; }).find("yaw"), std::string::npos);
-  EXPECT_EQ(fault(stereo, {kMono}, [](StereoCamera& stereo) { stereo.roll = 5.0f; }), "");
-  EXPECT_EQ(fault(mono, {kMono}, [](StereoCamera& stereo) { stereo.pitch = 5.0f; }), "");
+  EXPECT_EQ(fault(stereo, kBoth, [](StereoCamera& camera) { camera.yaw = 77.0f; }), "");
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& camera) { camera.pitch = 5.0f; }).find("yaw"), std::string::npos);
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& camera) { camera.roll = 5.0f; }).find("yaw"), std::string::npos);
+  EXPECT_EQ(fault(stereo, {kMono}, [](StereoCamera& camera) { camera.roll = 5.0f; }), "");
+  EXPECT_EQ(fault(mono, {kMono}, [](StereoCamera& camera) { camera.pitch = 5.0f; }), "");
   EXPECT_NE(fault(mono, kBoth, nothing).find("depth"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.ipd = 0.1f; }).find(".exr"), std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.top.mode = kMergeLinear; }).find("depth"),
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& camera) { camera.ipd = 0.1f; }).find(".exr"), std::string::npos);
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& camera) { camera.top.mode = kMergeLinear; }).find("depth"),
             std::string::npos);
-  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& stereo) { stereo.neck = 0.1f; }).find("depth"), std::string::npos);
-  EXPECT_NE(fault(stereo, {kMono}, [](StereoCamera& stereo) { stereo.mirrored = true; }), "");
+  EXPECT_NE(fault(stereo, kBoth, [](StereoCamera& camera) { camera.neck = 0.1f; }).find("depth"), std::string::npos);
+  EXPECT_NE(fault(stereo, {kMono}, [](StereoCamera& camera) { camera.mirrored = true; }), "");
 }
 
 // Numbers that no picture should have, and pictures of a single pixel.

@@ -98,12 +98,12 @@ static VideoTrack read_track(const Matroska& video, const Element& entry) {
   VideoTrack track;
   track.id = child_number(entry, kTrackNumber);
   track.codec = child_text(entry, kCodecId);
-  if (const Element* video = find_child(entry, kVideo)) {
+  if (const Element* pictures = find_child(entry, kVideo)) {
     const auto side = [&](uint32_t id) {
-      return static_cast<int>(std::min<uint64_t>(child_number(*video, id), 1 << 20));
+      return static_cast<int>(std::min<uint64_t>(child_number(*pictures, id), 1 << 20));
     };
     track.size = {side(kPixelWidth), side(kPixelHeight)};
-    track.v2 = parse_video(*video);
+    track.v2 = parse_video(*pictures);
   }
   const uint64_t duration = child_number(entry, kDefaultDuration);  // nanoseconds
   track.fps = duration == 0 ? 0.0 : 1e9 / static_cast<double>(duration);

@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every command that README, the pages of docs/ and help show is run, made small, on files that stand in for those that
+// it names. One that cannot be run must at least be understood: its exit code is not that of a wrong command line.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/gltf_builder.h"
+#include "tests/support/made_frames.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Commands that start so need what no test has.
+const std::map<std::string, std::string> kCannotRun = {
+    {"ods stitch rig.json '%V.#.png'", "sheets of Unreal's plug-in"},
+};
+
+// Options of other programs, of which pages say how to call them, and those that every command has.
+const std::set<std::string> kOthersOptions = {"--help", "--version"};
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A line's words, without their quotes. A command ends before >, <, | and #.
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  const std::regex word("'([^']*)'|\"([^\"]*)\"|([^ ]+)");
+  for (std::sregex_iterator each(line.begin(), line.end(), word), end; each != end; ++each) {
+    words.push_back((*each)[1].str() + (*each)[2].str() + (*each)[3].str());
+  }
+  return words;
+}
+
+struct Command {
+  std::string line;       // "ods render room -o room.png"
+  std::string redirects;  // "> camera.inc"
+};
+
+// What follows two spaces in help, or # anywhere, is said to readers; what follows || is done where ods fails.
+Command parse_line(const std::string& line) {
+  const std::regex command(
+      "(ods (?:'[^']*'|\"[^\"]*\"|  ?-|  ?\\\\|[^'\"<>|# ]| (?![ #<>|])|#(?!\\s))*)\\s*([<>] *\\S+)?.*");
+  std::smatch match;
+  EXPECT_TRUE(std::regex_match(line, match, command)) << line;
+  return {match[1], match[2]};
+}
+
+// The lines of a page that stand in blocks of code and call ods; a backslash at the end goes on.
+std::vector<Command> commands_of_page(const std::string& text) {
+  std::vector<Command> commands;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const size_t start = line.find_first_not_of(' ');
+    if (start == std::string::npos || line.compare(start, 4, "ods ") != 0) continue;
+    if (start < 2 && start != 0) continue;
+    std::string more;
+    while (line.ends_with("\\") && std::getline(lines, more)) {
+      line.pop_back();
+      line += more.substr(more.find_first_not_of(' '));
+    }
+    commands.push_back(parse_line(line.substr(start)));
+  }
+  return commands;
+}
+
+// Those between backquotes.
+std::vector<std::string> code_spans(const std::string& text) {
+  std::vector<std::string> spans;
+  const std::regex span("`([^`\n]+)`");
+  for (std::sregex_iterator each(text.begin(), text.end(), span), end; each != end; ++each) {
+    spans.push_back((*each)[1].str());
+  }
+  return spans;
+}
+
+std::vector<std::string> page_names() {
+  const fs::path root = ODS_SOURCE_DIR;
+  std::vector<std::string> names = {"README.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") names.push_back("docs/" + entry.path().filename().native());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> command_names() {
+  std::istringstream lines(read_file(fs::path(ODS_SOURCE_DIR) / "cli/main.cpp"));
+  const std::regex row("    \\{\"([a-z]+)\", \".*");
+  std::vector<std::string> names;
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_match(line, match, row)) names.push_back(match[1]);
+  }
+  return names;
+}
+
+std::set<std::string> options_in(const std::string& text) {
+  const std::regex option("(^|[ ,])(--[a-z][a-z-]*)");
+  std::set<std::string> names = {};
+  for (std::sregex_iterator each(text.begin(), text.end(), option), end; each != end; ++each) names.insert((*each)[2]);
+  return names;
+}
+
+class Pages : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directory(folder.path("home"));
+    setenv("XDG_CACHE_HOME", folder.path("home").c_str(), 1);  // a program that a test runs has no business elsewhere
+  }
+
+  // Runs words of the shell in the folder; `ods` is ours.
+  int shell(const std::string& words) {
+    const std::string script = "cd '" + folder.path("") + "' && { " + words + "\n} 2>log.txt >>out.txt";
+    const int status = std::system(("sh -c " + quoted("ods() { '" ODS_COMMAND "' \"$@\"; }\n" + script)).c_str());
+    return WEXITSTATUS(status);
+  }
+
+  static std::string quoted(const std::string& text) {
+    return "'" + std::regex_replace(text, std::regex("'"), "'\\''") + "'";
+  }
+
+  // What makes the command small: the last of an option counts.
+  static std::string made_small(const std::string& line) {
+    const std::string command = words_of(line).at(1);
+    const bool has_width = has(line, "--width") || has(line, "--size"), of_rig = has(line, "--rig ");
+    const bool renders = command == "render" || command == "video";
+    std::string more = renders ? " --samples 1" : "";
+    if (command == "rig") {
+      more += has(line, "--slits") ? " --width 512" : " --width 64";
+    } else if (command == "testcard") {
+      more += " --width 512";
+    } else if (renders || command == "title" || has_width) {
+      more += of_rig ? "" : " --width 96";
+    }
+    if (has(line, "--frames") || command == "video") more += " --frames 1-4";
+    if (has(line, "--duration") || has(line, "--video")) more += " --duration 0.2";
+    return of_rig && command == "video" ? " --frames 1-4" : more;
+  }
+
+  // Makes what a command reads where it is not there.
+  void provide(const std::string& line) {
+    const std::vector<std::string> words = words_of(line);
+    std::string rig;
+    if (words.at(1) == "stitch") rig = words.at(2);
+    const auto option = std::find(words.begin(), words.end(), "--rig");
+    if (option != words.end()) rig = *std::next(option);
+    if (!rig.empty() && !fs::exists(folder.path(rig))) make("ods rig --width 64 --nearest 0.8 -o " + rig);
+    for (size_t i = 2; i < words.size(); i++) {
+      static const std::set<std::string> outputs = {"-o", "--output", "--report", "--diff", "--for", "--font"};
+      if (outputs.contains(words[i - 1]) || words[i] == rig) continue;
+      if (!rig.empty() && words[i].find_first_of("#%") != std::string::npos) {
+        provide_views(words[i], rig);
+      } else {
+        provide_file(words[i]);
+      }
+    }
+  }
+
+  // Views of an earlier rig may lie there.
+  void provide_views(const std::string& pattern, const std::string& rig) {
+    const std::string parent = fs::path(pattern).parent_path().native(), file = fs::path(pattern).filename().native();
+    for (const char* frame : {"0001", "0002", "0003", "0004"}) {
+      const std::string views = std::regex_replace(parent, std::regex("####"), frame);
+      fs::remove_all(folder.path(views));
+      make("ods render furnace --samples 1 --rig " + rig + " -o " + quoted(views + "/" + file));
+      if (views == parent) return;
+    }
+  }
+
+  void provide_file(const std::string& name) {
+    const std::string kind = fs::path(name).extension().native();
+    if (kind.empty() || name.starts_with("-") || fs::exists(folder.path(name)) || !made_.insert(name).second) return;
+    fs::create_directories(fs::path(folder.path(name)).parent_path());
+    if (kind == ".glb") return folder.write(name, scene());
+    if (kind == ".wav") return folder.write(name, ods::made::wav(4, 0.2));
+    if (kind == ".txt") return folder.write(name, "0,1,-2\n");
+    if (kind == ".json") return make("ods camera --for json --width 4096 -o " + name);
+    if (kind == ".mp4" || kind == ".mov" || kind == ".mkv" || kind == ".webm") {
+      provide_file("sound.wav");
+      return make("ods video furnace --width 96 --samples 1 --duration 0.1 --audio sound.wav -o " + name);
+    }
+    static const std::set<std::string> pictures = {".png", ".jpg", ".exr", ".tif", ".hdr", ".webp"};
+    if (pictures.contains(kind)) provide_picture(name);
+  }
+
+  void provide_picture(const std::string& name) {
+    const bool is_title = has(name, "title.") || has(name, "robot");  // has alpha
+    std::string words = is_title ? "ods title T --text-height 1" : "ods render toys --samples 1";
+    if (has(name, "_LR")) words += " --projection vr180";
+    if (has(name, "panorama") || has(name, "left.") || has(name, "sky")) words += " --eyes mono";
+    if (has(name, "#") || has(name, "%0")) words += " --frames 1-4";
+    make(words + " --width 96 -o " + quoted(name));
+  }
+
+  void make(const std::string& words) { EXPECT_EQ(shell(words), 0) << words << "\n" << log(); }
+
+  std::string log() const { return folder.read("log.txt"); }
+
+  // A scene of two objects, one of which moves for a fifth of a second.
+  static std::string scene() {
+    ods::GltfBuilder scene = ods::make_triangle();
+    const int times = scene.add<float>({0.0f, 0.2f}, ods::kFloat, "SCALAR");
+    const int places = scene.add<float>({0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f}, ods::kFloat, "VEC3");
+    scene.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
+                                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    scene.json["nodes"][0]["name"] = "Ground";
+    const ods::Binary glb = scene.glb();
+    return {glb.begin(), glb.end()};
+  }
+
+  void try_command(const Command& command) {
+    SCOPED_TRACE(command.line);
+    const auto reason = std::find_if(kCannotRun.begin(), kCannotRun.end(),
+                                     [&](const auto& each) { return command.line.starts_with(each.first); });
+    const bool can_run = reason == kCannotRun.end();
+    if (can_run) {
+      provide(command.line);
+      if (command.redirects.starts_with("<")) provide_file(words_of(command.redirects).at(1));
+    }
+    const int code = shell(command.line + made_small(command.line) + " " + command.redirects);
+    const std::string name = words_of(command.line).at(1);
+    const bool judges = name == "lint" || name == "compare";  // of pictures, and ours are odd
+    EXPECT_TRUE(!can_run || code == 0 || (judges && code == 1)) << "exit code " << code << ": " << log();
+    EXPECT_NE(code, 2) << log();
+  }
+
+  ods::TemporaryFolder folder;
+
+ private:
+  std::set<std::string> made_;
+};
+
+// Which tests/install_test.cmake compiles.
+TEST_F(Pages, TheReadmeShowsAnExample) {
+  const std::string readme = read_file(fs::path(ODS_SOURCE_DIR) / "README.md");
+  const std::string example = read_file(fs::path(ODS_SOURCE_DIR) / "examples/minimal.cpp");
+  const size_t begin = readme.find("```cpp\n") + 7;
+  const std::string code = readme.substr(begin, readme.find("```", begin) - begin);
+  EXPECT_GT(code.size(), 100u);
+  EXPECT_NE(example.find("{\n  " + std::regex_replace(code, std::regex("\n(?!$)"), "\n  ") + "}"), std::string::npos);
+}
+
+class Docs : public Pages, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(Docs, CommandsOfThisPageWork) {
+  const std::string text = read_file(fs::path(ODS_SOURCE_DIR) / GetParam());
+  std::vector<Command> commands = commands_of_page(text);
+  if (GetParam() == "docs/tasks.md" || GetParam() == "README.md") {  // whose text has whole commands
+    for (const std::string& span : code_spans(text)) {
+      if (span.starts_with("ods ") && words_of(span).size() > 2) commands.push_back(parse_line(span));
+    }
+  }
+  for (const Command& command : commands) try_command(command);
+}
+
+// "--turntable", "ods render --rig", ..., wherever text names them.
+TEST_F(Pages, OptionsThatTheyNameExist) {
+  std::map<std::string, std::set<std::string>> options;  // of a command; of all under ""
+  for (const std::string& command : command_names()) {
+    ASSERT_EQ(shell("ods " + command + " --help >help.txt"), 0);
+    options[command] = options_in(folder.read("help.txt"));
+    options[""].insert(options[command].begin(), options[command].end());
+  }
+  std::string text;
+  for (const std::string& page : page_names()) text += read_file(fs::path(ODS_SOURCE_DIR) / page);
+  for (const std::string& span : code_spans(text)) {
+    const bool whole = span.starts_with("ods ");
+    if (!whole && !span.starts_with("--")) continue;
+    const std::string command = whole ? words_of(span).at(1) : "";
+    for (const std::string& name : options_in(span)) {
+      EXPECT_TRUE(options[command].contains(name) || kOthersOptions.contains(name)) << "`" << span << "`: " << name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, Docs, ::testing::ValuesIn(page_names()), [](const auto& page) {
+  return std::regex_replace(page.param, std::regex("[^A-Za-z0-9]"), "_");
+});
+
+class Help : public Docs {};
+
+TEST_P(Help, ExamplesWork) {
+  ASSERT_EQ(shell("ods " + GetParam() + " --help"), 0);
+  const std::string help = folder.read("out.txt");
+  const size_t begin = help.find("Examples:"), end = help.find("\n\n", begin);
+  const std::vector<Command> commands = commands_of_page(help.substr(begin, end - begin));
+  EXPECT_FALSE(commands.empty());
+  for (const Command& command : commands) try_command(command);
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, Help, ::testing::ValuesIn(command_names()),
+                         [](const auto& name) { return name.param; });
+
+}  // namespace
