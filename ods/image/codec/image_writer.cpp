@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <new>
 
 #include "ods/base/error.h"
+#include "ods/base/names.h"
 #include "ods/base/text.h"
 #include "ods/image/codec/openimageio.h"
 #include "ods/image/format/png_chunks.h"
@@ -22,12 +24,14 @@
 namespace ods::openimageio {
 
 const char* plugin_name(FileFormat format) {
-  constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // as FileFormat counts
+  constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // in the order of FileFormat
+  static_assert(std::size(kNames) == enumerator_count<FileFormat>());
   return kNames[static_cast<size_t>(format)];
 }
 
 const char* type_name(SampleType sample) {
-  constexpr const char* kNames[] = {"uint8", "uint16", "half", "float"};  // as Sample counts
+  constexpr const char* kNames[] = {"uint8", "uint16", "half", "float"};  // in the order of SampleType
+  static_assert(std::size(kNames) == enumerator_count<SampleType>());
   return kNames[static_cast<size_t>(sample)];
 }
 
