@@ -3,7 +3,7 @@
 //
 // The camera as people set it: degrees, metres, defaults. make_camera() turns it into the kernel's record.
 //
-// World: right-handed, +Y up; with yaw = pitch = roll = 0 the middle of the picture looks along -Z and +X is to the
+// World: right-handed, +Y up; with yaw = pitch = roll = 0 the picture's centre looks along -Z and +X is to the
 // right (glTF's own camera). Angles are applied as roll, then pitch, then yaw.
 #pragma once
 #include <memory>

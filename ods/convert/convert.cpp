@@ -76,7 +76,7 @@ Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& pro
   return extent;
 }
 
-// --- where a pixel lies in the source ------------------------------------------------------------------------------
+// --- where a pixel is in the source --------------------------------------------------------------------------------
 
 namespace {
 

@@ -52,8 +52,7 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection);
 
 // The target has the picture's layers. A colour without alpha gets alpha if the target sees more than the picture.
-// The picture must outlive the result's rows: it is read until the last row is filled. Precondition: conversion_fault()
-// is empty.
+// The picture must not move or go away before the last row is filled. Precondition: conversion_fault() is empty.
 Conversion convert(const StoredPicture& picture, const ConvertTarget& target);
 
 }  // namespace ods

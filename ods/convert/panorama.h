@@ -6,8 +6,8 @@
 //
 // A line of sight is identified by its direction alone: pictures with the same viewing circle and merge contain the
 // same lines, and differ only in where they put them. Toe-in at a distance C also shrinks the circle, by the factor
-// cos(atan(r / (C cos phi))): that is a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. This is ignored. Above
-// the elevation atan(C / r) toe-in has no lines; the last ones are used instead.
+// cos(atan(r / (C cos phi))): a reduction by a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. This is ignored.
+// Above the elevation atan(C / r) toe-in has no lines; the last ones are used instead.
 #pragma once
 #include "ods/picture/stored_picture.h"
 
@@ -20,7 +20,7 @@ struct Source {
   bool other_below = false;
 };
 
-// The picture must outlive the source. Precondition: it has eyes.
+// The picture must outlive the source and must not move. Precondition: it has eyes.
 Source make_source(const StoredPicture& picture);
 
 // A place in the picture.

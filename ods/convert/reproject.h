@@ -23,7 +23,7 @@ struct Reprojection {
 // The index of the layer with the distance along the ray, metres (Z, as save.h defines it).
 std::optional<size_t> depth_layer(const StoredPicture& picture);
 
-// Reads all depths once. Precondition: there is a depth layer. The source must outlive the result.
+// Reads all depths once. Precondition: there is a depth layer. The source must outlive the result and must not move.
 Reprojection make_reprojection(const Source& source);
 
 struct SurfaceHit {

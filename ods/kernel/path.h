@@ -162,8 +162,7 @@ struct PathTracer : MediumReader {
     path.alive = false;
   }
 
-  // Continues straight through a surface that does not count. Shadow rays stop there: only this ray finds what is
-  // beyond.
+  // Continues straight through a surface that does not interact. Shadow rays stop there: only this ray goes beyond it.
   inline void pass_through(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
     path.pdf = 0.0f;

@@ -49,8 +49,8 @@ struct RenderOptions {
   Eyes eyes = Eyes::kBothEyes;
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide
   bool layers = true;        // depth, normal and albedo beside radiance; otherwise their images are empty
-  bool transparent = false;  // the sky lights the scene and is not seen: where nothing is met, alpha is 0;
-                             // asked for where the scene has catchers (ods/scene/catchers.h)
+  bool transparent = false;  // the sky lights the scene but is invisible: alpha is 0 where a ray hits nothing;
+                             // required if the scene has catchers (ods/scene/catchers.h)
   uint32_t seed = 0;
   int threads = 0;  // 0: all processors
   LightSampling light_sampling = LightSampling::kBoth;
