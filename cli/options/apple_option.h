@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// --apple, of the commands that write videos.
+// The option --apple of the commands that write videos.
 #pragma once
 #include "cli/console/console.h"
 #include "cli/console/options.h"

@@ -88,7 +88,7 @@ StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene)
   stereo.yaw = camera.yaw.value_or(view.yaw);
   stereo.pitch = camera.pitch.value_or(0.0f);
   stereo.roll = camera.roll.value_or(0.0f);
-  const std::string fault = camera_fault(stereo);  // scenes may stand anywhere
+  const std::string fault = camera_fault(stereo);  // a scene's view point may be outside the camera's ranges
   if (!fault.empty()) throw UsageError("the camera's " + fault);
   return stereo;
 }

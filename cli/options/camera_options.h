@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that place the camera. Shared by the commands that have one.
+// The options that place the camera, shared by the commands that have one.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 #include "ods/scene/scene.h"
 
 struct CameraOptions {
-  ods::StereoCamera stereo;  // what holds for every scene
+  ods::StereoCamera stereo;  // the part that holds for every scene
   std::string merge_map;
   bool merge_map_inverted = false;
   std::string view_point;
@@ -21,26 +21,28 @@ struct CameraOptions {
   std::optional<float> roll;
 };
 
-// X,Y,Z of a place. name: of the option, for the message. Throws UsageError.
+// Parses a position X,Y,Z. name: of the option, for the message. Throws UsageError.
 ods::vec3 parse_point(const std::string& name, const std::string& word);
 
-// --camera and --position alone, the rest of where it stands, and how it sees. In this order.
+// add_place_options() adds --camera and --position. add_camera_options() adds these, then the orientation, the eyes and
+// the projection.
 void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);
-// The same without --camera, where there is no scene that could have one.
+// Likewise without --camera, where no scene could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
-// Looks at what was given as a whole, reads the merge map, and finds the height of the picture where it is 0. Throws
-// UsageError and ods::Error.
+// Checks the options as a whole, reads the merge map, and finds the height of the picture if it is 0. Throws UsageError
+// and ods::Error.
 void finish_camera_options(CameraOptions& camera, int width, int& height);
 
-// The camera asked for, and where nothing is asked: the scene's first view point; else eye height above the origin, or
-// above the middle of the scene; else, before an object too small to stand in, where all of it is seen. Notes which.
-// Pitch and roll of a view point are left out: in a headset the horizon must be level. Throws UsageError.
+// The camera that the options ask for. Without options: the scene's first view point; otherwise eye height above the
+// origin, or above the centre of the scene; otherwise in front of an object too small to stand in, so that all of it is
+// visible. Notes which.
+// Pitch and roll of a view point are ignored: in a headset the horizon must be level. Throws UsageError.
 ods::StereoCamera place_camera(const CameraOptions& camera, const ods::Scene& scene);
 
-// The same without the note: for every frame of a video.
+// Likewise without the note: for every frame of a video.
 ods::StereoCamera place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
 
-// The camera asked for where there is no scene: at the origin, unless something else was given.
+// The camera that the options ask for if there is no scene: at the origin by default.
 ods::StereoCamera place_camera(const CameraOptions& camera);

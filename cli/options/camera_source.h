@@ -12,13 +12,13 @@
 struct CameraSource {
   CameraOptions camera;
   ods::Sidecar file;
-  std::optional<ods::Layout> layout;  // as --layout has it
+  std::optional<ods::Layout> layout;  // value of --layout
   int width = 2048;                   // of one eye
   ods::Eyes eyes = ods::Eyes::kBothEyes;
 };
 
-// --from goes first: the options after it change what it says.
+// --from takes effect first: the options after it change what it read.
 void add_camera_source(Options& options, CameraSource& source);
 
-// What was asked for, once the options are parsed. Throws UsageError and ods::Error.
+// The result of the options, once they are parsed. Throws UsageError and ods::Error.
 ods::Sidecar read_camera_source(CameraSource& source);

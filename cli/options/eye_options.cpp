@@ -19,7 +19,7 @@ using ods::CameraField, ods::StereoCamera, ods::PoleMergeSetting, ods::vec3;
 
 namespace {
 
-// What stands before the first comma, and the numbers behind it.
+// The text before the first comma, and the numbers after it.
 struct WordAndNumbers {
   std::string word;
   std::vector<float> numbers;
@@ -193,7 +193,7 @@ static void read_merge_map(CameraOptions& camera) {
   for (int y = 0; y < picture.height; y++) {
     for (int x = 0; x < picture.width; x++) {
       const float white = picture.at(x, y)[0];
-      const float share = white > 0.0f ? std::min(white, 1.0f) : 0.0f;  // NaN: none
+      const float share = white > 0.0f ? std::min(white, 1.0f) : 0.0f;  // NaN: 0
       *map->at(x, y) = camera.merge_map_inverted ? 1.0f - share : share;
     }
   }

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that say how the eyes stand: after another system, their distance, merges, convergence, lens.
+// The options of the two eyes: a preset of another system, distance, merges, convergence, lens.
 #pragma once
 #include "cli/options/camera_options.h"
 
 void add_camera_preset_option(Options& options, CameraOptions& camera);
-// What makes up the viewing circle: distance, merges, convergence, neck. Then the rest too.
+// add_circle_options() adds the options of the viewing circle: distance, merges, convergence, neck. add_eye_options()
+// adds them and the rest.
 void add_circle_options(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);
 

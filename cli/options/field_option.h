@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An option that is a number of a camera, with the range that the camera has for it.
+// An option for a number of a camera, with the camera's range for it.
 #pragma once
 #include <string>
 

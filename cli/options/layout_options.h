@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How eyes share a picture or a video, by name.
+// Options for how eyes share a picture or a video, by name.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,10 +9,10 @@
 #include "cli/console/options.h"
 #include "ods/camera/layout.h"
 
-// --layout LAYOUT, by the names and aliases of ods/camera/layout.h. `text` says what it is for.
+// Adds --layout LAYOUT, with the names and aliases of ods/camera/layout.h. `text` describes the option.
 void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
 void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
                        const std::string& name = "--layout");
 
-// By name or alias, as `option` was given it. Throws UsageError with a suggestion.
+// The layout with the name or alias that `option` was given. Throws UsageError with a suggestion.
 ods::Layout layout_by_name(const std::string& option, const std::string& word);

@@ -86,7 +86,7 @@ void note_misleading_name(const std::string& output, const ods::SaveOptions& sav
 }
 
 void refuse_overwriting(const std::string& output, const std::string& input) {
-  std::error_code none;  // what does not exist is no other file
+  std::error_code none;  // a file that does not exist is not the other file
   for (const int eye : {ods::kLeft, ods::kRight}) {
     for (const int other : {ods::kLeft, ods::kRight}) {
       const std::string out = ods::names_eye(output) ? ods::path_for_eye(output, eye) : output;

@@ -24,7 +24,7 @@ struct Face {
 constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"back", 180.0f, 0.0f},
                            {"left", -90.0f, 0.0f}, {"up", 0.0f, 90.0f},    {"down", 0.0f, -90.0f}};
 
-// An option that a projection has no use for would otherwise be lost without a word.
+// An option that does not apply to a projection would otherwise be ignored silently.
 void expect(bool useful, const char* option, const std::string& owners, const ProjectionSetting& projection) {
   if (useful) return;
   throw UsageError(

@@ -19,9 +19,8 @@
 using ods::Scene, ods::vec3;
 
 static void add_confine_option(Options& options, SceneSource& source) {
-  options.text(
-      "--confine", "DIR", source.confine,
-      "read no file outside of this folder, wherever paths and links in the scene lead: for scenes of strangers");
+  options.text("--confine", "DIR", source.confine,
+               "read no file outside this folder, wherever paths and links in the scene lead: for untrusted scenes");
 }
 
 void add_scene_argument(Options& options, SceneSource& source) {
@@ -46,7 +45,7 @@ void add_light_options(Options& options, SceneSource& source) {
                "Replaces the scene's own sky. A scene without lights gets 1");
 }
 
-// What may have been meant, or else what there is.
+// A name that may have been meant, or else the list of names.
 static std::string suggestion(const Scene& scene, const std::string& name) {
   const std::vector<std::string> names = ods::object_names(scene);
   if (names.empty()) return "; it names no objects and materials";
@@ -57,7 +56,7 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
 }
 
-// The folder of --confine without links; empty where there is none.
+// The folder of --confine with links resolved; empty if the option was not given.
 std::string confining_folder(const SceneSource& source) {
   if (source.confine.empty()) return "";
   std::error_code error;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that say which scene, and in what light. Shared by the commands that read one.
+// The options that choose a scene and its light, shared by the commands that read one.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,24 +11,25 @@
 #include "ods/scene/scene.h"
 
 struct SceneSource {
-  std::string name;          // a file, or a built-in scene
-  std::optional<int> scene;  // which of the file's scenes, when not the one it opens with
+  std::string name;          // a file or a built-in scene
+  std::optional<int> scene;  // which of the file's scenes; none: its default scene
   std::string environment;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
 };
 
 void add_scene_argument(Options& options, SceneSource& source);
-// The scene as an option, for commands that can do without.
+// Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
 void add_light_options(Options& options, SceneSource& source);
 
-// The folder of --confine without links; empty where there is none. Throws Error(kInput): there is no such folder.
+// The folder of --confine with links resolved; empty if the option was not given. Throws Error(kInput) if there is no
+// such folder.
 std::string confining_folder(const SceneSource& source);
 
-// Reads the scene, makes catchers of what is named so, and notes what of it is not rendered.
+// Reads the scene, turns the named objects into catchers, and notes what the renderer does not support.
 ods::Scene open_scene(const SceneSource& source);
 
-// The same, to be rendered: in the environment asked for. A scene without lamps gets a white sky, and a note. Throws
-// Error(kInput) where it has nothing to render.
+// Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Throws
+// Error(kInput) if there is nothing to render.
 ods::Scene open_lit_scene(const SceneSource& source);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that say when: a moment of a scene, or the frames of a video and how the camera moves in it.
+// The options of time: a moment of a scene, or the frames of a video and the camera's move in it.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@
 #include "ods/camera/camera_move.h"
 #include "ods/scene/scene.h"
 
-// Whether every frame of a video has the same noise, or each its own.
+// Whether all frames of a video have the same noise, or each frame its own.
 enum class VideoNoise { kFixed, kChanging };
 inline constexpr ods::NameRow<VideoNoise> kVideoNoiseTable[] = {
     {VideoNoise::kFixed, "fixed"},
@@ -28,25 +28,25 @@ constexpr std::string_view video_noise_name(VideoNoise noise) {
 struct TimeOptions {
   std::optional<float> time;  // seconds
   std::string animation;      // empty: what ods::play() chooses
-  std::string frames;         // empty or "all": all of the duration
+  std::string frames;         // empty or "all": the whole duration
   float fps = 30.0f;
   std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
-  float shutter = 0.0f;  // degrees of the time between two frames
+  float shutter = 0.0f;  // shutter angle, degrees: 360 is the time between two frames
   VideoNoise noise = VideoNoise::kFixed;
   bool skip_existing = false;
-  bool is_video = false;  // whatever else is given
+  bool is_video = false;  // true: the command makes a video, whatever other options say
 };
 
 void add_time_options(Options& options, TimeOptions& time);
 
-// Whether a video is asked for, frame by frame.
+// Whether the options ask for a video, frame by frame.
 bool asks_for_video(const TimeOptions& time);
 
-// Looks at what was given as a whole. Throws UsageError and ods::Error.
+// Checks the options as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);
 
-// Lets the scene play what was asked for, and finds out how long the video is. Throws UsageError.
+// Starts the requested animations and finds the length of the video. Throws UsageError.
 void start_clock(TimeOptions& time, ods::Scene& scene);
 
 // The frames of the video; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.

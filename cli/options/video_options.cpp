@@ -36,7 +36,7 @@ void parse_encoder(const std::string& name, VideoWishes& wishes) {
   throw UsageError(fmt::format("--encoder is one of {}, not '{}'", encoder_list(), name));
 }
 
-// What the target says, but for what was asked for.
+// The target's packing, with the options applied.
 ods::Packing packing_for(const VideoWishes& wishes, Container container, Extent size) {
   ods::Packing packing = ods::packing_for(wishes.target, size, wishes.rate.value());
   const auto change = [&](VideoCodec codec) {
@@ -93,7 +93,8 @@ void check_quality(const ods::EncodeOptions& options) {
   throw UsageError(fmt::format("{} does not encode {}", options.encoder, codec));
 }
 
-// A video that is not there yet, as ods probe would see it; with the name that players would know it by.
+// Warns about a video that does not exist yet, as ods probe would see it, and notes the name by which players would
+// know it.
 void warn_of_names(const VideoWishes& wishes, const ods::VideoPlan& plan) {
   ods::VideoFile video;
   ods::VideoTrack track;
@@ -185,7 +186,7 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
 ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int threads) {
   const Container container = container_for(wishes.output);
   check_apple(wishes.for_apple, container);
-  setenv("SVT_LOG", "0", 0);  // SVT-AV1 speaks for itself
+  setenv("SVT_LOG", "0", 0);  // SVT-AV1 would print its own messages
   ods::EncodeOptions options;
   options.packing = packing_for(wishes, container, size);
   options.encoder = wishes.encoder;

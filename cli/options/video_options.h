@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that say how a video is packed. Shared by the commands that make one.
+// The options for packing a video, shared by the commands that make one.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,26 +23,26 @@ struct VideoWishes {
   ods::FrameRate rate;
 };
 
-// 30, 12.5, 30000/1001; 29.97 and its like mean 30000/1001 and its like, as everybody means. Throws UsageError.
+// Parses 30, 12.5, 30000/1001; 29.97 and the like mean 30000/1001 and the like, as usual. Throws UsageError.
 ods::FrameRate parse_rate(const std::string& text);
 
-// -o and what follows, in groups of their own; not the rate.
+// Adds -o and the packing options, in their own groups, without the rate.
 void add_video_options(Options& options, VideoWishes& wishes);
-// The same without -o, in a group that is open already.
+// Adds the packing options alone, to the group that is open.
 void add_packing_options(Options& options, VideoWishes& wishes);
 
-// Of a video's name. Throws UsageError.
+// Chosen by a video's name. Throws UsageError.
 ods::Container container_for(const std::string& path);
 
-// How a video of that size is encoded. Throws UsageError where the wishes do not fit together, ods::Error where this
-// machine cannot. Nothing is written, but that the file could be is found out.
+// How to encode a video of that size. Throws UsageError if the options do not fit together, ods::Error if this machine
+// cannot encode it. Checks that the file can be written, but writes nothing.
 ods::EncodeOptions encode_options(const VideoWishes& wishes, ods::Extent size, int threads);
 
-// What a video of eyes of this size will be like; warns of what players do not expect. Throws UsageError for a layout
-// that videos do not have.
+// Describes the video that eyes of this size will give; warns of what players do not expect. Throws UsageError for a
+// layout that videos cannot have.
 ods::VideoPlan expect_video(ods::Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection);
 
-// What people should know before a video is made: levels, names; then, of so many frames, its sound.
+// Says what users should know before the video is made: levels, names, and its sound for this number of frames.
 void say_what_players_need(const VideoWishes& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options);
 void say_length_of_sound(const ods::EncodeOptions& options, size_t frames);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods convert: a picture becomes another.
+// ods convert: converts a picture to another form.
 #include "ods/convert/convert.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace {
 
-// Tells the lines how many rows are made.
+// Reports to the progress lines how many rows are done.
 void count_rows(ods::PictureRows& rows, const std::string& output, ProgressLines& lines,
                 std::chrono::steady_clock::time_point start) {
   const double all = static_cast<double>(rows.eyes.size()) * rows.eye.height;

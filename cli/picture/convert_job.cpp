@@ -31,15 +31,15 @@ constexpr const char* kSummary =
     "stays\n"
     "as it is.";
 
-// What the command line says.
+// What the command line asks for.
 struct Wishes {
-  ods::RenderOptions size;  // width, height and eyes of it
+  ods::RenderOptions size;  // width, height and eyes of the output
   std::optional<Layout> layout;
-  CameraOptions camera;  // the input's, changed
+  CameraOptions camera;  // the input's, with the options applied
   bool mono = false;
 };
 
-// Opens the input's header as soon as all is known of it: the options after it change what it says.
+// Opens the input's header as soon as --from-* options are known; the options after it change what the header says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
   ods::OpenOptions open;
@@ -99,7 +99,7 @@ void add_camera(Options& options, CameraOptions& camera) {
   add_circle_options(options, camera);
 }
 
-// A mono picture is one of the eyes that there are, wherever eyes are wanted.
+// A mono picture is one of the existing eyes, wherever the eyes are to move.
 void note_unmoved(const ConvertJob& job, const StereoCamera& wished) {
   const StereoCamera& own = job.picture.camera;
   const bool moves = wished.ipd != own.ipd || wished.neck != own.neck || !ods::same_merge(wished.top, own.top) ||
@@ -113,7 +113,7 @@ std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool g
   return same_format(job.picture).eyes;
 }
 
-// Where the output will be, or what exists of the way to it.
+// The folder of the output, or the nearest parent that exists.
 std::string folder_of(const std::string& output) {
   std::filesystem::path folder = std::filesystem::path(output).parent_path();
   std::error_code ignored;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods convert is asked to do.
+// What ods convert has to do.
 #pragma once
 #include <string>
 
@@ -14,14 +14,14 @@ struct ConvertJob {
   std::string input;
   std::string output;
   ods::FormatHint known;       // of the input
-  ods::StoredPicture picture;  // its header until open_input()
+  ods::StoredPicture picture;  // only its header until open_input()
   ods::ConvertTarget target;
   ods::SaveOptions save;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// What is not given stays as the input has it. False when help was asked for. Throws UsageError and ods::Error.
+// Values that are not given remain the input's. Returns false if help was asked for. Throws UsageError and ods::Error.
 bool read_convert_job(ConvertJob& job, int argc, char** argv);
 
 // Reads the input's pixels. Throws ods::Error.

@@ -26,7 +26,7 @@ std::vector<float*> numbers_of(vec3& v) {
 
 const FieldRow& row_of(CameraField field) {
   using Numbers = std::vector<float*>;
-  // As CameraField counts.
+  // In the order of CameraField.
   static const FieldRow kRows[] = {
       {"position", kPlace, [](StereoCamera& camera) { return numbers_of(camera.position); }},
       {"yaw", kAngle, [](StereoCamera& camera) { return Numbers{&camera.yaw}; }},

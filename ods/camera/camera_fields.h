@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The numbers of a camera and the range of each. The command line, sidecars, EXR attributes and the presets of other
-// systems all read this one table, so that each takes what the others write.
+// systems all use this one table, so each accepts what the others write.
 #pragma once
 #include <iterator>
 #include <string>
@@ -52,7 +52,7 @@ inline constexpr CameraField kCameraFields[] = {CameraField::kPosition,      Cam
 static_assert(std::size(kCameraFields) == enumerator_count<CameraField>());
 std::string_view field_name(CameraField field);  // for people: "yaw"
 
-// Of every number of a field, both ends included. Degrees, metres.
+// The range of every number of a field, both ends included. Degrees, metres.
 struct FieldRange {
   float least = 0.0f;
   float most = 0.0f;
@@ -60,14 +60,15 @@ struct FieldRange {
 };
 FieldRange range_of(CameraField field);
 
-// Where a camera keeps them: three of a position, one for each pole of a merge, none of an axis that it has not.
+// The places where a camera keeps a field's numbers: three of a position, one for each pole of a merge, none if the
+// camera has no axis.
 std::vector<float*> numbers_of(StereoCamera& camera, CameraField field);
 
-// What is wrong with a camera, in words for a message; empty: nothing. A number out of its range, a merge that ends
-// where it starts, an axis without a direction, projection_fault().
+// What is wrong with a camera, in words for a message; empty: nothing. Checks for a number out of its range, a merge
+// that ends where it starts, an axis without a direction, and projection_fault().
 std::string camera_fault(const StereoCamera& camera);
 
-// The same angle within the range of angles, if it is not there already. Degrees.
+// The same angle, moved into the range of angles if it is outside. Degrees.
 float angle_in_range(double degrees);
 
 }  // namespace ods

@@ -13,8 +13,8 @@ using glm::dvec3;
 
 namespace {
 
-// Source: Barry and Goldman, "A recursive evaluation algorithm for a class of Catmull-Rom splines", 1988. p[1] to p[2];
-// t[i] are their knots.
+// Interpolates between p[1] and p[2]; t[i] are the knots of p[i].
+// Source: Barry and Goldman, "A recursive evaluation algorithm for a class of Catmull-Rom splines", 1988.
 dvec3 catmull_rom(const dvec3 p[4], const double t[4], double at) {
   const auto between = [&](const dvec3& a, const dvec3& b, double from, double to) {
     return to > from ? ((to - at) * a + (at - from) * b) / (to - from) : a;
@@ -24,7 +24,7 @@ dvec3 catmull_rom(const dvec3 p[4], const double t[4], double at) {
   return between(between(a, b, t[0], t[2]), between(b, c, t[1], t[3]), t[1], t[2]);
 }
 
-// Points of the curve so dense that the chords between them stand for it.
+// Points of the curve, dense enough for the chords between them to replace it.
 std::vector<dvec3> flight(const dvec3& start, const std::vector<vec3>& places) {
   constexpr int kSteps = 256;
   std::vector<dvec3> p = {start};
@@ -32,7 +32,7 @@ std::vector<dvec3> flight(const dvec3& start, const std::vector<vec3>& places) {
     if (dvec3(place) != p.back()) p.emplace_back(place);
   }
   if (p.size() == 1) return p;
-  p.insert(p.begin(), 2.0 * p[0] - p[1]);  // so that it starts and ends straight
+  p.insert(p.begin(), 2.0 * p[0] - p[1]);  // so that the curve starts and ends straight
   p.push_back(2.0 * p[p.size() - 1] - p[p.size() - 2]);
   std::vector<double> knots = {0.0};
   for (size_t i = 1; i < p.size(); i++) knots.push_back(knots.back() + glm::distance(p[i - 1], p[i]));

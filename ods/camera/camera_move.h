@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves of the camera, so that a scene that stands still can make a video.
+// Moves of the camera, so that a video of a static scene has motion.
 #pragma once
 #include <optional>
 #include <vector>
@@ -11,18 +11,18 @@
 namespace ods {
 
 struct CameraMove {
-  double seconds = 10.0;      // what the turns and the flight take
-  double turns = 0.0;         // to the right, at constant speed, and on after the time
-  std::optional<vec3> pivot;  // the camera goes around the vertical line through it and keeps its face to it; none: it
-                              // turns where it stands
-  std::vector<vec3> fly_to;   // the places that it flies through, from where it stands; it starts and ends gently,
-                              // and stays at the last one
+  double seconds = 10.0;  // the duration of the turns and the flight
+  double turns = 0.0;     // turns to the right, at constant speed; they continue after `seconds`
+  std::optional<vec3>
+      pivot;  // the camera circles the vertical line through this point and always faces it; none: it turns in place
+  std::vector<vec3> fly_to;  // the places that it flies through, from its own position; it starts and ends gently, and
+                             // stays at the last one
 };
 
 bool moves(const CameraMove& move);
 
-// The camera at a time, moved from where it is without the move. The flight follows a Catmull-Rom curve,
-// chords as knot distances, and covers its length by the smoothstep of time.
+// The camera at a time, in seconds; `camera` is the camera without the move. The flight follows a Catmull-Rom curve
+// with chord lengths as knot distances, and covers its length by the smoothstep of time.
 StereoCamera moved(const StereoCamera& camera, const CameraMove& move, double time);
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cameras of other systems, by the parameters that their users know.
+// The cameras of other systems, with the parameters that their users know.
 #pragma once
 #include <map>
 #include <optional>
@@ -15,24 +15,24 @@ namespace ods {
 
 struct PresetParameter {
   std::string_view name;
-  std::string_view value;    // where it starts: the system's default, lengths in metres
-  std::string_view meaning;  // of it, or the words it may be
+  std::string_view value;    // the system's default, lengths in metres
+  std::string_view meaning;  // what the parameter means, or the words that it accepts
 };
 
 struct CameraPreset {
   std::string_view name;
   std::string_view system;
-  bool exact;             // the same rays; else close to them, and the note says what differs
-  std::string_view note;  // with the source of the formula
+  bool exact;             // the same rays; otherwise close to them, and the note says what differs
+  std::string_view note;  // includes the source of the formula
   std::span<const PresetParameter> parameters;
 };
 
 std::span<const CameraPreset> camera_presets();
 const CameraPreset* find_camera_preset(std::string_view name);
 
-// The camera that sees as the system does with these parameters; those not given have its defaults. Position and
-// orientation stay the camera's own, but for a system's angle of rotation, which becomes its yaw.
-// Throws std::invalid_argument with a line to show: a parameter that the system has not, a value that is no number.
+// The camera that has the system's rays with these parameters; those not given have the system's defaults. Position and
+// orientation remain the camera's own, except that a system's rotation angle becomes its yaw.
+// Throws std::invalid_argument with a line to show, if the system has no such parameter or a value is not a number.
 StereoCamera camera_like(const CameraPreset& preset, const std::map<std::string, std::string>& given);
 
 }  // namespace ods

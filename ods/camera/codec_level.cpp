@@ -11,9 +11,9 @@ namespace {
 
 struct Level {
   std::string_view name;
-  int64_t pixels;      // of a picture, in whole blocks
-  int64_t pixel_rate;  // a second
-  Extent longest;      // sides; none: both at most sqrt(8 pixels)
+  int64_t pixels;      // of a picture, rounded up to whole blocks
+  int64_t pixel_rate;  // per second
+  Extent longest;      // longest sides; none: both at most sqrt(8 pixels)
 };
 
 }  // namespace
@@ -69,7 +69,7 @@ static constexpr Level kVp9Levels[] = {
 namespace {
 
 struct CodecFacts {
-  int block;  // sides are coded in multiples of it
+  int block;  // each side is coded as a multiple of this
   std::span<const Level> levels;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What video decoders are bound to play. A file outside every level plays only where a device happens to allow more.
+// The limits that video decoders must support. A file outside every level plays only where a device happens to allow
+// more. Only the size of a picture and the pixels per second are considered, not the bit rate.
 // Sources: ITU-T H.264 table A-1, ITU-T H.265 tables A.8 and A.9, AV1 Bitstream & Decoding Process annex A.3, WebM
-// Project, "VP9 Levels and Decoder Testing". Only the size of a picture and pixels a second are looked at, not bit
-// rates.
+// Project, "VP9 Levels and Decoder Testing".
 #pragma once
 #include <string_view>
 
@@ -23,7 +23,7 @@ constexpr std::string_view codec_name(Codec codec) {
   return name_in(kCodecTable, codec);
 }
 
-// The smallest level, as its standard writes it ("5.1"), of a video of such pictures; empty when none is large enough.
+// The smallest level, as its standard writes it ("5.1"), that allows a video of such pictures; empty if no level does.
 // Precondition: sides above 0, fps >= 0.
 std::string_view smallest_level(Codec codec, Extent size, double fps);
 

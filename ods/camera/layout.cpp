@@ -31,7 +31,7 @@ std::optional<Layout> layout_of(std::string_view word) {
   return std::nullopt;
 }
 
-// --- where the eyes lie --------------------------------------------------------------------------------------------
+// --- where the eyes are ---------------------------------------------------------------------------------------------
 
 std::optional<Layout> layout_with(const EyeArrangement& eyes) {
   for (const LayoutRow& row : kLayoutTable) {
@@ -58,7 +58,7 @@ Extent squeeze_of(Layout layout, int eye_count) {
   return eyes.how == EyePacking::kBeside ? Extent{2, 1} : Extent{1, 2};
 }
 
-// In how many eyes the packed image is cut.
+// The number of columns and rows of eyes that the packed image is cut into.
 static Extent cuts_of(EyePacking how, int eye_count) {
   switch (how) {
     case EyePacking::kStacked:

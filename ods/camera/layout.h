@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How two eyes share a file. This is the only place that knows; until here every eye is an image of its own.
+// How two eyes share a file. This is the only place that knows the layouts; elsewhere each eye is its own image.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,17 +18,18 @@ enum class Layout {
   kTopBottom,       // one image, the left eye on top
   kBottomTop,       // the right eye on top
   kSideBySide,      // the left eye on the left
-  kCrossEyed,       // the right eye on the left: seen with crossed eyes, without a device
-  kTopBottomHalf,   // top-bottom of eyes squeezed to half their height: the file has the size of an eye
-  kSideBySideHalf,  // side-by-side of eyes squeezed to half their width
-  kRowInterleaved,  // every row of the left eye is followed by the right eye's; none is left out
+  kCrossEyed,       // the right eye on the left: viewed by crossing the eyes, without a device
+  kTopBottomHalf,   // top-bottom with eyes squeezed to half their height: the file has the size of one eye
+  kSideBySideHalf,  // side-by-side with eyes squeezed to half their width
+  kRowInterleaved,  // each row of the left eye is followed by the right eye's row; no rows are dropped
   kColumnInterleaved,
-  kCheckerboard,  // a file of the eye's size, the left eye's pixel where x + y is even: half of each eye's are left out
+  kCheckerboard,  // a file of the eye's size, the left eye's pixel where x + y is even: half of each eye's pixels are
+                  // dropped
   kAnaglyph,      // for red-cyan glasses: see anaglyph.h
   kAnaglyphHalf,
   kAnaglyphDubois,
   kSeparate,   // a file per eye: %V in its name becomes left or right, %v l or r
-  kMultiview,  // one EXR of the size of an eye; every eye has its own channels
+  kMultiview,  // one EXR of the size of an eye; each eye has its own channels
 };
 
 enum class EyePacking {
@@ -37,19 +38,19 @@ enum class EyePacking {
   kRows,     // every other row
   kColumns,  // every other column
   kCheckerboard,
-  kMixed,  // every pixel has both: nobody can take them apart again
-  kAlone,  // each eye is an image of its own
+  kMixed,  // every pixel has both eyes: they cannot be separated again
+  kAlone,  // each eye is its own image
 };
 
-// Where a layout puts its eyes. Code that needs to know asks this, instead of listing layouts.
+// Where a layout puts its eyes. Code that needs to know asks this instead of listing layouts.
 struct EyeArrangement {
   EyePacking how = EyePacking::kAlone;
   bool right_first = false;  // the right eye is on top or on the left
   bool squeezed = false;     // to half the height (stacked) or width (beside)
 
-  // Each eye is one half of the file. This is all that videos and most other programs know.
+  // Each eye is one half of the file. Videos and most other programs know only such layouts.
   constexpr bool is_halves() const { return how == EyePacking::kStacked || how == EyePacking::kBeside; }
-  // Neighbouring pixels belong to different eyes, and each pixel to one.
+  // Neighbouring pixels belong to different eyes, and each pixel to one eye.
   constexpr bool is_interleaved() const {
     return how == EyePacking::kRows || how == EyePacking::kColumns || how == EyePacking::kCheckerboard;
   }
@@ -87,59 +88,60 @@ constexpr EyeArrangement arrangement_of(Layout layout) {
   return row_in(kLayoutTable, layout).eyes;
 }
 
-// The first layout with this arrangement; kSeparate of eyes that are alone. None: no layout has it, such as squeezed
-// with the right eye first.
+// The first layout with this arrangement; kSeparate for EyePacking::kAlone. None if no layout has it, for example
+// squeezed with the right eye first.
 std::optional<Layout> layout_with(const EyeArrangement& eyes);
 
 struct ProjectionSetting;
 
-// How two eyes share a file where nobody says it, which is what players expect: vr180 side by side, all else
-// top-bottom.
+// The layout of two eyes if nothing else states one, which is what players expect: side-by-side for vr180, top-bottom
+// for all else.
 Layout default_layout(const ProjectionSetting& projection);
 
-// The layout of a picture that is made of another one, which has the layout `own`, where nobody says it: the same. But
-// where the new projection has another default than the old one, eyes that lie above or beside each other follow it.
+// Default layout of a converted picture: that of the original, `own`, unless the two projections have different
+// defaults and the eyes are stacked or side by side; then the new projection's.
 Layout layout_of_converted(Layout own, const ProjectionSetting& from, const ProjectionSetting& to);
 
-// What others call them, in small letters: over-under, tb, sbs, ...
+// Other names for layouts, in lower case: over-under, tb, sbs, ...
 struct LayoutAlias {
   std::string_view word;
   Layout layout;
 };
 const std::vector<LayoutAlias>& layout_aliases();
 
-// By name or alias, in capitals or not.
+// The layout with this name or alias, in upper or lower case.
 std::optional<Layout> layout_of(std::string_view word);
 
-// Both eyes are in every pixel, as a display shows them.
+// Whether every pixel has both eyes, as a display shows them.
 bool is_anaglyph(Layout layout);
 
 // How many columns and rows of an eye become one of the file: 2x1 and 1x2 for the halves, 1x1 for all others and for a
-// single eye. The mean of them does: an area filter, in linear light.
+// single eye. They are averaged (area filter, linear light).
 Extent squeeze_of(Layout layout, int eye_count);
 Extent squeezed_eye(Layout layout, Extent eye, int eye_count);
 
-// The size of the image that packs eyes which are `eye` large once they are squeezed. A single eye, anaglyphs,
-// kSeparate and kMultiview pack nothing.
+// The size of the image that packs eyes, whose size after squeezing is `eye`. A single eye, anaglyphs, kSeparate and
+// kMultiview pack nothing.
 Extent packed_size(Layout layout, Extent eye, int eye_count);
 
-// What row y of that image is made of, from left to right: the row of one eye, or those of both. Of anaglyphs and
-// kMultiview: the row of every eye, in one place.
+// The parts of row y of the packed image, from left to right: the row of one eye, or those of both. For anaglyphs and
+// kMultiview: the row of every eye, all at the same place.
 struct EyeRow {
-  int index;  // of the eye in the picture: 0 is the left, or the only one
+  int index;  // of the eye in the picture: 0 is the left or the only one
   int y;
-  int x = 0;      // the image's column of the first pixel,
-  int step = 1;   // and how many columns on the next one lies
-  int first = 0;  // the eye's column of the first pixel,
-  int every = 1;  // and of how many of the eye's pixels one is taken
+  int x = 0;      // first column in the image
+  int step = 1;   // column stride in the image
+  int first = 0;  // first column in the eye's row
+  int every = 1;  // stride in the eye's row
 };
 std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
 
-// The size of either eye in a packed image; nothing when an image of that size cannot be of this layout. Squeezed eyes
-// stay as they are stored. Precondition: not an anaglyph.
+// The size of either eye in a packed image; empty if an image of that size cannot have this layout. Squeezed eyes keep
+// their stored size. Precondition: not an anaglyph.
 std::optional<Extent> unpacked_size(Layout layout, Extent packed);
 
-// Where an eye begins in a packed image. `eye` is the size of either, `index` 0 for the left or the only one.
+// The top left corner of an eye in a packed image. `eye` is the size of either, `index` is 0 for the left or the only
+// one.
 // Precondition: is_halves() or kAlone.
 struct EyeCorner {
   int x = 0;
@@ -147,8 +149,8 @@ struct EyeCorner {
 };
 EyeCorner eye_corner(Layout layout, Extent eye, int index);
 
-// What kCheckerboard leaves out of an eye is filled from the pixels above, below and beside, which it has: those of
-// them that lie in the picture. Precondition: the eye has more than one pixel.
+// The pixels of an eye that fill one that kCheckerboard dropped: those above, below, left and right that are inside the
+// picture. The file has all of them. Precondition: the eye has more than one pixel.
 struct Neighbours {
   int count = 0;
   int x[4] = {};
@@ -159,9 +161,8 @@ constexpr bool is_left_out(int index, int x, int y) {
   return (x + y) % 2 != index;
 }
 
-// The eyes of a packed image, left and right, bit for bit; of kCheckerboard with the mean of the neighbours for what it
-// leaves out. kSeparate and kMultiview: the image itself, as it is one
-// eye. Precondition: unpacked_size() has a value.
+// The eyes of a packed image, left and right, bit for bit; pixels that kCheckerboard dropped are the mean of their
+// neighbours. kSeparate and kMultiview: the image itself, as it is one eye. Precondition: unpacked_size() has a value.
 std::vector<Image> unpack(Layout layout, const Image& packed);
 
 // kLeft, kRight, kMono -> `left`, `right`, `mono`.

@@ -43,7 +43,7 @@ std::span<const NamedProjection> named_projections() {
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
       {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
       {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial)},
-      // Where an orthographic camera sees the ball at the radius sin(b), the ball turns its ray by 2 b.
+      // An orthographic camera sees the ball at the radius sin(b) where the ball reflects its ray by 2 b.
       {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f)},
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
       {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
@@ -107,7 +107,7 @@ static std::string range_fault(const ProjectionSetting& setting) {
   return {};
 }
 
-// Minus the polynomial, and what it grows by for a millimetre. Radians.
+// Minus the polynomial, in radians, and its derivative per millimetre.
 static double polynomial_angle(const std::array<float, 5>& k, double r) {
   return -(double{k[0]} + r * (double{k[1]} + r * (double{k[2]} + r * (double{k[3]} + r * double{k[4]}))));
 }
@@ -116,9 +116,11 @@ static double polynomial_slope(const std::array<float, 5>& k, double r) {
   return -(double{k[1]} + r * (2.0 * double{k[2]} + r * (3.0 * double{k[3]} + r * 4.0 * double{k[4]})));
 }
 
-constexpr int kPolynomialSteps = 4096;  // from the axis to the corner, looking for where a polynomial reaches an angle
+constexpr int kPolynomialSteps =
+    4096;  // from the axis to the corner, in the search for the radius where a polynomial reaches an angle
 
-// The radius of the image circle, millimetres: where the angle first is half the field of view, at most the corner.
+// The radius of the image circle, millimetres: where the angle first reaches half the field of view, at most the
+// corner.
 static double polynomial_edge(const ProjectionSetting& setting) {
   const double corner = std::hypot(double{setting.sensor.x}, double{setting.sensor.y}) / 2.0;
   const double half = glm::radians(double{setting.fov}) / 2.0;
@@ -179,7 +181,8 @@ std::string projection_fault(const ProjectionSetting& setting) {
   return has_lens(setting.kind) ? lens_fault(setting) : "";
 }
 
-// --- what each kind is like ------------------------------------------------------------------------------------------
+// --- the kinds
+// ---------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -200,9 +203,9 @@ using Setting = const ProjectionSetting&;
 // One row per kind of ods/kernel/camera/projection.h.
 struct KindRow {
   int member;
-  std::string_view name;                               // of the kind, for messages
+  std::string_view name;                               // name of the kind, for messages
   double (*aspect)(Setting);                           // width over height of a picture in its true shape
-  double (*pixels_per_radian)(Setting, double width);  // in the middle, from left to right
+  double (*pixels_per_radian)(Setting, double width);  // horizontally, at the centre
 };
 
 double square(Setting) {

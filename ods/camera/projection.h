@@ -16,27 +16,27 @@ inline constexpr std::array<float, 5> kCyclesPolynomial = {-1.1735143712967577e-
                                                            -3.3525322965709175e-06f, 3.099275275886036e-06f,
                                                            -2.6064646454854524e-08f};
 
-// Degrees throughout. Longitudes grow to the right, latitudes upwards, 0 is ahead.
+// Angles are in degrees. Longitudes grow to the right, latitudes upwards, 0 is ahead.
 struct ProjectionSetting {
   int kind = kLatLong;
   // Ranges are in camera_fields.h.
   vec2 longitude{-180.0f, 180.0f};  // kLatLong, kCylinder: of the left and right edge, at most 360 apart
-  vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; of a cylinder within +-89
+  vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; for a cylinder within +-89
   float fov = 180.0f;               // kFisheye...: from edge to edge, at most 360; kPerspective: horizontal, below 180
   float aspect = 1.0f;              // kPerspective: width over height
-  // kFisheyePolynomial, which sees up to `fov`: a sensor in millimetres, and K0 .. K4. At r millimetres from its middle
-  // it looks -(K0 + K1 r + K2 r^2 + K3 r^3 + K4 r^4) radians away from the axis. These are Cycles' parameters and
-  // defaults, which are close to a lens of 50 mm.
+  // kFisheyePolynomial, whose field of view is `fov`: a sensor in millimetres, and K0 .. K4. At r millimetres from the
+  // sensor's centre it looks -(K0 + K1 r + K2 r^2 + K3 r^3 + K4 r^4) radians away from the axis. These are Cycles'
+  // parameters and defaults, which are close to a lens of 50 mm.
   vec2 sensor{36.0f, 24.0f};
   std::array<float, 5> polynomial = kCyclesPolynomial;
   float pan = 0.0f;   // has_lens(): where the lens points, to the right
-  float tilt = 0.0f;  // and up; the viewing circle stays as it is
+  float tilt = 0.0f;  // and upwards; the viewing circle does not move
 
   bool operator==(const ProjectionSetting&) const = default;
 };
 
-// A projection by the name that users type. Several names may be one kind with other defaults: `vr180` is the front
-// half of `lat-long`, `dome` a fisheye that looks up.
+// A projection by the name that users type. Several names may share a kind with different defaults: `vr180` is the
+// front half of `lat-long`, `dome` a fisheye that looks up.
 struct NamedProjection {
   std::string_view name;
   std::string_view summary;
@@ -45,13 +45,13 @@ struct NamedProjection {
 std::span<const NamedProjection> named_projections();
 const NamedProjection* find_projection(std::string_view name);
 
-// The name of a setting: the first whose kind fits and whose numbers are its defaults, else the first of the kind.
+// The name of a setting: the first name whose kind and default numbers match it, otherwise the first name of the kind.
 std::string_view projection_name(const ProjectionSetting& setting);
 
-// The kinds that are of a family, such as has_lens, in words for a message: "fisheye and perspective".
+// The kinds of a family, such as has_lens, in words for a message: "fisheye and perspective".
 std::string kinds_with(bool (*trait)(int kind));
 
-// Whether a setting is the whole sphere in lat-long, which players know without being told more.
+// Whether a setting is the whole sphere in lat-long, which players assume if no metadata says otherwise.
 bool is_full_lat_long(const ProjectionSetting& setting);
 
 // Whether a setting is vr180: the front half of the sphere in lat-long.
@@ -63,14 +63,14 @@ std::string projection_fault(const ProjectionSetting& setting);
 // The height that gives a picture of this width its true shape; at least 1.
 int natural_height(const ProjectionSetting& setting, int width);
 
-// How many pixels of a picture of this width see a radian in its middle, from left to right.
+// How many pixels of a picture of this width cover a radian at its centre, horizontally.
 double pixels_per_radian(const ProjectionSetting& setting, double width);
 
-// Cubes need whole faces: the number that the width of one eye must divide by, 1 for all others.
+// Cubes need whole faces: the number that the width of one eye must be a multiple of; 1 for all others.
 int width_step(const ProjectionSetting& setting);
 
-// Right, up and back of what looks along -Z and is rolled clockwise, then pitched up, then turned to the right.
-// Radians.
+// The right, up and back vectors of a camera that looks along -Z and is rolled clockwise, then pitched up, then turned
+// to the right. Angles in radians.
 std::array<glm::dvec3, 3> orientation(double yaw, double pitch, double roll);
 
 // Precondition: projection_fault() is empty.

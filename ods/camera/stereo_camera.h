@@ -3,7 +3,7 @@
 //
 // The camera as people set it: degrees, metres, defaults. make_camera() turns it into the kernel's record.
 //
-// World: right-handed, +Y up; with yaw = pitch = roll = 0 the middle of the picture looks along -Z and +X is to the
+// World: right-handed, +Y up; with yaw = pitch = roll = 0 the picture's centre looks along -Z and +X is to the
 // right (glTF's own camera). Angles are applied as roll, then pitch, then yaw.
 #pragma once
 #include <memory>
@@ -17,13 +17,13 @@
 
 namespace ods {
 
-// How the distance between the eyes shrinks towards one pole, so that the picture stays whole when looked at there.
+// How the distance between the eyes shrinks towards one pole, so that the picture can be viewed there.
 // Elevations are degrees from the horizon (0) towards the pole (90), 0 <= start < end <= 90.
 struct PoleMergeSetting {
   int mode = kMergeNone;  // kMergeNone, kMergeLinear .. (ods/kernel/camera/merge.h)
   float start = 60.0f;
   float end = 90.0f;
-  float exponent = 1.0f;  // the curve raised to this power, > 0
+  float exponent = 1.0f;  // the curve is raised to this power, > 0
 
   bool operator==(const PoleMergeSetting&) const = default;
 };
@@ -47,7 +47,8 @@ constexpr std::string_view merge_name(int mode) {
 constexpr std::optional<int> merge_of(std::string_view name) {
   return find_in(kMergeTable, name);
 }
-bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b);  // numbers of kMergeNone do not count
+bool same_merge(const PoleMergeSetting& a,
+                const PoleMergeSetting& b);  // two kMergeNone are equal whatever their numbers
 
 inline constexpr NameRow<int> kConvergenceTable[] = {{kParallel, "parallel"}, {kToeIn, "toe-in"}, {kShift, "shift"}};
 static_assert(has_each_of(kConvergenceTable, kConvergenceCount));
@@ -59,32 +60,32 @@ constexpr std::string_view convergence_name(int convergence) {
 struct StereoCamera {
   vec3 position{0.0f, 0.0f, 0.0f};
   float yaw = 0.0f;    // degrees to the right
-  float pitch = 0.0f;  // degrees up; tilts the viewing circle with it, unless it has an axis of its own
+  float pitch = 0.0f;  // degrees up; it tilts the viewing circle too, unless the circle has its own axis
   float roll = 0.0f;   // degrees clockwise
   float ipd = 0.065f;  // distance between the eyes, metres; 0 is mono
   PoleMergeSetting top;
   PoleMergeSetting bottom;
-  std::shared_ptr<const Image> merge_map;  // of kMergeMap: lat-long, 1 channel, 1 is full stereo and 0 is merged
+  std::shared_ptr<const Image> merge_map;  // for kMergeMap: lat-long, 1 channel, 1 is full stereo and 0 is merged
   ProjectionSetting projection;
   int convergence = kParallel;
   float convergence_distance = 2.0f;  // metres
-  float neck = 0.0f;                  // metres that the eyes stand before the neck's axis; the merge scales it too
-  std::optional<vec3> axis;           // in the world: what the viewing circle lies square to; none: the camera's up
-  float lens_radius = 0.0f;           // metres; 0 is a pinhole. Blur does not know of rolling shutters, nor do we
-  float focus_distance = 2.0f;        // metres along the ray
-  bool mirrored = false;              // front and back change places, as when a left-handed world is taken as it stands
+  float neck = 0.0f;            // distance of the eyes in front of the neck's axis, metres; the merge scales it too
+  std::optional<vec3> axis;     // normal of the viewing circle, in the world; none: the camera's up
+  float lens_radius = 0.0f;     // metres; 0 is a pinhole. There is no rolling shutter.
+  float focus_distance = 2.0f;  // metres along the ray
+  bool mirrored = false;        // front and back are swapped, as if a left-handed world were read as right-handed
 
   bool operator==(const StereoCamera&) const = default;
 };
 
-// Precondition: every field finite, ipd >= 0, the projection without fault. The result points into the merge map of
+// Precondition: every field is finite, ipd >= 0, the projection has no fault. The result points into the merge map of
 // `stereo`.
 Camera make_camera(const StereoCamera& stereo);
 
-// Turns the camera in its own frame: by degrees from where it looks.
+// Turns the camera in its own frame, by degrees relative to its orientation.
 void turn(StereoCamera& camera, float yaw, float pitch, float roll);
 
-// What the viewing circle lies square to, in the world. Unit length.
+// Normal of the viewing circle, in the world. Unit length.
 vec3 axis_in_world(const Camera& camera);
 
 // Degrees, as in StereoCamera.
@@ -94,8 +95,8 @@ struct ViewAngles {
   float roll;
 };
 
-// The way back from make_camera(): the angles of a camera that looks along forward. Looking straight up or down, yaw
-// and roll turn about the same axis, and roll is 0. Precondition: unit vectors at right angles.
+// The inverse of make_camera(): the angles of a camera that looks along `forward`. If it looks straight up or down, yaw
+// and roll turn about the same axis, and roll is 0. Precondition: perpendicular unit vectors.
 ViewAngles view_angles(glm::dvec3 forward, glm::dvec3 up);
 
 }  // namespace ods

@@ -15,7 +15,7 @@
 
 namespace ods {
 
-// --- what can become what ------------------------------------------------------------------------------------------
+// --- what can be converted ------------------------------------------------------------------------------------------
 
 ConvertTarget same_format(const StoredPicture& picture) {
   ConvertTarget format{picture.camera, picture.size, {}};
@@ -36,7 +36,7 @@ static bool is_tilted(const StereoCamera& from, const StereoCamera& to) {
   return length(axis_in_world(make_camera(from)) - axis_in_world(make_camera(to))) > 1e-4f;
 }
 
-// The target's eyes stand elsewhere than the picture's. A mono target takes an eye as it is.
+// Whether the target's eyes are in other places than the picture's. A mono target takes one eye unchanged.
 static bool sees_around(const StoredPicture& picture, const ConvertTarget& target) {
   if (target.eyes[0] == kMono) return false;
   const StereoCamera &from = picture.camera, &to = target.camera;
@@ -66,7 +66,7 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection) {
   const ProjectionSetting& own = picture.camera.projection;
   const double natural = natural_height(own, picture.size.width);
-  const double stretch = std::max(1.0, picture.size.height / natural);  // of eyes that are squeezed from the sides
+  const double stretch = std::max(1.0, picture.size.height / natural);  // for eyes that are squeezed horizontally
   const double width = stretch * pixels_per_radian(own, picture.size.width) / pixels_per_radian(projection, 1.0);
   const int step = width_step(projection) == 1 ? 4 : 2 * width_step(projection);
   Extent extent;
@@ -76,18 +76,18 @@ Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& pro
   return extent;
 }
 
-// --- where a pixel lies in the source ------------------------------------------------------------------------------
+// --- where a pixel is in the source --------------------------------------------------------------------------------
 
 namespace {
 
-// The pixels that are made, seen from the source's.
+// Maps the target's pixels to places in the source.
 struct Mapping {
-  StereoCamera stereo;  // the camera reads its merge map
+  StereoCamera stereo;  // owns the merge map that `camera` reads
   Source source;
-  Camera camera;  // of the target, the centre at 0
+  Camera camera;  // of the target, with its centre at 0
   Extent size;
   std::vector<int> eyes;
-  std::vector<int> from;  // index in the source of each
+  std::vector<int> from;  // for each eye of the target: its index in the source
 
   Place find(int index, vec2 home, vec2 uv) const;
   Ray ray_of(int index, vec2 home, vec2 uv) const {
@@ -103,26 +103,26 @@ struct Mapping {
     return cell_of(source.camera.projection, source.picture->size, place.at);
   }
   vec2 home_of(int x, int y) const { return uv_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); }
-  // The target has something there, if the source does: only a fisheye has corners.
+  // Whether the target has a picture at this pixel: fisheyes have empty corners.
   bool wants(int x, int y) const {
     return !has_image_circle(camera.projection.kind) || look_of(camera.projection, home_of(x, y), home_of(x, y)).seen;
   }
 };
 
-// uv may lie outside the home's cell: the target's own filter reaches there.
+// uv may be outside the cell of `home`: the target's own filter reaches there.
 Place Mapping::find(int index, vec2 home, vec2 uv) const {
   const size_t i = static_cast<size_t>(index);
   const Ray ray = ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
-  int eye = from[i];
+  int source_eye = from[i];
   if (camera.projection.kind == kLatLong && eyes[i] != kMono) {
     const float phi = camera.projection.center.y + (0.5f - uv.y) * camera.projection.span.y;
-    if (abs(phi) > 0.5f * kPi) eye = eye_over_pole(source, eye, phi > 0.0f);
+    if (abs(phi) > 0.5f * kPi) source_eye = eye_over_pole(source, source_eye, phi > 0.0f);
   }
-  return place_of_line(source, eye, ray.direction);
+  return place_of_line(source, source_eye, ray.direction);
 }
 
-// Every pixel is a texel of the picture.
+// Whether every target pixel is a texel of the picture.
 bool is_as_stored(const StoredPicture& picture, const ConvertTarget& target) {
   StereoCamera stereo = target.camera;
   stereo.position = picture.camera.position, stereo.lens_radius = picture.camera.lens_radius;
@@ -143,36 +143,35 @@ Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target) 
 
 // --- pixels --------------------------------------------------------------------------------------------------------
 
-// A row of a cell of the target, which is filled from its left to its right.
+// A row of a cell of the target, filled from left to right.
 struct CellRow {
-  int index;  // of the eye
+  int index;  // of the eye, in the target
   int y;
   Cell cell;
-  std::span<float> pixels;  // of the whole row of the eye
+  std::span<float> pixels;  // the whole row of the eye
 };
 
-// Where the middle of a pixel lies, and that of its neighbour away from the nearer edge of the cell: over a pole begins
-// another picture.
+// The place of a pixel's centre, and that of its neighbour below or above, away from the nearer edge of the cell:
+// beyond a pole another picture begins.
 struct Node {
   Place at;
   Place beside;
-  Cell cell;  // of the source
+  Cell cell;  // in the source
 };
 
-// A stretch of a row in which places follow a parabola to a hundredth of a texel, known at its ends and in its middle.
-// Then no pixel needs its own trigonometry.
+// Part of a row whose places follow a parabola to 1/100 texel, so that its pixels need no trigonometry of their own.
 constexpr int kLongStretch = 64;
 constexpr int kShortStretch = 8;
 struct Stretch {
-  int eye;
-  Cell cell;        // of the source
-  float per_pixel;  // of the way to the middle
+  int source_eye;
+  Cell cell;        // in the source
+  float per_pixel;  // step of t from one pixel to the next
   vec2 start;
-  vec2 step;     // to the middle
-  vec2 bend;     // by how much the next step differs
-  vec2 down[3];  // a pixel below each of the three
+  vec2 step;     // from the start to the middle
+  vec2 bend;     // difference between the second step and the first
+  vec2 down[3];  // offset to the place one pixel below, for each of the three
 
-  // `t`: of the way to the middle. Footprints change slowly.
+  // `t`: 0 at the start, 1 in the middle, 2 at the end. Footprints change slowly.
   vec2 at(float t) const { return start + step * t + bend * (0.5f * t * (t - 1.0f)); }
   Footprint footprint(float t) const {
     const vec2 dy = t < 1.0f ? mix(down[0], down[1], t) : mix(down[1], down[2], t - 1.0f);
@@ -198,7 +197,7 @@ class Converter {
 
   int64_t no_depth() const { return reprojection_ ? reprojection_->no_depth : 0; }
 
-  // The number of empty pixels.
+  // Returns the number of empty pixels.
   int fill(int index, int y, std::span<float> row) const;
 
  private:
@@ -224,7 +223,7 @@ class Converter {
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;
   int channels_;
-  int depth_channel_ = -1;  // of a row's pixel; below 0: there is no depth
+  int depth_channel_ = -1;  // in a pixel of a row; below 0: there is no depth
   bool is_as_stored_;
 };
 
@@ -232,7 +231,7 @@ bool same_cell(const Cell& a, const Cell& b) {
   return a.left == b.left && a.top == b.top;
 }
 
-// Away from the nearer edge.
+// The direction away from the nearer edge.
 int way_down(const CellRow& row) {
   return 2 * row.y < row.cell.top + row.cell.bottom ? 1 : -1;
 }
@@ -246,13 +245,13 @@ Node Converter::find_node(const CellRow& row, int x) const {
 }
 
 std::optional<Stretch> find_stretch(const Node& first, const Node& middle, const Node& last, int pixels, int way) {
-  Stretch stretch{first.at.eye, first.cell, 2.0f / static_cast<float>(pixels), first.at.at, {}, {}, {}};
+  Stretch stretch{first.at.source_eye, first.cell, 2.0f / static_cast<float>(pixels), first.at.at, {}, {}, {}};
   stretch.step = middle.at.at - first.at.at;
   stretch.bend = last.at.at - 2.0f * middle.at.at + first.at.at;
   vec2* down = stretch.down;
   for (const Node* node : {&first, &middle, &last}) {
-    if (!node->at.seen || !node->beside.seen || node->at.eye != stretch.eye || node->beside.eye != stretch.eye ||
-        !same_cell(node->cell, stretch.cell))
+    if (!node->at.seen || !node->beside.seen || node->at.source_eye != stretch.source_eye ||
+        node->beside.source_eye != stretch.source_eye || !same_cell(node->cell, stretch.cell))
       return {};
     *down++ = (node->beside.at - node->at.at) * static_cast<float>(way);
   }
@@ -264,20 +263,21 @@ std::optional<Stretch> find_stretch(const Node& first, const Node& middle, const
   return stretch;
 }
 
-// From the neighbours that lie in the same cell, on the side away from the target's edge first; else from nearer by.
+// Tries neighbours in the same cell of the source, the one away from the target's edge first; then nearer points.
 Footprint Converter::find_footprint(int index, const Cell& cell, int x, int y, const Place& place) const {
   const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
   const vec2 home = mapping_.uv_of(middle.x, middle.y);
   const Projection& projection = mapping_.source.camera.projection;
   const Extent size = mapping_.source.picture->size;
   const Cell own = cell_of(projection, size, place.at);
-  const bool round = has_range(projection.kind);
-  const float turn = static_cast<float>(size.width) * 2.0f * kPi / projection.span.x;
+  const bool round = has_range(projection.kind);                                       // columns wrap
+  const float turn = static_cast<float>(size.width) * 2.0f * kPi / projection.span.x;  // columns of 360 degrees
   const auto neighbour = [&](vec2 way, bool away) {
     for (const float step : {away ? -1.0f : 1.0f, away ? 1.0f : -1.0f, 0.1f, -0.1f}) {
       const vec2 at = middle + way * step;
       const Place there = mapping_.find(index, home, mapping_.uv_of(at.x, at.y));
-      if (!there.seen || there.eye != place.eye || !same_cell(own, cell_of(projection, size, there.at))) continue;
+      if (!there.seen || there.source_eye != place.source_eye || !same_cell(own, cell_of(projection, size, there.at)))
+        continue;
       vec2 move = there.at - place.at;
       if (round) move.x -= turn * std::round(move.x / turn);
       return move / step;
@@ -296,12 +296,13 @@ bool Converter::stays_in_cell(const Place& place, const Cell& cell, const std::v
   });
 }
 
-// Where the filter's far points lie is as its footprint has it.
+// Whether the footprint predicts the places of the filter's far points correctly.
 bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vector<FilterPoint>& points) const {
   if (!stays_in_cell(place, mapping_.source_cell(place), points)) return false;
   for (const FilterPoint& point : {points.front(), points.back()}) {
     const Place there = mapping_.find(index, home, home + point.pixels * mapping_.uv_of(1.0f, 1.0f));
-    if (!there.seen || there.eye != place.eye || length(there.at - place.at - point.texels) > 0.1f) return false;
+    if (!there.seen || there.source_eye != place.source_eye || length(there.at - place.at - point.texels) > 0.1f)
+      return false;
   }
   return true;
 }
@@ -309,11 +310,11 @@ bool Converter::is_flat(int index, vec2 home, const Place& place, const std::vec
 void Converter::sum_near(const Place& place, const Cell& cell, const std::vector<FilterPoint>& points,
                          float* sums) const {
   for (const FilterPoint& point : points) {
-    resampler_.add({place.eye, place.at + point.texels, true}, cell, point.weight, sums);
+    resampler_.add({place.source_eye, place.at + point.texels, true}, cell, point.weight, sums);
   }
 }
 
-// The rest of the pixel's weight where the source ends within it.
+// Normalizes the weights where the source ends inside the pixel.
 void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>& points, float* sums) const {
   float weight = 0.0f;
   const vec2 pixel = mapping_.uv_of(1.0f, 1.0f);
@@ -329,7 +330,7 @@ void Converter::sum_exactly(int index, vec2 home, const std::vector<FilterPoint>
 
 void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, int count) const {
   constexpr int kAlike = static_cast<int>(kMaxAlike);
-  PixelRun run(resampler_, stretch.eye, stretch.cell);
+  PixelRun run(resampler_, stretch.source_eye, stretch.cell);
   for (int i = 0; i < count; i += kAlike) {
     const int alike = std::min(kAlike, count - i);
     vec2 places[kAlike];
@@ -339,7 +340,7 @@ void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, 
     const bool together = run.add(texel_tents(footprint), {places, static_cast<size_t>(alike)}, pixel_of(row, x + i));
     for (int k = 0; k < alike; k++) {
       if (!together) fill_alone(run, row, stretch, x, i + k);
-      resampler_.finish({stretch.eye, places[k], true}, pixel_of(row, x + i + k));
+      resampler_.finish({stretch.source_eye, places[k], true}, pixel_of(row, x + i + k));
     }
   }
   run.fill();
@@ -347,7 +348,7 @@ void Converter::fill_stretch(const CellRow& row, const Stretch& stretch, int x, 
 
 void Converter::fill_alone(PixelRun& run, const CellRow& row, const Stretch& stretch, int x, int i) const {
   const float t = static_cast<float>(i) * stretch.per_pixel;
-  const Place place{stretch.eye, stretch.at(t), true};
+  const Place place{stretch.source_eye, stretch.at(t), true};
   const Footprint footprint = stretch.footprint(t);
   float* pixel = pixel_of(row, x + i);
   if (run.add(texel_tents(footprint), {&place.at, 1}, pixel)) return;
@@ -380,7 +381,7 @@ SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
   return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
 }
 
-// The footprint is that of the line of sight alone: parallax changes it by little, but where things end.
+// The footprint is that of the line of sight alone: parallax changes it little, except at depth edges.
 bool Converter::fill_moved_pixel(const CellRow& row, int x) const {
   const vec2 home = mapping_.home_of(x, row.y), size = mapping_.uv_of(1.0f, 1.0f);
   const SurfaceHit met = meet(row.index, home, home);
@@ -403,7 +404,7 @@ bool Converter::fill_moved_pixel(const CellRow& row, int x) const {
   return true;
 }
 
-// The number of empty ones, each by itself.
+// Fills pixels one by one and returns the number of empty ones.
 int Converter::fill_pixels(const CellRow& row, int x, int end) const {
   int empty = 0;
   for (; x < end; x++) {
@@ -414,7 +415,7 @@ int Converter::fill_pixels(const CellRow& row, int x, int end) const {
   return empty;
 }
 
-// The same of up to a stretch of pixels; its end may lie beyond the cell's.
+// Likewise for up to a stretch of pixels; its end may be beyond the cell's.
 int Converter::fill_between(const CellRow& row, int x, int pixels, const Node& first, const Node& last) const {
   if (x >= row.cell.right) return 0;
   const int end = std::min(x + pixels, row.cell.right), half = pixels / 2;
@@ -464,7 +465,7 @@ int Converter::fill(int index, int y, std::span<float> row) const {
 
 // --- rows ----------------------------------------------------------------------------------------------------------
 
-// Whether the target has pixels where the source has none, by a look at some of them.
+// Whether the target has pixels where the source has none, judged by a grid of samples.
 static bool sees_more(const StoredPicture& picture, const ConvertTarget& target) {
   const Mapping mapping = make_mapping(picture, target);
   const int kLooks = 128;

@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture becomes another: of another projection, size, orientation or convergence, of other eyes. Every pixel looks
-// up its line of sight in the picture that there is (source.h), and averages what it covers there (resample.h).
+// Converts a picture to another projection, size, orientation or convergence, or to other eyes. Every target pixel
+// looks up its line of sight in the source picture (panorama.h) and averages the texels that it covers there
+// (resample.h).
 //
-// A stereo picture can be turned about its viewing circle's axis, exactly. It cannot be tilted: the circle would lie in
-// the old plane, and the lines that the tilted eyes need were never seen. A mono picture can be turned any way.
+// A stereo picture can be turned about its viewing circle's axis, exactly. It cannot be tilted: the circle would remain
+// in the old plane, and the picture does not contain the lines that the tilted eyes need. A mono picture can be turned
+// any way.
+//
+// convert() returns rows that are computed when they are written: save_picture() calls rows.fill from several threads.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -21,34 +25,34 @@ namespace ods {
 struct ConvertTarget {
   StereoCamera camera;
   Extent eye;
-  std::vector<int> eyes{kLeft, kRight};  // as EyeImage has them
-  int mono_from = kLeft;                 // the eye of a stereo picture that a mono one is made of
+  std::vector<int> eyes{kLeft, kRight};  // as in EyeImage
+  int mono_from = kLeft;                 // the eye of a stereo picture from which a mono one is made
 };
 
-// A picture's own form: what converts it to itself.
+// The target that leaves a picture unchanged.
 ConvertTarget same_format(const StoredPicture& picture);
 
-// A picture's layers as rows of it have them: floats stay floats, all else is halves.
+// A picture's layers as its rows have them: float layers remain float, all others become half.
 std::vector<RowLayer> row_layers(const StoredPicture& picture);
 
 struct Conversion {
   PictureRows rows;
-  bool sees_around = false;  // the eyes stand elsewhere than the picture's
-  int64_t no_depth = 0;      // pixels of the picture, both eyes', with a depth that is none: Reprojection
-  // Pixels filled so far which the picture had nothing for; all their channels are 0, but for depth,
-  // which is kFarDepth.
+  bool sees_around = false;  // the target's eyes are in other places than the picture's
+  int64_t no_depth = 0;      // pixels of the picture, of both eyes, without a valid depth: Reprojection
+  // Target pixels filled so far for which the picture has nothing. All their channels are 0, except depth, which is
+  // kFarDepth.
   std::shared_ptr<std::atomic<int64_t>> empty = std::make_shared<std::atomic<int64_t>>(0);
 };
 
-// Why a picture cannot become another, in words for a message; empty: it can.
+// Why a picture cannot be converted, in words for a message; empty: it can.
 std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target);
 
-// The size of an eye as sharp as the picture, in the middle, but not wider than kMaxSide: an even width, whole faces,
-// the projection's shape.
+// The eye size that keeps the source's resolution at the centre, at most kMaxSide wide. Width and height are even,
+// cubes have whole faces, and the shape is the projection's.
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection);
 
-// The layers are the picture's, and alpha is added to a colour without it where the target sees more than the picture.
-// The picture stays where it is until the last row is filled. Precondition: no conversion_fault().
+// The target has the picture's layers. A colour without alpha gets alpha if the target sees more than the picture.
+// The picture must not move or go away before the last row is filled. Precondition: conversion_fault() is empty.
 Conversion convert(const StoredPicture& picture, const ConvertTarget& target);
 
 }  // namespace ods

@@ -13,7 +13,7 @@ static vec2 size_of(const Source& source) {
 }
 
 bool is_apart_at_pole(const Camera& camera, bool above) {
-  if (camera.axis.y != 1.0f) return false;  // the circle has poles of its own
+  if (camera.axis.y != 1.0f) return false;  // the circle has its own poles
   const float side = above ? 1.0f : -1.0f;
   return merge_at(camera, vec3(0.0f, side, 0.0f), side * 0.5f * kPi) > 0.5f;
 }
@@ -38,11 +38,11 @@ int eye_index(const StoredPicture& picture, int eye) {
   return 0;
 }
 
-int eye_over_pole(const Source& source, int eye, bool above) {
-  return (above ? source.other_above : source.other_below) ? 1 - eye : eye;
+int eye_over_pole(const Source& source, int source_eye, bool above) {
+  return (above ? source.other_above : source.other_below) ? 1 - source_eye : source_eye;
 }
 
-// A fisheye's edge runs through texels: those whose middle is inside are there to their corners.
+// A fisheye's edge runs through texels: those whose centre is inside have a picture up to their corners.
 static bool is_seen(const Source& source, const ImagePoint& place) {
   if (place.seen || !has_image_circle(source.camera.projection.kind) || !inside_picture(place.uv)) return place.seen;
   const vec2 middle = (floor(place.uv * size_of(source)) + 0.5f) / size_of(source);
@@ -51,13 +51,13 @@ static bool is_seen(const Source& source, const ImagePoint& place) {
 
 static Cell cell_at(int kind, Extent size, int column, int row) {
   const int columns = cube_columns(kind), rows = 6 / columns;
-  // Texels belong where their middle is.
+  // A texel belongs to the face that contains its centre.
   const auto edge = [](int i, int count, int whole) { return (2 * i * whole + count - 1) / (2 * count); };
   return {edge(column, columns, size.width), edge(row, rows, size.height), edge(column + 1, columns, size.width),
           edge(row + 1, rows, size.height)};
 }
 
-// The edge of a face lies beside that of another; the file may have a third one there.
+// Keeps a place off its face's border: the neighbour in the file may be an unrelated face.
 static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
   const int kind = source.camera.projection.kind;
   if (!is_cube(kind)) return;
@@ -70,16 +70,16 @@ static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
   place.at = {keep(place.at.x, own.left, own.right), keep(place.at.y, own.top, own.bottom)};
 }
 
-// Of a direction in the picture's own frame.
-static Place find_direction(const Source& source, int eye, vec3 d) {
+// Finds a direction, given in the picture's own frame.
+static Place find_direction(const Source& source, int source_eye, vec3 d) {
   const ImagePoint found = place_of(source.camera.projection, d);
-  Place place{eye, found.uv * size_of(source), is_seen(source, found)};
+  Place place{source_eye, found.uv * size_of(source), is_seen(source, found)};
   keep_in_cell(source, d, place);
   return place;
 }
 
-// The direction by which a toed-in picture knows the line of direction d: its C times itself less the eye's offset is
-// along d. The offset's size depends on the elevation, through the merge: a few rounds find both.
+// The direction d' under which a toed-in picture stores the line of direction d: C d' minus the eye's offset is
+// parallel to d. The offset's size depends on the elevation, through the merge: a few iterations find both.
 static vec3 toed_in_label(const Camera& camera, int eye, vec3 d) {
   const float c = camera.convergence_distance, height = dot(d, camera.axis);
   const vec3 level = d - camera.axis * height;
@@ -93,14 +93,14 @@ static vec3 toed_in_label(const Camera& camera, int eye, vec3 d) {
   return turn_about(normalize(level), camera.axis, turn) * std::cos(phi) + camera.axis * std::sin(phi);
 }
 
-Place place_of_line(const Source& source, int eye, vec3 direction) {
+Place place_of_line(const Source& source, int source_eye, vec3 direction) {
   const Camera& camera = source.camera;
-  const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
+  const int which = source.picture->eyes[static_cast<size_t>(source_eye)].eye;
   direction = normalize(direction);
   vec3 d(dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.back));
   if (camera.convergence == kToeIn) d = toed_in_label(camera, which, d);
   if (camera.convergence == kShift) d = turn_about(d, camera.axis, -shift_angle(camera, which));
-  return find_direction(source, eye, d);
+  return find_direction(source, source_eye, d);
 }
 
 Cell cell_of(const Projection& projection, Extent size, vec2 at) {
@@ -125,9 +125,9 @@ bool has_texel(const Source& source, const Cell& cell, int x, int y) {
   return dot(p, p) <= 1.0f;
 }
 
-static Texel nearest_of_edge(const Source& source, int eye, const Cell& cell, int x, int y) {
+static Texel nearest_of_edge(const Source& source, int source_eye, const Cell& cell, int x, int y) {
   if (has_image_circle(source.camera.projection.kind)) {
-    // Inwards until a texel around it has its middle in the circle.
+    // Move inwards until a texel nearby has its centre in the circle.
     const vec2 circle = source.camera.projection.circle, across = circle * size_of(source);
     const vec2 p = (2.0f * middle_of(source, x, y) - 1.0f) / circle;
     const float r = length(p), texel = 2.0f / std::min(across.x, across.y);
@@ -135,28 +135,28 @@ static Texel nearest_of_edge(const Source& source, int eye, const Cell& cell, in
         (0.5f + 0.5f * circle * p * std::min(std::max(1.0f - 0.75f * texel, 0.0f) / r, 1.0f)) * size_of(source);
     x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
   }
-  return {eye, std::clamp(x, cell.left, cell.right - 1), std::clamp(y, cell.top, cell.bottom - 1)};
+  return {source_eye, std::clamp(x, cell.left, cell.right - 1), std::clamp(y, cell.top, cell.bottom - 1)};
 }
 
-Texel texel_of(const Source& source, int eye, const Cell& cell, int x, int y) {
-  if (has_texel(source, cell, x, y)) return {eye, x, y};
+Texel texel_of(const Source& source, int source_eye, const Cell& cell, int x, int y) {
+  if (has_texel(source, cell, x, y)) return {source_eye, x, y};
   const Camera& camera = source.camera;
   const vec2 home =
       0.5f * (middle_of(source, cell.left, cell.top) + middle_of(source, cell.right - 1, cell.bottom - 1));
   const vec2 uv = middle_of(source, x, y);
   const ViewDirection look = look_of(camera.projection, home, uv);
   vec3 direction = look.direction;
-  int there = eye;
+  int there = source_eye;
   if (abs(look.elevation) > 0.5f * kPi) {
-    const int other = eye_over_pole(source, eye, look.elevation > 0.0f);
-    if (other != eye && camera.convergence == kShift) {  // the other eye's picture is turned the other way
-      const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
+    const int other = eye_over_pole(source, source_eye, look.elevation > 0.0f);
+    if (other != source_eye && camera.convergence == kShift) {  // the other eye is turned the opposite way
+      const int which = source.picture->eyes[static_cast<size_t>(source_eye)].eye;
       direction = turn_about(direction, camera.axis, 2.0f * shift_angle(camera, which));
     }
     there = other;
   }
   const Place place = find_direction(source, there, direction);
-  if (!place.seen) return nearest_of_edge(source, eye, cell, x, y);
+  if (!place.seen) return nearest_of_edge(source, source_eye, cell, x, y);
   const Extent size = source.picture->size;
   return {there, std::clamp(static_cast<int>(place.at.x), 0, size.width - 1),
           std::clamp(static_cast<int>(place.at.y), 0, size.height - 1)};

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a stored picture has its pixels: which texel a line of sight meets, and which lies beside another across a
-// seam, a pole, an edge of a face. Never a neighbour in the file by accident.
+// Where a stored picture has its pixels: which texel a line of sight meets, and which texel is next to another across a
+// seam, a pole or an edge of a face. It is never merely the neighbour in the file.
 //
-// A line of sight is known by its direction alone: pictures with one viewing circle and one merge have the same lines,
-// and differ in where they put them. Toe-in on a distance C also shrinks the circle, to cos(atan(r / (C cos phi))) of
-// it: by a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. That is left out. Above atan(C / r) toe-in has no
-// lines; its last ones stand in.
+// A line of sight is identified by its direction alone: pictures with the same viewing circle and merge contain the
+// same lines, and differ only in where they put them. Toe-in at a distance C also shrinks the circle, by the factor
+// cos(atan(r / (C cos phi))): a reduction by a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. This is ignored.
+// Above the elevation atan(C / r) toe-in has no lines; the last ones are used instead.
 #pragma once
 #include "ods/picture/stored_picture.h"
 
@@ -15,22 +15,22 @@ namespace ods {
 
 struct Source {
   const StoredPicture* picture = nullptr;
-  Camera camera;             // how it was taken, the centre at 0
-  bool other_above = false;  // the picture goes on over this pole in the other eye's: the circle is not merged there
+  Camera camera;             // the camera that took it, with its centre at 0
+  bool other_above = false;  // the picture continues over this pole in the other eye's: it has no merge there
   bool other_below = false;
 };
 
-// The picture stays where it is while the source is used. Precondition: it has eyes.
+// The picture must outlive the source and must not move. Precondition: it has eyes.
 Source make_source(const StoredPicture& picture);
 
 // A place in the picture.
 struct Place {
-  int eye = 0;        // index in StoredPicture::eyes
-  vec2 at{0.0f};      // pixels from the left and top edge: the middle of the first texel is 0.5
-  bool seen = false;  // false: the picture has nothing there
+  int source_eye = 0;  // index in StoredPicture::eyes
+  vec2 at{0.0f};       // pixels from the left and top edge: the centre of the first texel is 0.5
+  bool seen = false;   // false: the picture has nothing there
 };
 
-// Texels that lie together as the world does: a face, or all of a picture. right and bottom are not part of it.
+// Texels that are contiguous in the world: a face, or a whole picture. right and bottom are exclusive.
 struct Cell {
   int left = 0;
   int top = 0;
@@ -39,31 +39,33 @@ struct Cell {
 };
 
 struct Texel {
-  int eye = 0;
+  int source_eye = 0;  // index in StoredPicture::eyes
   int x = 0;
   int y = 0;
 };
 
-// The index of an eye (kLeft, kRight, kMono) in the picture; of an eye that it lacks: the first.
+// The index of an eye (kLeft, kRight, kMono) in the picture; 0 if the picture lacks it.
 int eye_index(const StoredPicture& picture, int eye);
 
-// The viewing circle is not merged at the pole: who goes on over it comes into the other eye's picture.
+// Whether the viewing circle is not merged at the pole, so that a picture continues over it in the other eye's picture.
 bool is_apart_at_pole(const Camera& camera, bool above);
 
-// The index of the eye that shows a line which passed over a pole: the other one, or the same where they are merged.
-int eye_over_pole(const Source& source, int eye, bool above);
+// The index of the eye that shows a line beyond a pole: the other eye, or the same one if they are merged there.
+int eye_over_pole(const Source& source, int source_eye, bool above);
 
-// Where the line of this direction (the world's, any length but 0) lies in the picture of the eye of an index.
-Place place_of_line(const Source& source, int eye, vec3 direction);
+// The place of a line of sight in an eye's picture. source_eye: index in StoredPicture::eyes. direction: in the world,
+// any length but 0.
+Place place_of_line(const Source& source, int source_eye, vec3 direction);
 
-// The cell of a place in an eye's picture of a size. A place on the border of two belongs to the one after it;
-// place_of_line() keeps off borders.
+// The cell of a place in an eye's picture of this size. A place on the border of two cells belongs to the right or
+// lower one; place_of_line() avoids borders.
 Cell cell_of(const Projection& projection, Extent size, vec2 at);
 
-// Whether a texel is one of a cell's, and in the picture.
+// Whether a texel is inside a cell and inside the picture.
 bool has_texel(const Source& source, const Cell& cell, int x, int y);
 
-// The texel that the world has at x, y of a cell, which may lie outside; where there is none, the nearest of the edge.
-Texel texel_of(const Source& source, int eye, const Cell& cell, int x, int y);
+// The texel at x, y of an eye's picture. Outside the cell: the texel that shows what the world has there; if there is
+// none, the nearest one at the cell's edge.
+Texel texel_of(const Source& source, int source_eye, const Cell& cell, int x, int y);
 
 }  // namespace ods

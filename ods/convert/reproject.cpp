@@ -14,7 +14,7 @@ namespace ods {
 
 static float depth_at(const Reprojection& reprojection, const Texel& texel) {
   const LayerPixels& layer =
-      reprojection.source->picture->eyes[static_cast<size_t>(texel.eye)].layers[reprojection.layer];
+      reprojection.source->picture->eyes[static_cast<size_t>(texel.source_eye)].layers[reprojection.layer];
   const std::byte* at = layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride;
   if (layer.sample != SampleType::kFloat) return sample_value(layer.sample, at);
   float depth;
@@ -22,7 +22,7 @@ static float depth_at(const Reprojection& reprojection, const Texel& texel) {
   return depth;
 }
 
-// Depths are compared as 1/metres: nearly even over a plane's picture, and 0 where nothing was met.
+// Depths are compared as 1/metres: nearly linear over the picture of a plane, and 0 where the ray hit nothing.
 static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
   const float depth = depth_at(reprojection, texel);
   return depth > 0.0f && depth < 0.1f * kFarDepth ? 1.0f / depth : 0.0f;
@@ -42,11 +42,11 @@ Reprojection make_reprojection(const Source& source) {
   Reprojection reprojection{&source, *depth_layer(*source.picture)};
   const Extent size = source.picture->size;
   float largest = 1e-6f;
-  for (int eye = 0; eye < static_cast<int>(source.picture->eyes.size()); eye++) {
+  for (int source_eye = 0; source_eye < static_cast<int>(source.picture->eyes.size()); source_eye++) {
     for (int y = 0; y < size.height; y++) {
       for (int x = 0; x < size.width; x++) {
-        largest = std::max(largest, nearness_at(reprojection, {eye, x, y}));
-        if (!(depth_at(reprojection, {eye, x, y}) > 0.0f)) reprojection.no_depth++;
+        largest = std::max(largest, nearness_at(reprojection, {source_eye, x, y}));
+        if (!(depth_at(reprojection, {source_eye, x, y}) > 0.0f)) reprojection.no_depth++;
       }
     }
   }
@@ -54,12 +54,12 @@ Reprojection make_reprojection(const Source& source) {
   return reprojection;
 }
 
-// Two neighbours of one surface, not a thing and what is behind it.
+// Whether two neighbours are on one surface, not on an object and its background.
 static bool is_one_surface(float a, float b) {
   return std::abs(a - b) <= 0.1f * std::max(a, b);
 }
 
-// Between texels where the surface goes on, else that of the nearest.
+// Interpolates between texels of one surface; otherwise takes the nearest texel.
 static float nearness_of(const Reprojection& reprojection, const Place& place) {
   const Source& source = *reprojection.source;
   const Cell cell = cell_of(source.camera.projection, source.picture->size, place.at);
@@ -69,8 +69,9 @@ static float nearness_of(const Reprojection& reprojection, const Place& place) {
                       !has_image_circle(source.camera.projection.kind);
   float corners[4];
   for (int i = 0; i < 4; i++) {
-    const Texel corner{place.eye, left + i % 2, top + i / 2};
-    corners[i] = nearness_at(reprojection, inside ? corner : texel_of(source, place.eye, cell, corner.x, corner.y));
+    const Texel corner{place.source_eye, left + i % 2, top + i / 2};
+    corners[i] =
+        nearness_at(reprojection, inside ? corner : texel_of(source, place.source_eye, cell, corner.x, corner.y));
   }
   const float own = corners[(beyond.x < 0.5f ? 0 : 1) + (beyond.y < 0.5f ? 0 : 2)];
   for (const float corner : corners) {
@@ -81,44 +82,44 @@ static float nearness_of(const Reprojection& reprojection, const Place& place) {
 
 namespace {
 
-// Where a point of the ray lies in an eye's picture, by 1 / its distance along the ray.
+// The place of a point of the ray in an eye's picture. The argument is 1 / the point's distance along the ray.
 struct Shown {
   Place place;
-  float inverse_depth = 0.0f;  // of the point, for that eye
+  float inverse_depth = 0.0f;  // of the point, seen by that eye
 };
 
 struct Curve {
   const Source& source;
-  int eye;
+  int source_eye;
   const Ray& ray;
   float most = 0.0f;         // 1 / distance of the nearest point
-  bool is_parabola = false;  // through three of its points
+  bool is_parabola = false;  // the places follow a parabola through three of them
   Shown at_far, at_middle, at_near;
 
   Shown find(float inverse_depth) const;
   Shown at(float inverse_depth) const;
 };
 
-const float kMinInverseDepth = 1e-6f;  // 1/metres: as far as numbers tell points apart
+const float kMinInverseDepth = 1e-6f;  // 1/metres: beyond this distance floats cannot tell points apart
 
 Shown Curve::find(float inverse_depth) const {
-  const int which = source.picture->eyes[static_cast<size_t>(eye)].eye;
+  const int which = source.picture->eyes[static_cast<size_t>(source_eye)].eye;
   const vec3 point = ray.origin + ray.direction * (1.0f / std::max(inverse_depth, kMinInverseDepth));
   const ImagePosition found = project_point(source.camera, which, point);
   const Extent size = source.picture->size;
   const vec2 at = found.uv * vec2(static_cast<float>(size.width), static_cast<float>(size.height));
-  return {{eye, at, found.seen}, found.seen ? 1.0f / found.depth : 0.0f};
+  return {{source_eye, at, found.seen}, found.seen ? 1.0f / found.depth : 0.0f};
 }
 
 Shown Curve::at(float inverse_depth) const {
   if (!is_parabola) return find(inverse_depth);
   const float t = 2.0f * inverse_depth / most;
-  return {{eye, on_parabola(at_far.place.at, at_middle.place.at, at_near.place.at, t), true},
+  return {{source_eye, on_parabola(at_far.place.at, at_middle.place.at, at_near.place.at, t), true},
           on_parabola(at_far.inverse_depth, at_middle.inverse_depth, at_near.inverse_depth, t)};
 }
 
-Curve make_curve(const Source& source, int eye, const Ray& ray, float most) {
-  Curve curve{source, eye, ray, most, false, {}, {}, {}};
+Curve make_curve(const Source& source, int source_eye, const Ray& ray, float most) {
+  Curve curve{source, source_eye, ray, most, false, {}, {}, {}};
   curve.at_far = curve.find(0.0f), curve.at_middle = curve.find(0.5f * most), curve.at_near = curve.find(most);
   const vec2 a = curve.at_far.place.at, b = curve.at_middle.place.at, c = curve.at_near.place.at;
   const auto cell = [&](vec2 at) { return cell_of(source.camera.projection, source.picture->size, at); };
@@ -129,7 +130,7 @@ Curve make_curve(const Source& source, int eye, const Ray& ray, float most) {
   return curve;
 }
 
-// The first crossing from before the surface to behind it, from near to far, by steps of about a texel.
+// The first crossing from in front of the surface to behind it, from near to far, in steps of about a texel.
 std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const Curve& curve) {
   const float length_of_curve = length(curve.at_near.place.at - curve.at_middle.place.at) +
                                 length(curve.at_middle.place.at - curve.at_far.place.at);
@@ -144,7 +145,7 @@ std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const 
       continue;
     }
     const float surface = nearness_of(reprojection, shown.place);
-    const float ahead = (i == steps ? 0.0f : shown.inverse_depth) - surface;  // above 0: before the surface
+    const float ahead = (i == steps ? 0.0f : shown.inverse_depth) - surface;  // above 0: in front of the surface
     if (ahead <= 0.0f && before && is_one_surface(surface, last_surface)) {
       float low = inverse_depth, high = last_nearness, below = ahead, above = last_ahead;
       for (int round = 0; round < 4; round++) {
@@ -165,14 +166,15 @@ std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const 
 
 }  // namespace
 
-SurfaceHit meet_surface(const Reprojection& reprojection, int eye, const Ray& ray) {
+SurfaceHit meet_surface(const Reprojection& reprojection, int source_eye, const Ray& ray) {
   const Source& source = *reprojection.source;
-  // The ray may start nearer to things than the picture's own.
+  // The ray may start nearer to objects than the picture's own rays.
   const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));
   const float most = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
   const int count = static_cast<int>(source.picture->eyes.size());
   for (int i = 0; i < count; i++) {
-    if (const auto met = first_meeting(reprojection, make_curve(source, (eye + i) % count, ray, most))) return *met;
+    if (const auto met = first_meeting(reprojection, make_curve(source, (source_eye + i) % count, ray, most)))
+      return *met;
   }
   return {};
 }

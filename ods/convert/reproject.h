@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Eyes at other places than a picture's own, by its depth: another distance between them, another merge, neck, or two
-// eyes from one. A ray is followed through the picture that is nearest to it: as its points go from near to far they
-// move along a short curve there, and the first of them that lies on the picture's surface is what the ray meets. Where
-// the surface breaks off the ray may pass behind it, and what it meets there its own eye has not seen; the other eye
-// may have. What neither has seen is a hole.
+// Moves the eyes by the picture's depth: to another distance, merge or neck, or from one eye to two.
+//
+// The ray is projected into the closest eye's picture and marched from near to far; the first sample on the stored
+// surface is the hit. At depth edges it may pass behind; then the other eye is tried, and what neither shows is a hole.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -18,22 +17,22 @@ struct Reprojection {
   const Source* source = nullptr;
   size_t layer = 0;      // of the depth
   float nearest = 0.0f;  // metres: nothing in the picture is nearer
-  int64_t no_depth = 0;  // pixels whose depth is no distance (NaN, 0 or less): as if nothing were there
+  int64_t no_depth = 0;  // pixels without a valid depth (NaN, 0 or less): treated as empty space
 };
 
-// The index of the layer of metres along the ray (Z, as save.h has it).
+// The index of the layer with the distance along the ray, metres (Z, as save.h defines it).
 std::optional<size_t> depth_layer(const StoredPicture& picture);
 
-// Reads all depths once. Precondition: there is a depth layer. The source stays where it is.
+// Reads all depths once. Precondition: there is a depth layer. The source must outlive the result and must not move.
 Reprojection make_reprojection(const Source& source);
 
 struct SurfaceHit {
   Place place;
-  float depth = kFarDepth;  // along the ray
+  float depth = kFarDepth;  // along the ray, metres
 };
 
-// What a ray from around the centre meets, in the picture of the eye of an index if it shows there, else in the
-// other's. Not seen: a hole. Precondition: a direction of unit length.
-SurfaceHit meet_surface(const Reprojection& reprojection, int eye, const Ray& ray);
+// What a ray hits that starts near the viewing circle's centre. Tries the picture of source_eye first, then the other
+// eye's. place.seen is false for a hole. Precondition: ray.direction has unit length.
+SurfaceHit meet_surface(const Reprojection& reprojection, int source_eye, const Ray& ray);
 
 }  // namespace ods

@@ -29,11 +29,11 @@ constexpr float kMax = std::numeric_limits<float>::max();
 
 namespace {
 
-// Samples of a file to light and to numbers. Whoever reads many asks for the table once.
+// Converts samples of a file to linear light and to numbers. A caller that reads many fetches the table once.
 template <class T>
 struct Codes {
   using Type = T;
-  static constexpr bool kIsAssociated = false;  // colour is not multiplied by alpha yet
+  static constexpr bool kIsAssociated = false;  // colour is not premultiplied yet
   static const float* table() {
     static const std::vector<float> kTable = linear_from_encoded(std::numeric_limits<T>::max());
     return kTable.data();
@@ -70,10 +70,10 @@ static typename Samples::Type sample_at(const std::byte* texel, int channel) {
   return sample;
 }
 
-// A register of the processor, which compilers do not find by themselves here. Both g++ and clang know it so.
+// A SIMD register, which compilers do not use by themselves here. Both g++ and clang support this attribute.
 using Four = float __attribute__((vector_size(16)));
 
-// The last of the channels is alpha where kAlpha says so.
+// kAlpha: the last of the channels is alpha.
 template <class Samples, int kCount, bool kAlpha>
 static Four read_light(const float* table, const std::byte* texel) {
   const auto at = [&](int c) {
@@ -91,7 +91,7 @@ static Four read_light(const float* table, const std::byte* texel) {
 
 namespace {
 
-// Texels as they lie in a picture.
+// Texels as a picture stores them.
 struct Block {
   const std::byte* first;
   ptrdiff_t pixel_stride;
@@ -112,7 +112,7 @@ static void read_lights(const Block& block, int width, int height, Four* out) {
   }
 }
 
-// What is between texels is not beyond them: the cubic's overshoot is cut. kAcross: columns of the filter; 0: any.
+// Clamps the cubic's overshoot to the range of the texels. kAcross: columns of the filter; 0: any number.
 template <int kAcross>
 static Four mix_texels(const Four* texels, int width, const TexelFilter& filter) {
   const int across = kAcross > 0 ? kAcross : filter.across.count;
@@ -127,7 +127,7 @@ static Four mix_texels(const Four* texels, int width, const TexelFilter& filter)
     }
     sum += row * filter.down.weights[y];
   }
-  sum = sum > low ? sum : low;  // NaN too, of numbers near the largest
+  sum = sum > low ? sum : low;  // also replaces NaN, which values near the largest float give
   return sum < high ? sum : high;
 }
 
@@ -180,15 +180,15 @@ static ReadNumbers number_reader_of(SampleType sample) {
 
 struct Resampler::Group {
   ReadLights read_lights;
-  ReadNumbers read_numbers;  // of layers that must not be averaged
+  ReadNumbers read_numbers;  // for layers that must not be averaged
   size_t layer;
-  ptrdiff_t offset;  // bytes, in a texel
-  int first;         // channel of the whole
+  ptrdiff_t offset;  // within a texel, bytes
+  int first;         // first channel in the pixel
   int count;
-  ptrdiff_t size;  // bytes
+  ptrdiff_t size;  // of the group in a texel, bytes
 
-  Block block(const Source& source, int eye, int x, int y) const {
-    const LayerPixels& from = source.picture->eyes[static_cast<size_t>(eye)].layers[layer];
+  Block block(const Source& source, int source_eye, int x, int y) const {
+    const LayerPixels& from = source.picture->eyes[static_cast<size_t>(source_eye)].layers[layer];
     return {from.first + y * from.row_stride + x * from.pixel_stride + offset, from.pixel_stride, from.row_stride};
   }
 };
@@ -221,7 +221,7 @@ Resampler::~Resampler() = default;
 
 namespace {
 
-// The texels of filters as a cell has them, and how many they are if every filter reads its own.
+// The box of texels that filters need, and their number if every filter reads its own.
 struct Reach {
   Cell box;
   int texels = 0;
@@ -242,7 +242,7 @@ static Reach reach_of(std::span<const TexelFilter> filters) {
   return reach;
 }
 
-// A fisheye's circle has them if it has the corners of each.
+// A fisheye's circle contains a filter's texels if it contains their corners.
 bool Resampler::has_all(std::span<const TexelFilter> filters, const Cell& cell) const {
   const Cell box = reach_of(filters).box;
   if (box.left < cell.left || box.right > cell.right || box.top < cell.top || box.bottom > cell.bottom) return false;
@@ -262,7 +262,7 @@ void Resampler::add(const Place& place, const Cell& cell, float weight, float* s
   const bool inside = has_all({&filter, 1}, cell);
   Texel around[16];
   for (int i = 0; i < 16 && !inside; i++) {
-    around[i] = texel_of(source_, place.eye, cell, left + i % 4, top + i / 4);
+    around[i] = texel_of(source_, place.source_eye, cell, left + i % 4, top + i / 4);
   }
   for (const Group& group : mixed_) {
     Four texels[16];
@@ -270,28 +270,28 @@ void Resampler::add(const Place& place, const Cell& cell, float weight, float* s
     const ptrdiff_t size = group.size;
     for (int i = 0; i < 16 && !inside; i++) {
       const Texel& t = around[i];
-      std::memcpy(gathered + i * size, group.block(source_, t.eye, t.x, t.y).first, static_cast<size_t>(size));
+      std::memcpy(gathered + i * size, group.block(source_, t.source_eye, t.x, t.y).first, static_cast<size_t>(size));
     }
-    const Block block = inside ? group.block(source_, place.eye, left, top) : Block{gathered, size, 4 * size};
+    const Block block = inside ? group.block(source_, place.source_eye, left, top) : Block{gathered, size, 4 * size};
     group.read_lights(block, 4, 4, texels);
     const Four value = mix_texels<4>(texels, 4, filter);
     for (int c = 0; c < group.count; c++) sums[group.first + c] += weight * value[c];
   }
 }
 
-// Neighbours share most of their texels, which are read once for all: of as many pixels as have them in a small box.
-void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) const {
+// Neighbouring pixels share most of their texels, which are read once for as many pixels as fit a small box.
+void Resampler::fill(int source_eye, std::span<const TexelFilter> filters, float* out) const {
   const int kMaxTexels = 1024;  // of one filter
   const Reach reach = reach_of(filters);
   const int left = reach.box.left, top = reach.box.top, width = reach.box.right - left, height = reach.box.bottom - top;
   if (filters.size() > 1 && width * height > std::min(reach.texels, kMaxTexels)) {
     const size_t half = filters.size() / 2;
-    fill(eye, filters.first(half), out);
-    return fill(eye, filters.subspan(half), out + half * static_cast<size_t>(channels_));
+    fill(source_eye, filters.first(half), out);
+    return fill(source_eye, filters.subspan(half), out + half * static_cast<size_t>(channels_));
   }
   Four texels[kMaxTexels];
   for (const Group& group : mixed_) {
-    group.read_lights(group.block(source_, eye, left, top), width, height, texels);
+    group.read_lights(group.block(source_, source_eye, left, top), width, height, texels);
     float* pixel = out + group.first;
     for (const TexelFilter& filter : filters) {
       const Four* first = texels + (filter.down.first - top) * width + (filter.across.first - left);
@@ -303,7 +303,7 @@ void Resampler::fill(int eye, std::span<const TexelFilter> filters, float* out) 
   }
 }
 
-void Resampler::copy(int eye, int y, std::span<float> out) const {
+void Resampler::copy(int source_eye, int y, std::span<float> out) const {
   constexpr int kAtOnce = 64;
   const int width = source_.picture->size.width;
   const size_t stride = static_cast<size_t>(channels_);
@@ -312,7 +312,7 @@ void Resampler::copy(int eye, int y, std::span<float> out) const {
     float* pixel = &out[static_cast<size_t>(group.first)];
     for (int x = 0; x < width; x += kAtOnce) {
       const int count = std::min(kAtOnce, width - x);
-      group.read_lights(group.block(source_, eye, x, y), count, 1, texels);
+      group.read_lights(group.block(source_, source_eye, x, y), count, 1, texels);
       for (int i = 0; i < count; i++, pixel += stride) {
         for (int c = 0; c < group.count; c++) pixel[c] = texels[i][c];
       }
@@ -321,7 +321,7 @@ void Resampler::copy(int eye, int y, std::span<float> out) const {
   if (!leaves_some_alone_) return;
   for (int x = 0; x < width; x++) {
     const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-    finish({eye, middle, true}, &out[static_cast<size_t>(x) * stride]);
+    finish({source_eye, middle, true}, &out[static_cast<size_t>(x) * stride]);
   }
 }
 
@@ -339,7 +339,7 @@ bool PixelRun::add(const std::optional<TexelTents>& tents, std::span<const vec2>
 }
 
 void PixelRun::fill() {
-  if (waiting_ > 0) resampler_.fill(eye_, {filters_, waiting_}, first_);
+  if (waiting_ > 0) resampler_.fill(source_eye_, {filters_, waiting_}, first_);
   waiting_ = 0;
 }
 
@@ -349,7 +349,7 @@ void Resampler::set_rest(const Place& place, float* out) const {
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
   for (const Group& group : nearest_) {
-    group.read_numbers(group.block(source_, place.eye, x, y).first, group.count, out + group.first);
+    group.read_numbers(group.block(source_, place.source_eye, x, y).first, group.count, out + group.first);
   }
 }
 

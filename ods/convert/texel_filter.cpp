@@ -11,13 +11,14 @@ namespace ods {
 
 // --- tents ----------------------------------------------------------------------------------------------------------
 
-// Below this the picture is only interpolated: half a texel's hundredth of blur would cost its sharpness for nothing.
+// Below this the picture is only interpolated: blurring by a hundredth of half a texel would cost sharpness for
+// nothing.
 static const float kMinRadius = 0.15f;
 static const int kMaxPoints = 65;  // along one axis
 
 namespace {
 
-// Points an equal step apart. Their weights, 1 together, rise and fall by equal steps.
+// Points at equal steps. Their weights add up to 1, and rise and fall by equal steps.
 struct Tent {
   int count = 1;
   float offset = 0.0f;  // of the first point
@@ -30,8 +31,8 @@ struct Tent {
 
 }  // namespace
 
-// Points whose variance is the tent's own, radius^2 / 6. Those of a tent of radius 1 have a somewhat larger one, by the
-// sums of 1, 3, 5, ... and their squares and cubes: a sixth of `variance`.
+// Points that have the tent's variance, radius^2 / 6. The points of a tent of radius 1 have a slightly larger variance,
+// `variance` / 6, which follows from the sums of 1, 3, 5, ... and of their squares and cubes.
 static Tent make_tent(float variance_of_6) {
   Tent tent;
   if (variance_of_6 < kMinRadius * kMinRadius) return tent;
@@ -48,7 +49,7 @@ static Tent make_tent(float variance_of_6) {
 
 void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points) {
   const vec2 dx = footprint.dx, dy = footprint.dy;
-  // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, and s^2 along them.
+  // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, with the eigenvalues s^2.
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
   points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
   if (xx + yy <= 1.0f) return;
@@ -73,10 +74,10 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
 
 // --- columns and rows -----------------------------------------------------------------------------------------------
 
-// A register of the processor, which compilers do not find by themselves here. Both g++ and clang know it so.
+// A SIMD register, which compilers do not use by themselves here. Both g++ and clang support this attribute.
 using Four = float __attribute__((vector_size(16)));
 
-// Catmull-Rom, for the texels at -1, 0, 1 and 2.
+// Catmull-Rom weights of the texels at -1, 0, 1 and 2.
 static Four cubic_weights(float t) {
   const Four once{-0.5f, 0.0f, 0.5f, 0.0f}, squared{1.0f, -2.5f, 2.0f, -0.5f}, cubed{-0.5f, 1.5f, -1.5f, 0.5f};
   const Four middle{0.0f, 1.0f, 0.0f, 0.0f};
@@ -87,7 +88,7 @@ namespace {
 
 struct Position {
   int texel;
-  float beyond;  // its middle
+  float beyond;  // distance beyond the texel's centre
 };
 
 }  // namespace
@@ -98,7 +99,8 @@ static Position split_exactly(float at) {
   return {whole, from - static_cast<float>(whole)};
 }
 
-// A place this near to the middle of a texel is meant to be there: angles and their way back leave that much.
+// A place this close to the centre of a texel is meant to be exactly there: the round trip through angles has that much
+// error.
 static Position split(float at) {
   const float kTolerance = 1.0f / 256.0f;
   const Position exact = split_exactly(at);
@@ -110,7 +112,7 @@ static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
   Position position = split(at + tent.at(0));
   to.first = position.texel - 1;
   to.count = 0;
-  Four sums{};  // of the four weights from to.count on, to which points still add
+  Four sums{};  // of the four weights from to.count on, to which later points still add
   for (int i = 0, texel = position.texel; i < tent.count; i++) {
     position = split(at + tent.at(i));
     for (; texel < position.texel; texel++) {
@@ -125,16 +127,16 @@ static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
 
 namespace {
 
-// The weights of tents, which are slow to sum, for steps of their radius squared and of the place between two texels.
+// The weights of tents, which are slow to sum, tabulated over the squared radius and the position between two texels.
 struct TentTable {
-  static constexpr int kSteps = 48;  // of the square: of what the filter's variance grows by
+  static constexpr int kSteps = 48;  // per unit of the squared radius, the filter's added variance times 6
   static constexpr int kSquares = 9 * kSteps;
-  static constexpr int kPhases = 128;  // of a texel
+  static constexpr int kPhases = 128;  // per texel
   static constexpr int kMax = 12;      // weights
   struct Row {
-    int first = kMax;  // texel of the first weight, from that before the place
+    int first = kMax;  // texel of the first weight, relative to the one before the place
     int count = 0;
-    std::array<std::array<float, kMax>, kPhases + 2> weights;  // the last twice: it has a next one, too
+    std::array<std::array<float, kMax>, kPhases + 2> weights;  // the last one twice, so that it has a successor
   };
   std::vector<Row> rows{kSquares};
 
@@ -165,7 +167,7 @@ TentTable::TentTable() {
 
 namespace {
 
-// Places along one axis, and which weights those of their filters are.
+// Places along one axis, and the member of TexelFilter that receives their weights.
 struct Axis {
   float places[kMaxAlike];
   std::span<TexelFilter> filters;
@@ -174,7 +176,7 @@ struct Axis {
 
 }  // namespace
 
-// Its loops, and those below, are over all places there is room for: compilers turn them into a few steps.
+// The loops here and below always run over all kMaxAlike places: compilers turn them into a few instructions.
 static void interpolate(const Axis& axis) {
   Position positions[kMaxAlike];
   for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split(axis.places[i]);
@@ -212,7 +214,7 @@ static void set_weights(float square, const Axis& axis) {
   if (square < kMinRadius * kMinRadius) return interpolate(axis);
   const float step = square * TentTable::kSteps + 0.5f;
   if (step < TentTable::kSquares) {
-    static const TentTable kTable;  // a few milliseconds, for those who need it
+    static const TentTable kTable;  // takes a few milliseconds; made on first use
     return look_up_weights(kTable.rows[static_cast<size_t>(step)], axis);
   }
   const Tent tent = make_tent(square);
@@ -222,13 +224,13 @@ static void set_weights(float square, const Axis& axis) {
 }
 
 std::optional<TexelTents> texel_tents(const Footprint& footprint) {
-  // Beyond it the ellipse leans so far that columns and rows tell another one.
+  // Beyond this the ellipse is so skewed that separate columns and rows describe a different one.
   const float kMaxLean = 0.1f;
-  // Nor does it matter how it leans if that moves the ends of its tent no further than this many texels aside.
+  // Skew does not matter if it moves the ends of the ellipse's tent sideways by no more than this many texels.
   const float kMaxAside = 0.05f;
-  // A filter this wide has fewer texels than there is room for.
+  // A filter up to this radius fits into TexelWeights.
   const float kMaxRadius = 12.0f;
-  // An ellipse within this circle is only interpolated, however it leans.
+  // An ellipse within this circle is only interpolated, whatever its skew.
   const float kSharp = 1.0f + kMinRadius * kMinRadius;
   const vec2 dx = footprint.dx, dy = footprint.dy;
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;

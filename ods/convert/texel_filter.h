@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pixel averages of the picture that it is made of.
+// The filter of a conversion: what a target pixel averages of the source picture.
 //
-// A pixel that covers s texels along an axis of its footprint is the mean of the picture under a tent of variance
-// (s^2 - 1) / 6: together with what the texels have averaged already, that of a tent as wide as the pixel's distance to
-// its neighbours on either side. The tent is summed over points not more than half a texel or so apart. Between texels
-// the picture is interpolated by Catmull and Rom's cubic, kept within the range of its 4x4 texels. So a pixel that
-// covers one texel or less is interpolated only, and one in the middle of a texel is that texel, bit for bit.
+// A pixel whose footprint covers s texels along an axis is the mean of the picture under a tent of variance (s^2 - 1) /
+// 6. Together with the averaging that the texels already contain, this is a tent as wide as the pixel's distance to its
+// neighbours on either side. The tent is summed over points at most about half a texel apart. Between texels the
+// picture is interpolated by the Catmull-Rom cubic, clamped to the range of its 4x4 texels. So a pixel that covers one
+// texel or less is only interpolated, and a pixel at the centre of a texel is that texel, bit for bit.
 #pragma once
 #include <optional>
 #include <span>
@@ -17,30 +17,30 @@
 
 namespace ods {
 
-// How the place moves from one pixel to the next, in texels.
+// How the source place moves from one target pixel to the next, in texels.
 struct Footprint {
   vec2 dx{0.0f};  // to the right
   vec2 dy{0.0f};  // down
 };
 
 struct FilterPoint {
-  vec2 texels;  // from the pixel's place
-  vec2 pixels;  // the same in the picture that is made, from the pixel's middle
+  vec2 texels;  // offset from the pixel's place in the source
+  vec2 pixels;  // the same offset in the target, from the pixel's centre
   float weight;
 };
 
-// The points over which a pixel is summed; their weights are 1 together. `points` is overwritten.
+// The points that a pixel sums over; their weights add up to 1. Overwrites `points`.
 void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points);
 
-// The same of a footprint whose axes are about the picture's own, for which columns and rows have weights each by
-// themselves: a sixth of the work. Up to a radius of 3 texels weights come from a table, of the tent in it whose
-// variance is nearest: at most 1/576 of a square texel off.
+// The same filter for a footprint whose axes are nearly the picture's own: columns and rows have separate weights,
+// which takes a sixth of the work. Up to a radius of 3 texels the weights come from a table, from the tent with the
+// nearest variance: the error is at most 1/576 square texel.
 struct TexelTents {
-  float across = 0.0f;  // the tents' radius in texels, squared; 0: the picture is interpolated only
+  float across = 0.0f;  // squared radius of the tents, in texels; 0: the picture is only interpolated
   float down = 0.0f;
 };
 
-// None of other footprints and of very large ones.
+// Empty for other footprints and for very large ones.
 std::optional<TexelTents> texel_tents(const Footprint& footprint);
 
 struct TexelWeights {
@@ -52,7 +52,7 @@ struct TexelFilter {
   TexelWeights across, down;
 };
 
-// The weights of such tents at places, which are quicker to find for several: a filter for each.
+// Fills one filter per place with the weights of such tents; several places (at most kMaxAlike) at once are faster.
 constexpr size_t kMaxAlike = 8;
 void texel_filters(const TexelTents& tents, std::span<const vec2> places, TexelFilter* filters);
 

@@ -12,12 +12,12 @@
 
 namespace ods {
 
-// Pixels that the eye has for the 360 degrees around the horizon, or would have if it reached so far.
+// The number of pixels that the eye has for the 360 degrees around the horizon, or would have if it covered them.
 static double pixels_around(const ProjectionSetting& setting, int width) {
   return 2.0 * std::numbers::pi * pixels_per_radian(setting, width);
 }
 
-// Light has no largest value: it is scaled so that its geometric mean becomes a middle grey.
+// Scene-linear light has no upper limit: scales it so that its geometric mean becomes a middle grey.
 static float exposure_of(const std::vector<Image>& eyes) {
   double sum = 0.0;
   int64_t count = 0;
@@ -34,7 +34,7 @@ static float exposure_of(const std::vector<Image>& eyes) {
 
 namespace {
 
-// Which pixels of an eye a pixel of the view covers, n x n times.
+// The pixels of an eye at n x n points inside a pixel of the view.
 class Sampler {
  public:
   Sampler(const ProjectionSetting& setting, const Image& eye, int width)
@@ -43,7 +43,7 @@ class Sampler {
         width_(width),
         n_(std::clamp(static_cast<int>(std::ceil(pixels_around(setting, eye.width) / width)), 2, 8)) {}
 
-  // Their indices in reading order; none when one lies outside the picture.
+  // Their indices in reading order; empty if one is outside the picture.
   const std::vector<size_t>& at(int x, int y) {
     found_.clear();
     for (int i = 0; i < n_ * n_; i++) {
@@ -76,7 +76,7 @@ static float mean_grey(const Image& eye, const std::vector<size_t>& places, floa
     const float light = eye.pixels[place] * exposure;
     sum += std::isinf(light) ? std::numeric_limits<float>::quiet_NaN() : std::min(light, 1.0f);
   }
-  return srgb_encode(sum / static_cast<float>(places.size()));  // of no place: NaN
+  return srgb_encode(sum / static_cast<float>(places.size()));  // NaN if there are no places
 }
 
 std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const ProjectionSetting& projection,

@@ -10,23 +10,23 @@ namespace ods {
 
 namespace {
 
-// The least standard deviation of a tile with something to find in it. Eight bits are steps of 0.004.
+// The least standard deviation of a tile with enough detail. One step of 8 bits is 0.004.
 constexpr double kDetail = 0.015;
 
-// A second peak as high as this below the first, and not beside it, makes a tile ambiguous.
+// A tile is ambiguous if a second peak, not adjacent to the first, is less than this below it.
 constexpr double kPeakLead = 0.04;
 
 struct Tile {
-  int x, y;  // of its first pixel
+  int x, y;  // of the tile's first pixel
   int columns, rows;
 };
 
 struct Found {
-  double x = 0.0, y = 0.0;  // by how much the tile moved
+  double x = 0.0, y = 0.0;  // the tile's displacement
   double correlation = -1.0;
 };
 
-// A view that goes on beyond its edges, and sums over any rectangle of it.
+// A view that continues beyond its edges, with sums over any rectangle of it.
 class Sums {
  public:
   explicit Sums(const GrayView& view) : width_(3 * view.width), row_(static_cast<size_t>(width_) + 1) {
@@ -52,7 +52,7 @@ class Sums {
     int unseen = 0;
   };
 
-  // x from one turn left of the picture to one right of it.
+  // x may be from one full turn left of the picture to one full turn right of it.
   Sum over(int x, int y, int columns, int rows) const {
     const Sum &a = table_[entry(x, y)], &b = table_[entry(x + columns, y)], &c = table_[entry(x, y + rows)],
               &d = table_[entry(x + columns, y + rows)];
@@ -79,7 +79,7 @@ class Matcher {
   Matcher(const GrayView& from, const Sums& from_sums, const Sums& to_sums, int reach_x, int reach_y)
       : view_(from), from_(from_sums), to_(to_sums), reach_x_(reach_x), reach_y_(reach_y) {}
 
-  // False where there is no detail or no picture.
+  // Returns false if there is no detail or no picture.
   bool take(const Tile& tile) {
     tile_ = tile;
     const double n = count();
@@ -117,10 +117,10 @@ class Matcher {
  private:
   double count() const { return static_cast<double>(tile_.columns) * tile_.rows; }
 
-  // A turn to the right, where the sums have columns on both sides.
+  // One full turn to the right, where the sums have columns on both sides.
   int turned(int x) const { return x + view_.width; }
 
-  // -1 where the other picture is not, or is flat.
+  // -1 if the other picture is empty or flat there.
   double correlate(int x, int y) const {
     const Sums::Sum sum = to_.over(turned(x), y, tile_.columns, tile_.rows);
     const double spread = sum.square - sum.value * sum.value / count();
@@ -129,7 +129,7 @@ class Matcher {
     const float* pattern = pattern_.data();
     for (int j = 0; j < tile_.rows; j++, pattern += tile_.columns) {
       const float* row = &to_.values[to_.index(turned(x), y + j)];
-      float lanes[4] = {};  // additions that do not wait for each other
+      float lanes[4] = {};  // independent sums, so that additions do not wait for each other
       int i = 0;
       for (; i + 4 <= tile_.columns; i += 4) {
         for (int lane = 0; lane < 4; lane++) lanes[lane] += pattern[i + lane] * row[i + lane];
@@ -147,7 +147,7 @@ class Matcher {
     });
   }
 
-  // Of the parabola through three values.
+  // The peak of the parabola through three values.
   static double peak(double before, double at, double after) {
     const double bend = before - 2.0 * at + after;
     return bend < 0.0 && before > -1.0 && after > -1.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
@@ -165,7 +165,7 @@ class Matcher {
   int reach_x_, reach_y_;
   Tile tile_{};
   std::vector<float> pattern_;
-  std::vector<Found> profile_;  // the best height for each shift
+  std::vector<Found> profile_;  // for each shift along the row: the best vertical shift
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the one eye's picture shows what the other's does: tiles are searched along the row, and a little above and
-// below, by normalised cross-correlation.
+// Finds corresponding points in the two eyes: searches for tiles along the row, and a little above and below it, by
+// normalised cross-correlation.
 #pragma once
 #include <optional>
 #include <vector>
@@ -11,36 +11,37 @@
 
 namespace ods {
 
-// Radians. A tile is as wide on the sphere wherever it lies: its columns grow towards the poles.
+// Angles are in radians. A tile has the same width on the sphere at every elevation: its columns grow towards the
+// poles.
 struct Search {
-  int rows = 12;  // of a tile, pixels of the view
+  int rows = 12;  // of a tile, in pixels of the view
   int columns = 16;
-  int step = 12;         // from one row of tiles to the next
-  float around = 0.21f;  // how far to search to either side; half of parallax at 0.3 m
+  int step = 12;         // from one row of tiles to the next, in pixels of the view
+  float around = 0.21f;  // how far to search to either side; half of the parallax at 0.3 m
   float down = 0.02f;
-  float lowest = -1.2f;  // middles of the tiles
+  float lowest = -1.2f;  // elevation of the tiles' centres
   float highest = 1.2f;
-  float correlation = 0.75f;  // of a match, at least
+  float correlation = 0.75f;  // minimum correlation of a match
 };
 
 struct Match {
-  float theta = 0.0f;  // of the tile's middle
+  float theta = 0.0f;  // of the tile's centre
   float phi = 0.0f;
-  float around = 0.0f;  // theta in the left eye less theta in the right one: of a parallel pair 2 asin(r / rho) >= 0
-  float down = 0.0f;    // phi likewise; 0 in every omni-directional stereo pair
+  float around = 0.0f;  // theta in the left eye minus theta in the right eye: for a parallel pair 2 asin(r / rho) >= 0
+  float down = 0.0f;    // likewise for phi; 0 in every omni-directional stereo pair
   float correlation = 0.0f;
 };
 
 struct Matches {
-  int tiles = 0;  // with enough detail in both eyes to be looked for
+  int tiles = 0;  // tiles with enough detail in both eyes to be searched for
   std::vector<Match> found;
-  float pixel = 0.0f;  // of the view, radians
+  float pixel = 0.0f;  // size of a pixel of the view, radians
 
-  // Tiles that were found among those looked for.
+  // The fraction of these tiles that were found.
   double share() const { return tiles > 0 ? static_cast<double>(found.size()) / tiles : 0.0; }
 };
 
-// Precondition: views of one size.
+// Precondition: both views have the same size.
 Matches match_tiles(const GrayView& left, const GrayView& right, const Search& search);
 
 }  // namespace ods

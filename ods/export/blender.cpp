@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Python that sets a Blender scene's camera up to match. A property that a version of Blender lacks is said when the
-// script runs.
+// Python that sets up a Blender scene's camera to match. If a version of Blender lacks a property, the script says so
+// when it runs.
 #include <fmt/format.h>
 
 #include "ods/export/writers.h"
@@ -99,7 +99,7 @@ class Script {
     turned_lens();
   }
 
-  // A lens that points elsewhere takes the viewing circle along, unless it only turns about the circle's axis.
+  // A lens that points elsewhere rotates the viewing circle with it, unless it only turns about the circle's axis.
   void turned_lens() {
     const ProjectionSetting& setting = rig_.projection;
     if (setting.tilt != 0.0f) warn(fmt::format("the lens cannot tilt {} degrees while the eyes stay", setting.tilt));

@@ -44,7 +44,7 @@ CameraExport export_camera(const Sidecar& file, CameraTarget target) {
   return {};
 }
 
-// --- what the writers share ------------------------------------------------------------------------------------------
+// --- shared by the writers -------------------------------------------------------------------------------------------
 
 bool is_plain_cosine(const PoleMergeSetting& merge) {
   return merge.mode == kMergeCosine && merge.end == 90.0f && merge.exponent == 1.0f;

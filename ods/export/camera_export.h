@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One camera, any renderer: its description in the words of another system. What that system cannot do stands in the
-// text as a comment, and in `warnings`.
+// Exports a camera to another renderer: describes it in that system's terms. What the system cannot do is a comment in
+// the text and an entry of `warnings`.
 #pragma once
 #include <string>
 #include <string_view>
@@ -27,7 +27,7 @@ enum class CameraTarget {
   kHlsl,
   kPython,
   kJson,     // the sidecar
-  kNumbers,  // for people and spreadsheets
+  kNumbers,  // for users and spreadsheets
 };
 
 // povray, povray-fork, blender, ...
@@ -48,8 +48,8 @@ constexpr std::string_view camera_target_name(CameraTarget target) {
 
 struct CameraExport {
   std::string text;
-  std::vector<std::string> warnings;  // what the target lacks, a line each
-  std::string refusal;                // why there is no text, where there is none
+  std::vector<std::string> warnings;  // what the target lacks, one line each
+  std::string refusal;                // why there is no text, if there is none
 };
 
 CameraExport export_camera(const Sidecar& file, CameraTarget target);

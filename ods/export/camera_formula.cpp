@@ -29,14 +29,14 @@ Vector combine(const std::array<glm::dvec3, 3>& columns, const Vector& v) {
   Vector result{0.0, 0.0, 0.0};
   for (int row = 0; row < 3; row++) {
     for (size_t i = 0; i < 3; i++) {
-      const double share = std::round(columns[i][row] * 1e14) / 1e14;  // the sine of half a turn is 0
+      const double share = std::round(columns[i][row] * 1e14) / 1e14;  // makes the sine of half a turn 0
       result[static_cast<size_t>(row)] = result[static_cast<size_t>(row)] + share * v[i];
     }
   }
   return result;
 }
 
-// What a merge leaves of the circle at t, before its exponent: the curves of ods/kernel/camera/merge.h.
+// The fraction of the circle that a merge leaves at t, before its exponent: the curves of ods/kernel/camera/merge.h.
 struct MergeCurve {
   int mode;
   Formula (*left)(const Formula& t);
@@ -76,7 +76,7 @@ class Writer {
   }
 
  private:
-  // What is only turned to the right needs no matrix.
+  // A rotation about the vertical axis only needs no matrix.
   bool is_level() const {
     const bool level = rig_.pitch == 0.0f && rig_.roll == 0.0f;
     const bool upright = !rig_.axis || (level && *rig_.axis == vec3(0.0f, 1.0f, 0.0f));
@@ -91,14 +91,14 @@ class Writer {
     return named(Operation::kParameter, name);
   }
 
-  // Numbers and names stay what they are.
+  // Numbers and names are not given a step of their own.
   Formula step(const std::string& name, const Formula& value) {
     if (value->operands.empty()) return value;
     out_.steps.push_back({name, value, ""});
     return named(Operation::kStep, name);
   }
 
-  // Which eye, and where in its picture.
+  // Selects the eye, and the position within its picture.
   void write_eyes() {
     eye_u_ = view_.u, eye_v_ = view_.v;
     if (file_.eyes.size() == 1 && file_.eyes[0] == kMono) return;
@@ -134,7 +134,7 @@ class Writer {
     return (rig_.mirrored ? -1.0 : 1.0) * (kExactPi / 180.0) * yaw;
   }
 
-  // theta and phi of the direction: about the viewing circle's axis.
+  // theta and phi of the direction, relative to the viewing circle's axis.
   void write_angles() {
     const bool even = has_range(setting_.kind);
     Formula theta = 0.0, phi = 0.0;
@@ -197,7 +197,7 @@ class Writer {
     return combine(columns, {px * outwards, py * outwards, -cos(angle)});
   }
 
-  // Millimetres on the sensor.
+  // Positions on the sensor are in millimetres.
   Vector polynomial_direction(const std::array<glm::dvec3, 3>& columns) {
     const Formula width = parameter("sensor_width", setting_.sensor.x, "millimetres");
     const Formula height = parameter("sensor_height", setting_.sensor.y, "millimetres");
@@ -216,7 +216,7 @@ class Writer {
     return combine(columns, {px * outwards, py * outwards, -cos(angle)});
   }
 
-  // The face is chosen by the cell, s and t run -1..1 across it.
+  // The cell determines the face; s and t run from -1 to 1 across it.
   Vector cube_direction() {
     const int columns = cube_columns(setting_.kind), rows = 6 / columns;
     const auto cell_of = [&](const Formula& place, int count) {
@@ -245,14 +245,15 @@ class Writer {
     return d;
   }
 
-  // The camera's frame in the world: its right, up and back.
+  // The camera's frame in the world: right, up and back.
   std::array<glm::dvec3, 3> frame() const {
     std::array<glm::dvec3, 3> columns = orientation(radians(rig_.yaw), radians(rig_.pitch), radians(rig_.roll));
     if (rig_.mirrored) columns[2] = -columns[2];
     return columns;
   }
 
-  // A frame in the camera's whose up is the viewing circle's axis; right and back as near to the camera's as can be.
+  // A frame, relative to the camera's, whose up is the viewing circle's axis; right and back are as close to the
+  // camera's as possible.
   std::array<glm::dvec3, 3> circle() const {
     if (!rig_.axis) return {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     const std::array<glm::dvec3, 3> camera = frame();
@@ -274,7 +275,7 @@ class Writer {
     return turned;
   }
 
-  // What a merge leaves, by the elevation from the horizon.
+  // The fraction that a merge leaves, by the elevation from the horizon.
   Formula merge_of_pole(const PoleMergeSetting& merge, const std::string& pole) {
     if (merge.mode == kMergeNone) return 1.0;
     if (merge.mode == kMergeCosine && merge.start == 0.0f && merge.end == 90.0f) {
@@ -302,7 +303,7 @@ class Writer {
     return step("merge", select(phi_, merge_of_pole(bottom, "bottom_"), above));
   }
 
-  // Out of the viewing circle's frame, where x is right, y the axis and z back.
+  // From the viewing circle's frame, where x is right, y the axis and z back, to the world.
   Vector into_world(const Vector& v) {
     Vector result = v;
     if (has_axis_) result = combine(circle(), result);

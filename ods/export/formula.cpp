@@ -48,7 +48,7 @@ Formula replace_step(const Formula& a, const std::string& name, const Formula& b
   return make(a->operation, std::move(operands));
 }
 
-// A sum keeps its number behind, a product before: p + n, n * p.
+// A sum has its number after the other operand, a product before: p + n, n * p.
 static bool has_number_behind(const Formula& a) {
   return a->operation == Operation::kAdd && is_number(a->operands[1]);
 }
@@ -151,7 +151,7 @@ Formula select(const Formula& condition, const Formula& below_zero, const Formul
 
 namespace {
 
-// How tightly an expression holds together.
+// How tightly an expression binds.
 enum Binding { kSum, kProduct, kAtom };
 
 const double kExactPi = std::acos(-1.0);
@@ -181,7 +181,7 @@ class Printer {
     return brackets ? fmt::format("({})", text) : text;
   }
 
-  // A multiple of pi as "pi", "2*pi", "pi/180"; of one over pi as "180/pi"; else 10 digits.
+  // Prints a multiple of pi as "pi", "2*pi", "pi/180", and a multiple of 1/pi as "180/pi"; all else with 10 digits.
   std::string number(double value) const {
     for (const double times : {0.5, 180.0}) {
       if (std::abs(value * kExactPi - times) < 1e-12 * times) return plain(times) + "/pi";
@@ -214,7 +214,7 @@ class Printer {
     for (const Formula& operand : a->operands) collect_terms(operand, terms);
   }
 
-  // Starts with a term that needs no minus, where there is one.
+  // Starts with a term that needs no minus sign, if there is one.
   std::string sum(const Formula& a) const {
     std::vector<Formula> terms;
     collect_terms(a, terms);
@@ -228,7 +228,7 @@ class Printer {
     return result;
   }
 
-  // Of no negative number. One over a whole number divides.
+  // A product without a negative number. A factor 1/n with an integer n becomes a division.
   std::string product(const Formula& a) const {
     const Formula& left = a->operands[0];
     const Formula& right = a->operands[1];
@@ -304,7 +304,7 @@ std::string print(const Formula& formula, Language language) {
   return Printer(language).text(formula, kSum);
 }
 
-// POV-Ray shares one space of names with the scene; ours are those of the page that its users know.
+// In POV-Ray all names share one namespace with the scene; ours are those of the page that its users know.
 std::string print_name(const std::string& name, Language language) {
   if (language != Language::kPovray) return name;
   if (name == "ipd") return "odsIPD";

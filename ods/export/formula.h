@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Formulas as trees, printed in the languages of other renderers. Building one simplifies it: numbers are folded, sums
-// and products with 0 and 1 vanish, and what is left reads as a person would write it.
+// Formulas as trees, printed in the languages of other renderers. Building a formula simplifies it: numbers are folded,
+// sums and products with 0 and 1 vanish, and the result reads as a person would write it.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,8 +13,8 @@ namespace ods {
 
 enum class Operation {
   kNumber,
-  kVariable,   // of the image position
-  kParameter,  // a number with a name, which the user of the formula may change
+  kVariable,   // depends on the image position
+  kParameter,  // a named number, which the user of the formula may change
   kStep,       // the value of another formula
   kAdd,
   kMultiply,
@@ -31,14 +31,14 @@ enum class Operation {
   kMin,
   kMax,
   kFloor,
-  kSelect,  // of three: the second where the first is below 0, else the third
+  kSelect,  // of three operands: the second if the first is below 0, else the third
 };
 
 struct Expression;
 
 class Formula {
  public:
-  Formula(double number);  // NOLINT: 2.0 * x shall read so
+  Formula(double number);  // NOLINT: implicit, so that 2.0 * x compiles
   explicit Formula(std::shared_ptr<const Expression> tree) : tree_(std::move(tree)) {}
   const Expression& operator*() const { return *tree_; }
   const Expression* operator->() const { return tree_.get(); }
@@ -50,7 +50,7 @@ class Formula {
 struct Expression {
   Operation operation = Operation::kNumber;
   double number = 0.0;
-  std::string name;  // of kVariable, kParameter, kStep
+  std::string name;  // for kVariable, kParameter, kStep
   std::vector<Formula> operands;
 };
 
@@ -79,15 +79,15 @@ bool is_number(const Formula& a);
 bool is_number(const Formula& a, double value);
 bool same(const Formula& a, const Formula& b);
 
-// How often the step of this name stands in the formula itself, not in other steps of it; and the formula with another
-// one in place of that step.
+// count_step() returns how often the named step occurs in the formula itself, not inside other steps. replace_step()
+// replaces the step by another formula.
 int count_step(const Formula& a, const std::string& name);
 Formula replace_step(const Formula& a, const std::string& name, const Formula& by);
 
 enum class Language { kPovray, kOsl, kGlsl, kHlsl, kPython, kPlain };
 
-// A formula as an expression of the language. Pi is written `pi`, which Python and the shading languages must define;
-// a number has 10 digits. In POV-Ray names become odsName.
+// Prints a formula as an expression of the language. Pi is written `pi`, which Python and the shading languages must
+// define; a number has 10 digits. In POV-Ray, names become odsName.
 std::string print(const Formula& formula, Language language);
 std::string print_name(const std::string& name, Language language);
 

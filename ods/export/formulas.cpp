@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The targets that are told formulas: POV-Ray, OSL, GLSL, HLSL, Python, plain.
+// The targets that accept formulas: POV-Ray, OSL, GLSL, HLSL, Python, plain text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -28,7 +28,7 @@ std::string print_vector(const std::array<Formula, 3>& v, Language language) {
   return fmt::format("{}, {}, {}", print(v[0], language), print(v[1], language), print(v[2], language));
 }
 
-// Two eyes that share no picture are rendered one after the other.
+// Two eyes that do not share a picture are rendered one after the other.
 std::string eye_hint(const Sidecar& file, const CameraFormula& formula, const std::string& mark,
                      const std::string& name) {
   for (const NamedFormula& parameter : formula.parameters) {
@@ -81,10 +81,10 @@ CameraExport to_shader(const Sidecar& file, const FormulaView& view, const Shade
   return result;
 }
 
-// A vector in POV-Ray, whose functions know no local variables: what a function calls twice is computed twice, and what
-// that calls twice, four times. So a step that a part would compute more than once becomes a link of a chain: a
-// function of the links before it that are still needed, which hands these and its own value to the next function. The
-// last one chooses among the parts. All other steps are written out where they are used.
+// A vector in POV-Ray, whose functions have no local variables: a function computes twice what it calls twice, and four
+// times what that calls twice. So a step that a component would compute more than once becomes a link of a chain: a
+// function of the previous links that are still needed, which passes these and its own value to the next function. The
+// last one selects the component. All other steps are written out where they are used.
 class PovrayVector {
  public:
   PovrayVector(const std::string& name, const std::array<Formula, 3>& v, const std::vector<NamedFormula>& steps)
@@ -99,7 +99,7 @@ class PovrayVector {
     }
   }
 
-  // The last function first, or POV-Ray would not know it when it reads the call.
+  // The last function comes first, or POV-Ray would not know it when it reads the call.
   std::string functions() const {
     if (chain_.empty()) return "";
     std::string text = declare(chain_.size(), chosen());
@@ -130,7 +130,7 @@ class PovrayVector {
                        [&](const NamedFormula& step) { return count_step(part, step.name) > 0; });
   }
 
-  // How often a part computes a step if all are written out; of the part that does so most often.
+  // How often a component computes a step if all steps are written out; the maximum over the components.
   double evaluations(const std::string& name) const {
     double most = 0.0;
     for (const Formula& part : v_) {
@@ -148,7 +148,7 @@ class PovrayVector {
     return most;
   }
 
-  // In the text.
+  // Occurrences in the text.
   int occurrences(const std::string& name) const {
     int count = 0;
     for (const Formula& part : v_) count += count_step(part, name);
@@ -164,7 +164,7 @@ class PovrayVector {
     for (Formula& part : v_) part = replace_step(part, name, value);
   }
 
-  // The values that function i is given: of the links before it, those that it or a later one needs.
+  // The values passed to function i: those of the previous links that it or a later one needs.
   std::vector<std::string> needed_from(size_t i) const {
     std::vector<std::string> names;
     for (size_t link = 0; link < i; link++) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Python that renders all views in Blender, with whatever engine the scene has. Its depth of a perspective camera is
-// along the axis. A property that a version of Blender lacks is said when the script runs.
+// Python that renders all views in Blender, with whatever engine the scene uses. Blender's depth of a perspective
+// camera is along the axis. If a version of Blender lacks a property, the script says so when it runs.
 #include <fmt/format.h>
 
 #include "ods/export/rig_writers.h"

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scripts for what draws by triangles: three.js (run with r111 and r187), Unity and Unreal (by their manuals, not run
-// there).
+// Scripts for rasterizers: three.js (run with r111 and r187), Unity and Unreal (written from their manuals, not run).
 #include <fmt/format.h>
 
 #include "ods/export/rig_writers.h"
@@ -234,7 +233,7 @@ def main():
 main()
 )";
 
-// Unreal's world: left-handed, x ahead, y right, z up.
+// Converts to Unreal's world: left-handed, x ahead, y right, z up.
 static glm::dvec3 turn_to_unreal(glm::dvec3 v) {
   return {-v.z, v.x, v.y};
 }

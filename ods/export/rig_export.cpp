@@ -36,7 +36,7 @@ RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& fi
   return {};
 }
 
-// --- what the writers share ------------------------------------------------------------------------------------------
+// --- shared by the writers -------------------------------------------------------------------------------------------
 
 ViewPose pose_of(const StereoCamera& view) {
   const std::array<glm::dvec3, 4> columns = placement(view);

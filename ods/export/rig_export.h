@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A rig of slits, ready for another renderer: scripts that render its views under the names that ods stitch looks for,
-// or cameras that a program can read. docs/slits.md leads through each of them.
+// Exports a rig of slits to another renderer: scripts that render its views under the file names that ods stitch
+// expects, or cameras that a program can read. docs/slits.md explains each of them.
 //
-// View n of the rig is frame n of a script, and the scene stands still meanwhile. Where a world has other axes than
-// ours, the views are turned as that program's glTF importer turns a scene.
+// View n of the rig is frame n of a script, and the scene does not move meanwhile. If a world has other axes than ours,
+// the views are rotated in the way that the program's glTF importer rotates a scene.
 #pragma once
 #include <string>
 #include <string_view>
@@ -18,13 +18,13 @@ namespace ods {
 
 enum class RigTarget {
   kBlender,  // Python for 2.83 to 5.x: renders all views
-  kPovray,   // POV-Ray 3.7: a file to include, and options
+  kPovray,   // POV-Ray 3.7: an include file, and options
   kThree,    // a module for a three.js page
-  kUsd,      // a camera that moves: time code n is view n
+  kUsd,      // a moving camera: time code n is view n
   kGltf,     // likewise: view n is shown at n/24 s
   kUnity,    // C# for the editor
   kUnreal,   // Python for the editor
-  kCsv,      // for spreadsheets and what we have not thought of: a line a view
+  kCsv,      // for spreadsheets and unknown programs: one line per view
 };
 
 // blender, povray, three, usd, ...
@@ -40,16 +40,17 @@ constexpr std::string_view rig_target_name(RigTarget target) {
 }
 
 struct RigScript {
-  std::string ending;  // of its file, behind the rig's name: ".blender.py"
+  std::string ending;  // appended to the rig's name: ".blender.py"
   std::string text;
 };
 
 struct RigExport {
   std::vector<RigScript> scripts;
-  std::vector<std::string> warnings;  // what the target cannot do for this rig, a line each; it stands in a text, too
+  std::vector<std::string>
+      warnings;  // what the target cannot do for this rig, one line each; the text includes them too
 };
 
-// `name`: of the rig's file, without a folder and without .json. Scripts speak of it and of each other by it.
+// `name`: of the rig's file, without folder and without .json. The scripts name the rig and each other by it.
 RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& name);
 
 }  // namespace ods

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cameras that many programs can read: USD, glTF, CSV. Sources: OpenUSD, UsdGeomCamera and UsdGeomXformOp; Khronos,
-// glTF 2.0 section 3.10 (cameras), 3.11 (animations) and appendix C (how keys are interpolated).
+// Cameras that many programs can read: USD, glTF, CSV.
+// Sources: OpenUSD, UsdGeomCamera and UsdGeomXformOp; Khronos, glTF 2.0 section 3.10 (cameras), 3.11 (animations) and
+// appendix C (interpolation of keys).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@ namespace ods {
 RigExport rig_to_usd(const SlitRig& rig, const std::string& name) {
   RigExport result;
   const glm::dvec2 half = half_size(rig);
-  constexpr double kAperture = 36.0;  // tenths of a unit, as its focal length
+  constexpr double kAperture = 36.0;  // tenths of a unit, as the focal length is
   std::string text = "#usda 1.0\n(\n    defaultPrim = \"ods\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n";
   text += fmt::format("    startTimeCode = 1\n    endTimeCode = {}\n", rig.views.size());
   text += "    timeCodesPerSecond = 24\n    framesPerSecond = 24\n)\n";
@@ -41,7 +42,7 @@ RigExport rig_to_usd(const SlitRig& rig, const std::string& name) {
       kAperture, kAperture * half.y / half.x, 0.5 * kAperture / half.x);
   text += "    double shutter:open = 0\n    double shutter:close = 0\n";
   text += "    matrix4d xformOp:transform.timeSamples = {\n";
-  for (size_t i = 0; i < rig.views.size(); i++) {  // its vectors are rows
+  for (size_t i = 0; i < rig.views.size(); i++) {  // USD's vectors are rows
     const ViewPose pose = pose_of(rig.views[i]);
     text += fmt::format("        {}: ( ({}, 0), ({}, 0), ({}, 0), ({}, 1) ),\n", i + 1, list(pose.right), list(pose.up),
                         list(pose.back), list(pose.place));
@@ -57,12 +58,12 @@ namespace {
 
 constexpr double kFramesPerSecond = 24.0;
 
-// The numbers of the animation behind each other.
+// The numbers of the animation, in sequence.
 struct Keys {
   std::vector<float> times, places, turns;
 };
 
-// A view's key lies half a frame before it, so that no rounding of times shows the view before.
+// A view's key is half a frame before its time, so that rounding of times never shows the previous view.
 Keys keys_of(const SlitRig& rig) {
   Keys keys;
   for (size_t i = 0; i < rig.views.size(); i++) {
@@ -75,7 +76,7 @@ Keys keys_of(const SlitRig& rig) {
   return keys;
 }
 
-// A buffer view and an accessor of its own for each.
+// Each array gets its own buffer view and accessor.
 void add_buffer(const Keys& keys, nlohmann::ordered_json& json) {
   std::vector<unsigned char> bytes;
   const auto add = [&](const std::vector<float>& values, const char* type, size_t parts) {
@@ -138,7 +139,7 @@ RigExport rig_to_gltf(const SlitRig& rig, const std::string& name) {
 
 // --- CSV ------------------------------------------------------------------------------------------------------------
 
-// No comment: what reads CSV would take it for a line.
+// The file has no comment: programs that read CSV would take it for a line of data.
 RigExport rig_to_csv(const SlitRig& rig, const std::string&) {
   const glm::dvec2 half = half_size(rig);
   std::string text = "number,eye,slit,pitch,x,y,z";

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// POV-Ray 3.7: a camera to include and the options of an animation. The frame's number chooses the view and the clock
-// stands still, so that a scene that moves by its clock does so, too.
+// POV-Ray 3.7: a camera to include and the options of an animation. The frame number selects the view, and the clock
+// stops, so that a scene animated by its clock does not move either.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ static std::string vectors(const SlitRig& rig, const char* word, glm::dvec3 View
   return text + "}\n";
 }
 
-// Which rig the views are of. A folder is of one rig, or +C would go on among another's views. POV-Ray's strings have
-// at most 255 letters.
+// Writes which rig the views belong to. A folder is for one rig; otherwise +C would continue among another rig's views.
+// POV-Ray's strings have at most 255 characters.
 static std::string mark_text(const SlitRig& rig) {
   constexpr size_t kLongest = 100;
   const std::string literal = mark_literal(rig);
@@ -68,7 +68,8 @@ static std::string camera_text(const SlitRig& rig, const std::vector<std::string
 
 RigExport rig_to_povray(const SlitRig& rig, const std::string& name) {
   RigExport result;
-  // POV-Ray writes as many digits as the last frame of the animation has: 9999, of which the views are the first.
+  // POV-Ray writes as many digits as the last frame of the animation has: 9999, of which the views are the first
+  // frames.
   const size_t digits = std::max<size_t>(4, std::to_string(rig.views.size()).size());
   const std::vector<std::string> head = head_lines(
       rig, name,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the writers of ods/export/rig_export.h share.
+// Code shared by the writers of ods/export/rig_export.h.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -10,37 +10,37 @@
 
 namespace ods {
 
-// A view's axes and place, in some program's world.
+// A view's axes and position, in some program's world.
 struct ViewPose {
   glm::dvec3 right, up, back, place;
 };
-ViewPose pose_of(const StereoCamera& view);  // in ours: right-handed, metres, +Y up
+ViewPose pose_of(const StereoCamera& view);  // in our world: right-handed, metres, +Y up
 
-// The same in the world of another program.
+// Converts a vector to the world of another program.
 using Turn = glm::dvec3 (*)(glm::dvec3);
 ViewPose turned(const ViewPose& pose, Turn turn);
 glm::dvec3 turn_z_up(glm::dvec3 v);         // Blender: right-handed, +Z up
 glm::dvec3 turn_left_handed(glm::dvec3 v);  // POV-Ray, Unity: z points the other way
 
-// The tangents of half of all views' angles, across and up.
+// Tangents of half the field of view of all views, horizontal and vertical.
 glm::dvec2 half_size(const SlitRig& rig);
-double degrees_of(double half);  // the whole angle
+double degrees_of(double half);  // the whole angle, degrees
 
-// "0.5, -1, 0": shortest to eight digits, without -0.
+// "0.5, -1, 0": the shortest form with at most eight digits, without -0.
 std::string list(std::initializer_list<double> numbers);
 std::string list(glm::dvec3 v);
-std::string matrix_rows(const ViewPose& pose);  // 12 numbers: three rows of right, up, back, place
+std::string matrix_rows(const ViewPose& pose);  // 12 numbers: three rows of right, up, back, position
 
-// The text of the folder's mark (ods/stitch/rig_mark.h) as a string in Python, JavaScript and C#.
+// The text of the folder's mark (ods/stitch/rig_mark.h) as a string literal for Python, JavaScript and C#.
 std::string mark_literal(const SlitRig& rig);
 
-// What every script says first: what it is for, what has to stand still, what comes then. `views` are the names of the
-// files that it writes, with a mark for the number.
+// The head of every script: what it is for, what must not move, what comes next. `views` are the names of the files
+// that it writes, with a placeholder for the number.
 struct ScriptHead {
   std::string title;
   std::string views = "views/####.png";
-  bool has_depth = false;              // it writes depth as the rig wants it
-  std::vector<std::string> own_lines;  // of this target
+  bool has_depth = false;              // the script writes depth in the form that the rig needs
+  std::vector<std::string> own_lines;  // lines of this target alone
 };
 std::vector<std::string> head_lines(const SlitRig& rig, const std::string& name, const ScriptHead& head,
                                     std::vector<std::string>& warnings);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The targets that have a stereo 360 camera of their own, with parameters: the POV-Ray fork, OSPRay and ANARI, Arnold,
-// Unity, Unreal. docs/camera-export.md says where each name comes from.
+// The targets with their own stereo 360 camera, described by parameters: the POV-Ray fork, OSPRay and ANARI, Arnold,
+// Unity, Unreal. docs/camera-export.md gives the source of each name.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@
 namespace ods {
 namespace {
 
-// What a layout and the eyes are called; empty: the system has none such.
+// The system's names of a layout and the eyes; empty: the system does not have it.
 struct ModeNames {
   std::string_view mono, left, right, side_by_side, top_bottom;
 };
@@ -35,7 +35,7 @@ std::string json_numbers(glm::dvec3 v) {
   return fmt::format("[{:.8g}, {:.8g}, {:.8g}]", v.x, v.y, v.z);
 }
 
-// What stands in JSON, which has no comments.
+// Text for JSON, which has no comments.
 std::string json_strings(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
@@ -118,7 +118,7 @@ CameraExport to_ospray(const Sidecar& file) {
 
 namespace {
 
-// Arnold's vr_camera in its own words; Maya's attributes are made of them.
+// Arnold's vr_camera in its own terms; Maya's attributes are derived from them.
 struct VrCamera {
   std::string_view mode;
   std::string_view projection;

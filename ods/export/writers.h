@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the writers of camera_export.h share.
+// Code shared by the writers of camera_export.h.
 #pragma once
 #include <array>
 
@@ -10,30 +10,31 @@
 
 namespace ods {
 
-// What a system with a camera of its own can do.
+// The abilities of a system with its own camera.
 struct Abilities {
   std::string_view system;
-  bool tilt = false;  // pitch and roll, the viewing circle with them
+  bool tilt = false;  // pitch and roll, which tilt the viewing circle too
   bool neck = false;
   bool toe_in = false;
-  bool partial = false;  // parts of a lat-long
+  bool partial = false;  // part of a lat-long picture
 };
 
-// What a camera has and the abilities do not, a phrase each. Merges, projections other than lat-long and layouts are left
-// to the caller. None of these systems knows another axis, a turned picture, a mirrored world or our lens.
+// What a camera needs and the abilities lack, one phrase each. The caller handles merges, projections other than
+// lat-long, and layouts. None of these systems supports another axis, a rotated picture, a mirrored world or a lens
+// like ours.
 std::vector<std::string> lacking(const Sidecar& file, const Abilities& abilities);
 
 bool is_plain_cosine(const PoleMergeSetting& merge);   // exponent 1, up to the pole
 std::string one_merge(const PoleMergeSetting& merge);  // "cosine from 60 to 90 degrees"
-std::string merge_text(const StereoCamera& camera);    // of both poles
+std::string merge_text(const StereoCamera& camera);    // for both poles
 std::string camera_title(const Sidecar& file);         // "both eyes, top-bottom, lat-long"
-Extent picture_size(const Sidecar& file);              // of the whole file; 0x0 when not known
+Extent picture_size(const Sidecar& file);              // of the whole file; 0x0 if unknown
 std::string yaw_pitch_roll(const StereoCamera& camera);
 
-// Lines of comment: a title, and what the target lacks.
+// Comment lines: a title, and what the target lacks.
 std::string comment_block(const std::string& mark, const std::string& title, const std::vector<std::string>& warnings);
 
-// The camera's place in a right-handed world with +Y up: its right, up, back and position.
+// The camera's pose in a right-handed world with +Y up: right, up, back and position.
 std::array<glm::dvec3, 4> placement(const StereoCamera& camera);
 
 CameraExport to_povray(const Sidecar& file);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What decodes and encodes image files, as functions that a program may link or open when it meets its first image.
-// Debian's OpenImageIO brings some 250 libraries with it, which take a quarter of a second to load and 100 MB: the
-// command `ods` opens them when it needs them. Programs that link the library need not know of this.
+// The functions that decode and encode image files; a program links them, or loads them when it opens its first image.
+// Debian's OpenImageIO brings some 250 libraries, which take a quarter of a second to load and 100 MB: the command
+// `ods` loads them when it needs them. Programs that link the library can ignore this.
 #pragma once
 #include "ods/image/image_file.h"
 
@@ -19,7 +19,8 @@ struct ImageCodec {
   decltype(&ods::write_image) write_image;
 };
 
-// The one of this program: ods/image/codec's, unless the program defines this function itself, as `ods` does.
+// The codec of this program: ods/image/codec's, unless the program defines this function itself. The command `ods`
+// does, in cli/main.cpp.
 const ImageCodec& image_codec();
 
 }  // namespace ods

@@ -22,19 +22,19 @@
 
 namespace ods {
 
-// Linear light of Rec. 709 in three channels, whatever the file's colour space is (color_tags.h); where the file does
-// not say, integers are sRGB and floats linear Rec. 709. Grey becomes three equal channels, alpha is left out. What the
-// file says of its colours and cannot be honoured goes into `color_fault`. Throws Error(kInput).
+// Scene-linear Rec. 709 in three channels, whatever the file's colour space is (color_tags.h). If the file states none,
+// integers are sRGB and floats are linear Rec. 709. Grey becomes three equal channels; alpha is dropped. Colour
+// information of the file that cannot be honoured goes into `color_fault`. Throws Error(kInput).
 Image read_image(const std::string& path, std::string* color_fault = nullptr);
 
 // Throws Error(kInput).
 FileInfo read_info(const std::string& path);
 
 // Reads a file in bands from the top, so that it is never in memory as a whole (except WebP, progressive JPEG and
-// interlaced PNG, whose decoders know no other way). Colours of integer files are sRGB code values with unassociated
-// alpha; a file of another colour space is converted to sRGB in 16 bits. Colours of float files are linear with
-// associated alpha, in the primaries of the file: color_space() converts them. Whole numbers in a float file (ids,
-// 32 bits) become floats.
+// interlaced PNG, whose decoders cannot do otherwise). Colours of integer files are sRGB code values with unassociated
+// alpha; a file in another colour space is converted to sRGB in 16 bits. Colours of float files are linear with
+// associated alpha, in the file's primaries: color_space() converts them. Integers in a float file (ids, 32 bits)
+// become floats.
 class RowReader {
  public:
   virtual ~RowReader() = default;
@@ -45,32 +45,33 @@ class RowReader {
   virtual void widen() = 0;
   virtual bool is_whole_number(size_t channel) const = 0;
 
-  // The height of a band, except the last: what the file packs together.
+  // The height of every band but the last: the number of rows that the file packs together.
   virtual int band_rows() const = 0;
 
-  // The first `channels` channels of rows begin..end, one sample after the other. Throws Error(kInput).
+  // Reads the first `channels` channels of rows begin..end, interleaved by pixel. Throws Error(kInput).
   virtual void read(int begin, int end, size_t channels, std::byte* to) = 0;
 
-  // Channels in which a whole number above 2^24 was met, which no float can hold, and that number.
+  // The channels in which the reader found an integer above 2^24, which floats cannot represent exactly, and that
+  // number.
   virtual const std::map<size_t, unsigned>& beyond_floats() const = 0;
 };
 
-// Throws Error(kInput): as read_image(), and an EXR whose data window is not its whole picture.
+// Throws Error(kInput) as read_image() does, and also for an EXR whose data window is not its whole picture.
 std::unique_ptr<RowReader> open_rows(const std::string& path);
 
-// Some channels of a file, by their names and in their order. Integers are decoded from sRGB, floats taken as they are.
-// Throws Error(kInput), also where there is no such channel.
+// Some channels of a file, by name and in this order. Integers are decoded from sRGB, floats are returned unchanged.
+// Throws Error(kInput), also if a channel does not exist.
 Image read_channels(const std::string& path, const std::vector<std::string>& names);
 
-// 8 bits each of R, G, B, A with R in the low byte, rows from the top, alpha not multiplied in: the code values of the
-// file, whatever colour space it says they are of: glTF wants that. What is missing is grey or opaque.
+// 8 bits each of R, G, B, A with R in the low byte, rows from the top, unassociated alpha: the code values of the file,
+// whatever colour space it states, as glTF requires. Missing channels become grey or opaque.
 struct CodeImage {
   int width = 0;
   int height = 0;
   std::vector<uint32_t> pixels;
 };
 
-// A file in memory. `name` stands for it in messages. Throws Error(kInput).
+// Decodes a file in memory. `name` identifies it in messages. Throws Error(kInput).
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name);
 
 struct Channel {
@@ -83,16 +84,16 @@ struct FileHeader {
   int width = 0;
   int height = 0;
   std::vector<Channel> channels;
-  std::vector<Attribute> attributes;  // names as OpenImageIO has them; GPano:* becomes XMP
+  std::vector<Attribute> attributes;  // names as in OpenImageIO; GPano:* becomes XMP
 };
 
-// Fills row y with width * channels floats: 0..1 of the code range for integers, the value itself otherwise, of which
-// floats_to_halves() makes halves.
-// Called by several threads at once, every row once.
+// Fills row y with width * channels floats. For integer formats they are 0..1 of the code range; for float formats they
+// are the values themselves, from which floats_to_halves() makes halves.
+// Called concurrently from several threads, once for each row.
 using RowSource = std::function<void(int y, std::span<float> row)>;
 
-// Writes a whole image into a file that is not committed yet. Rows are made while those before them are compressed;
-// between two bands of them `band_done` is called, where there is one. Throws Error(kOutput), and what `rows` throws.
+// Writes a whole image into a file that is not committed yet. Rows are computed while earlier ones are being
+// compressed; `band_done`, unless empty, is called between bands. Throws Error(kOutput), and what `rows` throws.
 void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done = {});
 

@@ -3,16 +3,16 @@
 //
 // How a surface scatters light: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
 //
-// Three lobes share every material:
-//   specular GGX reflection of metals and dielectrics, Schlick's Fresnel, scaled up by what single scattering loses
-//            (Turquin, "Practical multiple scattering compensation for microfacet models", 2019);
-//   diffuse  Lambert under the dielectric, scaled by what the specular lobe above it lets through;
-//   glass    reflection and refraction at a dielectric interface (Walter et al. 2007), or through a thin sheet
-//            (KHR_materials_transmission), scaled up likewise.
-// A white surface of any mixture and roughness reflects and lets through exactly what it receives.
+// Every material mixes three lobes:
+//   specular GGX reflection of metals and dielectrics with Schlick's Fresnel term, scaled up by the energy that single
+//            scattering loses (Turquin, "Practical multiple scattering compensation for microfacet models", 2019);
+//   diffuse  Lambert under the dielectric, scaled by the light that the specular lobe above it transmits;
+//   glass    reflection and refraction at a dielectric interface (Walter et al. 2007), or transmission through a thin
+//            sheet (KHR_materials_transmission), with the same compensation.
+// A white surface of any mixture and roughness reflects and transmits exactly the light that it receives.
 //
 // Radiance is carried divided by the square of the refractive index, so refraction does not change it.
-// A new material becomes another lobe here; the path loop only calls make_bsdf, bsdf_value and sample_bsdf.
+// A new kind of material is another lobe here; the path loop only calls make_bsdf, bsdf_value and sample_bsdf.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/ggx.h"
@@ -20,38 +20,38 @@
 namespace ods {
 #endif
 
-const float kSmoothAlpha = 1e-3f;  // below it the specular and glass lobes are mirrors: one direction, no pdf
+const float kSmoothAlpha = 1e-3f;  // below this the specular and glass lobes are mirrors: one direction, no pdf
 
 struct Bsdf {
-  vec3 wo;  // towards the viewer, in the frame below
+  vec3 wo;  // towards the viewer, in the local frame of the vectors below
   vec3 tangent;
   vec3 bitangent;
   vec3 normal;
   vec3 geometric;
   float alpha;
   float eta;         // index beyond / index on the viewer's side
-  bool thin;         // glass is a sheet: light goes straight through
-  bool straight;     // glass has one index on both sides: nothing bends, however rough it is
-  vec3 specular_f0;  // reflectance head-on and at grazing, weights and compensation included
+  bool thin;         // the glass is a sheet: light goes straight through
+  bool straight;     // the glass has the same index on both sides: light does not bend, however rough the surface is
+  vec3 specular_f0;  // reflectance at normal incidence and at grazing incidence, including weights and compensation
   vec3 specular_f90;
-  vec3 diffuse;      // albedo, all weights included
-  vec3 glass;        // tint of what goes through
-  float glass_gain;  // weight and compensation of the glass lobe
-  float p_specular;  // chances of the lobes, their sum is 1
+  vec3 diffuse;      // albedo, including all weights
+  vec3 glass;        // tint of the transmitted light
+  float glass_gain;  // weight and energy compensation of the glass lobe
+  float p_specular;  // probabilities of the lobes; they add up to 1
   float p_diffuse;
   float p_glass;
 };
 
 struct BsdfValue {
   vec3 value;  // BSDF times cosine
-  float pdf;   // of sample_bsdf, per solid angle
+  float pdf;   // of sample_bsdf(), per solid angle
 };
 
 struct BsdfSample {
   vec3 direction;  // world, unit length
-  vec3 weight;     // BSDF times cosine over pdf; 0: the path ends
-  float pdf;       // per solid angle; 0: a mirror direction, that light sampling cannot find
-  bool through;    // the direction leaves on the other side
+  vec3 weight;     // BSDF times cosine over pdf; 0 ends the path
+  float pdf;       // per solid angle; 0: a mirror direction, which light sampling cannot find
+  bool through;    // the direction leaves on the other side of the surface
 };
 
 inline vec3 bsdf_to_local(Bsdf bsdf, vec3 w) {
@@ -66,8 +66,8 @@ inline vec3 bsdf_to_world(Bsdf bsdf, vec3 w) {
 struct BsdfEvaluator : SurfaceReader {
 #endif
 
-  // Albedo of the specular lobe without compensation, in Schlick's two parts: f0 * x + f90 * y. Their sum is what a
-  // perfect mirror keeps.
+  // Albedo of the specular lobe without compensation, in Schlick's two parts: f0 * x + f90 * y. A perfect mirror has
+  // the albedo x + y.
   inline vec2 ggx_albedo(float roughness, float cosine) {
     float r = clamp(roughness, 0.0f, 1.0f) * float(kGgxSize - 1);
     float c = clamp(cosine, 0.0f, 1.0f) * float(kGgxSize - 1);
@@ -83,7 +83,7 @@ struct BsdfEvaluator : SurfaceReader {
     return vec2(x, y);
   }
 
-  // Albedo of the rough glass lobe, what is reflected and what goes through together.
+  // Albedo of the rough glass lobe: reflection and transmission together.
   inline float glass_albedo(float eta, float roughness, float cosine) {
     // The axes are stretched towards eta = 1, where nothing happens, and so that total reflection starts in mid-table.
     float reflectance = sqrt(abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f);
@@ -113,12 +113,12 @@ struct BsdfEvaluator : SurfaceReader {
     return sum;
   }
 
-  // direction: of the ray that arrived. eta: index beyond the surface over the index on the ray's side.
+  // direction: of the incoming ray. eta: index beyond the surface over the index on the ray's side.
   inline Bsdf make_bsdf(Surface surface, vec3 direction, float eta) {
     Bsdf bsdf;
     bsdf.normal = surface.normal;
     bsdf.geometric = surface.geometric;
-    // Source of the frame: Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+    // Source of the local frame: Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
     vec3 n = surface.normal;
     float side = n.z < 0.0f ? -1.0f : 1.0f;
     float a = -1.0f / (side + n.z);
@@ -140,7 +140,7 @@ struct BsdfEvaluator : SurfaceReader {
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
     float f0 = root * root;
     float f90 =
-        clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 does not shine at grazing angles either (Lagarde 2014)
+        clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 gives no highlight at grazing angles either (Lagarde 2014)
 
     vec2 albedo = vec2(1.0f, 0.0f);
     float s = schlick(bsdf.wo.z);
@@ -181,7 +181,7 @@ struct BsdfEvaluator : SurfaceReader {
     return fresnel_dielectric(cosine, bsdf.eta);
   }
 
-  // Value and pdf of reflection off microfacets, Fresnel left out.
+  // Value and pdf of reflection off microfacets, without the Fresnel term.
   inline vec2 reflection_value(Bsdf bsdf, vec3 wi) {
     vec3 h = normalize(bsdf.wo + wi);
     float lambda_o = ggx_lambda(bsdf.wo, bsdf.alpha);
@@ -191,7 +191,7 @@ struct BsdfEvaluator : SurfaceReader {
     return vec2(value, pdf);
   }
 
-  // The same for refraction to wi (wi.z < 0).
+  // Value and pdf of refraction to wi (wi.z < 0), likewise.
   inline vec2 refraction_value(Bsdf bsdf, vec3 wi) {
     vec3 h = bsdf.wo + wi * bsdf.eta;
     float size = length(h);
@@ -207,15 +207,15 @@ struct BsdfEvaluator : SurfaceReader {
     return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)), d / (1.0f + lambda_o));
   }
 
-  // BSDF times cosine towards a direction (world), and the pdf with which sample_bsdf finds it. Mirrors are left
-  // out.
+  // BSDF times cosine towards a direction (world space), and the pdf with which sample_bsdf() samples it. Mirrors do
+  // not contribute.
   inline BsdfValue bsdf_value(Bsdf bsdf, vec3 direction) {
     BsdfValue result;
     result.value = vec3(0.0f);
     result.pdf = 0.0f;
     vec3 wi = bsdf_to_local(bsdf, direction);
     bool above = wi.z > 0.0f;
-    // A direction that shading normal and triangle put on different sides carries nothing: light would leak.
+    // A direction that is on different sides of the shading normal and the triangle carries nothing: light would leak.
     if (above != (dot(direction, bsdf.geometric) > 0.0f) || abs(wi.z) < 1e-6f) return result;
     bool rough = bsdf.alpha >= kSmoothAlpha;
     if (above) {
@@ -243,7 +243,8 @@ struct BsdfEvaluator : SurfaceReader {
     return result;
   }
 
-  // Glass: picks reflection or passage by Fresnel with the left-over of pick (0..1). Local directions.
+  // Glass: chooses reflection or transmission by Fresnel, with what remains of pick (rescaled to 0..1). Local
+  // directions.
   inline vec3 sample_glass(Bsdf bsdf, vec3 h, float pick) {
     bool reflected = pick < glass_fresnel(bsdf, dot(bsdf.wo, h));
     vec3 mirror = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;
@@ -252,7 +253,7 @@ struct BsdfEvaluator : SurfaceReader {
     return refract_through(bsdf.wo, h, bsdf.eta);
   }
 
-  // The mirror-like parts of a smooth surface have no pdf; each is chosen with its own chance.
+  // The mirror-like parts of a smooth surface have no pdf; each is chosen with its own probability.
   inline BsdfSample sample_mirror(Bsdf bsdf, bool glass, float pick) {
     vec3 up = vec3(0.0f, 0.0f, 1.0f);
     vec3 wi = glass ? sample_glass(bsdf, up, pick) : vec3(-bsdf.wo.x, -bsdf.wo.y, bsdf.wo.z);
@@ -265,13 +266,13 @@ struct BsdfEvaluator : SurfaceReader {
       vec3 tint = result.through ? bsdf.glass : vec3(1.0f);
       result.weight = tint * (bsdf.glass_gain / bsdf.p_glass);
     } else {
-      result.weight = specular_fresnel(bsdf, bsdf.wo.z) * (1.0f / max(bsdf.p_specular, 1e-20f));  // black: 0
+      result.weight = specular_fresnel(bsdf, bsdf.wo.z) * (1.0f / max(bsdf.p_specular, 1e-20f));  // black surface: 0
     }
     if (wi.z == 0.0f || result.through != (dot(result.direction, bsdf.geometric) < 0.0f)) result.weight = vec3(0.0f);
     return result;
   }
 
-  // pick chooses the lobe, uv the direction; all uniform in [0, 1).
+  // pick chooses the lobe, uv the direction; all are uniform in [0, 1).
   inline BsdfSample sample_bsdf(Bsdf bsdf, float pick, vec2 uv) {
     bool rough = bsdf.alpha >= kSmoothAlpha;
     bool glass = false;
@@ -297,7 +298,7 @@ struct BsdfEvaluator : SurfaceReader {
     result.through = wi.z < 0.0f;
     result.weight = vec3(0.0f);
     result.pdf = 0.0f;
-    // A microfacet may reflect into the surface, or refract back out: single scattering loses such light.
+    // A microfacet may reflect into the surface, or refract back out: single scattering loses that light.
     float size = length(result.direction);
     if (result.through != glass || !(size > 0.5f)) return result;
     result.direction = result.direction * (1.0f / size);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pixel filter by importance sampling: a sample's place is drawn from the filter, so every sample weighs the same,
-// belongs to one pixel, and pixels can be rendered in any order.
+// The pixel filter by importance sampling: each sample's position is drawn from the filter, so every sample has the
+// same weight and belongs to one pixel, and pixels can be rendered in any order.
 // Source: Ernst, Stamminger and Greiner, "Filter Importance Sampling", 2006.
 #ifdef __cplusplus
 #pragma once
@@ -10,7 +10,7 @@
 namespace ods {
 #endif
 
-const int kFilterBlackmanHarris = 0;  // 1.5 pixels radius
+const int kFilterBlackmanHarris = 0;  // radius 1.5 pixels
 const int kFilterBox = 1;             // the pixel itself
 
 #ifdef __cplusplus
@@ -25,7 +25,7 @@ struct FilterSampler : SceneView {
     return mix(scene_table(kFilterTable + i), scene_table(kFilterTable + i + 1), at - float(i));
   }
 
-  // Image position of a sample of pixel (x, y). It may lie outside 0..1: the camera goes on there.
+  // Image position of a sample of pixel (x, y). It may be outside 0..1: the camera is defined there too.
   inline vec2 filtered_position(int shape, int x, int y, int width, int height, vec2 u) {
     return vec2((float(x) + 0.5f + filter_offset(shape, u.x)) / float(width),
                 (float(y) + 0.5f + filter_offset(shape, u.y)) / float(height));

@@ -18,13 +18,13 @@ inline float ggx_distribution(vec3 h, float alpha) {
   return 1.0f / (kPi * a2 * c * c);
 }
 
-// Smith's auxiliary function; masking is 1 / (1 + lambda).
+// Smith's auxiliary function Lambda; masking is 1 / (1 + lambda).
 inline float ggx_lambda(vec3 w, float alpha) {
   float z2 = max(w.z * w.z, 1e-12f);
   return 0.5f * (sqrt(1.0f + alpha * alpha * (w.x * w.x + w.y * w.y) / z2) - 1.0f);
 }
 
-// A normal as seen from wo (wo.z > 0), with pdf ggx_visible_pdf().
+// Samples a microfacet normal visible from wo (wo.z > 0), with pdf ggx_visible_pdf().
 inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
   vec3 stretched = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
   float phi = 2.0f * kPi * u.x;
@@ -38,7 +38,7 @@ inline float ggx_visible_pdf(vec3 wo, vec3 h, float alpha) {
   return max(dot(wo, h), 0.0f) * ggx_distribution(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
 }
 
-// Schlick's share of grazing reflectance at the cosine between ray and microfacet.
+// The weight of the grazing reflectance in Schlick's approximation. cosine: between the ray and the microfacet normal.
 inline float schlick(float cosine) {
   float m = clamp(1.0f - cosine, 0.0f, 1.0f);
   float m2 = m * m;
@@ -55,7 +55,7 @@ inline float fresnel_dielectric(float cosine, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-// Direction through an interface with microfacet normal h (dot(wo, h) > 0); zero at total reflection.
+// Direction refracted at an interface with microfacet normal h (dot(wo, h) > 0); zero at total reflection.
 inline vec3 refract_through(vec3 wo, vec3 h, float eta) {
   float cosine = dot(wo, h);
   float sin2 = (1.0f - cosine * cosine) / (eta * eta);

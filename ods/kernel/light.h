@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Picking a light and a point on it, and the pdf (probability density) with which that would have found the light that
-// a given ray meets.
-// Lights are picked by power from Walker's alias table, which the host makes (ods/render/lights.h).
+// Picks a light and a point on it, and gives the pdf (probability density) with which sampling would have found the
+// light that a given ray hits.
+// Lights are picked in proportion to their power from Walker's alias table, which the host builds
+// (ods/render/lights.h).
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/bsdf.h"
@@ -15,18 +16,19 @@ const float kFarAway = 1e30f;  // distance of the environment and of directional
 struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
-  vec3 end;       // where a shadow ray ends, just before the light; unused at kFarAway
-  vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the chance of picking them
-  float pdf;      // per solid angle, the chance of picking the light included
+  vec3 end;       // where a shadow ray ends, just in front of the light; unused at kFarAway
+  vec3 radiance;  // arriving radiance; for lights without size (pdf 0) already divided by the probability of picking
+                  // them
+  float pdf;      // per solid angle, including the probability of picking the light
   bool valid;
 };
 
-// Walker's alias method: slot was picked evenly, draw in [0, 1) decides between it and its alias.
+// Walker's alias method: slot was picked uniformly; draw in [0, 1) decides between it and its alias.
 inline int alias_pick(AliasEntry entry, int slot, float draw) {
   return draw < entry.threshold ? slot : entry.alias;
 }
 
-// KHR_lights_punctual's fall-off: inverse square, faded out to zero at the range.
+// KHR_lights_punctual's attenuation: inverse square, faded out to zero at the range.
 inline float punctual_falloff(float distance, float range) {
   float inverse_square = 1.0f / max(distance * distance, 1e-12f);
   if (range <= 0.0f) return inverse_square;
@@ -59,14 +61,14 @@ struct LightSampler : BsdfEvaluator {
     return mix(top, bottom, y - float(y0));
   }
 
-  // Solid angle of a texel of row y: all texels of a row share it.
+  // Solid angle of a texel in row y; all texels of a row have the same.
   inline float environment_texel_angle(EnvironmentInfo info, int y) {
-    // cos a - cos b in the form that keeps its digits at the poles.
+    // cos a - cos b in a form that keeps its precision at the poles.
     float step = 0.5f * kPi / float(info.height);
     return 4.0f * kPi / float(info.width) * sin(float(2 * y + 1) * step) * sin(step);
   }
 
-  // Pdf per solid angle with which sample_light finds the environment in a direction.
+  // Pdf per solid angle with which sample_light() finds the environment in this direction.
   inline float environment_pdf(vec3 direction) {
     EnvironmentInfo info = scene_environment();
     if (info.light < 0) return 0.0f;
@@ -79,13 +81,13 @@ struct LightSampler : BsdfEvaluator {
   }
 
   // Pdf per solid angle of the points of a triangle light, seen from a distance along a direction.
-  // area: normal of the triangle, as long as its area.
+  // area: the triangle's normal; its length is the triangle's area.
   inline float triangle_pdf(float pick, vec3 area, vec3 direction, float distance) {
     float projected = abs(dot(area, direction));
     return projected > 0.0f ? pick * distance * distance / projected : 0.0f;
   }
 
-  // Pdf with which sample_light finds the triangle that a ray has hit at a distance.
+  // Pdf with which sample_light() finds the triangle that a ray hit at this distance.
   inline float hit_light_pdf(Hit hit, vec3 direction, float distance) {
     Instance instance = instance_now(hit.instance);
     if (instance.first_light < 0) return 0.0f;
@@ -116,7 +118,7 @@ struct LightSampler : BsdfEvaluator {
     result.valid = result.pdf > 0.0f;
     Material material = scene_material(scene_mesh(instance.mesh).material);
     result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
-    // A ray would pass through the rest.
+    // A ray would pass through the remaining part.
     if (material.alpha_mode != kAlphaOpaque) result.radiance = result.radiance * alpha_of(material, k);
     return result;
   }
@@ -143,7 +145,7 @@ struct LightSampler : BsdfEvaluator {
     return result;
   }
 
-  // cell chooses row and column, uv the point in the texel.
+  // cell chooses row and column, uv the point within the texel.
   inline LightSample sample_environment(vec2 cell, vec2 uv) {
     EnvironmentInfo info = scene_environment();
     float place = cell.x * float(info.height);
@@ -167,8 +169,8 @@ struct LightSampler : BsdfEvaluator {
     return result;
   }
 
-  // pick chooses the light, cell a texel of an environment, uv the point on the light; all uniform in [0, 1).
-  // Precondition: there is a light that shines.
+  // pick chooses the light, cell a texel of an environment, uv the point on the light; all are uniform in [0, 1).
+  // Precondition: at least one light has power.
   inline LightSample sample_light(vec3 from, vec2 pick, vec2 cell, vec2 uv) {
     int count = scene_light_pick_count();
     int index = min(int(pick.x * float(count)), count - 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The GLSL vocabulary for C++. Only C++ reads this file: a shader has these words built in.
+// GLSL's vocabulary for C++. Only C++ reads this file: shaders have these names built in.
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>

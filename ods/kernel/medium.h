@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which medium a ray travels in when volumes of glass and liquid touch or overlap.
+// Finds the medium that a ray travels in where volumes of glass and liquid touch or overlap.
 //
-// A ray keeps the set of volumes it is inside of. Where several overlap, the one with the highest refractive index
-// counts: model wine a little into the wall of its glass and the wall stays glass, from either side.
-// After Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002; glTF has no priorities, so density
-// stands in for them.
+// A ray keeps the set of volumes that it is inside of. Where several overlap, the one with the highest refractive index
+// counts: if wine is modelled slightly into the wall of its glass, the wall remains glass from either side.
+// After Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", 2002. glTF has no priorities, so the
+// refractive index takes their place.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/light.h"
 namespace ods {
 #endif
 
-const int kMaxMedia = 4;  // deeper nestings count as if the innermost were not there
+const int kMaxMedia = 4;  // deeper nesting is treated as if the innermost volumes were absent
 
 struct Media {
   int material[kMaxMedia];
@@ -59,7 +59,7 @@ inline bool inside_medium(Media media, int material) {
 struct MediumReader : LightSampler {
 #endif
 
-  // The material of the medium that counts, -1 in air.
+  // The material of the current medium; -1 in air.
   inline int current_medium(Media media) {
     int best = -1;
     for (int i = 0; i < media.count; i++) {
@@ -79,7 +79,7 @@ struct MediumReader : LightSampler {
     return medium < 0 ? 1.0f : max(scene_material(medium).ior, 1.0f);
   }
 
-  // What is left of light after a distance in a medium (Beer and Lambert; KHR_materials_volume).
+  // Transmittance over a distance in a medium (Beer-Lambert; KHR_materials_volume).
   inline vec3 medium_transmittance(int medium, float distance) {
     if (medium < 0) return vec3(1.0f);
     Material material = scene_material(medium);

@@ -9,20 +9,21 @@
 //     if (path.shadow_pending && !occluded(path.shadow_ray, path.shadow_length)) add_shadow_light();
 //   }
 //
-// shade() traces nothing: it consumes a hit, adds light, and leaves the next ray, and a shadow ray with the light that
-// it would bring. The state is `path`: a member of PathTracer in C++, a global of the invocation in a shader. (Passed
-// and returned by value, as a first version did, its copies cost a third of the time on the CPU.) A path gathers light
-// in two ways, a ray towards a picked light and the scattered ray that happens to meet one, weighted by the power
-// heuristic (Veach 1997).
+// shade() traces nothing. It consumes a hit, adds light, and leaves the next ray and a shadow ray with the light that
+// the shadow ray would bring. The state is `path`: a member of PathTracer in C++, a global of the invocation in a
+// shader. (A first version passed and returned it by value; the copies cost a third of the time on the CPU.) A path
+// gathers light in two ways, by a ray towards a sampled light and by a scattered ray that happens to hit one, weighted
+// by the power heuristic (Veach 1997).
 //
-// A catcher (Instance::catcher) is seen only by its shadows. A path whose first surface is one ends there and brings no
-// radiance: it goes on straight towards a light, of a direction picked as for a white Lambert surface, and tells how
-// much of that light arrives with all that is there, and how much would if only catchers and what glows were there.
-// What stands between stops the light whole, glass too. The sums over a pixel's paths give
+// A catcher (Instance::catcher) is invisible except for the shadows cast on it. If the first surface of a path is a
+// catcher, the path carries no radiance: it continues straight towards a light, whose direction is sampled as for a
+// white Lambert surface. It records how much of that light arrives with the whole scene present (light_with), and how
+// much would arrive if only catchers and emitters were present (light_without). Anything else in between blocks the
+// light completely, even glass. The sums over a pixel's paths give
 //
 //   alpha = 1 - light_with / light_without
 //
-// To all other paths, mirrors' and those that scatter, a catcher is the surface that it is.
+// For all other paths (reflected, refracted or scattered) a catcher is an ordinary surface.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/medium.h"
@@ -45,9 +46,9 @@ struct PathState {
   vec3 radiance;
   bool alive;
   int bounce;
-  int passed;       // surfaces gone through without a bounce since the last one
-  float pdf;        // with which the ray's direction was found; 0: camera or mirror, no other way would find it
-  float travelled;  // from the last bounce to the ray's origin
+  int passed;  // surfaces passed through since the last bounce
+  float pdf;   // of the ray's direction; 0: the camera or a mirror chose it, and light sampling could not have found it
+  float travelled;  // distance from the last bounce to the ray's origin
   Media media;
   uint seed;   // of the pixel
   uint index;  // of the sample
@@ -57,44 +58,45 @@ struct PathState {
   vec3 shadow_light;
   bool shadow_pending;
 
-  bool caught;          // the first surface is a catcher; the three below are of such a path
-  bool blocked;         // something that counts stands between it and the light
-  float light_without;  // luminance that arrives where only catchers and lamps are
-  float light_with;     // and with all that is there
+  bool caught;          // the first surface is a catcher; the next three fields belong to such a path
+  bool blocked;         // an object that is neither a catcher nor an emitter is between the catcher and the light
+  float light_without;  // luminance that arrives if only catchers and emitters are present
+  float light_with;     // luminance that arrives with the whole scene present
 
-  // First hit, for the layers beside the picture.
-  float depth;  // along the camera's ray from its own origin; negative: nothing was met
+  // The first hit, for the layers beside the picture.
+  float depth;  // along the camera ray from its own origin; negative: the ray hit nothing
   vec3 normal;
   vec3 albedo;
 };
 
 const int kMaxPassed = 1024;
 
-// A ray scattered with less than this pdf may have gone almost anywhere: the small copies of textures are sharp enough
-// for what it meets, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
+// A ray scattered with a smaller pdf than this may have gone almost anywhere: the reduced copies of textures are sharp
+// enough for what it hits, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
 const float kBroadPdf = 2.0f;
 
-// Paths with less than this left may end at random. Lower costs time, higher noise: of 1, 1/2, 1/4 and none, a quarter
-// reaches a given noise soonest on interiors (./run bench, equal noise).
+// Paths with a throughput below this may end at random. Lower values cost time, higher ones noise: of 1, 1/2, 1/4 and
+// none, 1/4 reaches a given noise soonest on interiors (./run bench, equal noise).
 const float kRouletteThreshold = 0.25f;
 
-// How many lights the first surface looks at for its shadow ray, to choose one by what it would bring. A room with
-// several lamps reaches equal noise in four fifths of the time that one takes; deeper surfaces gain nothing by it.
+// The number of lights that the first surface considers for its shadow ray; it chooses one by the light that it would
+// bring. A room with several lamps reaches equal noise in four fifths of the time that a single candidate takes; deeper
+// surfaces gain nothing.
 const int kLightCandidates = 3;
 
-// Number pairs of a path: 0 places the sample in its pixel, one places it on the lens, one in the time that the shutter
-// is open, then these for each bounce.
+// The pairs of random numbers of a path: pair 0 places the sample in its pixel, one places it on the lens, one in the
+// time that the shutter is open, then the pairs below follow for each bounce.
 const uint kPixelPair = 0u;
 const uint kLensPair = 0xffffffffu;
 const uint kTimePair = 0xfffffffeu;
 const uint kScatterPair = 1u;  // lobe, roulette
 const uint kDirectionPair = 2u;
-const uint kCandidatePair = 3u;  // which candidate, free
-const uint kLightPair = 4u;      // from here on, three for each candidate: light, cell of an environment, point
+const uint kCandidatePair = 3u;  // which candidate; the second number is unused
+const uint kLightPair = 4u;      // from here on three per candidate: light, cell of an environment, point
 const uint kPairsPerBounce = 3u + 3u * uint(kLightCandidates);
 
-// Which ray asks alpha_draw(): the path's next, its shadow ray, or one that sees all that is at least half opaque and
-// nothing else.
+// Which ray calls alpha_draw(): the path's next ray, its shadow ray, or a ray that hits every surface of at least one
+// half alpha and no other.
 const int kPathRay = 0;
 const int kShadowRay = 1;
 const int kHalfAlphaRay = 2;
@@ -105,7 +107,7 @@ struct PathTracer : MediumReader {
 
   PathState path;
 
-  // media: what the camera stands in, no_media() in air. All of the path is at ray_time (ods/kernel/surface.h).
+  // media: the volumes that the camera is in, no_media() in air. The whole path is at ray_time (ods/kernel/surface.h).
   inline void start_path(Ray ray, Media media, uint seed, uint index) {
     path.ray = ray;
     path.throughput = vec3(1.0f);
@@ -133,20 +135,20 @@ struct PathTracer : MediumReader {
     return random_pair(path.seed, path.index, pair + uint(path.bounce) * kPairsPerBounce);
   }
 
-  // Lottery number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
+  // The random number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
   inline float alpha_draw(int ray, Hit hit) {
     if (ray == kHalfAlphaRay) return 0.5f;
     uint key = hash_pair(hash_pair(path.seed, path.index), uint(path.bounce) * 2u + uint(ray));
     return unit_float(hash_pair(key, hash_pair(uint(hit.instance), uint(hit.triangle))));
   }
 
-  // Weight of light that was found with pdf a and could have been found with pdf b too.
+  // Weight of light that was found with pdf a and could also have been found with pdf b.
   inline float power_heuristic(float a, float b) {
     float ratio = b / a;
     return 1.0f / (1.0f + ratio * ratio);
   }
 
-  // Weight of light that the path's own ray has met, which light sampling finds with light_pdf.
+  // Weight of light that the path's own ray hit, which light sampling finds with light_pdf.
   inline float scattered_weight(PathSettings settings, float light_pdf) {
     if (path.pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
     if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
@@ -160,7 +162,7 @@ struct PathTracer : MediumReader {
     path.alive = false;
   }
 
-  // Goes on straight through a surface that does not count. Shadow rays stop there: only this ray finds what is behind.
+  // Continues straight through a surface that does not interact. Shadow rays stop there: only this ray goes beyond it.
   inline void pass_through(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
     path.pdf = 0.0f;
@@ -169,7 +171,7 @@ struct PathTracer : MediumReader {
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // What a light would bring along the path if nothing stood between, over its pdf.
+  // The unoccluded light that a light source would bring along the path, over its pdf.
   inline vec3 unshadowed_light(PathSettings settings, Bsdf bsdf, LightSample light, int medium) {
     BsdfValue scattered = bsdf_value(bsdf, light.direction);
     float weight = 1.0f;
@@ -180,7 +182,7 @@ struct PathTracer : MediumReader {
     return light.radiance * scattered.value * medium_transmittance(medium, light.distance) * weight;
   }
 
-  // Both ends of the ray stand off their surfaces: nothing between them is missed, and neither stops it.
+  // Both ends of the ray are offset from their surfaces: it misses nothing between them, and neither surface stops it.
   inline void shadow_towards(Surface surface, vec3 direction, float distance, vec3 end) {
     bool through = dot(direction, surface.geometric) < 0.0f;
     path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
@@ -194,7 +196,8 @@ struct PathTracer : MediumReader {
     path.shadow_pending = path.shadow_length > 0.0f;
   }
 
-  // Leaves a shadow ray towards a light: of several picked by power, one by what it would bring here.
+  // Leaves a shadow ray towards a light: of several picked by power, it chooses one by the light that it would bring
+  // here.
   // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
   inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
     int candidates = min(scene_light_pick_count(), path.bounce == 0 ? kLightCandidates : 1);
@@ -231,7 +234,7 @@ struct PathTracer : MediumReader {
     shadow_towards(surface, direction, distance, end);
   }
 
-  // Ends dim paths at random and makes the others brighter by as much: no bias. Source: Arvo and Kirk, 1990.
+  // Ends dim paths at random and makes the others brighter to match, which adds no bias. Source: Arvo and Kirk, 1990.
   inline void play_roulette(float draw) {
     float chance = max(path.throughput.x, max(path.throughput.y, path.throughput.z)) / kRouletteThreshold;
     if (chance >= 1.0f) return;
@@ -259,7 +262,7 @@ struct PathTracer : MediumReader {
     path.albedo = surface.base_color;
   }
 
-  // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is no light of the table.
+  // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is not in the light table.
   inline void catch_shadows(Surface surface, PathSettings settings, int medium) {
     surface.base_color = vec3(1.0f);
     surface.metallic = 0.0f;
@@ -291,7 +294,7 @@ struct PathTracer : MediumReader {
     if (sky && lamps) path.shadow_light = path.shadow_light * 2.0f;
   }
 
-  // One step of it: it ends at the light, a catcher or the lamp's own back, and goes through all else.
+  // One step of such a path: it ends at the light, at a catcher or at an emitter, and passes through all else.
   inline void go_to_light(Hit hit) {
     bool arrived = hit.t < 0.0f || hit.t >= path.shadow_length;
     if (arrived) {
@@ -327,7 +330,7 @@ struct PathTracer : MediumReader {
     int material_index = scene_mesh(scene_instance(hit.instance).mesh).material;
     Surface surface = surface_at(hit, path.ray.direction, path.pdf > 0.0f && path.pdf < kBroadPdf);
 
-    // glTF culls the backs of single-sided surfaces: the camera looks through them, light does not.
+    // glTF culls the backs of single-sided surfaces: the camera sees through them, light does not.
     bool volume = surface.volume;
     if (path.bounce == 0 && !surface.front && scene_material(material_index).double_sided == 0 && !volume) {
       pass_through(surface, hit.t);
@@ -341,7 +344,7 @@ struct PathTracer : MediumReader {
 
     Media beyond_media = path.media;
     if (volume) {
-      // A ray that meets the inside of a volume it never entered started in there.
+      // A ray that hits the inside of a volume it never entered started inside.
       if (!surface.front && !inside_medium(path.media, material_index)) {
         path.media = enter_medium(path.media, material_index);
         medium = current_medium(path.media);
@@ -357,7 +360,7 @@ struct PathTracer : MediumReader {
       float weight = scattered_weight(settings, hit_light_pdf(hit, path.ray.direction, distance));
       path.radiance += path.throughput * surface.emission * weight;
     }
-    // The wall of a volume inside a denser one.
+    // The wall of a volume inside a denser volume.
     if (volume && beyond == medium) {
       path.media = beyond_media;
       pass_through(surface, hit.t);

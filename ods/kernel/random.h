@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random numbers without state: Owen-scrambled Sobol points. Any pair of any sample of any pixel can be made again, on
+// Random numbers without state: Owen-scrambled Sobol points. Any pair of any sample of any pixel can be recomputed, on
 // any device, in any order.
 //
-// Numbers come in pairs. Each dimension pair is the two-dimensional Sobol sequence, its order shuffled and its digits
-// scrambled by seeds of its own, so pairs are independent of each other and pixels of their neighbours.
+// Numbers come in pairs. Each dimension pair is the two-dimensional Sobol sequence, with its order shuffled and its
+// digits scrambled by its own seeds, so pairs are independent of each other and pixels are independent of their
+// neighbours.
 // Sources: Burley, "Practical Hash-based Owen Scrambling", 2020 (shuffled, scrambled, padded sets); the hash is
 // Vegdahl's refinement of Laine and Karras, "Owen scrambling based on hashing", 2021.
 #ifdef __cplusplus
@@ -25,7 +26,7 @@ inline uint hash_pair(uint a, uint b) {
   return hash(a ^ hash(b));
 }
 
-// A random permutation of the binary tree of which bit 0 is the root: bit k changes by the bits below it only.
+// A random permutation of the binary tree whose root is bit 0: bit k is changed only by the bits below it.
 inline uint scramble_tree(uint x, uint seed) {
   x = x ^ (x * 0x3d20adeau);
   x = x + seed;
@@ -35,7 +36,8 @@ inline uint scramble_tree(uint x, uint seed) {
   return x;
 }
 
-// The second Sobol coordinate of a sample, bits in reverse: index as a polynomial over GF(2), moved from x to x + 1.
+// The second Sobol coordinate of a sample, with its bits reversed: index as a polynomial over GF(2), moved from x to x
+// + 1.
 inline uint sobol_second_reversed(uint index) {
   index = index ^ (index >> 16u);
   index = index ^ ((index & 0xff00ff00u) >> 8u);
@@ -50,8 +52,8 @@ inline float unit_float(uint bits) {
   return float(bits >> 8u) * (1.0f / 16777216.0f);
 }
 
-// Pair number dimension of sample number index, each coordinate uniform in [0, 1). Every power of two of samples from
-// index 0 on is stratified. seed: different for every pixel.
+// Pair number `dimension` of sample number `index`, each coordinate uniform in [0, 1). Every power of two of samples
+// from index 0 on is stratified. seed: different for every pixel.
 inline vec2 random_pair(uint seed, uint index, uint dimension) {
   uint key = hash_pair(seed, dimension);
   uint shuffled = bitfieldReverse(scramble_tree(bitfieldReverse(index), key));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as the kernel reads it: plain records in flat arrays, the same bytes on every device (scalar layout).
-// Metres, right-handed, +Y up. Colours and radiances are linear, Rec. 709 primaries. Angles are radians.
+// The scene as the kernel reads it: plain records in flat arrays, with the same bytes on every device (scalar layout).
+// Metres, right-handed, +Y up. Colours and radiances are linear, with Rec. 709 primaries. Angles are radians.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/math.h"
@@ -12,36 +12,36 @@ namespace ods {
 struct Vertex {
   vec3 position;
   vec3 normal;   // unit length
-  vec4 tangent;  // xyz unit length, w = +1 or -1 gives the bitangent's side (glTF); xyz = 0: no tangent
+  vec4 tangent;  // xyz: unit length; w = +1 or -1: side of the bitangent (glTF); xyz = 0: no tangent
   vec2 uv0;
   vec2 uv1;
-  vec4 color;  // linear, multiplies the base colour; 1,1,1,1 where the file has none
+  vec4 color;  // linear, multiplies the base colour; 1,1,1,1 if the file has none
 };
 
-// One run of triangles with one material (a glTF primitive). Its triangles index vertices from first_vertex on.
+// A run of triangles with one material (a glTF primitive). Its triangles index vertices relative to first_vertex.
 struct Mesh {
   uint first_vertex;
   uint vertex_count;
   uint first_triangle;
   uint triangle_count;
   int material;
-  int motion;  // of a mesh that bends while the shutter is open, its first row of MotionVertex; else -1
+  int motion;  // for a mesh that deforms while the shutter is open: its first row of MotionVertex; else -1
 };
 
-// A mesh standing in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
+// A mesh placed in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
 struct Instance {
   vec4 row0;
   vec4 row1;
   vec4 row2;
   int mesh;
-  int first_light;  // index of the light of its first triangle, -1 when the mesh does not glow; made by make_lights()
-  int motion;       // of one that moves while the shutter is open, its first MotionPose; else -1
-  int catcher;      // 1: not seen, but for the shadows of what is none (ods/kernel/path.h)
+  int first_light;  // index of the light of its first triangle, -1 if the mesh does not emit; set by make_lights()
+  int motion;       // for an instance that moves while the shutter is open: its first MotionPose; else -1
+  int catcher;      // 1: invisible except for shadows cast on it by non-catchers (ods/kernel/path.h)
 };
 
-// Where an instance stands, and a vertex of a mesh that bends, at each of the shutter's keys: evenly spaced times from
-// its opening to its closing, between which all goes straight. An instance has a row for each key; a mesh for each key
-// as many as it has vertices.
+// The transform of an instance, and a vertex of a mesh that deforms, at each of the shutter's keys: evenly spaced times
+// from its opening to its closing, with linear motion in between. An instance has one row per key; a mesh has as many
+// rows per key as it has vertices.
 struct MotionPose {
   vec4 row0;
   vec4 row1;
@@ -69,7 +69,7 @@ struct Texture {
   int nearest;  // 1: no interpolation
 };
 
-// Which texture a material reads, and how its coordinates get there (KHR_texture_transform):
+// The texture that a material reads, and the transform of its coordinates (KHR_texture_transform):
 // uv' = offset + axis_u * uv.x + axis_v * uv.y.
 struct TextureSlot {
   int texture;  // -1: none, reads as 1 everywhere
@@ -86,14 +86,14 @@ const int kAlphaBlend = 2;
 // glTF 2.0 metallic-roughness with KHR_materials_unlit, _emissive_strength, _ior, _transmission and _volume.
 struct Material {
   vec4 base_color;
-  vec3 emission;  // radiance; the strength is multiplied in
+  vec3 emission;  // radiance, including the emissive strength
   float metallic;
   float roughness;
   float normal_scale;
   float ior;
   float transmission;
-  float thickness;             // > 0: the mesh encloses a volume and refracts; 0: thin sheet
-  vec3 attenuation_color;      // what is left of white light after attenuation_distance inside the volume
+  float thickness;             // > 0: the mesh encloses a volume and refracts; 0: a thin sheet
+  vec3 attenuation_color;      // the colour that white light has after attenuation_distance inside the volume
   float attenuation_distance;  // metres; infinite or <= 0: clear
   int alpha_mode;
   float alpha_cutoff;
@@ -112,9 +112,10 @@ const int kLightSpot = 2;
 const int kLightDirectional = 3;
 const int kLightEnvironment = 4;
 
-// One entry of Walker's alias table: a slot is picked evenly, then kept with the chance threshold, else alias is taken.
+// One entry of Walker's alias table: a slot is picked uniformly, then kept with probability `threshold`; otherwise its
+// alias is taken.
 struct AliasEntry {
-  float probability;  // of being taken in the end
+  float probability;  // of picking this entry in the end
   float threshold;
   int alias;
 };
@@ -129,37 +130,37 @@ struct Light {
   float range;        // point, spot: metres; <= 0: unlimited
   float cone_scale;   // spot: clamp(cos * scale + offset, 0, 1) squared fades from inner to outer cone
   float cone_offset;  //
-  float probability;  // of being picked
+  float probability;  // of picking this light
 };
 
-// One slot of the table that lights are picked from: an alias table of those that shine.
+// One slot of the alias table from which lights are picked; it contains the lights that have power.
 struct LightPick {
   int light;
   float threshold;
-  int alias;  // the other light of the slot
+  int alias;  // the slot's other light
 };
 
 // One texel of a lat-long environment (rows from the top, centre of the picture along -Z of the world).
 struct EnvironmentTexel {
   vec3 radiance;
-  AliasEntry entry;  // within its row; rows have a table of their own
+  AliasEntry entry;  // within its row; the rows have their own table
 };
 
-// What the kernel needs to know of the environment beside its texels.
+// What the kernel knows of the environment besides its texels.
 struct EnvironmentInfo {
-  vec3 uniform_radiance;  // used when width = 0
+  vec3 uniform_radiance;  // used if width = 0
   int width;
   int height;
-  int light;  // index in the light table, -1 when it is not sampled as a light
+  int light;  // index in the light table; -1 if it is not sampled as a light
 };
 
-// Where a ray met the scene. (u, v) are the barycentric coordinates of the triangle's second and third corner.
+// Where a ray hit the scene. (u, v) are the barycentric coordinates of the triangle's second and third corner.
 struct Hit {
-  float t;  // distance along the ray; negative when the ray left the scene
+  float t;  // distance along the ray; negative if the ray left the scene
   float u;
   float v;
   int instance;
-  int triangle;  // counted from its mesh's first_triangle
+  int triangle;  // counted from the mesh's first_triangle
 };
 
 #ifdef __cplusplus

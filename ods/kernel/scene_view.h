@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All that the kernel may read. C++ sees the arrays as pointers; a shader defines the same functions over its buffers.
+// Everything that the kernel may read. C++ sees the arrays as pointers; a shader defines the same functions over its
+// buffers.
 // Nothing here traces a ray.
 #ifdef __cplusplus
 #pragma once
@@ -21,8 +22,9 @@ const int kGlassSize = 16;
 const int kTablesSize = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize;
 
 // In GLSL all functions of the kernel are plain functions, included in order. C++ needs a `this` to find the scene, so
-// each header continues the struct of the one before: SceneView, FilterSampler, TextureReader, SurfaceReader,
-// BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is the whole. The bases mean no more than that.
+// each header continues the struct of the previous one: SceneView, FilterSampler, TextureReader, SurfaceReader,
+// BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is complete. The inheritance means no more than
+// that.
 #ifdef __cplusplus
 struct SceneView {
   const Vertex* vertices = nullptr;
@@ -31,11 +33,11 @@ struct SceneView {
   const Instance* instances = nullptr;
   const MotionPose* motion_poses = nullptr;
   const MotionVertex* motion_vertices = nullptr;
-  int motion_keys = 0;  // 0 or 1: the shutter is open for no time
+  int motion_keys = 0;  // 0 or 1: the shutter opens for an instant
   const Material* materials = nullptr;
   const Texture* textures = nullptr;
   const uint* texels = nullptr;
-  const Texture* reduced_textures = nullptr;  // small copies of the textures
+  const Texture* reduced_textures = nullptr;  // reduced copies of the textures
   const uint* reduced_texels = nullptr;
   const Light* lights = nullptr;
   const LightPick* light_picks = nullptr;

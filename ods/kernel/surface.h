@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A hit -> the point on the surface: where it is, how it stands, and what the material is made of there.
+// A hit -> the point on the surface: its position, its normals, and its material there.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/texture.h"
@@ -10,9 +10,9 @@ namespace ods {
 
 struct Surface {
   vec3 position;
-  vec3 geometric;  // unit normal of the triangle, on the side that the ray comes from
-  vec3 normal;     // unit normal to shade with, on the same side
-  bool front;      // the ray comes from the side that the triangle's winding calls its front
+  vec3 geometric;  // unit normal of the triangle, on the side from which the ray comes
+  vec3 normal;     // unit shading normal, on the same side
+  bool front;      // the ray comes from the front side of the triangle, as its winding defines it
   vec3 base_color;
   vec3 emission;
   float metallic;
@@ -26,7 +26,7 @@ inline float luminance(vec3 c) {
   return dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-// A point just off the surface, on the side of the normal, from which rays do not find the surface again.
+// A point slightly off the surface, on the normal's side, so that rays from it do not hit the surface again.
 // Source: Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019.
 inline float offset_axis(float p, float n) {
   if (abs(p) < 1.0f / 32.0f) return p + n * (1.0f / 65536.0f);
@@ -43,13 +43,13 @@ inline vec3 to_world(Instance instance, vec3 p) {
   return vec3(dot(instance.row0, p1), dot(instance.row1, p1), dot(instance.row2, p1));
 }
 
-// The same for a direction or an edge.
+// The object-to-world rotation and scale, for a direction or an edge.
 inline vec3 turn_to_world(Instance instance, vec3 v) {
   vec4 v0 = vec4(v, 0.0f);
   return vec3(dot(instance.row0, v0), dot(instance.row1, v0), dot(instance.row2, v0));
 }
 
-// -1 where an instance is mirrored, else 1.
+// -1 if an instance is mirrored, else 1.
 inline float handedness_of(Instance instance) {
   vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
   vec3 row1 = vec3(instance.row1.x, instance.row1.y, instance.row1.z);
@@ -61,13 +61,13 @@ inline float handedness_of(Instance instance) {
 struct SurfaceReader : TextureReader {
 #endif
 
-  // When the ray is: 0 as the shutter opens, 1 as it closes. The device sets it before a path starts.
+  // The time of the ray: 0 as the shutter opens, 1 as it closes. The device sets it before a path starts.
   float ray_time = 0.0f;
 
-  // Between two of the shutter's keys.
+  // A time between two of the shutter's keys.
   struct MotionPlace {
-    int key;      // the one before
-    float share;  // of the one after
+    int key;      // the key before
+    float share;  // weight of the key after
   };
 
   inline MotionPlace motion_place() {
@@ -79,7 +79,7 @@ struct SurfaceReader : TextureReader {
     return place;
   }
 
-  // An instance as it stands at the ray's time.
+  // An instance at the ray's time.
   inline Instance instance_now(int index) {
     Instance instance = scene_instance(index);
     if (instance.motion < 0) return instance;
@@ -93,14 +93,15 @@ struct SurfaceReader : TextureReader {
   }
 
   struct Corners {
-    uint a;  // vertices
+    uint a;  // vertex indices
     uint b;
     uint c;
-    float wa;  // weights of the hit point
+    float wa;  // barycentric weights of the hit point
     float wb;
     float wc;
-    bool bends;   // its positions, normals and tangents are these rows, each plus the number of the vertex
-    uint before;  // of MotionVertex
+    bool bends;   // the mesh deforms: a vertex's position, normal and tangent are in these rows, each plus the vertex's
+                  // number
+    uint before;  // a row of MotionVertex
     uint after;
     float share;
   };
@@ -149,9 +150,9 @@ struct SurfaceReader : TextureReader {
     return scene_vertex(k.a).uv1 * k.wa + scene_vertex(k.b).uv1 * k.wb + scene_vertex(k.c).uv1 * k.wc;
   }
 
-  // The share of a ray that a surface stops, 0..1.
+  // The fraction of a ray that a surface stops, 0..1.
   inline float alpha_of(Material material, Corners k) {
-    // In this form equal corners give exactly their value, which may be the cutoff.
+    // In this form three equal corners give exactly their value, which may be the cutoff.
     float a = scene_vertex(k.a).color.w;
     float alpha =
         material.base_color.w * (a + (scene_vertex(k.b).color.w - a) * k.wb + (scene_vertex(k.c).color.w - a) * k.wc);
@@ -160,15 +161,15 @@ struct SurfaceReader : TextureReader {
     return alpha;
   }
 
-  // Whether a ray goes through a hit as if nothing were there (alpha masks; alpha blending as a lottery with the number
-  // draw, uniform in [0, 1)). Every device asks this at each candidate hit of a material that is not opaque.
+  // Whether a ray passes through a hit as if nothing were there: an alpha mask, or alpha blending decided at random by
+  // draw, uniform in [0, 1). Every device calls this at each candidate hit of a material that is not opaque.
   inline bool passes(Hit hit, float draw) {
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
     if (material.alpha_mode == kAlphaOpaque) return false;
     return draw >= alpha_of(material, corners_of(hit));
   }
 
-  // Normal of the normal map, on the front side. The frame follows the vertices' tangents as glTF defines it.
+  // Normal from the normal map, on the front side. The frame follows the vertices' tangents as glTF defines it.
   inline vec3 mapped_normal(Material material, Instance instance, Corners k, vec3 normal, float handedness,
                             bool reduced) {
     vec3 local = tangent_now(k, k.a) * k.wa + tangent_now(k, k.b) * k.wb + tangent_now(k, k.c) * k.wc;
@@ -189,7 +190,7 @@ struct SurfaceReader : TextureReader {
     return n_size > 1e-6f ? n * (1.0f / n_size) : normal;
   }
 
-  // A hit's triangle in the world: one corner and the two edges from it.
+  // A hit's triangle in the world: one corner and the two edges that start there.
   struct Triangle {
     vec3 a;
     vec3 ab;
@@ -198,7 +199,8 @@ struct SurfaceReader : TextureReader {
 
   inline Triangle triangle_of(Instance instance, Corners k) {
     Triangle triangle;
-    // Edges before the move: far from the origin, corners rounded in the world would lose small triangles.
+    // Edges come before the translation: far from the origin, corners rounded in world space would lose small
+    // triangles.
     vec3 a = position_now(k, k.a);
     triangle.a = to_world(instance, a);
     triangle.ab = turn_to_world(instance, position_now(k, k.b) - a);
@@ -206,7 +208,7 @@ struct SurfaceReader : TextureReader {
     return triangle;
   }
 
-  // Radiance that the surface itself sends out on its front or back.
+  // Radiance that the surface itself emits from its front or back.
   inline vec3 emission_at(Material material, Corners k, bool front) {
     if (!front && material.double_sided == 0) return vec3(0.0f);
     if (material.emission_slot.texture < 0) return material.emission;
@@ -214,7 +216,7 @@ struct SurfaceReader : TextureReader {
     return material.emission * vec3(glow.x, glow.y, glow.z);
   }
 
-  // reduced: small copies of textures will do, except for what glows, which must be as light sampling finds it.
+  // reduced: use the reduced copies of textures, except for emission, which must be as light sampling finds it.
   inline Surface surface_at(Hit hit, vec3 direction, bool reduced) {
     Instance instance = instance_now(hit.instance);
     Material material = scene_material(scene_mesh(instance.mesh).material);
@@ -236,7 +238,7 @@ struct SurfaceReader : TextureReader {
     surface.front = dot(geometric, direction) < 0.0f;
     surface.geometric = surface.front ? geometric : -geometric;
     surface.normal = surface.front ? normal : -normal;
-    // Where the shading normal looks away from the viewer, bend it back to a grazing view.
+    // If the shading normal points away from the viewer, bend it back to grazing incidence.
     float facing = dot(surface.normal, direction);
     if (facing > -1e-3f) surface.normal = normalize(surface.normal - direction * (facing + 2e-3f));
 

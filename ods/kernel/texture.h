@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading textures: wrapping, interpolation and colour curve as glTF's samplers have them.
+// Reads textures: wrapping, interpolation and colour curve as glTF's samplers define them.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/filter.h"
 namespace ods {
 #endif
 
-// floor() to a whole number, without the call it is on older processors. |x| < 2^31.
+// floor() to an integer, without the function call that floor() is on older processors. |x| < 2^31.
 inline int floor_int(float x) {
   int i = int(x);
   return x < float(i) ? i - 1 : i;
 }
 
-// A texture coordinate moved to 0..1.
+// Maps a texture coordinate to 0..1.
 inline float wrap_coordinate(float x, int wrap) {
   x = clamp(x, -1e6f, 1e6f);
   if (wrap == kWrapRepeat) return x - float(floor_int(x));
@@ -22,7 +22,7 @@ inline float wrap_coordinate(float x, int wrap) {
   return clamp(x, 0.0f, 1.0f);
 }
 
-// The neighbour of an edge texel: -1 <= i <= size. A mirrored picture's neighbour is the edge texel itself.
+// The neighbour of an edge texel: -1 <= i <= size. The neighbour in a mirrored picture is the edge texel itself.
 inline int wrap_texel(int i, int size, int wrap) {
   if (wrap == kWrapRepeat) return i < 0 ? size - 1 : (i >= size ? 0 : i);
   return clamp(i, 0, size - 1);
@@ -46,8 +46,8 @@ struct TextureReader : FilterSampler {
     return vec4(vec3(float(r), float(g), float(b)) * (1.0f / 255.0f), a);
   }
 
-  // reduced: the texture is one of the small copies. uv as in glTF: (0, 0) is the top left corner of the picture.
-  // Beyond a million turns the place within a texel is lost to rounding; what is read stays inside the texture.
+  // reduced: the texture is a reduced copy. uv as in glTF: (0, 0) is the top left corner of the picture.
+  // Beyond a million repeats rounding loses the position within a texel; the texel read is still inside the texture.
   inline vec4 texture_at(Texture texture, bool reduced, vec2 uv) {
     float x = wrap_coordinate(uv.x, texture.wrap_u) * float(texture.width);
     float y = wrap_coordinate(uv.y, texture.wrap_v) * float(texture.height);
@@ -67,7 +67,7 @@ struct TextureReader : FilterSampler {
     return mix(top, bottom, fy);
   }
 
-  // What a material reads through a slot; 1 where it has no texture.
+  // What a material reads through a slot; 1 if the slot has no texture.
   inline vec4 slot_at(TextureSlot slot, vec2 uv0, vec2 uv1, bool reduced) {
     if (slot.texture < 0) return vec4(1.0f);
     vec2 uv = slot.uv_set == 0 ? uv0 : uv1;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two eyes of one place show nearly the same; two parts of one picture do not. So every way to cut a file is tried.
+// Two eyes at one place show nearly the same picture; two parts of one picture do not. So every way to cut a file is
+// tried.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,14 +15,14 @@ namespace ods {
 
 namespace {
 
-// A coarse look averages noise away, and cares less for parallax.
+// Low resolution averages noise out and makes the match less sensitive to parallax.
 constexpr int kCoarse = 192;
 constexpr int kEnoughTiles = 8;
 
 struct Cut {
   Layout layout = Layout::kTopBottom;
   Matches matches;
-  double lopsided = 0.0;  // how much parallax has one sign, 0..1
+  double lopsided = 0.0;  // how much of the parallax has one sign, 0..1
 };
 
 Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes) {
@@ -44,7 +45,7 @@ std::string matching(const Cut& cut) {
   return fmt::format("{:.0f} % of {} places match", 100.0 * cut.matches.share(), cut.matches.tiles);
 }
 
-// What the layout of eyes of this shape is called: squeezed eyes are as their file, not as eyes are.
+// The layout name for eyes of this shape: squeezed eyes are named by the shape of the file, not of an eye.
 std::string cut_name(const Subject& subject, Layout layout) {
   const Extent eye = *unpacked_size(layout, {subject.packed.width, subject.packed.height});
   const double aspect = static_cast<double>(eye.width) / eye.height;
@@ -54,7 +55,7 @@ std::string cut_name(const Subject& subject, Layout layout) {
   return std::string(layout_name(layout_with({eyes.how, eyes.right_first, squeezed}).value_or(layout)));
 }
 
-// The layouts that a file may have in truth, other than the one it was read in.
+// The layouts that the file may really have, other than the one it was read in.
 std::vector<Cut> other_cuts(const Subject& subject) {
   std::vector<Cut> cuts;
   const std::optional<Layout> read = subject.format.layout.layout;
@@ -67,7 +68,7 @@ std::vector<Cut> other_cuts(const Subject& subject) {
   return cuts;
 }
 
-// Who said so decides what is wrong, and what is to be changed.
+// The source of the layout decides what is wrong, and what the user has to change.
 void add_misread(const Subject& subject, const Cut& cut, double certainty, const std::string& evidence,
                  LintReport& report) {
   const std::string truth = cut_name(subject, cut.layout);
@@ -91,7 +92,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
 static bool check_one_eye(const Subject& subject, LintReport& report) {
   judge(report, Check::kLayout);
   for (const Cut& cut : other_cuts(subject)) {
-    // Scenes that look alike on two sides match too, but parallax with one sign is no chance.
+    // Scenes that are alike on two sides match too, but parallax of a single sign is no coincidence.
     const double certainty = cut.matches.share() * cut.lopsided * std::min(1.0, cut.matches.tiles / 20.0);
     if (certainty < 0.3) continue;
     add_misread(subject, cut, certainty,
@@ -116,7 +117,7 @@ bool check_layout(const Subject& subject, LintReport& report) {
   const double alone = enough * std::max(0.0, 1.0 - share / 0.3);
   double misread = 0.0;
   for (const Cut& cut : other_cuts(subject)) {
-    // Two sides of a scene may be alike, but they have no parallax of one sign.
+    // Two sides of a scene may be alike, but their parallax does not have a single sign.
     const double better = cut.matches.share() - share;
     const double certainty =
         enough * cut.matches.share() * std::min(1.0, better / 0.4) * std::min(1.0, 2.0 * cut.lopsided);

@@ -29,9 +29,9 @@ bool has_finding(const LintReport& report, Severity severity, double certainty) 
   });
 }
 
-// --- what is looked at ---------------------------------------------------------------------------------------------
+// --- the subject ---------------------------------------------------------------------------------------------------
 
-// Packed eyes are taken apart here, so that the file can be cut in other ways too.
+// Cuts packed eyes here, so that the file can be cut in other ways too.
 static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
   subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
@@ -50,7 +50,7 @@ static void load(Subject& subject, const LintOptions& options) {
                                                path, size.width, size.height, layout_name(subject.layout())));
   }
   open.format.layout = Layout::kSeparate;
-  open.format.projection = ProjectionSetting();  // any: its pixels are taken as they lie
+  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
   subject.packed = grey_eyes(open_picture(path, open))[0];
   subject.eyes = unpack(subject.layout(), subject.packed);
 }
@@ -85,7 +85,7 @@ static void describe(const Subject& subject, LintReport& report) {
 
 // --- the checks ----------------------------------------------------------------------------------------------------
 
-constexpr double kMinAround = 256.0;  // pixels of an eye for 360 degrees
+constexpr double kMinAround = 256.0;  // pixels of an eye per 360 degrees
 constexpr int kMinHeight = 32;
 
 static void check_pixels(const Subject& subject, LintReport& report) {
@@ -95,7 +95,7 @@ static void check_pixels(const Subject& subject, LintReport& report) {
   check_poles(subject, report);
 }
 
-// Checks that were not come to.
+// Reports the checks that were not reached.
 static void skip_the_rest(LintReport& report, const std::string& reason) {
   const auto is_done = [&](Check check) {
     return std::find(report.judged.begin(), report.judged.end(), check) != report.judged.end() ||

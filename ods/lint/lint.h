@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is wrong with a stereo 360 picture, ours or another's, as far as its pixels and its own words tell.
+// Finds what is wrong with a stereo 360 picture, ours or another's, as far as its pixels and its metadata show it.
 //
 // Nearly all of it follows from one fact of omni-directional stereo: a point at the distance rho from the viewing
-// circle's axis stands theta_L - theta_R = 2 asin(r / rho) farther right in the left eye than in the right one. That is
-// never negative, wherever the point is, and there is no difference in height. docs/lint.md explains every fault.
+// circle's axis appears farther right in the left eye than in the right one, by theta_L - theta_R = 2 asin(r / rho).
+// That is never negative, wherever the point is, and there is no difference in height. docs/lint.md explains every
+// fault.
 #pragma once
 #include <optional>
 #include <string>
@@ -20,21 +21,21 @@ namespace ods {
 
 enum class Fault {
   kEyesSwapped,     // the left eye's picture is the right one's
-  kRightOnTop,      // the same of top-bottom files
-  kOneEyeTwice,     // both eyes see one picture
-  kMonoAsStereo,    // what are said to be two eyes are parts of one
-  kLayoutMisread,   // the eyes are there, in another layout
+  kRightOnTop,      // likewise in top-bottom files
+  kOneEyeTwice,     // both eyes have the same picture
+  kMonoAsStereo,    // what are taken for two eyes are parts of one picture
+  kLayoutMisread,   // both eyes are there, in another layout
   kMirroredCircle,  // stereo right ahead and behind, none at +-45 and +-135 degrees, reversed at +-90
   kTwoCameras,      // stereo right ahead, none at the sides, reversed behind
   kNoPoleMerge,     // full stereo right up to a pole
-  kRaggedSeam,      // the picture does not go on from its right edge to its left one
-  kWrongAspect,     // its shape is not its projection's
-  kMetadata,        // what the file, its name or its sidecar says is not what it holds
+  kRaggedSeam,      // the picture does not continue from its right edge to its left one
+  kWrongAspect,     // the picture's shape is not that of its projection
+  kMetadata,        // the file, its name or its sidecar contradicts the pixels
   kVideoLevels,     // too large for a video
 };
 
 enum class Severity {
-  kFault,        // looks wrong, to everybody
+  kFault,        // looks wrong to everybody
   kWarning,      // looks wrong in places, or is a matter of taste
   kInformation,  // good to know
 };
@@ -51,7 +52,7 @@ constexpr std::string_view severity_name(Severity severity) {
 struct FaultRow {
   Fault member;
   std::string_view name;
-  std::string_view title;  // a few words for people
+  std::string_view title;  // a few words for users
   Severity severity;
 };
 inline constexpr FaultRow kFaultTable[] = {
@@ -59,13 +60,13 @@ inline constexpr FaultRow kFaultTable[] = {
     {Fault::kRightOnTop, "right-on-top", "the right eye is on top", Severity::kFault},
     {Fault::kOneEyeTwice, "one-eye-twice", "both eyes see the same picture", Severity::kFault},
     {Fault::kMonoAsStereo, "mono-as-stereo", "one picture is taken for two eyes", Severity::kFault},
-    {Fault::kLayoutMisread, "layout-misread", "the eyes lie otherwise in the file", Severity::kFault},
+    {Fault::kLayoutMisread, "layout-misread", "the layout is not what it claims", Severity::kFault},
     {Fault::kMirroredCircle, "mirrored-circle", "the eyes' circle is mirrored", Severity::kFault},
     {Fault::kTwoCameras, "two-cameras", "two fixed cameras in place of a circle", Severity::kFault},
     {Fault::kNoPoleMerge, "no-pole-merge", "full stereo at a pole", Severity::kWarning},
     {Fault::kRaggedSeam, "ragged-seam", "the seam shows", Severity::kFault},
     {Fault::kWrongAspect, "wrong-aspect", "the shape does not fit", Severity::kFault},
-    {Fault::kMetadata, "metadata", "its words do not fit its pixels", Severity::kFault},
+    {Fault::kMetadata, "metadata", "the metadata contradicts the pixels", Severity::kFault},
     {Fault::kVideoLevels, "video-levels", "too large for videos", Severity::kInformation},
 };
 static_assert(has_every_member(kFaultTable));
@@ -82,24 +83,24 @@ constexpr Severity severity_of(Fault fault) {
 
 struct Finding {
   Fault fault = Fault::kEyesSwapped;
-  double certainty = 0.0;  // 0..1, from what was measured
-  std::string evidence;    // with numbers
+  double certainty = 0.0;  // 0..1, from measurements
+  std::string evidence;    // includes numbers
   std::string cure;
 };
 
-// What is judged, or would have to be.
+// What lint judges, or names as not judged.
 enum class Check {
-  kLayout,       // how the eyes share the file, and whether they see one place
-  kTwoEyes,      // whether they see it from two places
+  kLayout,       // how the eyes share the file, and whether they are at one place
+  kTwoEyes,      // whether they see from two points
   kEyeOrder,     // which eye is which
-  kCircle,       // a circle of eyes, or two cameras, or a mirrored circle
-  kTopPole,      // stereo there
-  kBottomPole,   // likewise
+  kCircle,       // a viewing circle, two cameras, or a mirrored circle
+  kTopPole,      // stereo at the top pole
+  kBottomPole,   // stereo at the bottom pole
   kSeam,         // where the right edge meets the left one
   kShape,        // width over height
-  kMetadata,     // what file, name and sidecar say
+  kMetadata,     // the statements of file, name and sidecar
   kVideoLevels,  // of codecs
-  kBetweenEyes,  // height, roll, colour and sharpness: nothing here measures them
+  kBetweenEyes,  // height, roll, colour and sharpness; lint does not measure them
 };
 
 inline constexpr NameRow<Check> kCheckTable[] = {
@@ -127,27 +128,27 @@ struct NotJudged {
 };
 
 struct LintOptions {
-  std::optional<Layout> layout;                 // none: as guess_layout() has it
-  std::optional<ProjectionSetting> projection;  // none: what the file, its sidecar or its name say, else lat-long
+  std::optional<Layout> layout;                 // none: that of guess_layout()
+  std::optional<ProjectionSetting> projection;  // none: that of the file, its sidecar or its name, else lat-long
 };
 
 struct LintReport {
-  Extent file;  // of either file of a pair
-  Extent eye;   // as it is stored
+  Extent file;  // size of the file, or of either file of a pair
+  Extent eye;   // as stored
   int eye_count = 1;
-  std::optional<Layout> layout;  // as it was read; none: one eye
+  std::optional<Layout> layout;  // the layout that the file was read in; none: one eye
   std::string reason;
   std::string projection;
-  std::vector<Finding> findings;  // the surest first; also what is next to certainly not so
-  std::vector<Check> judged;      // every check is here or among those that could not be made
+  std::vector<Finding> findings;  // the most certain first; includes findings whose certainty is nearly 0
+  std::vector<Check> judged;      // every check is either here or in not_judged
   std::vector<NotJudged> not_judged;
-  std::vector<std::string> notes;  // what of the file was left aside: NaN, a colour profile
+  std::vector<std::string> notes;  // what was ignored in the file: NaN, a colour profile
 };
 
-// The findings at least as sure as this and as severe.
+// Whether there is a finding at least this severe and this certain.
 bool has_finding(const LintReport& report, Severity severity, double certainty);
 
-// %V or %v in the path stands for two files. Throws Error(kInput) as load_eyes() does.
+// A path with %V or %v names two files. Throws Error(kInput) as load_eyes() does.
 LintReport lint(const std::string& path, const LintOptions& options = {});
 
 }  // namespace ods

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Words against words and numbers: what the file, its name and its sidecar say of a picture whose layout is known.
+// Compares the statements of the file, its name and its sidecar with each other and with the picture, whose layout is
+// known.
 #include "ods/picture/metadata/metadata.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ static std::string_view read_as(const LintReport& report) {
   return report.layout ? layout_name(*report.layout) : "one eye";
 }
 
-// GPano describes one sphere, and viewers would wrap the whole file around it.
+// GPano describes one sphere; viewers would wrap the whole file around it.
 static void check_gpano(const Subject& subject, LintReport& report) {
   if (report.eye_count < 2 || names_eye(subject.path) || subject.format.is_photo) return;
   if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
@@ -39,7 +40,7 @@ static void check_name(const Subject& subject, LintReport& report) {
     const std::optional<Extent> other = unpacked_size(*named.layout, size);
     if (other && report.layout && other->width == report.eye.width && other->height == report.eye.height &&
         !arrangement_of(*named.layout).right_first) {
-      return;  // the same halves by a looser word
+      return;  // the same halves under a more general name
     }
   }
   add(report, 0.9, fmt::format("{}, but it is {} as {}", named.reason, read_as(report), subject.format.layout.reason),
@@ -59,7 +60,7 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
     add(report, 0.9, fmt::format("'{}' says {}, and it is {}", name, layout_name(said.layout), read_as(report)), cure);
   }
   const Extent stored = squeezed_eye(said.layout, said.eye, count);
-  // A copy of another size is no contradiction, another shape is.
+  // A copy of another size is no contradiction; another shape is.
   const double off = std::abs(static_cast<double>(stored.width) * report.eye.height /
                                   (static_cast<double>(stored.height) * report.eye.width) -
                               1.0);

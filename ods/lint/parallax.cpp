@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sign of parallax around the horizon: + everywhere is right, - everywhere has the eyes swapped, cos(theta) are two
-// fixed cameras, cos(2 theta) a viewing circle that was mirrored without its rays. How large it is depends on the scene
-// and tells nothing, except that a picture without any is one eye twice.
+// The sign of parallax around the horizon: + everywhere is correct; - everywhere means swapped eyes; cos(theta) means
+// two fixed cameras; cos(2 theta) means a viewing circle that was mirrored without its rays. The amount of parallax
+// depends on the scene and shows nothing, except that a picture without any has one eye twice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,25 +19,25 @@ namespace ods {
 namespace {
 
 constexpr int kSectors = 16;
-constexpr double kPrecision = 0.25;  // of a match, pixels of its view
-constexpr double kGrounded = 0.2;    // growth_downwards() that no chance makes
+constexpr double kPrecision = 0.25;  // of a match, in pixels of its view
+constexpr double kGrounded = 0.2;    // a value of growth_downwards() that no coincidence reaches
 constexpr double kPi2 = 2.0 * std::numbers::pi;
 
 struct Parallax {
   double theta = 0.0;
   double phi = 0.0;
-  double angle = 0.0;  // radians, of a parallel pair
-  double sign = 0.0;   // -1..1: near 0 where the angle is less than the precision
+  double angle = 0.0;  // radians, for a parallel pair
+  double sign = 0.0;   // -1..1: near 0 if the angle is smaller than the precision
   double weight = 0.0;
   int sector = 0;
 };
 
 struct Parallaxes {
   std::vector<Parallax> all;
-  double sectors = 0.0;  // with something in them, 0..kSectors
+  double sectors = 0.0;  // number of sectors with matches, 0..kSectors
 };
 
-// How well a pattern of signs explains what is there, -1..1.
+// How well a pattern of signs explains the data, -1..1.
 template <class Pattern>
 double explained(const Parallaxes& parallaxes, Pattern pattern) {
   double sum = 0.0, most = 0.0;
@@ -49,7 +49,7 @@ double explained(const Parallaxes& parallaxes, Pattern pattern) {
   return most > 0.0 ? sum / most : 0.0;
 }
 
-// cos(waves (theta - turn)) for the turn that explains most.
+// cos(waves (theta - turn)), with the turn that explains the data best.
 struct Wave {
   double share = 0.0;
   double turn = 0.0;
@@ -77,7 +77,7 @@ void add_matches(Parallaxes& parallaxes, const Matches& matches, const Subject& 
   }
 }
 
-// A sector full of detail counts little more than one with some.
+// Weights each sector: one full of detail counts little more than one with some.
 void weigh(Parallaxes& parallaxes) {
   std::array<double, kSectors> count{};
   for (const Parallax& each : parallaxes.all) count[static_cast<size_t>(each.sector)] += std::abs(each.sign);
@@ -85,8 +85,8 @@ void weigh(Parallaxes& parallaxes) {
   for (double each : count) parallaxes.sectors += each / (each + 1.0);
 }
 
-// Whether parallax, as large as the eye sees it, grows downwards below the horizon, -1..1, each heading by itself: as
-// the ground comes nearer it does, wherever the eyes converge, and falls when they are swapped.
+// Whether angular parallax grows downwards below the horizon, -1..1, judged at each heading separately. As the ground
+// comes nearer it does, wherever the eyes converge; it decreases if they are swapped.
 double growth_downwards(const Parallaxes& parallaxes) {
   struct Sums {
     double weight = 0.0, depth = 0.0, angle = 0.0;
@@ -117,7 +117,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-// Rays that are toed in meet on a sphere: towards the poles they turn about ever smaller circles.
+// Toed-in rays meet on a sphere: towards the poles they rotate about ever smaller circles.
 double convergence_at(const Subject& subject, double phi) {
   if (!subject.camera || subject.camera->convergence == kParallel) return 0.0;
   const Camera& camera = *subject.camera;
@@ -132,12 +132,12 @@ namespace {
 
 struct Stillness {
   double certainty = 0.0;
-  double middle = 0.0;  // of the parallax, pixels of the view
+  double middle = 0.0;  // median of the parallax, in pixels of the view
   double spread = 0.0;
   size_t count = 0;
 };
 
-// Parallax of things far away is small too, but it is no noise: it is never less than 0.
+// The parallax of distant objects is small too, but it is not noise: it is never less than 0.
 Stillness stillness_of(const Matches& matches) {
   Stillness still;
   still.count = matches.found.size();
@@ -150,7 +150,7 @@ Stillness stillness_of(const Matches& matches) {
   const double count = static_cast<double>(still.count);
   double balance = 0.0;
   for (double angle : angles) balance += std::tanh(angle / (still.spread + 1e-3)) / count;
-  // A few things that do move, as on a test card, are enough, if they move in one sense as no mismatches do.
+  // A few objects that do move, as on a test card, suffice if they move in one direction, which mismatches do not.
   double moving = 0.0, sense = 0.0;
   for (double angle : angles) {
     if (std::abs(angle - still.middle) < std::max(0.5, 6.0 * still.spread)) continue;
@@ -165,7 +165,8 @@ Stillness stillness_of(const Matches& matches) {
 
 }  // namespace
 
-// At all scales: noise that is the same in both eyes stands still too, but only where it is not averaged away.
+// Judges at all scales: noise that is the same in both eyes has no parallax either, but only where it is not averaged
+// out.
 static bool check_twice(const Subject& subject, const std::vector<Matches>& scales, LintReport& report) {
   const std::vector<Image>& eyes = subject.eyes;
   const char* cure = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
@@ -183,7 +184,7 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
     least = still;
     degrees = static_cast<double>(matches.pixel) * 360.0 / kPi2;
   }
-  // In small pictures things that are merely far stand still, too.
+  // In small pictures, objects that are merely distant have no measurable parallax either.
   const double width = kPi2 / static_cast<double>(scales.back().pixel);
   const double large = std::clamp((width - 256.0) / 768.0, 0.0, 1.0);
   least.certainty *= large;
@@ -213,7 +214,8 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
                                      50.0 - 50.0 * upright, parallaxes.all.size());
   if (!subject.camera) {
     const double growth = growth_downwards(parallaxes);
-    // Eyes that converge mid-way have parallax of both signs; close by, only the ground tells.
+    // Eyes that converge at mid-distance have parallax of both signs; if they converge close by, only the ground
+    // decides.
     certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
     evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
@@ -244,7 +246,7 @@ static void check_waves(const Parallaxes& parallaxes, double upright, LintReport
       "the renderer turns its eyes against its rays: negate one coordinate of the eye's place there, and render again");
 }
 
-// Share of the horizon.
+// The fraction of the horizon that the picture covers.
 static double seen_around(const GrayView& view) {
   const float* row = view.at(0, view.height / 2);
   return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;

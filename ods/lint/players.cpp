@@ -12,13 +12,13 @@
 
 namespace ods {
 
-constexpr double kUsualFps = 30.0;  // of a video that does not say
+constexpr double kUsualFps = 30.0;  // of a video that does not state it
 
 static bool is_matroska(const VideoFile& video) {
   return video.container == Container::kMatroska || video.container == Container::kWebm;
 }
 
-// What a player makes of it: no word on stereo is mono, no word on a projection is a flat video.
+// What a player assumes: without stereo metadata mono, without projection metadata a flat video.
 static std::string shown_as(SphericalMetadata metadata) {
   metadata.stereo = metadata.stereo.value_or(VideoStereo::kOneView);
   metadata.projection = metadata.projection.value_or(VideoProjection::kFlat);
@@ -111,7 +111,7 @@ static bool agree(const std::string& a, const std::string& b) {
   return one == other.substr(0, open) + "lat-long" || one == other.substr(0, open) + "flat";
 }
 
-// That ods inject helps, if it does, and what it has to be told: " (ods inject --track 2 adds it)".
+// Advises ods inject if it helps, with the options that it needs: " (ods inject --track 2 adds it)".
 static std::string advice(const VideoFile& video, const VideoTrack& track, const std::string& path,
                           std::string_view what) {
   std::vector<std::string> guesses;

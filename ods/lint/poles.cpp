@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stereo at the poles. On a floor or ceiling at the height h, parallax that no merge shrinks is as large seen from the
-// eye, ipd / h, however near the pole; looked at there it is upright for one heading only and hurts for all others.
+// Stereo at the poles. On a floor or ceiling at the height h, parallax that no merge shrinks is constant as the eye
+// sees it, ipd / h, however near the pole. A viewer who looks there sees it upright for one heading only; at all others
+// it hurts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// Eyes do not fuse pictures that differ in height by more than 19 to 26 minutes of arc, depending on whom one asks.
+// Eyes do not fuse pictures that differ in height by more than 19 to 26 minutes of arc, depending on the source.
 constexpr double kTolerable = 0.43;
 
 struct Band {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a whole turn closes. A step from one column to the next counts by how far it goes beyond the steps before and
-// behind it, so that neither slopes nor soft edges do; what the step at the seam counts is held against all others.
+// Where a whole turn closes. A step from one column to the next counts by how much it exceeds the steps on either side
+// of it, so that neither slopes nor soft edges count; the step at the seam is compared with all others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr size_t kWide = 2;  // columns that are averaged on either side, agains
 
 using Columns = std::vector<double>;
 
-// Around the picture, the mean of some rows as a display shows them.
+// The mean of some rows, for each column around the picture, as a display shows them.
 Columns mean_row(const Image& eye, int from, int to) {
   Columns mean(static_cast<size_t>(eye.width));
   for (int y = from; y < to; y++) {
@@ -33,7 +33,7 @@ Columns mean_row(const Image& eye, int from, int to) {
   return mean;
 }
 
-// Behind each column, the step to the next ones, less half of what the steps before and after it are.
+// For each column, the step from it to the next columns, minus half the sum of the steps before and after.
 Columns breaks_of(const Columns& row) {
   const size_t n = row.size();
   Columns mean(n), breaks(n);
@@ -48,7 +48,7 @@ Columns breaks_of(const Columns& row) {
   return breaks;
 }
 
-// The place of each value among all, 0..1.
+// The rank of each value among all, 0..1.
 Columns ranks_of(const Columns& values) {
   Columns sorted = values;
   std::sort(sorted.begin(), sorted.end());
@@ -61,8 +61,9 @@ Columns ranks_of(const Columns& values) {
   return ranks;
 }
 
-// How each column's break stands among those of all others, 0..1. Rows of all heights are heard alike, and both eyes:
-// an upright edge of the scene is sharp in some rows, and at another column in each eye; a broken seam in all.
+// The rank of each column's break among all columns, 0..1. Rows of all heights have equal weight, and so have both
+// eyes: a vertical edge of the scene is sharp in some rows, and at another column in each eye; a broken seam is sharp
+// in all.
 Columns measure(const std::vector<Image>& eyes) {
   Columns score(static_cast<size_t>(eyes[0].width));
   for (const Image& eye : eyes) {
@@ -89,7 +90,7 @@ void check_break(const std::vector<Image>& eyes, LintReport& report) {
        "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
 }
 
-// Edges at 0 and at 360 degrees are one direction; both being rendered, every turn of the head finds it twice.
+// Edges at 0 and at 360 degrees are the same direction; if both are rendered, every turn of the head shows it twice.
 void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
   std::vector<double> steps(static_cast<size_t>(eyes[0].width));
   for (int i = 0; i < kBlocks; i++) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What can be said of a picture's size without a look at its pixels.
+// Checks a picture's size without its pixels.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace ods {
 
-constexpr double kVideoRate = 30.0;  // pictures a second
+constexpr double kVideoRate = 30.0;  // pictures per second
 
 static void check_aspect(const Subject& subject, LintReport& report) {
   if (subject.projection().kind == kPerspective) return skip(report, Check::kShape, "a window may have any shape");
@@ -20,7 +20,7 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   const Extent squeeze = squeeze_of(layout, report.eye_count);
   const int width = report.eye.width * squeeze.width, height = report.eye.height * squeeze.height;
   const int natural = natural_height(subject.projection(), width);
-  // Rounding moves an edge by a pixel, squeezing by another.
+  // Rounding moves an edge by one pixel, squeezing by another.
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
   if (off == 0.0) return;
   std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (--range)";

@@ -15,16 +15,16 @@
 namespace ods {
 
 struct LoadedEyes {
-  std::vector<Image> eyes;              // linear light, 3 channels; left and right, or just one
-  std::vector<Image> variance;          // of the noise in `eyes`, if an EXR has variance.R, G and B; else empty
-  LayoutGuess guess;                    // by name, as find_format() finds it
-  std::string projection = "lat-long";  // scene-linear file; else display-encoded, and decoded here
-  bool is_float = false;                // as in StoredPicture
-  std::string color_fault;              // as StoredPicture has it
+  std::vector<Image> eyes;      // linear light, 3 channels; left and right, or just one
+  std::vector<Image> variance;  // variance of the noise in `eyes`, if an EXR has variance.R, G and B; else empty
+  LayoutGuess guess;            // how the file was understood
+  std::string projection = "lat-long";  // by name, as find_format() finds it
+  bool is_float = false;                // scene-linear file; else display-encoded, and decoded here
+  std::string color_fault;              // as in StoredPicture
 };
 
-// %V or %v in the path stands for two files. A given layout is not guessed; kSeparate without %V reads the file as one
-// eye. Squeezed eyes stay squeezed; alpha is dropped. Throws as open_picture().
+// A path with %V or %v names two files. If `layout` is given, it is not guessed; kSeparate without %V reads the file as
+// one eye. Squeezed eyes remain squeezed; alpha is dropped. Throws as open_picture() does.
 LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout = {});
 
 // The luminance of a picture's eyes: 1 channel, linear; NaN and infinity are kept.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A renderer's result: each eye is a separate image, so that nothing bleeds from one into the other.
+// A renderer's result: each eye is a separate image, so that no pixel mixes the two.
 #pragma once
 #include <vector>
 
@@ -29,7 +29,7 @@ struct EyeImage {
 };
 
 // One eye, or left then right, of equal size. Depth, normal and albedo are empty unless requested
-// (RenderOptions::layers), alpha likewise (RenderOptions::transparent).
+// (RenderOptions::layers), and so is alpha (RenderOptions::transparent).
 struct Picture {
   std::vector<EyeImage> eyes;
 };

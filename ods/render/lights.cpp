@@ -39,7 +39,8 @@ std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights) {
   return table;
 }
 
-// Brightness of each texel times its solid angle. A texel's neighbours count, because interpolation spreads them.
+// Brightness of each texel times its solid angle. The neighbours of a texel contribute, because interpolation spreads
+// them.
 static std::vector<double> environment_weights(const Environment& environment) {
   const int w = environment.width, h = environment.height;
   const double pi = std::acos(-1.0);
@@ -78,7 +79,7 @@ static Light make_punctual(const PunctualLight& source) {
   light.direction = source.direction;
   light.intensity = source.intensity;
   light.range = source.range;
-  // KHR_lights_punctual's reference fall-off between the cones.
+  // KHR_lights_punctual's reference attenuation between the cones.
   const float inner = std::cos(source.inner_cone), outer = std::cos(source.outer_cone);
   light.cone_scale = 1.0f / std::max(0.001f, inner - outer);
   light.cone_offset = -outer * light.cone_scale;
@@ -114,7 +115,7 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
 }
 
 static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<double>& powers) {
-  // Textures are read through the kernel, so that they mean the same here and there.
+  // Reads textures through the kernel, so that they have the same meaning here and there.
   LightSampler reader;
   set_scene(reader, scene, table);
   reader.ray_time = 0.5f;
@@ -156,7 +157,7 @@ static void read_environment(const Scene& scene, LightTable& table) {
 
 static void add_environment_light(double scene_radius, LightTable& table, std::vector<double>& powers) {
   table.environment.light = -1;
-  // The weights are radiance times solid angle; the scene offers its cross-section to all of it.
+  // The weights are radiance times solid angle; the scene's cross-section receives all of it.
   double power = table.environment_power * std::acos(-1.0) * scene_radius * scene_radius;
   if (!(power > 0.0)) return;
   const double others = std::accumulate(powers.begin(), powers.end(), 0.0);
@@ -191,7 +192,7 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.tables = kernel_tables(glass).data();
 }
 
-// Most triangles of a gadget with little lamps are dark: left out, the table stays small enough to be at hand.
+// Most triangles of a mesh with small lamps are dark: without them, the table is small enough for the cache.
 static void fill_picks(const std::vector<double>& powers, LightTable& table) {
   std::vector<int> shining;
   std::vector<double> weights;

@@ -9,9 +9,9 @@
 
 namespace ods {
 
-// The camera at a time from 0, when the shutter opens, to 1, when it closes: interpolated between those of `cameras`,
-// which are at even times and near each other. All but place and orientation is that of the middle one. Precondition:
-// at least two.
+// The camera at a time from 0, when the shutter opens, to 1, when it closes. `cameras` are evenly spaced in time and
+// close to each other; position and orientation are interpolated between them. All else is that of the middle camera.
+// Precondition: at least two cameras.
 Camera camera_at(std::span<const Camera> cameras, float time);
 
 }  // namespace ods

@@ -25,7 +25,7 @@ inline constexpr auto kAllEyes = members_of(kEyesTable);
 constexpr std::string_view eyes_name(Eyes eyes) {
   return name_in(kEyesTable, eyes);
 }
-std::vector<int> eye_list(Eyes eyes);  // as EyeImage has them: kLeft, kRight, kMono
+std::vector<int> eye_list(Eyes eyes);  // as in EyeImage: kLeft, kRight, kMono
 
 enum class PixelFilter { kBlackmanHarris, kBox };
 inline constexpr NameRow<PixelFilter> kPixelFilterTable[] = {
@@ -38,7 +38,7 @@ constexpr std::string_view pixel_filter_name(PixelFilter filter) {
   return name_in(kPixelFilterTable, filter);
 }
 
-// Which of the two ways to find light is used; both is right, one alone is for proving that they agree.
+// How paths find light. Use kBoth; the others exist for tests.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
 struct RenderOptions {
@@ -47,17 +47,17 @@ struct RenderOptions {
   int samples = 64;  // per pixel
   int bounces = 8;   // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;
-  PixelFilter filter = PixelFilter::kBlackmanHarris;  // 1.5 pixels radius; the box is 1 pixel wide
-  bool layers = true;        // depth, normal and albedo beside radiance; without them their images are empty
-  bool transparent = false;  // the sky lights the scene and is not seen: where nothing is met, alpha is 0;
-                             // asked for where the scene has catchers (ods/scene/catchers.h)
+  PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide
+  bool layers = true;        // depth, normal and albedo beside radiance; otherwise their images are empty
+  bool transparent = false;  // the sky lights the scene but is invisible: alpha is 0 where a ray hits nothing;
+                             // required if the scene has catchers (ods/scene/catchers.h)
   uint32_t seed = 0;
-  int threads = 0;  // 0: all of the machine's
+  int threads = 0;  // 0: all processors
   LightSampling light_sampling = LightSampling::kBoth;
-  bool last_tile_first = false;  // the other way round: for proving that the order changes nothing
+  bool last_tile_first = false;  // renders the tiles in reverse: for tests that the order changes nothing
 };
 
-// What the Picture of these options takes. Precondition: height > 0.
+// The memory that the Picture of these options needs. Precondition: height > 0.
 size_t picture_bytes(const RenderOptions& options);
 
 }  // namespace ods

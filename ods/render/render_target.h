@@ -9,14 +9,14 @@
 
 namespace ods {
 
-// The options with the height that `stereo`'s projection has by nature, where they say none. Preconditions: those of
+// The options, with the natural height of `stereo`'s projection if they have none. Preconditions: those of
 // RenderOptions' fields.
 RenderOptions with_height(RenderOptions options, const StereoCamera& stereo);
 
-// Throws Error(kMemory) where there is not enough for the picture. Precondition: options.height > 0.
+// Throws Error(kMemory) if there is not enough memory for the picture. Precondition: options.height > 0.
 void check_picture_memory(const RenderOptions& options);
 
-// Black, of the options' size, eyes and layers. Precondition: options.height > 0.
+// A black picture with the options' size, eyes and layers. Precondition: options.height > 0.
 Picture blank_picture(const RenderOptions& options);
 
 }  // namespace ods

@@ -13,8 +13,8 @@
 
 namespace ods {
 
-// A thread that waits for its loop may take up other work meanwhile. Were that a call of kernel_tables(), it would wait
-// for the very table that this thread is filling.
+// A thread that waits for its loop may start other work meanwhile. If that called kernel_tables(), it would wait for
+// the very table that this thread is filling.
 template <typename Function>
 static void isolated_parallel_for(int count, Function function) {
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, count, function); });
@@ -27,7 +27,8 @@ static void fill_srgb(float* table) {
   }
 }
 
-// Four-term Blackman-Harris window of 3 pixels width, integrated from its centre to x in -1.5..1.5, -0.5..0.5 in all.
+// Integral of a four-term Blackman-Harris window, 3 pixels wide, from its centre to x: x is in -1.5..1.5, the result in
+// -0.5..0.5.
 static double window_integral(double x) {
   constexpr double kTerms[4] = {0.35875, 0.48829, 0.14128, 0.01168};
   const double pi = std::acos(-1.0);
@@ -48,8 +49,8 @@ static void fill_filter(float* table) {
   }
 }
 
-// The mean of function(u) over the unit square by a lattice of n points. Light is lost where u.y is close to 1, so
-// there the points are denser; u.x and 1 - u.x are mirror images.
+// The mean of function(u) over the unit square, by a lattice of n points. Light is lost where u.y is close to 1, so the
+// points are denser there; u.x and 1 - u.x are mirror images.
 template <typename Function>
 static vec2 mean_over_normals(int n, Function function) {
   glm::dvec2 sum(0.0);

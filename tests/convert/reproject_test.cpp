@@ -140,7 +140,7 @@ TEST(Reproject, MeetsWhatThePictureShows) {
     const Ray ray = camera_ray(source.camera, kLeft, uv);
     const SurfaceHit met = meet_surface(reprojection, 0, ray);
     ASSERT_TRUE(met.place.seen) << i;
-    EXPECT_EQ(met.place.eye, 0);
+    EXPECT_EQ(met.place.source_eye, 0);
     EXPECT_NEAR(met.place.at.y, uv.y * 128.0f, 0.01f);
     EXPECT_NEAR(met.depth, look_at_world(ray).depth, 1e-3f) << i;
   }

@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <new>
 
 #include "ods/base/error.h"
+#include "ods/base/names.h"
 #include "ods/base/text.h"
 #include "ods/image/codec/openimageio.h"
 #include "ods/image/format/png_chunks.h"
@@ -22,12 +24,14 @@
 namespace ods::openimageio {
 
 const char* plugin_name(FileFormat format) {
-  constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // as FileFormat counts
+  constexpr const char* kNames[] = {"png", "jpeg", "tiff", "webp", "hdr", "openexr"};  // in the order of FileFormat
+  static_assert(std::size(kNames) == enumerator_count<FileFormat>());
   return kNames[static_cast<size_t>(format)];
 }
 
 const char* type_name(SampleType sample) {
-  constexpr const char* kNames[] = {"uint8", "uint16", "half", "float"};  // as Sample counts
+  constexpr const char* kNames[] = {"uint8", "uint16", "half", "float"};  // in the order of SampleType
+  static_assert(std::size(kNames) == enumerator_count<SampleType>());
   return kNames[static_cast<size_t>(sample)];
 }
 
@@ -87,8 +91,8 @@ static OIIO::ImageSpec make_spec(const FileHeader& header) {
 
 namespace {
 
-// Where encoders write. It never reports a failure, because libjpeg would end the process; the stream remembers it for
-// AtomicFile::finish(). On the way it slips a chunk in behind a PNG's header.
+// The output of encoders. It never reports a failure, because libjpeg would end the process; the stream remembers it
+// for AtomicFile::finish(). It inserts a chunk after a PNG's header.
 class Sink final : public OIIO::Filesystem::IOProxy {
  public:
   Sink(std::FILE* stream, std::string chunk) : IOProxy("", Write), stream_(stream), chunk_(std::move(chunk)) {}
@@ -121,19 +125,19 @@ class Sink final : public OIIO::Filesystem::IOProxy {
 
 }  // namespace
 
-// Rows go out in bands: enough for OpenEXR to compress on all cores, few enough that no second picture is in memory.
-// The next band is made meanwhile, as most formats are compressed on one core.
+// Writes rows in bands: large enough for OpenEXR to compress on all cores, small enough that no second picture is in
+// memory. Computes the next band meanwhile, as most formats compress on one core.
 static bool write_rows(OIIO::ImageOutput& output, const FileHeader& header, const RowSource& rows,
                        const std::function<void()>& band_done) {
   const int kBand = 64;
-  // OpenImageIO makes integers of floats well, and halves slowly.
+  // OpenImageIO converts floats to integers well, but to halves slowly.
   std::vector<SampleType> samples;
   size_t pixel_size = 0;
   for (const Channel& channel : header.channels) {
     samples.push_back(channel.sample == SampleType::kHalf ? SampleType::kHalf : SampleType::kFloat);
     pixel_size += bytes_of(samples.back());
   }
-  const bool floats = pixel_size == samples.size() * sizeof(float);  // else as the file has them
+  const bool floats = pixel_size == samples.size() * sizeof(float);  // else in the file's sample types
   const OIIO::TypeDesc type = floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc();
   const size_t width = static_cast<size_t>(header.width), row_size = width * pixel_size;
   std::vector<std::byte> made(row_size * static_cast<size_t>(std::min(kBand, header.height))), written(made.size());
@@ -170,13 +174,13 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   if (!output) throw failed(no_plugin(plugin, "writer"));
 
   Sink sink(file.stream(), header.format == FileFormat::kPng ? gpano_chunk(header.attributes) : std::string());
-  // libtiff goes back and reads what it wrote, which OpenImageIO does not hand through.
+  // libtiff reads back what it wrote, which OpenImageIO's proxy does not pass on.
   if (header.format != FileFormat::kTiff) output->set_ioproxy(&sink);
   const bool written =
       output->open(file.temporary(), make_spec(header)) && write_rows(*output, header, rows, band_done);
   const bool closed = output->close();
-  // A full disk says so itself; what the format's library made of it is of no help. libtiff wrote through a stream of
-  // its own, so ours asks the disk for a little more.
+  // If the disk is full, that is the message to show, not the format library's. libtiff wrote through its own stream,
+  // so ours writes a little more to find out.
   if (!written || !closed) {
     fseeko(file.stream(), 0, SEEK_END);
     const std::vector<char> more(1 << 20);
@@ -194,7 +198,7 @@ const ImageCodec& codec() {
 
 }  // namespace ods::openimageio
 
-// For programs that open this at run time.
+// For programs that load this library at run time.
 extern "C" const ods::ImageCodec* ods_image_codec() {
   return &ods::openimageio::codec();
 }

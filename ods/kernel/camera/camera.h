@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Eye and image position -> ray: the omni-directional stereo camera, a pure function.
-// Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. As StereoCamera's
-// defaults have it, it is that model exactly; the rest is what other systems add to it:
+// Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. StereoCamera's defaults
+// give exactly that model; the rest is what other systems add to it:
 //
-//   a ray of heading F, with R at its right hand, starts at   E + merge * neck * F   with E = merge * side * ipd/2 * R
-//   and looks along the projection's direction d, or, toed in on a distance C, along   C * d - E.
+//   a ray of heading F, with R to its right, starts at   E + merge * neck * F   with E = merge * side * ipd/2 * R
+//   and has the projection's direction d, or, with toe-in at a distance C, the direction   C * d - E.
 //
-// Image positions may lie outside 0..1 (ods/kernel/camera/projection.h): lat-long wraps, and runs on over the pole,
-// where the formula itself continues into the picture of the other eye half a turn away, as a wide pixel filter needs.
+// Image positions may be outside 0..1 (ods/kernel/camera/projection.h): lat-long wraps, and continues over the pole,
+// where the formula itself continues into the other eye's picture half a turn away, as a wide pixel filter needs.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/projection.h"
@@ -21,8 +21,8 @@ const int kRight = 1;
 const int kMono = 2;
 
 const int kParallel = 0;
-const int kToeIn = 1;  // both eyes' rays of one direction meet at the distance
-const int kShift = 2;  // the eyes' pictures are turned against each other: no parallax at the distance
+const int kToeIn = 1;  // the rays of both eyes in one direction meet at the distance
+const int kShift = 2;  // the eyes' pictures are rotated against each other: no parallax at the distance
 const int kConvergenceCount = 3;
 
 struct Camera {
@@ -30,9 +30,9 @@ struct Camera {
   vec3 right;   // an orthonormal frame, right-handed unless the picture is mirrored
   vec3 up;
   vec3 back;
-  vec3 axis;  // in that frame, unit length: what the viewing circle lies square to; (0, 1, 0) is up
+  vec3 axis;  // normal of the viewing circle in that frame, unit length; (0, 1, 0) is up
   float ipd;
-  float neck;  // metres that the eyes stand before the centre
+  float neck;  // distance of the eyes in front of the centre, metres
   int convergence;
   float convergence_distance;
   float lens_radius;     // 0: sharp everywhere
@@ -40,10 +40,10 @@ struct Camera {
   PoleMerge top;
   PoleMerge bottom;
   Projection projection;
-  int map_width;  // of kMergeMap: texels of a lat-long picture, 0..1, rows from the top; 0: none
+  int map_width;  // for kMergeMap: width of a lat-long picture of values 0..1, rows from the top; 0: none
   int map_height;
 #ifdef __cplusplus
-  const float* map = nullptr;  // a shader has them in a buffer
+  const float* map = nullptr;  // a shader reads it from a buffer
 #endif
 };
 
@@ -75,8 +75,8 @@ inline float merge_map_at(Camera camera, vec3 direction) {
              mix(merge_map_texel(camera, bottom + left), merge_map_texel(camera, bottom + right), fx), y - float(y0));
 }
 
-// What the pole merge leaves of the viewing circle for a direction (camera's frame) of elevation phi above its plane.
-// Beyond a pole the elevation falls again.
+// The fraction of the viewing circle's radius that remains after the merge, for a direction (camera's frame) with the
+// elevation phi above the circle's plane. Beyond a pole the elevation decreases again.
 inline float merge_at(Camera camera, vec3 direction, float phi) {
   PoleMerge merge = camera.top;
   if (phi < 0.0f) merge = camera.bottom;
@@ -94,12 +94,12 @@ inline vec3 turn_about(vec3 v, vec3 axis, float angle) {
   return v * cos(angle) + cross(axis, v) * sin(angle) + axis * (dot(axis, v) * (1.0f - cos(angle)));
 }
 
-// The angle by which a picture of kShift is turned to the right.
+// The angle by which kShift rotates an eye's picture to the right.
 inline float shift_angle(Camera camera, int eye) {
   return eye_side(eye) * asin(clamp(0.5f * camera.ipd / camera.convergence_distance, 0.0f, 1.0f));
 }
 
-// A look's heading and elevation belong to the frame's up; these to the camera's axis.
+// Recomputes heading and elevation relative to the camera's axis instead of its up vector.
 inline ViewDirection look_about_axis(Camera camera, ViewDirection look) {
   if (camera.axis.y == 1.0f) return look;
   float height = clamp(dot(look.direction, camera.axis), -1.0f, 1.0f);
@@ -110,8 +110,8 @@ inline ViewDirection look_about_axis(Camera camera, ViewDirection look) {
   return look;
 }
 
-// home: the middle of the pixel to which the position uv belongs. lens: uniform in the unit square, chooses the ray's
-// place on the lens; at x = 0 it is the middle.
+// home: the centre of the pixel to which the position uv belongs. lens: uniform in the unit square, chooses the ray's
+// point on the lens; x = 0 is the lens's centre.
 inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
   ViewDirection look = look_of(camera.projection, home, uv);
   Ray ray;
@@ -130,7 +130,7 @@ inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
   vec3 direction = look.direction;
   if (camera.convergence == kToeIn) direction = normalize(direction * camera.convergence_distance - stereo);
   if (camera.lens_radius > 0.0f) {
-    // A disc about the eye, square to the ray; all its rays meet at the focus distance.
+    // A disc about the eye, perpendicular to the ray; all its rays meet at the focus distance.
     vec3 side = normalize(cross(direction, abs(direction.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f)));
     float r = camera.lens_radius * sqrt(lens.x);
     float phi = 2.0f * kPi * lens.y;
@@ -144,7 +144,7 @@ inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
 }
 
 #ifdef __cplusplus
-// Through the middle of the lens, as if uv were the middle of a pixel.
+// Through the centre of the lens, as if uv were the centre of a pixel.
 inline Ray camera_ray(const Camera& camera, int eye, vec2 uv) {
   return camera_ray(camera, eye, uv, uv, vec2(0.0f, 0.0f));
 }

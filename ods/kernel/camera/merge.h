@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pole merge: the share of the viewing circle that is left at an elevation. The curves are those of the systems that
-// have one (docs/cameras.md names them).
+// Pole merge: the fraction of the viewing circle's radius that remains at an elevation. The curves are those of the
+// systems that merge (docs/cameras.md names them).
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/math.h"
@@ -19,18 +19,19 @@ const int kMergeGaussian = 4;      // eVRydayVR
 const int kMergePower = 5;         // Mandelbulber: 1 - t^exponent
 const int kMergeTiltBrush = 6;     // Google's Unity kit: never below 0.84
 const int kMergeMap = 7;           // a lat-long picture: the VR camera for Arnold's shader mode
-const int kMergeSmootherstep = 8;  // Perlin's curve: without a jump of the second derivative at its ends
+const int kMergeSmootherstep = 8;  // Perlin's curve: its second derivative is continuous at both ends
 const int kMergeCount = 9;
 
-// Elevations in radians from the horizon towards the pole, start < end. t runs 0..1 between them.
+// Elevations in radians from the horizon towards the pole, start < end. t is 0..1 between them.
 struct PoleMerge {
   int mode;
   float start;
   float end;
-  float exponent;  // the curve to this power; of kMergePower, t's own
+  float exponent;  // the curve is raised to this power; for kMergePower, t is
 };
 
-// What is left at an elevation (radians, 0 at the horizon .. pi/2). kMergeMap is not a function of elevation: 1.
+// The fraction that remains at an elevation (radians, 0 at the horizon .. pi/2). kMergeMap is not a function of
+// elevation: 1.
 inline float merge_factor(PoleMerge merge, float elevation) {
   if (merge.mode == kMergeNone || merge.mode == kMergeMap) return 1.0f;
   float t = clamp((elevation - merge.start) / (merge.end - merge.start), 0.0f, 1.0f);

@@ -3,14 +3,15 @@
 //
 // World point -> image position in each eye: the inverse of camera_ray().
 //
-// About the camera's axis let rho be the point's distance from it and y its height above the viewing circle's plane.
-// The ray that meets it starts r to the side and n ahead of the axis, in the heading F with R at its right. Parallel:
+// Let rho be the point's distance from the camera's axis and y its height above the viewing circle's plane.
+// The ray that meets the point starts r to the side of the axis and n in front of it, in the heading F with R to its
+// right. Parallel:
 //   rho^2 = r^2 + L^2 with L = dot(point, F) = n + t cos(phi),   tan(phi) = y / (L - n).
-// Toed in on C it leaves along C d - r R, and at its s-fold
+// With toe-in at C it leaves along C d - r R, and at s times that vector
 //   rho^2 = r^2 (1 - s)^2 + (n + s C cos(phi))^2,   y = s C sin(phi).
-// Without a merge and a neck both have a closed form, and so has r = ipd/2 cos(phi). Else r and n depend on phi, and
-// the equation in phi has one root, since a circle that shrinks towards the poles never makes rays cross: it is
-// bisected.
+// Without a merge and a neck both have a closed form, and so has r = ipd/2 cos(phi). Otherwise r and n depend on phi,
+// and the equation in phi has one root, since a circle that shrinks towards the poles never makes rays cross: bisection
+// finds it.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/camera.h"
@@ -23,8 +24,8 @@ struct ImagePosition {
   bool seen;    // false: no ray of this eye meets the point, or the picture does not reach it
 };
 
-// How the ray of one elevation that is to meet the point lies: its parts across and along the heading, and how much it
-// passes below the point (above: negative).
+// How the ray of one elevation passes the point: the point's coordinates across and along the heading, and the distance
+// by which the ray passes below it (negative: above).
 struct Meeting {
   float across;  // dot(point, R)
   float along;   // dot(point, F)
@@ -32,7 +33,7 @@ struct Meeting {
   float depth;
 };
 
-// r, n: merged already. Points nearer to the axis than r are met by no ray; the nearest that is stands in.
+// r, n: after the merge. No ray meets points nearer to the axis than r; the nearest ray is used instead.
 inline Meeting meet(Camera camera, float r, float n, float rho, float y, float phi) {
   Meeting meeting;
   meeting.across = r;
@@ -106,7 +107,7 @@ inline ImagePosition project_point(Camera camera, int eye, vec3 point) {
   vec3 toward = rho > 0.0f ? level * (1.0f / rho) : vec3(0.0f, 0.0f, -1.0f);
   float side = eye_side(eye);
   float r = side == 0.0f ? 0.0f : 0.5f * camera.ipd;
-  // A merge map asks for the ray's heading, which is nearly the point's: a few rounds find it.
+  // A merge map needs the ray's heading, which is nearly the point's: a few iterations find it.
   int rounds = camera.top.mode == kMergeMap || camera.bottom.mode == kMergeMap ? 5 : 1;
   vec3 heading = toward;
   vec3 direction = toward;
@@ -116,7 +117,7 @@ inline ImagePosition project_point(Camera camera, int eye, vec3 point) {
     float phi = elevation_of(camera, r, rho, y, heading);
     left = merge_at(camera, heading * cos(phi) + camera.axis * sin(phi), phi);
     meeting = meet(camera, r * left, camera.neck * left, rho, abs(y), abs(phi));
-    // The heading F from the point's own: dot(point, F) = along, dot(point, R) = side * across.
+    // The heading F from the point's own heading: dot(point, F) = along, dot(point, R) = side * across.
     float size = max(sqrt(meeting.along * meeting.along + meeting.across * meeting.across), 1e-30f);
     heading = (toward * meeting.along - cross(toward, camera.axis) * (side * meeting.across)) * (1.0f / size);
     direction = heading * cos(phi) + camera.axis * sin(phi);

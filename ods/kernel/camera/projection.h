@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Projections: image position <-> direction, each with its exact inverse. To add one: a number, a function each way, a
-// name in ods/camera/projection.cpp, and the tests that run every member. Where code asks for a kind and no compiler
-// can tell that the new one is missing, a static_assert of kProjectionCount says so.
+// Projections: image position <-> direction, each with its exact inverse. CONTRIBUTING.md lists what a new one needs.
+// Where code asks for a kind and no compiler can tell that a new one is missing, a static_assert of kProjectionCount
+// does.
 //
-// Image positions: u runs 0..1 from left to right, v 0..1 from top to bottom of one eye's picture. Directions are in
-// the camera's frame: x right, y up, z back; theta is the heading, 0 ahead and positive to the right, phi the
+// Image positions: u is 0..1 from left to right, v is 0..1 from top to bottom of one eye's picture. Directions are in
+// the camera's frame: x right, y up, z back. theta is the heading, 0 ahead and positive to the right; phi is the
 // elevation.
 #ifdef __cplusplus
 #pragma once
@@ -14,20 +14,20 @@
 namespace ods {
 #endif
 
-const int kLatLong = 0;             // theta and phi run evenly, over the whole sphere or a part of it
-const int kCylinder = 1;            // theta runs evenly, and so does the tangent of phi
-const int kFisheye = 2;             // equidistant: the angle from the lens axis grows evenly
-const int kFisheyeEquisolid = 3;    // equal areas see equal solid angles
-const int kPerspective = 4;         // a flat window; with 90 degrees a face of a cube
-const int kCube3x2 = 5;             // as the VR camera for Arnold packs them
+const int kLatLong = 0;             // linear in theta and phi, over the whole sphere or a part of it
+const int kCylinder = 1;            // linear in theta and in the tangent of phi
+const int kFisheye = 2;             // equidistant: the radius is proportional to the angle from the lens axis
+const int kFisheyeEquisolid = 3;    // equal areas have equal solid angles
+const int kPerspective = 4;         // a flat window; with 90 degrees it is a face of a cube
+const int kCube3x2 = 5;             // as the VR camera for Arnold arranges the faces
 const int kCube6x1 = 6;             // likewise ("NVIDIA" order)
 const int kCube1x6 = 7;             // the faces of kCube6x1 in a column
-const int kEac = 8;                 // equi-angular cube, 3x2 as players of 360 video have it
-const int kEacFace = 9;             // one face of it, which can be pointed
+const int kEac = 8;                 // equi-angular cube, 3x2 as players of 360 video expect it
+const int kEacFace = 9;             // one face of it, which can be pointed in any direction
 const int kFisheyePolynomial = 10;  // the angle from the lens axis is a polynomial of the radius on a sensor
 const int kProjectionCount = 11;
 
-// Headings and heights run evenly from edge to edge.
+// Headings and heights are linear from edge to edge.
 inline bool has_range(int kind) {
   return kind == kLatLong || kind == kCylinder;
 }
@@ -36,49 +36,50 @@ inline bool is_fisheye(int kind) {
   return kind == kFisheye || kind == kFisheyeEquisolid;
 }
 
-// The picture is a circle, Projection::circle; outside it the frame is empty. A fisheye's touches the frame's edges.
+// The picture is an ellipse, Projection::circle; outside it the frame is empty. A fisheye's circle touches the frame's
+// edges.
 inline bool has_image_circle(int kind) {
   return is_fisheye(kind) || kind == kFisheyePolynomial;
 }
 
-// Has an angle of view that can be set.
+// Has an angle of view that users can set.
 inline bool has_fov(int kind) {
   return has_image_circle(kind) || kind == kPerspective;
 }
 
-// Can be pointed.
+// Users can point the lens.
 inline bool has_lens(int kind) {
   return has_fov(kind) || kind == kEacFace;
 }
 
-// Six faces, each in a cell of its own.
+// Six faces, each in its own cell.
 inline bool is_cube(int kind) {
   return kind == kCube3x2 || kind == kCube6x1 || kind == kCube1x6 || kind == kEac;
 }
 
 struct Projection {
   int kind;
-  vec2 center;  // kLatLong, kCylinder: theta and phi of the picture's middle, radians; kCylinder: tan(phi)
-  vec2 span;    // and how far the picture reaches from edge to edge, likewise
+  vec2 center;  // kLatLong, kCylinder: theta and phi of the picture's centre, radians; kCylinder: tan(phi)
+  vec2 span;    // the range that the picture covers from edge to edge, likewise
   float angle;  // kFisheye...: from edge to edge of the image circle, radians
-  vec2 circle;  // has_image_circle(): its half axes, where 1 is half the frame's width or height
+  vec2 circle;  // has_image_circle(): its half axes, in units of half the frame's width and height
   vec2 sensor;  // kFisheyePolynomial: the frame's width and height, millimetres
-  float k0;     // and what stands before the radius to the power of 0, 1 .. in minus the angle, radians
+  float k0;     // and the coefficients of the radius to the power of 0, 1 .. in minus the angle, radians
   float k1;
   float k2;
   float k3;
   float k4;
   vec2 half_size;   // kPerspective: tangents of half the horizontal and vertical angle
-  vec3 lens_right;  // has_lens(): where the lens points, in the camera's frame
+  vec3 lens_right;  // has_lens(): the orientation of the lens, in the camera's frame
   vec3 lens_up;
   vec3 lens_back;
 };
 
-// Where an image position looks.
+// The direction that an image position looks in.
 struct ViewDirection {
   vec3 direction;   // unit length
   vec3 heading;     // (sin theta, 0, -cos theta)
-  float elevation;  // phi; beyond +-pi/2 where a lat-long picture goes on over its pole
+  float elevation;  // phi; beyond +-pi/2 where a lat-long picture continues over its pole
   bool seen;        // false: the picture is empty there
 };
 
@@ -113,7 +114,7 @@ inline vec2 direction_to_lat_long(vec3 d) {
   return vec2(0.5f + atan(d.x, -d.z) * (0.5f / kPi), 0.5f - atan(d.y, sqrt(d.x * d.x + d.z * d.z)) * (1.0f / kPi));
 }
 
-// u of a heading, moved by whole turns to the picture's side of the sphere.
+// u of a heading, shifted by whole turns to the picture's side of the sphere.
 inline float place_heading(Projection projection, vec3 direction) {
   float off = atan(direction.x, -direction.z) - projection.center.x;
   float turns = off * (0.5f / kPi) + 0.5f;
@@ -181,18 +182,20 @@ inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
   ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
-  if (out_of_axis == 0.0f && p.z > 0.0f) place.uv.x = 0.5f + 0.5f * r;  // straight behind is the whole rim
+  if (out_of_axis == 0.0f && p.z > 0.0f)
+    place.uv.x = 0.5f + 0.5f * r;  // the direction straight behind is the whole rim
   place.seen = r <= 1.0f;
   return place;
 }
 
-// Source: Cycles, fisheye_lens_polynomial_to_direction(). Angles below 0, beside the axis, are taken as 0.
+// Source: Cycles, fisheye_lens_polynomial_to_direction(). Angles below 0, near the axis, become 0.
 inline float polynomial_angle(Projection projection, float r) {
   float k = projection.k1 + r * (projection.k2 + r * (projection.k3 + r * projection.k4));
   return max(-(projection.k0 + r * k), 0.0f);
 }
 
-// How much it grows for a millimetre. Above 0 as far as the picture reaches: projection_fault() sees to it.
+// The derivative of the angle, radians per millimetre. It is above 0 within the picture: projection_fault() ensures
+// that.
 inline float polynomial_slope(Projection projection, float r) {
   return -(projection.k1 + r * (2.0f * projection.k2 + r * (3.0f * projection.k3 + r * 4.0f * projection.k4)));
 }
@@ -207,8 +210,8 @@ inline ViewDirection polynomial_look(Projection projection, vec2 home, vec2 uv) 
   return look;
 }
 
-// Newton's method, kept between two radii that have the angle between theirs. Beyond the circle the radius goes on in
-// proportion.
+// Newton's method, kept between two radii whose angles enclose the given one. Beyond the circle the radius is
+// proportional to the angle.
 inline float polynomial_radius(Projection projection, float angle) {
   float high = 0.5f * projection.circle.x * projection.sensor.x;
   float widest = polynomial_angle(projection, high);
@@ -234,7 +237,7 @@ inline ImagePoint polynomial_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
   float r = polynomial_radius(projection, atan(out_of_axis, -p.z));
-  vec2 outwards = vec2(p.z > 0.0f ? 1.0f : 0.0f, 0.0f);  // straight behind is the whole rim
+  vec2 outwards = vec2(p.z > 0.0f ? 1.0f : 0.0f, 0.0f);  // the direction straight behind is the whole rim
   if (out_of_axis > 0.0f) outwards = vec2(p.x, p.y) * (1.0f / out_of_axis);
   ImagePoint place;
   place.uv = vec2(0.5f + outwards.x * r / projection.sensor.x, 0.5f - outwards.y * r / projection.sensor.y);
@@ -270,7 +273,7 @@ inline ImagePoint eac_face_place(Projection projection, vec3 direction) {
   return place;
 }
 
-// One face of a cube around the camera: its middle, and where its picture's right and top edge lie from there.
+// One face of a cube around the camera: its centre, and the directions from there to its picture's right and top edge.
 struct CubeFace {
   vec3 middle;
   vec3 right;
@@ -289,7 +292,7 @@ inline int cube_columns(int kind) {
   return kind == kCube6x1 ? 6 : kind == kCube1x6 ? 1 : 3;
 }
 
-// The face in a cell, counted in reading order.
+// The face in a cell; cells are counted in reading order.
 inline CubeFace cube_cell(int kind, int cell) {
   vec3 x = vec3(1.0f, 0.0f, 0.0f);
   vec3 y = vec3(0.0f, 1.0f, 0.0f);
@@ -318,7 +321,7 @@ inline CubeFace cube_cell(int kind, int cell) {
   return cube_face(-y, -x, z);
 }
 
-// Beyond the edge of its home cell a face goes on as the plane it is.
+// Beyond the edge of its home cell a face continues as the plane that it is.
 inline ViewDirection cube_look(int kind, vec2 home, vec2 uv) {
   int columns = cube_columns(kind);
   int rows = 6 / columns;
@@ -361,8 +364,8 @@ inline ImagePoint cube_place(int kind, vec3 direction) {
   return place;
 }
 
-// Where an image position looks. home: the middle of the pixel it belongs to, which decides about faces and edges; a
-// pixel filter may reach beyond them, and sees the face or the sphere go on there.
+// The direction that an image position looks in. home: the centre of the pixel that the position belongs to, which
+// decides about faces and edges; a pixel filter may reach beyond them, and sees the face or the sphere continue there.
 inline ViewDirection look_of(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kLatLong) return lat_long_look(projection, uv);
   if (projection.kind == kCylinder) return cylinder_look(projection, uv);
@@ -371,12 +374,12 @@ inline ViewDirection look_of(Projection projection, vec2 home, vec2 uv) {
   if (is_cube(projection.kind)) return cube_look(projection.kind, home, uv);
   if (projection.kind == kEacFace) return eac_face_look(projection, uv);
   if (projection.kind == kFisheyePolynomial) return polynomial_look(projection, home, uv);
-  ViewDirection nothing = lat_long_look(projection, uv);  // no projection
+  ViewDirection nothing = lat_long_look(projection, uv);  // no such projection
   nothing.seen = false;
   return nothing;
 }
 
-// Where a direction (any length but 0) lies in the picture.
+// The position of a direction (any length but 0) in the picture.
 inline ImagePoint place_of(Projection projection, vec3 direction) {
   if (projection.kind == kLatLong) return lat_long_place(projection, direction);
   if (projection.kind == kCylinder) return cylinder_place(projection, direction);

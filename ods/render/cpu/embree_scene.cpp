@@ -15,7 +15,7 @@
 
 #include "ods/scene/placement.h"
 
-// All that differs between Embree 3 and 4.
+// All differences between Embree 3 and 4.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 
@@ -65,15 +65,15 @@ struct RayContext {
 
 }  // namespace
 
-// A geometry's number in its scene is the number of our instance. Where something moves, all that does not is one
-// instance more in the top scene.
+// A geometry's number in its scene is the number of our instance. If something moves, everything that does not is one
+// additional instance in the top scene.
 struct EmbreeScene::Handles {
   const Scene* scene = nullptr;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
-  RTCScene still = nullptr;      // null where nothing moves
+  RTCScene still = nullptr;      // null if nothing moves
   uint still_id = 0;             // in the top scene
-  std::vector<RTCScene> shared;  // by mesh, null where the mesh is copied
+  std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
   std::vector<char> moves;       // by instance
 
   Handles() = default;
@@ -93,7 +93,7 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree asks this for each candidate hit on a surface with alpha.
+// Embree calls this for each candidate hit on a surface with alpha.
 static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] != -1) return;
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -112,7 +112,7 @@ static uint key_count(const Scene& scene, int motion) {
   return motion < 0 ? 1u : static_cast<uint>(scene.motion_keys);
 }
 
-// A mesh's vertices at a key of the shutter; placed: moved by the instance's matrix.
+// A mesh's vertices at a key of the shutter; placed: the instance whose matrix transforms them, or null.
 static void write_positions(const Scene& scene, const Mesh& mesh, uint key, const Instance* placed, float* positions) {
   const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
   const MotionVertex* bent = nullptr;
@@ -124,7 +124,7 @@ static void write_positions(const Scene& scene, const Mesh& mesh, uint key, cons
   }
 }
 
-// A mesh's triangles as Embree geometry; placed: with the instance's matrix applied to copies of the vertices.
+// A mesh's triangles as Embree geometry; placed: the instance whose matrix transforms copies of the vertices, or null.
 static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const uint keys = key_count(scene, mesh.motion);
@@ -153,7 +153,7 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
 
 static RTCScene new_scene(RTCDevice device) {
   RTCScene scene = rtcNewScene(device);
-  // Without the robust flag a few rays in a million slip between triangles that touch.
+  // Without the robust flag a few rays in a million slip between adjacent triangles.
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   return scene;
 }
@@ -193,7 +193,7 @@ static std::vector<char> moving_instances(const Scene& scene) {
   return moves;
 }
 
-// Which meshes are instanced: those that move, and those of which there would be too many copies.
+// Which meshes are instanced: those that move, and those that would need too many copies.
 static std::vector<bool> choose_shared(const Scene& scene, const std::vector<char>& moves,
                                        size_t max_copied_triangles) {
   std::vector<size_t> uses(scene.meshes.size());
@@ -256,7 +256,7 @@ void EmbreeScene::update(const SceneChange& change) {
   if (change.instances.empty() && change.meshes.empty()) return;
   for (const int mesh : change.meshes) {
     RTCScene tree = handles_->shared[static_cast<size_t>(mesh)];
-    if (!tree) continue;  // no instance wears it
+    if (!tree) continue;  // no instance uses it
     RTCGeometry triangles = rtcGetGeometry(tree, 0);
     const Mesh& record = scene.meshes[static_cast<size_t>(mesh)];
     for (uint key = 0; key < key_count(scene, record.motion); key++) {

@@ -28,14 +28,15 @@ namespace {
 
 constexpr int kTileSize = 16;
 
-// All that stays the same from pixel to pixel.
+// Everything that is the same for all pixels.
 struct Job {
   const EmbreeScene& embree;
   PathTracer tracer;
-  std::span<const Camera> cameras;  // at even times from the opening of the shutter to its closing; one: it stands
-  Camera camera;                    // in the middle of them
-  bool shutter;                     // every sample has a time of its own
-  Media media;                      // that the camera stands in
+  std::span<const Camera>
+      cameras;    // evenly spaced in time from the shutter's opening to its closing; one: a static camera
+  Camera camera;  // the middle one
+  bool shutter;   // every sample has its own time
+  Media media;    // the volumes that the camera is in
   RenderOptions options;
   PathSettings settings;
   int filter;
@@ -49,7 +50,7 @@ struct Pixel {
   float alpha = 0.0f;
 };
 
-// The render loop. Inlining all of the kernel here, and the camera below, makes it a quarter faster.
+// The render loop. Inlining the whole kernel here, and the camera below, makes it a quarter faster.
 [[gnu::flatten]] void trace_path(Job& job, const PathSettings& settings) {
   PathTracer& tracer = job.tracer;
   const PathState& path = tracer.path;
@@ -66,7 +67,7 @@ vec2 pixel_center(const Job& job, int x, int y) {
           (static_cast<float>(y) + 0.5f) / static_cast<float>(job.options.height)};
 }
 
-// Depths are not averaged: they belong to the ray through the pixel's centre.
+// Depths are not averaged: a depth belongs to the ray through the pixel's centre.
 float center_depth(Job& job, int eye, int x, int y, uint seed) {
   const Ray ray = camera_ray(job.camera, eye, pixel_center(job, x, y));
   if (ray.direction == vec3(0.0f)) return kFarDepth;
@@ -89,7 +90,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   const vec2 home = pixel_center(job, x, y);
   Pixel pixel;
   int caught = 0;
-  double light_with = 0.0, light_without = 0.0;  // at catchers
+  double light_with = 0.0, light_without = 0.0;  // for catchers
   for (int i = 0; i < job.options.samples; i++) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
@@ -102,7 +103,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
     if (ray.direction == vec3(0.0f)) return {};
     job.tracer.start_path(ray, job.media, seed, index);
     trace_path(job, job.settings);
-    if (job.options.transparent && path.depth < 0.0f) continue;  // it met nothing
+    if (job.options.transparent && path.depth < 0.0f) continue;  // the path hit nothing
     if (path.caught) {
       caught++;
       light_with += double{path.light_with}, light_without += double{path.light_without};
@@ -130,7 +131,7 @@ void put(Image& image, int x, int y, vec3 value) {
   at[0] = value.x, at[1] = value.y, at[2] = value.z;
 }
 
-// The job by value: a tile traces with a path state of its own.
+// Takes the job by value: each tile traces with its own path state.
 void render_tile(Job job, int tile, EyeImage& image) {
   const int width = image.radiance.width, height = image.radiance.height;
   const int across = (width + kTileSize - 1) / kTileSize;
@@ -148,7 +149,7 @@ void render_tile(Job job, int tile, EyeImage& image) {
   }
 }
 
-// Both eyes' tiles in one pool of work; progress is told by whoever finishes a tile.
+// Renders both eyes' tiles from one pool of work; the thread that finishes a tile reports progress.
 void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
   const Image& first = picture.eyes.front().radiance;
   const int per_eye = ((first.width + kTileSize - 1) / kTileSize) * ((first.height + kTileSize - 1) / kTileSize);

@@ -14,23 +14,24 @@
 
 namespace ods {
 
-// A scene ready to be rendered, for videos: from one frame to the next only what moves is made anew.
+// A scene ready to be rendered, for videos: from one frame to the next only what moves is rebuilt.
 class CpuRenderer {
  public:
-  // threads: 0 for all of the machine's. The scene must outlive this object.
+  // threads: 0 for all processors. The scene must outlive this object.
   explicit CpuRenderer(const Scene& scene, int threads = 0);
   ~CpuRenderer();
 
-  // What set_time() has changed in the scene.
+  // Applies what set_time() changed in the scene.
   void update(const SceneChange& change);
 
-  // As render_cpu(), which it is on a new CpuRenderer, bit for bit, whatever was rendered before. options.threads does
-  // not count.
+  // Renders as render_cpu() does on a new CpuRenderer, bit for bit, whatever was rendered before. options.threads is
+  // ignored.
   Picture render(const StereoCamera& camera, const RenderOptions& options, const Progress& progress = {}) const;
 
-  // The same with a camera that moves while the shutter is open: where it is at even times from its opening to its
-  // closing, an odd number of them; all but its place and orientation is that of the middle, and so is the depth layer.
-  // With open_shutter() the scene moves as well: every sample is of a time of its own, evenly spread.
+  // Likewise with a camera that moves while the shutter is open. path: the camera at evenly spaced times from the
+  // shutter's opening to its closing, an odd number of them; all but position and orientation is that of the middle
+  // camera, and so is the depth layer. With open_shutter() the scene moves as well: every sample has its own time,
+  // evenly distributed.
   Picture render(std::span<const StereoCamera> path, const RenderOptions& options, const Progress& progress = {}) const;
 
  private:
@@ -38,10 +39,10 @@ class CpuRenderer {
   std::unique_ptr<Parts> parts_;
 };
 
-// Renders every eye asked for. The same arguments give the same bits, whatever the number of threads.
-// Throws Error: kCancelled when progress says so, kMemory before anything else when the machine has too little for the
-// picture (picture_bytes).
-// Precondition: width a positive number, samples and bounces not negative (samples > 0), threads >= 0.
+// Renders every requested eye. The same arguments give the same bits, whatever the number of threads.
+// Throws Error: kCancelled if progress requests it; kMemory, before anything else, if the machine has too little memory
+// for the picture (picture_bytes).
+// Precondition: width > 0, samples > 0, bounces >= 0, threads >= 0.
 Picture render_cpu(const Scene& scene, const StereoCamera& camera, const RenderOptions& options,
                    const Progress& progress = {});
 
