@@ -141,8 +141,8 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, bounces, eyes, filter, layers, transparent, seed, threads, light_sampling,
-               last_tile_first] = options;
+  const auto& [width, height, samples, bounces, eyes, filter, layers, transparent, statistics, seed, threads,
+               light_sampling, last_tile_first] = options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
   add_number(settings, "--samples", samples);
@@ -151,6 +151,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add(settings, "--filter", std::string(ods::pixel_filter_name(filter)));
   add_flag(settings, "layers", layers);
   add_flag(settings, "--transparent", transparent);
+  add_flag(settings, "statistics", statistics);
   add(settings, "--seed", fmt::format("{}", seed));
 }
 

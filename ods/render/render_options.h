@@ -51,6 +51,7 @@ struct RenderOptions {
   bool layers = true;        // depth, normal and albedo beside radiance; otherwise their images are empty
   bool transparent = false;  // the sky lights the scene but is invisible: alpha is 0 where a ray hits nothing;
                              // required if the scene has catchers (ods/scene/catchers.h)
+  bool statistics = false;   // variance and samples beside radiance
   uint32_t seed = 0;
   int threads = 0;  // 0: all processors
   LightSampling light_sampling = LightSampling::kBoth;

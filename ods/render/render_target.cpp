@@ -28,6 +28,7 @@ Picture blank_picture(const RenderOptions& options) {
     const int w = options.width, h = options.height;
     EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}, {}});
     if (options.transparent) image.alpha = Image(w, h, 1);
+    if (options.statistics) image.variance = Image(w, h, 3), image.samples = Image(w, h, 1);
     if (!options.layers) continue;
     image.depth = Image(w, h, 1);
     image.normal = image.albedo = Image(w, h, 3);

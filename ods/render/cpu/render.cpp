@@ -48,6 +48,7 @@ struct Pixel {
   vec3 albedo{0.0f};
   float depth = kFarDepth;
   float alpha = 0.0f;
+  vec3 variance{0.0f};
 };
 
 // The render loop. Inlining the whole kernel here, and the camera below, makes it a quarter faster.
@@ -83,6 +84,13 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   return depth < 0.0f ? kFarDepth : depth;
 }
 
+// From the sum of the samples' squares and their mean.
+vec3 variance_of_mean(glm::dvec3 squares, glm::dvec3 mean, int samples) {
+  if (samples < 2) return vec3(0.0f);
+  const glm::dvec3 scatter = squares - mean * mean * double(samples);
+  return max(scatter / (double(samples) * (samples - 1)), 0.0);
+}
+
 [[gnu::flatten]] Pixel render_pixel(Job& job, int eye, int x, int y) {
   const int width = job.options.width, height = job.options.height;
   const uint seed = hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), static_cast<uint>(y * width + x));
@@ -91,6 +99,7 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
   Pixel pixel;
   int caught = 0;
   double light_with = 0.0, light_without = 0.0;  // for catchers
+  glm::dvec3 squares(0.0);
   for (int i = 0; i < job.options.samples; i++) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
@@ -111,12 +120,14 @@ float center_depth(Job& job, int eye, int x, int y, uint seed) {
     }
     pixel.alpha += 1.0f;
     pixel.radiance += path.radiance;
+    if (job.options.statistics) squares += glm::dvec3(path.radiance) * glm::dvec3(path.radiance);
     pixel.normal += path.normal;
     pixel.albedo += path.albedo;
   }
   if (light_without > 0.0) pixel.alpha += static_cast<float>(caught * (1.0 - light_with / light_without));
   const float share = 1.0f / static_cast<float>(job.options.samples);
   pixel.radiance *= share;
+  pixel.variance = variance_of_mean(squares, pixel.radiance, job.options.samples);
   pixel.normal *= share;
   pixel.albedo *= share;
   pixel.alpha *= share;
@@ -141,6 +152,10 @@ void render_tile(Job job, int tile, EyeImage& image) {
       const Pixel pixel = render_pixel(job, image.eye, x, y);
       put(image.radiance, x, y, pixel.radiance);
       if (job.options.transparent) *image.alpha.at(x, y) = pixel.alpha;
+      if (job.options.statistics) {
+        put(image.variance, x, y, pixel.variance);
+        *image.samples.at(x, y) = static_cast<float>(job.options.samples);
+      }
       if (!job.options.layers) continue;
       put(image.normal, x, y, pixel.normal);
       put(image.albedo, x, y, pixel.albedo);
