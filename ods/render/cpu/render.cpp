@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <chrono>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -20,13 +22,14 @@
 #include "ods/render/lights.h"
 #include "ods/render/media_at.h"
 #include "ods/render/moving_camera.h"
+#include "ods/render/passes.h"
+#include "ods/render/picture_samples.h"
 #include "ods/render/render_target.h"
+#include "ods/render/sampling_plan.h"
 #include "ods/scene/catchers.h"
 
 namespace ods {
 namespace {
-
-constexpr int kTileSize = 16;
 
 // Everything that is the same for all pixels.
 struct Job {
@@ -40,15 +43,7 @@ struct Job {
   RenderOptions options;
   PathSettings settings;
   int filter;
-};
-
-struct Pixel {
-  vec3 radiance{0.0f};
-  vec3 normal{0.0f};
-  vec3 albedo{0.0f};
-  float depth = kFarDepth;
-  float alpha = 0.0f;
-  vec3 variance{0.0f};
+  double unit;  // layer_unit()
 };
 
 // The render loop. Inlining the whole kernel here, and the camera below, makes it a quarter faster.
@@ -68,39 +63,57 @@ vec2 pixel_center(const Job& job, int x, int y) {
           (static_cast<float>(y) + 0.5f) / static_cast<float>(job.options.height)};
 }
 
+uint pixel_seed(const Job& job, int eye, int x, int y) {
+  const uint pixel = static_cast<uint>(y * job.options.width + x);
+  return hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), pixel);
+}
+
 // Depths are not averaged: a depth belongs to the ray through the pixel's centre.
-float center_depth(Job& job, int eye, int x, int y, uint seed) {
+float center_depth(Job& job, int eye, int x, int y) {
   const Ray ray = camera_ray(job.camera, eye, pixel_center(job, x, y));
   if (ray.direction == vec3(0.0f)) return kFarDepth;
   PathSettings first_hit_only = job.settings;
   first_hit_only.bounces = 0;
   PathTracer& tracer = job.tracer;
   tracer.ray_time = 0.5f;
-  tracer.start_path(ray, job.media, seed, 0u);
+  tracer.start_path(ray, job.media, pixel_seed(job, eye, x, y), 0u);
   while (tracer.path.alive && !tracer.path.caught) {
     tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
   }
   const float depth = tracer.path.depth;
-  return depth < 0.0f ? kFarDepth : depth;
+  return depth < 0.0f ? kFarDepth : tracer.path.caught ? -depth : depth;
 }
 
-// From the sum of the samples' squares and their mean.
-vec3 variance_of_mean(glm::dvec3 squares, glm::dvec3 mean, int samples) {
-  if (samples < 2) return vec3(0.0f);
-  const glm::dvec3 scatter = squares - mean * mean * double(samples);
-  return max(scatter / (double(samples) * (samples - 1)), 0.0);
+// What one pixel's samples of one pass add up to.
+struct PixelSums {
+  int64_t light[3] = {};
+  double squares[3] = {};
+  int32_t normal[3] = {};
+  int32_t albedo[3] = {};
+  uint32_t hits = 0;
+  uint32_t caught = 0;
+  double light_with = 0.0;
+  double light_without = 0.0;
+};
+
+void add_path(const PathState& path, double unit, PixelSums& sums) {
+  for (int c = 0; c < 3; c++) {
+    const double light = double{std::min(std::max(path.radiance[c], 0.0f), kBrightestSample)};
+    sums.light[c] += std::llrint(light * kLightUnit);
+    sums.squares[c] += light * light;
+    sums.normal[c] += static_cast<int32_t>(std::lrint(double{path.normal[c]} * unit));
+    sums.albedo[c] += static_cast<int32_t>(std::lrint(double{path.albedo[c]} * unit));
+  }
 }
 
-[[gnu::flatten]] Pixel render_pixel(Job& job, int eye, int x, int y) {
+// Traces the samples first .. last - 1 of a pixel.
+[[gnu::flatten]] PixelSums trace_pixel(Job& job, int eye, int x, int y, int first, int last) {
   const int width = job.options.width, height = job.options.height;
-  const uint seed = hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), static_cast<uint>(y * width + x));
+  const uint seed = pixel_seed(job, eye, x, y);
   const PathState& path = job.tracer.path;
   const vec2 home = pixel_center(job, x, y);
-  Pixel pixel;
-  int caught = 0;
-  double light_with = 0.0, light_without = 0.0;  // for catchers
-  glm::dvec3 squares(0.0);
-  for (int i = 0; i < job.options.samples; i++) {
+  PixelSums sums;
+  for (int i = first; i < last; i++) {
     const uint index = static_cast<uint>(i);
     const vec2 place = random_pair(seed, index, kPixelPair);
     const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, place);
@@ -114,71 +127,68 @@ vec3 variance_of_mean(glm::dvec3 squares, glm::dvec3 mean, int samples) {
     trace_path(job, job.settings);
     if (job.options.transparent && path.depth < 0.0f) continue;  // the path hit nothing
     if (path.caught) {
-      caught++;
-      light_with += double{path.light_with}, light_without += double{path.light_without};
-      continue;
+      sums.caught++;
+      sums.light_with += double{path.light_with}, sums.light_without += double{path.light_without};
+    } else {
+      sums.hits++;
+      add_path(path, job.unit, sums);
     }
-    pixel.alpha += 1.0f;
-    pixel.radiance += path.radiance;
-    if (job.options.statistics) squares += glm::dvec3(path.radiance) * glm::dvec3(path.radiance);
-    pixel.normal += path.normal;
-    pixel.albedo += path.albedo;
   }
-  if (light_without > 0.0) pixel.alpha += static_cast<float>(caught * (1.0 - light_with / light_without));
-  const float share = 1.0f / static_cast<float>(job.options.samples);
-  pixel.radiance *= share;
-  pixel.variance = variance_of_mean(squares, pixel.radiance, job.options.samples);
-  pixel.normal *= share;
-  pixel.albedo *= share;
-  pixel.alpha *= share;
-  if (!job.options.layers) return pixel;
-  pixel.depth = center_depth(job, eye, x, y, seed);
-  if (path.caught && !(pixel.alpha > 0.0f)) pixel.depth = kFarDepth;
-  return pixel;
+  return sums;
 }
 
-void put(Image& image, int x, int y, vec3 value) {
-  float* at = image.at(x, y);
-  at[0] = value.x, at[1] = value.y, at[2] = value.z;
+void add_pixel(const PixelSums& sums, size_t pixel, EyeSamples& eye) {
+  for (size_t c = 0; c < 3; c++) {
+    eye.light[3 * pixel + c] += sums.light[c];
+    if (!eye.squares.empty()) eye.squares[3 * pixel + c] += sums.squares[c];
+    if (eye.normal.empty()) continue;
+    eye.normal[3 * pixel + c] += sums.normal[c];
+    eye.albedo[3 * pixel + c] += sums.albedo[c];
+  }
+  if (eye.hits.empty()) return;
+  eye.hits[pixel] += sums.hits;
+  eye.caught[pixel] += sums.caught;
+  eye.light_with[pixel] += sums.light_with;
+  eye.light_without[pixel] += sums.light_without;
 }
 
-// Takes the job by value: each tile traces with its own path state.
-void render_tile(Job job, int tile, EyeImage& image) {
-  const int width = image.radiance.width, height = image.radiance.height;
-  const int across = (width + kTileSize - 1) / kTileSize;
-  const int x0 = tile % across * kTileSize, y0 = tile / across * kTileSize;
-  for (int y = y0; y < std::min(y0 + kTileSize, height); y++) {
-    for (int x = x0; x < std::min(x0 + kTileSize, width); x++) {
-      const Pixel pixel = render_pixel(job, image.eye, x, y);
-      put(image.radiance, x, y, pixel.radiance);
-      if (job.options.transparent) *image.alpha.at(x, y) = pixel.alpha;
-      if (job.options.statistics) {
-        put(image.variance, x, y, pixel.variance);
-        *image.samples.at(x, y) = static_cast<float>(job.options.samples);
-      }
-      if (!job.options.layers) continue;
-      put(image.normal, x, y, pixel.normal);
-      put(image.albedo, x, y, pixel.albedo);
-      *image.depth.at(x, y) = pixel.depth;
+// The samples from..to - 1 of all noisy pixels, or the share of them that each block gets.
+struct Pass {
+  int from;
+  int to;
+};
+
+// Takes the job by value: each block traces with its own path state.
+void render_block(Job job, const SamplingPlan& plan, Pass pass, int block, EyeSamples& eye) {
+  const size_t b = static_cast<size_t>(block);
+  const int first = samples_of(plan, b, pass.from), last = samples_of(plan, b, pass.to);
+  const int x0 = block % plan.columns * kBlockSize, y0 = block / plan.columns * kBlockSize;
+  for (int y = y0; y < std::min(y0 + kBlockSize, job.options.height); y++) {
+    for (int x = x0; x < std::min(x0 + kBlockSize, job.options.width); x++) {
+      if (!(plan.noisy[b] >> class_of(x, y) & 1)) continue;
+      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.options.width) + static_cast<size_t>(x);
+      if (pass.from == 0 && !eye.depth.empty()) eye.depth[pixel] = center_depth(job, eye.eye, x, y);
+      add_pixel(trace_pixel(job, eye.eye, x, y, first, last), pixel, eye);
+      eye.count[pixel] += static_cast<uint32_t>(last - first);
     }
   }
 }
 
-// Renders both eyes' tiles from one pool of work; the thread that finishes a tile reports progress.
-void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
-  const Image& first = picture.eyes.front().radiance;
-  const int per_eye = ((first.width + kTileSize - 1) / kTileSize) * ((first.height + kTileSize - 1) / kTileSize);
-  const int total = per_eye * static_cast<int>(picture.eyes.size());
+// Renders a pass of both eyes from one pool of work. The thread that finishes a block reports what is done of the pass.
+void render_pass(const Job& job, const SamplingPlan& plan, Pass pass, PictureSamples& samples,
+                 const Progress& progress) {
+  const int per_eye = static_cast<int>(plan.noisy.size());
+  const int total = per_eye * static_cast<int>(samples.eyes.size());
   std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
   std::mutex reporting;
   tbb::parallel_for(0, total, [&](int i) {
-    const int tile = job.options.last_tile_first ? total - 1 - i : i;
+    const int work = job.options.last_tile_first ? total - 1 - i : i;
     if (stop || (progress.cancelled && progress.cancelled())) {
       stop = true;
       return;
     }
-    render_tile(job, tile % per_eye, picture.eyes[static_cast<size_t>(tile / per_eye)]);
+    render_block(job, plan, pass, work % per_eye, samples.eyes[static_cast<size_t>(work / per_eye)]);
     done++;
     if (progress.report && reporting.try_lock()) {
       progress.report(static_cast<double>(done) / total);
@@ -186,6 +196,22 @@ void render_tiles(const Job& job, Picture& picture, const Progress& progress) {
     }
   });
   if (stop) throw Error(ErrorKind::kCancelled, "rendering was stopped");
+  samples.done = pass.to;
+}
+
+// Passes until the picture is clean, has all samples or has no time left.
+void render_passes(const Job& job, SamplingPlan plan, PictureSamples& samples, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  Passes passes(job.options, samples.done);
+  while (const int step = passes.next_step(seconds())) {
+    Progress part = progress;
+    if (progress.report) part.report = [&](double done) { progress.report(passes.fraction(done, seconds())); };
+    const double began = seconds();
+    render_pass(job, plan, {samples.done, samples.done + step}, samples, part);
+    passes.finish_step(seconds() - began);
+    if (passes.can_judge()) passes.expect(judge_noise(samples, job.options, plan));
+  }
   if (progress.report) progress.report(1.0);
 }
 
@@ -233,7 +259,7 @@ Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOpti
   std::vector<Camera> cameras;
   for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
   check_picture_memory(options);
-  Picture picture = blank_picture(options);
+  PictureSamples samples = no_samples(options);
   parts_->arena.execute([&] {
     PathTracer tracer = parts_->tracer;
     tracer.ray_time = 0.5f;
@@ -246,10 +272,11 @@ Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOpti
                            [&](const Ray& ray) { return parts_->embree->closest_hit(tracer, ray, kHalfAlphaRay); }),
                   options,
                   {options.bounces, static_cast<int>(options.light_sampling)},
-                  options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris};
-    render_tiles(job, picture, progress);
+                  options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
+                  layer_unit(options)};
+    render_passes(job, make_plan(stereo, options), samples, progress);
   });
-  return picture;
+  return develop(samples, options);
 }
 
 Picture render_cpu(const Scene& scene, const StereoCamera& stereo, const RenderOptions& options,

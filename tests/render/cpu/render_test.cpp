@@ -16,6 +16,7 @@
 #include "ods/kernel/path.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/lights.h"
+#include "ods/render/render_target.h"
 #include "ods/render/tables.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scenes.h"
@@ -279,20 +280,6 @@ TEST(Render, FirstHitLayers) {
       }
     }
   }
-}
-
-// What a file cannot hold takes no memory, and changes nothing else.
-TEST(Render, LayersCanBeLeftOut) {
-  const Scene scene = floor_scene();
-  RenderOptions options = small_render(32, 2);
-  options.height = 16;
-  const Picture whole = render_cpu(scene, StereoCamera{}, options);
-  EXPECT_EQ(picture_bytes(options), 32u * 16 * 10 * sizeof(float));
-  options.layers = false;
-  const Picture bare = render_cpu(scene, StereoCamera{}, options);
-  EXPECT_EQ(picture_bytes(options), 32u * 16 * 3 * sizeof(float));
-  EXPECT_EQ(bare.eyes[0].radiance.pixels, whole.eyes[0].radiance.pixels);
-  EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
 }
 
 TEST(Render, APictureLargerThanTheMemoryIsAnError) {

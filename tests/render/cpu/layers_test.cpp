@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Variance and number of samples, beside the picture.
+// What stands beside the radiance: layers, variance and number of samples.
 #include <gtest/gtest.h>
 
 #include "ods/render/cpu/render.h"
+#include "ods/render/render_target.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scenes.h"
 
@@ -21,7 +22,7 @@ TEST(Statistics, OfSamplesThatAreOneOrZero) {
   RenderOptions options = small_render(32, 16);
   options.statistics = true;
   options.height = 16;
-  EXPECT_EQ(picture_bytes(options), 32u * 16 * 14 * sizeof(float));
+  EXPECT_EQ(picture_bytes(options), 32u * 16 * (14 * sizeof(float) + 80));
   const EyeImage eye = render_cpu(scene, StereoCamera{}, options).eyes[0];
   int mixed = 0;
   for (size_t i = 0; i < eye.samples.pixels.size(); i++) {
@@ -31,6 +32,21 @@ TEST(Statistics, OfSamplesThatAreOneOrZero) {
     if (mean > 0.0 && mean < 1.0) mixed++;
   }
   EXPECT_GT(mixed, 10);
+}
+
+// What a file cannot hold takes no memory, and changes nothing else.
+TEST(Layers, CanBeLeftOut) {
+  Scene scene;
+  add_box(scene, vec3(-1.0f), vec3(1.0f), add_material(scene, matte(vec3(0.5f))));
+  RenderOptions options = small_render(32, 2);
+  options.height = 16;
+  const Picture whole = render_cpu(scene, StereoCamera{}, options);
+  EXPECT_EQ(picture_bytes(options), 32u * 16 * (10 * sizeof(float) + 56));
+  options.layers = false;
+  const Picture bare = render_cpu(scene, StereoCamera{}, options);
+  EXPECT_EQ(picture_bytes(options), 32u * 16 * (3 * sizeof(float) + 28));
+  EXPECT_EQ(bare.eyes[0].radiance.pixels, whole.eyes[0].radiance.pixels);
+  EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
 }
 
 }  // namespace
