@@ -23,6 +23,17 @@ struct LightSample {
   bool valid;
 };
 
+inline LightSample no_light() {
+  LightSample light;
+  light.direction = vec3(0.0f);
+  light.distance = 0.0f;
+  light.end = vec3(0.0f);
+  light.radiance = vec3(0.0f);
+  light.pdf = 0.0f;
+  light.valid = false;
+  return light;
+}
+
 // Walker's alias method: slot was picked uniformly; draw in [0, 1) decides between it and its alias.
 inline int alias_pick(AliasEntry entry, int slot, float draw) {
   return draw < entry.threshold ? slot : entry.alias;

@@ -19,6 +19,10 @@ static bool needs_squares(const RenderOptions& options) {
   return options.statistics || options.noise > 0.0f;
 }
 
+bool shares_paths(const RenderOptions& options) {
+  return options.share_paths && options.eyes == Eyes::kBothEyes;
+}
+
 PictureSamples no_samples(const RenderOptions& options) {
   PictureSamples samples{options.width, options.height, 0, {}};
   const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
@@ -28,6 +32,7 @@ PictureSamples no_samples(const RenderOptions& options) {
     sums.count.resize(pixels);
     sums.light.resize(3 * pixels);
     if (needs_squares(options)) sums.squares.resize(3 * pixels);
+    if (needs_squares(options) && shares_paths(options)) sums.alone.resize(3 * pixels), sums.weights.resize(pixels);
     if (options.layers) {
       sums.normal.resize(3 * pixels);
       sums.albedo.resize(3 * pixels);
@@ -45,22 +50,26 @@ PictureSamples no_samples(const RenderOptions& options) {
 
 size_t samples_bytes(const RenderOptions& options) {
   const size_t count = sizeof(uint32_t), light = 3 * sizeof(int64_t), squares = 3 * sizeof(double);
+  const size_t alone = shares_paths(options) ? 3 * sizeof(int64_t) + sizeof(uint32_t) : 0;
   const size_t layers = 6 * sizeof(int32_t) + sizeof(float), catchers = 2 * sizeof(uint32_t) + 2 * sizeof(double);
-  const size_t pixel = count + light + (needs_squares(options) ? squares : 0) + (options.layers ? layers : 0) +
+  const size_t pixel = count + light + (needs_squares(options) ? squares + alone : 0) + (options.layers ? layers : 0) +
                        (options.transparent ? catchers : 0);
   return eye_list(options.eyes).size() * static_cast<size_t>(options.width) * static_cast<size_t>(options.height) *
          pixel;
 }
 
+// The variance of a sample over their number; with shared paths each sample has a weight, and more of them add up.
 vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
   const double count = eye.count[pixel];
   if (count < 2.0) return vec3(0.0f);
+  const std::vector<int64_t>& sums = eye.alone.empty() ? eye.light : eye.alone;
+  const double weights = eye.weights.empty() ? count : eye.weights[pixel] / double{kWeightUnit};
   vec3 variance;
   for (int c = 0; c < 3; c++) {
     const size_t at = 3 * pixel + static_cast<size_t>(c);
-    const double mean = static_cast<double>(eye.light[at]) / (kLightUnit * count);
-    const double scatter = eye.squares[at] - mean * mean * count;
-    variance[c] = static_cast<float>(std::max(scatter / (count * (count - 1.0)), 0.0));
+    const double mean = static_cast<double>(sums[at]) / (kLightUnit * count);
+    const double of_sample = (eye.squares[at] - mean * mean * count) / (count - 1.0);
+    variance[c] = static_cast<float>(std::max(of_sample * weights / (count * count), 0.0));
   }
   return variance;
 }

@@ -20,8 +20,10 @@ struct EyeSamples {
   std::vector<uint32_t> count;  // samples of each pixel
   std::vector<int64_t> light;   // 3 per pixel, in units of 1 / kLightUnit
 
-  // RenderOptions::statistics or noise. Doubles: they are added in the order of the samples.
-  std::vector<double> squares;  // 3 per pixel: of the samples' radiance
+  // RenderOptions::statistics or noise: how much a sample varies. Doubles are added in the order of the samples.
+  std::vector<double> squares;    // 3 per pixel: of the samples' radiance
+  std::vector<int64_t> alone;     // if the eyes share paths: like light, as if nothing were shared; so are squares
+  std::vector<uint32_t> weights;  // likewise: squares of the weights that samples have in light, over kWeightUnit
 
   // RenderOptions::layers.
   std::vector<int32_t> normal;  // 3 per pixel, in units of 1 / layer_unit()
@@ -45,6 +47,8 @@ struct PictureSamples {
 // A sum of 2^20 samples as bright as a half float can be does not overflow, and the unit is the smallest half float.
 inline constexpr double kLightUnit = 1 << 24;
 
+inline constexpr float kWeightUnit = 1 << 10;
+
 // A brighter sample counts as this.
 inline constexpr float kBrightestSample = 1 << 19;
 
@@ -53,6 +57,9 @@ inline constexpr int kMaxSamples = 1 << 20;
 
 // Components of normals and albedo are at most 1 in size; as many samples as wanted fit into 31 bits.
 double layer_unit(const RenderOptions& options);
+
+// Whether paths of one eye bring light to the other (ods/kernel/path.h).
+bool shares_paths(const RenderOptions& options);
 
 // No samples yet. Precondition: options.height > 0.
 PictureSamples no_samples(const RenderOptions& options);

@@ -50,6 +50,7 @@ struct RenderOptions {
   bool even_noise = true;   // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
   int bounces = 8;          // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;
+  bool share_paths = true;  // light that a path of one eye finds goes to both, where both see the first surface
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide
   bool layers = true;        // depth, normal and albedo beside radiance; otherwise their images are empty
   bool transparent = false;  // the sky lights the scene but is invisible: alpha is 0 where a ray hits nothing;

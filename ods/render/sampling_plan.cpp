@@ -18,32 +18,11 @@ static size_t block_count(const SamplingPlan& plan) {
   return static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
 }
 
-// The area of a spherical triangle of unit vectors. Source: Van Oosterom and Strackee, 1983.
-static double triangle_area(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  const double volume = dot(a, cross(b, c));
-  return 2.0 * std::atan2(std::abs(volume), 1.0 + dot(a, b) + dot(b, c) + dot(c, a));
-}
-
-// What the pixel at this position covers of the sphere; 0 where the picture is empty.
-static double solid_angle(const Projection& projection, vec2 center, vec2 pixel) {
-  glm::dvec3 corners[4];
-  for (int i = 0; i < 4; i++) {
-    const vec2 corner = center + pixel * vec2(i == 0 || i == 3 ? -0.5f : 0.5f, i < 2 ? -0.5f : 0.5f);
-    const ViewDirection look = look_of(projection, center, corner);
-    if (!look.seen) return 0.0;
-    corners[i] = look.direction;
-  }
-  return triangle_area(corners[0], corners[1], corners[2]) + triangle_area(corners[0], corners[2], corners[3]);
-}
-
-// Of the pixel in the block's middle, measured over the block, where single precision is fine enough.
-static double block_angle(const Projection& projection, const RenderOptions& options, int column, int row) {
+static float block_angle(const Projection& projection, const RenderOptions& options, int column, int row) {
   const vec2 size(static_cast<float>(options.width), static_cast<float>(options.height));
   const vec2 begin(static_cast<float>(column * kBlockSize), static_cast<float>(row * kBlockSize));
-  const vec2 end = min(begin + vec2(static_cast<float>(kBlockSize)), size);
-  const vec2 span = end - begin;
-  const double angle = solid_angle(projection, (begin + end) * 0.5f / size, span / size);
-  return angle / static_cast<double>(span.x * span.y);
+  const vec2 middle = (begin + min(begin + vec2(static_cast<float>(kBlockSize)), size)) * 0.5f / size;
+  return relative_solid_angle(projection, middle, middle);
 }
 
 SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options) {
@@ -54,18 +33,21 @@ SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options)
   plan.noisy.assign(block_count(plan), 3);
   if (!options.even_noise) return plan;
   const Projection projection = make_camera(camera).projection;
-  std::vector<double> angles(block_count(plan));
+  std::vector<float> angles(block_count(plan));
   tbb::parallel_for(0, plan.rows, [&](int row) {
     for (int column = 0; column < plan.columns; column++) {
       angles[static_cast<size_t>(row * plan.columns + column)] = block_angle(projection, options, column, row);
     }
   });
-  const double largest = *std::max_element(angles.begin(), angles.end());
+  const float largest = *std::max_element(angles.begin(), angles.end());
   for (size_t i = 0; i < angles.size(); i++) {
-    // 0: at the rim of an image circle, where part of the block is empty.
-    if (angles[i] > 0.0) plan.share[i] = std::max(static_cast<float>(angles[i] / largest), kSmallestShare);
+    plan.share[i] = std::max(angles[i] / largest, kSmallestShare);
   }
   return plan;
+}
+
+size_t block_at(const SamplingPlan& plan, int x, int y) {
+  return static_cast<size_t>(y / kBlockSize * plan.columns + x / kBlockSize);
 }
 
 int samples_of(const SamplingPlan& plan, size_t block, int samples) {

@@ -33,6 +33,8 @@ struct SamplingPlan {
 // All blocks are noisy. Precondition: options.height > 0.
 SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options);
 
+size_t block_at(const SamplingPlan& plan, int x, int y);
+
 // How many of the first `samples` samples a pixel of this block takes.
 int samples_of(const SamplingPlan& plan, size_t block, int samples);
 

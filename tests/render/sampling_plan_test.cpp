@@ -27,13 +27,11 @@ TEST(SamplingPlan, LatLongSharesFollowTheCosine) {
   const SamplingPlan plan = make_plan(camera, options);
   double least = 1.0;
   for (int row = 0; row < plan.rows; row++) {
-    // The mean of the cosine over the block's rows, over that of the blocks beside the equator.
-    const double step = std::numbers::pi / plan.rows;
-    const auto mean = [&](int i) { return std::cos(step * i) - std::cos(step * (i + 1)); };
-    const double share = std::max(mean(row) / mean(plan.rows / 2), 0.125);
+    const auto cosine = [&](int i) { return std::sin(std::numbers::pi * (i + 0.5) / plan.rows); };
+    const double share = std::max(cosine(row) / cosine(plan.rows / 2), 0.125);
     for (int column : {0, plan.columns / 3, plan.columns - 1}) {
       const double found = double{plan.share[static_cast<size_t>(row * plan.columns + column)]};
-      EXPECT_NEAR(found, share, 5e-4) << row;  // edges are taken as great circles
+      EXPECT_NEAR(found, share, 1e-5) << row;
       least = std::min(least, found);
     }
   }
@@ -49,19 +47,18 @@ TEST(SamplingPlan, EquisolidFisheyesAreEven) {
 }
 
 TEST(SamplingPlan, EveryPixelHasASampleAndTheLargestHaveAll) {
-  for (int kind = 0; kind < kProjectionCount; kind++) {
+  for (const NamedProjection& named : named_projections()) {
     StereoCamera camera;
-    camera.projection.kind = kind;
-    const RenderOptions options = options_of(camera, 240, 64);
-    const SamplingPlan plan = make_plan(camera, options);
+    camera.projection = named.setting;
+    const SamplingPlan plan = make_plan(camera, options_of(camera, 240, 64));
     int most = 0;
     for (size_t block = 0; block < plan.share.size(); block++) {
-      EXPECT_EQ(samples_of(plan, block, 0), 0);
-      EXPECT_GE(samples_of(plan, block, 1), 1);
+      ASSERT_EQ(samples_of(plan, block, 0), 0) << named.name;
+      ASSERT_GE(samples_of(plan, block, 1), 1) << named.name;
+      ASSERT_LE(samples_of(plan, block, 64), 64) << named.name;
       most = std::max(most, samples_of(plan, block, 64));
-      EXPECT_LE(samples_of(plan, block, 64), 64);
     }
-    EXPECT_EQ(most, 64) << kind;
+    EXPECT_EQ(most, 64) << named.name;
   }
 }
 

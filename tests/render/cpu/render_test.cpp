@@ -32,6 +32,7 @@ TEST(Render, WhiteFurnaceBoxIsExactInEveryPixel) {
   add_box(scene, vec3(-1.0f, -2.0f, -1.5f), vec3(2.0f, 1.0f, 1.0f), add_material(scene, wall));
   RenderOptions options = small_render(32, 4);
   options.eyes = Eyes::kBothEyes;
+  options.share_paths = false;
   options.bounces = 4;
   options.light_sampling = LightSampling::kBsdfOnly;
   for (const EyeImage& eye : render_cpu(scene, StereoCamera{}, options).eyes) {
