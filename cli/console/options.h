@@ -83,7 +83,8 @@ class Options {
 
   bool given(const std::string& name) const;
 
-  // False if help was requested; it has been printed, in the format of --help=FORMAT. Throws UsageError.
+  // False if help was requested; it has been printed, in the format of --help=FORMAT. A request anywhere before "--"
+  // wins over all else on the line: nothing is set, no file is opened. Throws UsageError.
   bool parse(int argc, char** argv);
 
  private:
