@@ -140,6 +140,9 @@ std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
 // their stored size. Precondition: not an anaglyph.
 std::optional<Extent> unpacked_size(Layout layout, Extent packed);
 
+// The size that either eye had before it was squeezed; empty as unpacked_size(). Precondition: not an anaglyph.
+std::optional<Extent> whole_eye(Layout layout, Extent packed);
+
 // The top left corner of an eye in a packed image. `eye` is the size of either, `index` is 0 for the left or the only
 // one.
 // Precondition: is_halves() or kAlone.
