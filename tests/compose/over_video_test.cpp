@@ -172,7 +172,7 @@ TEST_F(VideoOver, FramesGoOverTheirPicturesAlone) {
 }
 
 // What the video says in vexu, else what its sidecar does.
-TEST_F(VideoOver, ATitleForOtherEyesIsSaid) {
+TEST_F(VideoOver, ATitleForOtherEyesIsReported) {
   const std::string video = make_video_file("video.mp4", {});
   StereoCamera camera;
   camera.ipd = 0.07f;
@@ -202,7 +202,7 @@ TEST_F(VideoOver, ATitleForOtherEyesIsSaid) {
   }
 }
 
-TEST_F(VideoOver, WhatCannotBeLaidOverIsSaid) {
+TEST_F(VideoOver, WhatCannotBeCompositedIsReported) {
   StereoCamera other;
   other.ipd = 0.1f;
   write_title(folder.path("title.exr"), other);
