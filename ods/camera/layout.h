@@ -23,8 +23,7 @@ enum class Layout {
   kSideBySideHalf,  // side-by-side with eyes squeezed to half their width
   kRowInterleaved,  // each row of the left eye is followed by the right eye's row; no rows are dropped
   kColumnInterleaved,
-  kCheckerboard,  // a file of the eye's size, the left eye's pixel where x + y is even: half of each eye's pixels are
-                  // dropped
+  kCheckerboard,  // a file of the eye's size: the left eye's pixels where x + y is even, the right eye's elsewhere
   kAnaglyph,      // for red-cyan glasses: see anaglyph.h
   kAnaglyphHalf,
   kAnaglyphDubois,
