@@ -3,8 +3,8 @@
 //
 // Picks a light and a point on it, and gives the pdf (probability density) with which sampling would have found the
 // light that a given ray hits.
-// Lights are picked in proportion to their power from Walker's alias table, which the host builds
-// (ods/render/lights.h).
+// Lights are picked in proportion to their power from Walker's alias table,
+// which the host builds (ods/render/lights.h).
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/bsdf.h"
@@ -17,8 +17,7 @@ struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
   vec3 end;       // where a shadow ray ends, just in front of the light; unused at kFarAway
-  vec3 radiance;  // arriving radiance; for lights without size (pdf 0) already divided by the probability of picking
-                  // them
+  vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the probability of picking them
   float pdf;      // per solid angle, including the probability of picking the light
   bool valid;
 };

@@ -6,8 +6,8 @@
 // does.
 //
 // Image positions: u is 0..1 from left to right, v is 0..1 from top to bottom of one eye's picture. Directions are in
-// the camera's frame: x right, y up, z back. theta is the heading, 0 ahead and positive to the right; phi is the
-// elevation.
+// the camera's frame: x right, y up, z back. theta is the heading, 0 ahead and positive to the right;
+// phi is the elevation.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/merge.h"
@@ -36,8 +36,8 @@ inline bool is_fisheye(int kind) {
   return kind == kFisheye || kind == kFisheyeEquisolid;
 }
 
-// The picture is an ellipse, Projection::circle; outside it the frame is empty. A fisheye's circle touches the frame's
-// edges.
+// The picture is an ellipse, Projection::circle; outside it the frame is empty.
+// A fisheye's circle touches the frame's edges.
 inline bool has_image_circle(int kind) {
   return is_fisheye(kind) || kind == kFisheyePolynomial;
 }
@@ -198,8 +198,8 @@ inline float polynomial_angle(Projection projection, float r) {
   return max(-(projection.k0 + r * k), 0.0f);
 }
 
-// The derivative of the angle, radians per millimetre. It is above 0 within the picture: projection_fault() ensures
-// that.
+// The derivative of the angle, radians per millimetre. It is above 0 within the picture:
+// projection_fault() ensures that.
 inline float polynomial_slope(Projection projection, float r) {
   return -(projection.k1 + r * (2.0f * projection.k2 + r * (3.0f * projection.k3 + r * 4.0f * projection.k4)));
 }

@@ -255,7 +255,7 @@ TEST(Projections, HaveTheirNaturalHeight) {
   EXPECT_EQ(height("cylinder", 6283), 3464);  // 2 pi wide, 2 tan(60) high
 }
 
-TEST(Projections, FaultsAreTold) {
+TEST(Projections, FaultsAreReported) {
   for (auto spoil :
        {+[](ProjectionSetting& s) { s.longitude = vec2(10.0f, 10.0f); },
         +[](ProjectionSetting& s) { s.longitude = vec2(0.0f, 361.0f); },
