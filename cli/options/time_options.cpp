@@ -63,8 +63,7 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 is none");
-  options.choice("--noise", time.noise, kVideoNoiseTable,
-                 "noise pattern: the same in every frame, or different in each");
+  options.choice("--grain", time.grain, kGrainTable, "noise pattern: the same in every frame, or different in each");
   options.flag("--skip-existing", time.skip_existing,
                "do not render frames whose files exist; several processes with this option share the rest");
 }

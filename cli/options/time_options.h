@@ -14,15 +14,15 @@
 #include "ods/scene/scene.h"
 
 // Whether all frames of a video have the same noise, or each frame its own.
-enum class VideoNoise { kFixed, kChanging };
-inline constexpr ods::NameRow<VideoNoise> kVideoNoiseTable[] = {
-    {VideoNoise::kFixed, "fixed"},
-    {VideoNoise::kChanging, "changing"},
+enum class Grain { kFixed, kChanging };
+inline constexpr ods::NameRow<Grain> kGrainTable[] = {
+    {Grain::kFixed, "fixed"},
+    {Grain::kChanging, "changing"},
 };
-static_assert(ods::has_every_member(kVideoNoiseTable));
-inline constexpr auto kVideoNoises = ods::members_of(kVideoNoiseTable);
-constexpr std::string_view video_noise_name(VideoNoise noise) {
-  return ods::name_in(kVideoNoiseTable, noise);
+static_assert(ods::has_every_member(kGrainTable));
+inline constexpr auto kGrains = ods::members_of(kGrainTable);
+constexpr std::string_view grain_name(Grain noise) {
+  return ods::name_in(kGrainTable, noise);
 }
 
 struct TimeOptions {
@@ -33,7 +33,7 @@ struct TimeOptions {
   std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
   float shutter = 0.0f;  // shutter angle, degrees: 360 is the time between two frames
-  VideoNoise noise = VideoNoise::kFixed;
+  Grain grain = Grain::kFixed;
   bool skip_existing = false;
   bool is_video = false;  // true: the command makes a video, whatever other options say
 };

@@ -32,7 +32,7 @@ struct Frame {
 
 Frame make_frame(const RenderJob& job, const FrameNames& names, int number) {
   const auto bits = static_cast<ods::uint>(number);
-  const bool changing = job.time.noise == VideoNoise::kChanging;
+  const bool changing = job.time.grain == Grain::kChanging;
   return {number, number / static_cast<double>(job.time.fps), names.path(number),
           changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
 }
@@ -62,11 +62,12 @@ void check_outputs(const RenderJob& job) {
   note_misleading_name(path, job.save, eyes.size(), job.camera.stereo.projection);
 }
 
-void tell_speed(const RenderJob& job, size_t frames, const std::string& file, double seconds) {
-  double samples = 1.0 * job.render.width * job.render.height * job.render.samples;
-  samples *= static_cast<double>(ods::eye_list(job.render.eyes).size() * frames);
+void tell_speed(const RenderJob& job, size_t frames, const std::string& file, double samples, double seconds) {
+  const double eyes = static_cast<double>(ods::eye_list(job.render.eyes).size());
+  const double pixels = 1.0 * job.render.width * job.render.height * eyes * static_cast<double>(frames);
   const std::string what = frames == 1 ? file : fmt::format("{} frames", frames);
-  note(fmt::format("{} in {}, {:.3g} Msamples/s", what, duration_text(seconds), samples / seconds * 1e-6));
+  note(fmt::format("{} in {}, {:.0f} samples per pixel, {:.3g} million per second", what, duration_text(seconds),
+                   samples / pixels, samples / seconds * 1e-6));
 }
 
 // The scene at a frame's time, and the camera's motion during the shutter.
@@ -100,7 +101,12 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
   return shot;
 }
 
-using Saved = std::function<void(const std::vector<std::string>& files)>;
+struct Rendered {
+  std::vector<std::string> files;
+  double samples;  // in all pixels together
+};
+
+using Saved = std::function<void(const Rendered& frame)>;
 
 // Renders frames one after the other. Acceleration structures of static meshes are kept between frames.
 class FrameRenderer {
@@ -108,8 +114,7 @@ class FrameRenderer {
   FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
       : job_(job), time_(time), scene_(scene) {}
 
-  // Returns the files.
-  std::vector<std::string> render(const Frame& frame, const std::function<void(double done)>& report) {
+  Rendered render(const Frame& frame, const std::function<void(double done)>& report) {
     const Shot shot = make_shot(job_, time_, scene_, frame);
     if (renderer_) {
       renderer_->update(shot.change);
@@ -122,7 +127,8 @@ class FrameRenderer {
     ods::Progress progress;
     progress.report = report;
     const ods::Picture picture = renderer_->render(shot.cameras, options, progress);
-    return ods::save_picture(picture, shot.cameras[shot.cameras.size() / 2], job_.save, frame.path);
+    return {ods::save_picture(picture, shot.cameras[shot.cameras.size() / 2], job_.save, frame.path),
+            picture.samples_taken};
   }
 
  private:
@@ -170,15 +176,17 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   say_room(job, frames);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
-  const auto saved = [&](const std::vector<std::string>& files) {
+  double samples = 0.0;
+  const auto saved = [&](const Rendered& frame) {
     lines.clear();
-    first = files.front();
-    for (const std::string& file : files) announce_file(file);
+    first = frame.files.front();
+    samples += frame.samples;
+    for (const std::string& file : frame.files) announce_file(file);
   };
   const bool shared = asks_for_video(time) && time.skip_existing;
   const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
   const size_t rendered = render_all(job, scene, time, frames, shared, report, saved);
-  if (rendered > 0) tell_speed(job, rendered, first, seconds_since(start));
+  if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
 }
 
 std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
@@ -196,10 +204,10 @@ std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
   planned(numbers);
   const std::vector<Frame> frames = choose_frames(job, time);
   if (!frames.empty()) {
-    note(fmt::format("to render: {} frame{}, {}x{} per eye, {} samples per pixel", frames.size(),
+    note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     say_room(job, frames);
-    render_all(job, scene, time, frames, false, report, [](const std::vector<std::string>&) {});
+    render_all(job, scene, time, frames, false, report, [](const Rendered&) {});
   }
   return numbers;
 }

@@ -25,11 +25,12 @@ struct RenderJob {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// A preset of --quality; --width and --samples take precedence.
+// A preset of --quality; --width, --samples and --noise take precedence.
 struct Quality {
   std::string_view name;
   int width;
   int samples;
+  float noise;
 };
 
 // Options shared with ods video, in a group of their own, and what remains to be done after parsing.

@@ -37,6 +37,7 @@ struct EyeImage {
 // (RenderOptions::statistics).
 struct Picture {
   std::vector<EyeImage> eyes;
+  double samples_taken = 0.0;  // by the renderer, in all pixels together
 };
 
 }  // namespace ods

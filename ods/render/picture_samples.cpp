@@ -110,6 +110,7 @@ Picture develop(const PictureSamples& samples, const RenderOptions& options) {
       const size_t row = static_cast<size_t>(y) * width;
       for (size_t x = 0; x < width; x++) develop_pixel(samples.eyes[e], row + x, unit, picture.eyes[e]);
     });
+    for (const uint32_t count : samples.eyes[e].count) picture.samples_taken += count;
   }
   return picture;
 }

@@ -44,7 +44,7 @@ class CliFrames : public Cli {
 
 TEST_F(CliFrames, AFrameAloneIsTheFrameOfTheRun) {
   for (const std::string noise : {"fixed", "changing"}) {
-    const std::string words = "--turntable 1 --shutter 180 --noise " + noise;
+    const std::string words = "--turntable 1 --shutter 180 --grain " + noise;
     ASSERT_EQ(run(video("--frames 5-9x2 " + words)), 0) << err;
     ASSERT_EQ(run(video("--frames 7 " + words, "alone.%04d.png")), 0) << err;
     EXPECT_EQ(out, folder.path("alone.0007.png") + "\n");
@@ -59,7 +59,7 @@ TEST_F(CliFrames, NoiseIsFixedOrChanges) {
   const std::string still = "render lamp --width 32 --samples 1 --frames 1-2 -o ";
   ASSERT_EQ(run(still + folder.path("fixed.#.png")), 0) << err;
   EXPECT_TRUE(bytes("fixed.1.png") == bytes("fixed.2.png"));
-  ASSERT_EQ(run(still + folder.path("changing.#.png") + " --noise changing"), 0) << err;
+  ASSERT_EQ(run(still + folder.path("changing.#.png") + " --grain changing"), 0) << err;
   EXPECT_FALSE(bytes("changing.1.png") == bytes("changing.2.png"));
 }
 
@@ -205,7 +205,7 @@ TEST_F(CliFrames, MistakesAreExplained) {
       {"--time 1 --animation walk", "none called 'walk'"},
       {"--turntable 1,2", "TURNS,X,Y,Z"},
       {"--fly-to 1,2", "--fly-to is X,Y,Z"},
-      {"--noise grainy", "--noise is one of"},
+      {"--grain coarse", "--grain is one of"},
   };
   for (const auto& [words, what] : mistakes) {
     EXPECT_EQ(run(video(words, "plain.png")), 2) << words;

@@ -39,7 +39,7 @@ TEST_F(Video, FormsOfFrames) {
   ASSERT_EQ(run(words("a_180_LR.mkv", "--projection vr180")), 0) << err;
   EXPECT_EQ(metadata_text(*ods::read_video_file(folder.path("a_180_LR.mkv")).tracks[0].v2),
             "side-by-side, lat-long 180x180");
-  ASSERT_EQ(run(words("b_360.mp4", "--eyes mono --noise changing --turntable 1")), 0) << err;
+  ASSERT_EQ(run(words("b_360.mp4", "--eyes mono --grain changing --turntable 1")), 0) << err;
   EXPECT_EQ(metadata_text(*ods::read_video_file(folder.path("b_360.mp4")).tracks[0].v2), "mono, lat-long");
 }
 
@@ -55,7 +55,7 @@ TEST_F(Video, ANameThatPlayersUnderstandIsProposed) {
       {"a_360_TB.mp4", "", ""},
       {"a_TB.mp4", "", ""},
       {"a_180_LR.mp4", "--projection vr180", ""},
-      {"a.mp4", "--eyes mono --noise changing --turntable 1", ""},
+      {"a.mp4", "--eyes mono --grain changing --turntable 1", ""},
   };
   for (const auto& [name, options, proposed] : kCases) {
     ASSERT_EQ(run(words(name, options)), 0) << err;
@@ -208,7 +208,7 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--turntable", "1"},
     {"--fly-to", "0,1,0"},
     {"--shutter", "180"},
-    {"--noise", "changing"},
+    {"--grain", "changing"},
     {"--samples", "2"},
     {"--bounces", "2"},
     {"--filter", "box"},
