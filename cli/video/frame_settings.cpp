@@ -141,7 +141,7 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, noise, time_limit, even_noise, bounces, eyes, share_paths, filter, layers,
+  const auto& [width, height, samples, noise, time_limit, part, even_noise, bounces, eyes, share_paths, filter, layers,
                transparent, statistics, seed, threads, light_sampling, last_tile_first] = options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);

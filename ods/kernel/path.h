@@ -66,7 +66,7 @@ struct PathState {
 
   // Both eyes from one path. What a sample adds to the other eye's pixel is in units of this eye's samples: it needs no
   // further weight.
-  bool shared;           // the other eye sees the first surface
+  bool both_see;         // the other eye sees the first surface, too
   vec3 other_direction;  // from the other eye to it
   float other_density;   // of the other eye's samples there, over this eye's
   Bsdf other;            // of the first surface
@@ -142,7 +142,7 @@ struct PathTracer : MediumReader {
     path.seed = seed;
     path.index = index;
     path.shadow_pending = false;
-    path.shared = false;
+    path.both_see = false;
     path.own_share = 1.0f;
     path.other_ratio = vec3(0.0f);
     path.alone_ratio = 1.0f;
@@ -158,7 +158,7 @@ struct PathTracer : MediumReader {
   // The other eye sees the point that the path's first ray hits, along this direction (unit length). density: of
   // Counterpart, times the other pixel's number of samples over this pixel's. Before the first shade().
   inline void share_path(vec3 direction, float density) {
-    path.shared = true;
+    path.both_see = true;
     path.other_direction = direction;
     path.other_density = density;
   }
@@ -218,7 +218,7 @@ struct PathTracer : MediumReader {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
     path.pdf = 0.0f;
     path.other_pdf = 0.0f;
-    if (path.bounce == 0) path.shared = false;
+    if (path.bounce == 0) path.both_see = false;
     path.travelled += t;
     path.passed += 1;
     if (path.passed > kMaxPassed) path.alive = false;
@@ -285,7 +285,7 @@ struct PathTracer : MediumReader {
     path.shadow_light = chosen_light * scale;
     path.shadow_alone = path.shadow_light * path.alone_ratio;
     path.shadow_other = path.shadow_light * path.other_ratio;
-    if (path.shared && path.bounce == 0) {
+    if (path.both_see && path.bounce == 0) {
       bool through = dot(chosen.direction, surface.geometric) < 0.0f;
       vec3 for_other = unshadowed_light(settings, path.other, chosen, through ? beyond : medium);
       float own_share = chosen_brightness / (chosen_brightness + path.other_density * luminance(for_other));
@@ -301,8 +301,8 @@ struct PathTracer : MediumReader {
     float here = -dot(direction, surface.geometric);
     float there = -dot(path.other_direction, surface.geometric);
     float facing = min(-dot(direction, surface.normal), -dot(path.other_direction, surface.normal));
-    path.shared = min(here, there) > 0.02f && facing > 4e-3f && !surface.volume;
-    if (!path.shared) return;
+    path.both_see = min(here, there) > 0.02f && facing > 4e-3f && !surface.volume;
+    if (!path.both_see) return;
     path.other_density = path.other_density * there / here;
     path.other = make_bsdf(surface, path.other_direction, eta);
   }
@@ -339,7 +339,7 @@ struct PathTracer : MediumReader {
     path.ray.direction = found.direction;
     path.pdf = found.pdf;
     path.other_pdf = found.pdf;
-    if (path.shared && path.bounce == 0) share_scattered(found);
+    if (path.both_see && path.bounce == 0) share_scattered(found);
     path.travelled = 0.0f;
     path.passed = 0;
     if (found.through && surface.volume) path.media = beyond;
@@ -374,7 +374,7 @@ struct PathTracer : MediumReader {
       aim_at_light(settings, surface, white, medium, medium);
     }
     path.caught = true;
-    path.shared = false;
+    path.both_see = false;
     path.blocked = false;
     path.light_without = 0.0f;
     path.light_with = 0.0f;
@@ -470,7 +470,7 @@ struct PathTracer : MediumReader {
     }
     float eta = volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior;
     Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);
-    if (path.shared && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
+    if (path.both_see && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
     if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, medium, beyond);
     scatter(surface, bsdf, beyond_media);
   }

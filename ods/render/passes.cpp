@@ -16,7 +16,11 @@ int fewest_samples(const RenderOptions& options) {
 }
 
 Passes::Passes(const RenderOptions& options, int done)
-    : options_(options), begun_with_(done), done_(done), expected_(options.samples) {}
+    : options_(options),
+      end_(samples_of_part(options).end),
+      begun_with_(done),
+      done_(done),
+      expected_(samples_of_part(options).end) {}
 
 bool Passes::can_judge() const {
   return options_.noise > 0.0f && done_ >= fewest_samples(options_);
@@ -24,7 +28,7 @@ bool Passes::can_judge() const {
 
 int Passes::next_step(double seconds) {
   const bool limited = options_.time_limit > 0.0;
-  step_ = options_.samples - done_;
+  step_ = end_ - done_;
   if (options_.noise > 0.0f && done_ < fewest_samples(options_)) step_ = fewest_samples(options_) - done_;
   if (can_judge()) step_ = expected_ > done_ ? std::min(step_, std::max(16, done_ / 4)) : 0;
   if (limited && done_ == begun_with_) step_ = std::min(step_, 1);
@@ -42,11 +46,13 @@ void Passes::finish_step(double seconds) {
 }
 
 void Passes::expect(double more) {
-  expected_ = std::min(done_ * (1.0 + more), static_cast<double>(options_.samples));
+  expected_ = std::min(done_ * (1.0 + more), static_cast<double>(end_));
 }
 
 double Passes::fraction(double part, double seconds) {
-  double now = (done_ + part * step_) / std::max(expected_, static_cast<double>(done_ + step_));
+  const double begin = samples_of_part(options_).begin;
+  const double end = std::max(expected_, static_cast<double>(done_ + step_));
+  double now = (done_ + part * step_ - begin) / std::max(end - begin, 1.0);
   if (options_.time_limit > 0.0) now = std::max(now, std::min(seconds / options_.time_limit, 1.0));
   shown_ = std::max(shown_, now);
   return shown_;

@@ -10,11 +10,15 @@ namespace ods {
 class Passes {
  public:
   // done: samples that an earlier run has taken.
-  explicit Passes(const RenderOptions& options, int done = 0);
+  explicit Passes(const RenderOptions& options, int done);
 
   // The samples that the next pass adds to each pixel, after `seconds` of work; 0: the picture is finished. The first
   // pass always takes place, whatever the time limit.
   int next_step(double seconds);
+
+  // The next pass is one that an earlier run has begun.
+  void resume_step(int step) { step_ = step; }
+  int step() const { return step_; }
 
   // The pass took this long.
   void finish_step(double seconds);
@@ -35,6 +39,7 @@ class Passes {
 
  private:
   RenderOptions options_;
+  int end_;  // of this part's samples
   int begun_with_;
   int done_;
   int step_ = 0;

@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "ods/render/render_target.h"
+#include "ods/render/sampling_plan.h"
 
 namespace ods {
 
@@ -24,7 +25,9 @@ bool shares_paths(const RenderOptions& options) {
 }
 
 PictureSamples no_samples(const RenderOptions& options) {
-  PictureSamples samples{options.width, options.height, 0, {}};
+  const int begin = samples_of_part(options).begin;
+  PictureSamples samples{options.width, options.height, begin, begin, 0, {}, {}};
+  samples.noisy.assign(block_count(options), 3);
   const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
   for (const int eye : eye_list(options.eyes)) {
     EyeSamples& sums = samples.eyes.emplace_back();
@@ -46,6 +49,44 @@ PictureSamples no_samples(const RenderOptions& options) {
     }
   }
   return samples;
+}
+
+bool fit(const PictureSamples& samples, const RenderOptions& options) {
+  const auto sizes = [](const EyeSamples& eye) {
+    std::vector<size_t> list;
+    each_plane(eye, [&](const auto& plane) { list.push_back(plane.size()); });
+    return list;
+  };
+  RenderOptions small = options;
+  small.width = small.height = 1;
+  const PictureSamples one = no_samples(small);
+  const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
+  bool fits = samples.width == options.width && samples.height == options.height;
+  fits = fits && samples.noisy.size() == block_count(options) && samples.eyes.size() == one.eyes.size();
+  const SampleRange range = samples_of_part(options);
+  fits = fits && range.begin <= samples.done && samples.done <= samples.pass_to && samples.pass_to <= range.end;
+  for (size_t i = 0; fits && i < one.eyes.size(); i++) {
+    std::vector<size_t> wanted = sizes(one.eyes[i]);
+    for (size_t& size : wanted) size *= pixels;
+    fits = samples.eyes[i].eye == one.eyes[i].eye && sizes(samples.eyes[i]) == wanted;
+  }
+  return fits;
+}
+
+template <typename Number>
+static void add_plane(std::vector<Number>& sum, const std::vector<Number>& part) {
+  for (size_t i = 0; i < sum.size(); i++) sum[i] = static_cast<Number>(sum[i] + part[i]);
+}
+
+void add_samples(PictureSamples& sum, const PictureSamples& part) {
+  for (size_t i = 0; i < sum.eyes.size(); i++) {
+    EyeSamples& a = sum.eyes[i];  // its depth is that of all parts
+    const EyeSamples& b = part.eyes[i];
+    add_plane(a.count, b.count), add_plane(a.light, b.light), add_plane(a.squares, b.squares);
+    add_plane(a.alone, b.alone), add_plane(a.weights, b.weights), add_plane(a.normal, b.normal);
+    add_plane(a.albedo, b.albedo), add_plane(a.hits, b.hits), add_plane(a.caught, b.caught);
+    add_plane(a.light_with, b.light_with), add_plane(a.light_without, b.light_without);
+  }
 }
 
 size_t samples_bytes(const RenderOptions& options) {

@@ -37,10 +37,22 @@ struct EyeSamples {
   std::vector<double> light_without;  // likewise
 };
 
+// Calls function(plane) for each vector of an EyeSamples.
+template <typename Eye, typename Function>
+void each_plane(Eye& eye, const Function& function) {
+  function(eye.count), function(eye.light), function(eye.squares), function(eye.alone), function(eye.weights);
+  function(eye.normal), function(eye.albedo), function(eye.depth);
+  function(eye.hits), function(eye.caught), function(eye.light_with), function(eye.light_without);
+}
+
 struct PictureSamples {
   int width = 0;
   int height = 0;
-  int done = 0;  // every pixel that is still noisy has the samples 0 .. done - 1, or its share of them
+  int done = 0;                // pixels that are still noisy have all samples before this one, or their share of them
+  int pass_to = 0;             // where the pass ends that has begun; `done` if none has
+  int blocks_done = 0;         // in that pass
+  std::vector<uint8_t> noisy;  // of each block (ods/render/sampling_plan.h): bits 0 and 1 for the classes of its pixels
+                               // that are still sampled
   std::vector<EyeSamples> eyes;
 };
 
@@ -63,6 +75,12 @@ bool shares_paths(const RenderOptions& options);
 
 // No samples yet. Precondition: options.height > 0.
 PictureSamples no_samples(const RenderOptions& options);
+
+// Whether these can be the samples of a picture with these options: for what comes from a file.
+bool fit(const PictureSamples& samples, const RenderOptions& options);
+
+// Adds the samples of another part. Precondition: both fit the same options.
+void add_samples(PictureSamples& sum, const PictureSamples& part);
 
 // The memory that no_samples() takes.
 size_t samples_bytes(const RenderOptions& options);

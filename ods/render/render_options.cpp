@@ -20,4 +20,9 @@ std::vector<int> eye_list(Eyes eyes) {
   return {};
 }
 
+SampleRange samples_of_part(const RenderOptions& options) {
+  const auto border = [&](int64_t part) { return static_cast<int>(options.samples * part / options.part.count); };
+  return {border(options.part.number - 1), border(options.part.number)};
+}
+
 }  // namespace ods

@@ -41,12 +41,20 @@ constexpr std::string_view pixel_filter_name(PixelFilter filter) {
 // How paths find light. Use kBoth; the others exist for tests.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
+// One of several parts of a picture that are rendered apart, each with other samples: a sixth of them is {2, 6}, if it
+// is the second.
+struct Part {
+  int number = 1;  // 1 .. count
+  int count = 1;
+};
+
 struct RenderOptions {
   int width = 2048;         // of one eye
   int height = 0;           // 0: natural_height() of the camera's projection
   int samples = 64;         // the most that a pixel gets, 1 .. kMaxSamples (ods/render/picture_samples.h)
   float noise = 0.0f;       // blocks of pixels stop when they are as clean as this, in Cycles' measure; 0: none stops
   double time_limit = 0.0;  // seconds after which no further samples begin; 0: no limit
+  Part part;                // of the samples; needs noise 0 and no time limit
   bool even_noise = true;   // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
   int bounces = 8;          // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;
@@ -61,5 +69,12 @@ struct RenderOptions {
   LightSampling light_sampling = LightSampling::kBoth;
   bool last_tile_first = false;  // renders the tiles in reverse: for tests that the order changes nothing
 };
+
+// The samples of options.part: numbers begin .. end - 1.
+struct SampleRange {
+  int begin;
+  int end;
+};
+SampleRange samples_of_part(const RenderOptions& options);
 
 }  // namespace ods

@@ -14,8 +14,16 @@ namespace ods {
 // Blocks near the poles still get this share: a flat view of the picture shows them large.
 static constexpr float kSmallestShare = 0.125f;
 
-static size_t block_count(const SamplingPlan& plan) {
-  return static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+static int blocks_along(int pixels) {
+  return (pixels + kBlockSize - 1) / kBlockSize;
+}
+
+int block_columns(const RenderOptions& options) {
+  return blocks_along(options.width);
+}
+
+size_t block_count(const RenderOptions& options) {
+  return static_cast<size_t>(block_columns(options)) * static_cast<size_t>(blocks_along(options.height));
 }
 
 static float block_angle(const Projection& projection, const RenderOptions& options, int column, int row) {
@@ -27,22 +35,16 @@ static float block_angle(const Projection& projection, const RenderOptions& opti
 
 SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options) {
   SamplingPlan plan;
-  plan.columns = (options.width + kBlockSize - 1) / kBlockSize;
-  plan.rows = (options.height + kBlockSize - 1) / kBlockSize;
-  plan.share.assign(block_count(plan), 1.0f);
-  plan.noisy.assign(block_count(plan), 3);
+  plan.columns = block_columns(options);
+  plan.share.assign(block_count(options), 1.0f);
   if (!options.even_noise) return plan;
   const Projection projection = make_camera(camera).projection;
-  std::vector<float> angles(block_count(plan));
-  tbb::parallel_for(0, plan.rows, [&](int row) {
-    for (int column = 0; column < plan.columns; column++) {
-      angles[static_cast<size_t>(row * plan.columns + column)] = block_angle(projection, options, column, row);
-    }
-  });
-  const float largest = *std::max_element(angles.begin(), angles.end());
-  for (size_t i = 0; i < angles.size(); i++) {
-    plan.share[i] = std::max(angles[i] / largest, kSmallestShare);
+  for (size_t i = 0; i < plan.share.size(); i++) {
+    const int block = static_cast<int>(i);
+    plan.share[i] = block_angle(projection, options, block % plan.columns, block / plan.columns);
   }
+  const float largest = *std::max_element(plan.share.begin(), plan.share.end());
+  for (float& share : plan.share) share = std::max(share / largest, kSmallestShare);
   return plan;
 }
 
@@ -87,14 +89,14 @@ static double block_noise(const PictureSamples& samples, const SamplingPlan& pla
   return pixels > 0 ? sum / pixels * static_cast<double>(plan.share[block]) : 0.0;
 }
 
-double judge_noise(const PictureSamples& samples, const RenderOptions& options, SamplingPlan& plan) {
+double judge_noise(const SamplingPlan& plan, const RenderOptions& options, PictureSamples& samples) {
   const double clean = std::pow(5.0 * static_cast<double>(options.noise), 2.0);  // 5: as Cycles scales its threshold
-  std::vector<double> excess(block_count(plan));
-  tbb::parallel_for(size_t{0}, plan.noisy.size(), [&](size_t block) {
+  std::vector<double> excess(plan.share.size());
+  tbb::parallel_for(size_t{0}, samples.noisy.size(), [&](size_t block) {
     for (int one : {0, 1}) {
-      if (!(plan.noisy[block] >> one & 1)) continue;
+      if (!(samples.noisy[block] >> one & 1)) continue;
       const double noise = block_noise(samples, plan, block, 1 - one) / clean;
-      if (noise <= 1.0) plan.noisy[block] = static_cast<uint8_t>(plan.noisy[block] & ~(1 << one));
+      if (noise <= 1.0) samples.noisy[block] = static_cast<uint8_t>(samples.noisy[block] & ~(1 << one));
       excess[block] += 0.5 * std::max(noise - 1.0, 0.0);
     }
   });

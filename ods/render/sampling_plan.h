@@ -23,14 +23,16 @@ inline int class_of(int x, int y) {
   return (x + y) & 1;
 }
 
+// Blocks in reading order.
+int block_columns(const RenderOptions& options);
+size_t block_count(const RenderOptions& options);
+
 struct SamplingPlan {
-  int columns = 0;  // blocks across
-  int rows = 0;
-  std::vector<float> share;    // of each block: of the samples that the pixels with the largest solid angle get, 0..1
-  std::vector<uint8_t> noisy;  // of each block: bit 0 and bit 1 for the classes of its pixels that are still sampled
+  int columns = 0;           // blocks across
+  std::vector<float> share;  // of each block: of the samples that the pixels with the largest solid angle get, 0..1
 };
 
-// All blocks are noisy. Precondition: options.height > 0.
+// Precondition: options.height > 0.
 SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options);
 
 size_t block_at(const SamplingPlan& plan, int x, int y);
@@ -38,8 +40,8 @@ size_t block_at(const SamplingPlan& plan, int x, int y);
 // How many of the first `samples` samples a pixel of this block takes.
 int samples_of(const SamplingPlan& plan, size_t block, int samples);
 
-// Marks the blocks that are still noisier than options.noise. Returns how many more samples the picture may need, as a
+// Updates which blocks are still noisier than options.noise. Returns how many more samples the picture may need, as a
 // multiple of those it has: noise falls with the square root of their number. Precondition: options.noise > 0.
-double judge_noise(const PictureSamples& samples, const RenderOptions& options, SamplingPlan& plan);
+double judge_noise(const SamplingPlan& plan, const RenderOptions& options, PictureSamples& samples);
 
 }  // namespace ods

@@ -18,4 +18,5 @@
 #include "ods/kernel/bsdf.h"
 #include "ods/kernel/light.h"
 #include "ods/kernel/medium.h"
+#include "ods/kernel/counterpart.h"
 #include "ods/kernel/path.h"

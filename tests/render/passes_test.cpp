@@ -11,7 +11,7 @@ namespace {
 
 // The steps until the end, if a sample takes this many seconds and noise never falls.
 std::vector<int> steps_of(const RenderOptions& options, double seconds_per_sample, double* seconds = nullptr) {
-  Passes passes(options);
+  Passes passes(options, 0);
   std::vector<int> steps;
   double now = 0.0;
   while (const int step = passes.next_step(now)) {
@@ -43,7 +43,7 @@ TEST(Passes, GrowWhileItIsNoisy) {
 
 TEST(Passes, EndWhenItIsClean) {
   const RenderOptions options = options_with(1000, 0.01f, 0.0);
-  Passes passes(options);
+  Passes passes(options, 0);
   EXPECT_EQ(passes.next_step(0.0), 64);
   passes.finish_step(1.0);
   passes.expect(0.0);
@@ -64,7 +64,7 @@ TEST(Passes, TimeLimitIsKept) {
 
 TEST(Passes, FractionNeverFallsAndEndsAtOne) {
   const RenderOptions options = options_with(400, 0.02f, 0.0);
-  Passes passes(options);
+  Passes passes(options, 0);
   double last = 0.0;
   for (double more : {8.0, 12.0, 0.5, 0.0}) {
     const int step = passes.next_step(0.0);

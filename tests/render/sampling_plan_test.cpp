@@ -26,9 +26,10 @@ TEST(SamplingPlan, LatLongSharesFollowTheCosine) {
   const RenderOptions options = options_of(camera, 1024, 64);
   const SamplingPlan plan = make_plan(camera, options);
   double least = 1.0;
-  for (int row = 0; row < plan.rows; row++) {
-    const auto cosine = [&](int i) { return std::sin(std::numbers::pi * (i + 0.5) / plan.rows); };
-    const double share = std::max(cosine(row) / cosine(plan.rows / 2), 0.125);
+  const int rows = options.height / kBlockSize;
+  for (int row = 0; row < rows; row++) {
+    const auto cosine = [&](int i) { return std::sin(std::numbers::pi * (i + 0.5) / rows); };
+    const double share = std::max(cosine(row) / cosine(rows / 2), 0.125);
     for (int column : {0, plan.columns / 3, plan.columns - 1}) {
       const double found = double{plan.share[static_cast<size_t>(row * plan.columns + column)]};
       EXPECT_NEAR(found, share, 1e-5) << row;
@@ -89,12 +90,12 @@ TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
       }
     }
   }
-  SamplingPlan plan = make_plan(StereoCamera{}, options);
+  const SamplingPlan plan = make_plan(StereoCamera{}, options);
   // Variance 1/4 of a sample, 1/60 of the mean; noise 3 sqrt(1/60) / 1.5 against 0.05.
   const double excess = std::pow(3.0 * std::sqrt(1.0 / 60.0) / (1e-4 + 1.5) / 0.05, 2.0) - 1.0;
-  const double more = judge_noise(samples, options, plan);
-  EXPECT_EQ(plan.noisy[0], 2);
-  EXPECT_EQ(plan.noisy[1], 0);
+  const double more = judge_noise(plan, options, samples);
+  EXPECT_EQ(samples.noisy[0], 2);
+  EXPECT_EQ(samples.noisy[1], 0);
   EXPECT_NEAR(more, std::min(0.5 * excess, 3.0) / 2.0, 1e-3);
 }
 

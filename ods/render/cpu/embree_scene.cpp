@@ -36,6 +36,21 @@ static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
   arguments.context = &context;
   rtcOccluded1(scene, &ray, &arguments);
 }
+
+static void intersect16(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
+
+static void occlude16(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
 #else
 using EmbreeContext = RTCIntersectContext;
 
@@ -50,6 +65,15 @@ static void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
 static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
+
+static void intersect16(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &context, &rays);
+}
+
+static void occlude16(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays) {
+  rtcOccluded16(valid, scene, &context, &rays);
+}
 #endif
 
 namespace ods {
@@ -61,6 +85,7 @@ struct RayContext {
   PathTracer* tracer;
   int ray;
   uint still;
+  uint index;  // of the first ray's sample
 };
 
 }  // namespace
@@ -93,19 +118,23 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree calls this for each candidate hit on a surface with alpha.
+// Embree calls this for the candidate hits of one or several rays on a surface with alpha.
 static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
-  if (arguments->valid[0] != -1) return;
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
-  const uint geometry = RTCHitN_geomID(arguments->hit, 1, 0);
-  const uint instance = RTCHitN_instID(arguments->hit, 1, 0, 0);
-  Hit hit;
-  hit.t = 0.0f;
-  hit.u = RTCHitN_u(arguments->hit, 1, 0);
-  hit.v = RTCHitN_v(arguments->hit, 1, 0);
-  hit.instance = instance_of(geometry, instance, context->still);
-  hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, 1, 0));
-  if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) arguments->valid[0] = 0;
+  const uint count = arguments->N;
+  for (uint i = 0; i < count; i++) {
+    if (arguments->valid[i] != -1) continue;
+    const uint geometry = RTCHitN_geomID(arguments->hit, count, i);
+    const uint instance = RTCHitN_instID(arguments->hit, count, i, 0);
+    Hit hit;
+    hit.t = 0.0f;
+    hit.u = RTCHitN_u(arguments->hit, count, i);
+    hit.v = RTCHitN_v(arguments->hit, count, i);
+    hit.instance = instance_of(geometry, instance, context->still);
+    hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, count, i));
+    context->tracer->path.index = context->index + RTCRayN_id(arguments->ray, count, i);
+    if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) arguments->valid[i] = 0;
+  }
 }
 
 static uint key_count(const Scene& scene, int motion) {
@@ -291,6 +320,7 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
   context.tracer = &tracer;
   context.ray = ray;
   context.still = still;
+  context.index = tracer.path.index;
   return context;
 }
 
@@ -317,6 +347,53 @@ bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int
   RayContext context = make_context(tracer, kind, handles_->still_id);
   occlude(handles_->top, context.embree, shadow);
   return shadow.tfar < 0.0f;
+}
+
+static void set_rays(RTCRay16& out, const RayPacket& packet) {
+  for (int i = 0; i < packet.count; i++) {
+    const Ray& ray = packet.rays[i];
+    out.org_x[i] = ray.origin.x, out.org_y[i] = ray.origin.y, out.org_z[i] = ray.origin.z;
+    out.dir_x[i] = ray.direction.x, out.dir_y[i] = ray.direction.y, out.dir_z[i] = ray.direction.z;
+    out.tnear[i] = 0.0f, out.tfar[i] = packet.lengths[i];
+    out.time[i] = packet.times[i], out.mask[i] = ~0u, out.id[i] = static_cast<uint>(i), out.flags[i] = 0;
+  }
+}
+
+// The alpha of surfaces is decided as for the paths that begin with these rays.
+static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, uint still) {
+  tracer.start_path(packet.rays[0], no_media(), packet.seed, packet.index);
+  return make_context(tracer, kPathRay, still);
+}
+
+void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit* hits) const {
+  RTCRayHit16 found;
+  alignas(64) int valid[RayPacket::kMost] = {};
+  set_rays(found.ray, packet);
+  for (int i = 0; i < packet.count; i++) {
+    valid[i] = -1;
+    found.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RayContext context = packet_context(tracer, packet, handles_->still_id);
+  intersect16(valid, handles_->top, context.embree, found);
+  for (int i = 0; i < packet.count; i++) {
+    const bool missed = found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID;
+    hits[i].t = missed ? -1.0f : found.ray.tfar[i];
+    hits[i].u = missed ? 0.0f : found.hit.u[i];
+    hits[i].v = missed ? 0.0f : found.hit.v[i];
+    hits[i].instance = missed ? -1 : instance_of(found.hit.geomID[i], found.hit.instID[0][i], handles_->still_id);
+    hits[i].triangle = missed ? -1 : static_cast<int>(found.hit.primID[i]);
+  }
+}
+
+void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hidden) const {
+  RTCRay16 shadows;
+  alignas(64) int valid[RayPacket::kMost] = {};
+  set_rays(shadows, packet);
+  for (int i = 0; i < packet.count; i++) valid[i] = packet.lengths[i] > 0.0f ? -1 : 0;
+  RayContext context = packet_context(tracer, packet, handles_->still_id);
+  occlude16(valid, handles_->top, context.embree, shadows);
+  for (int i = 0; i < packet.count; i++) hidden[i] = valid[i] == 0 || shadows.tfar[i] < 0.0f;
 }
 
 }  // namespace ods

@@ -10,6 +10,17 @@
 
 namespace ods {
 
+// Rays that are traced at once: of one pixel's samples, which go nearly the same way.
+struct RayPacket {
+  static constexpr int kMost = 16;
+  int count = 0;
+  Ray rays[kMost];
+  float times[kMost];    // of ray_time
+  float lengths[kMost];  // for occluded(); 0: no ray
+  uint seed = 0;         // of the paths that the rays begin
+  uint index = 0;        // of the first one's sample; the others follow
+};
+
 class EmbreeScene {
  public:
   // Builds the acceleration structures in the calling thread's TBB arena. The scene must outlive this object.
@@ -31,6 +42,10 @@ class EmbreeScene {
   // with alpha. kind: how it decides, kPathRay, kShadowRay or kHalfAlphaRay.
   Hit closest_hit(PathTracer& tracer, const Ray& ray, int kind) const;
   bool occluded(PathTracer& tracer, const Ray& ray, float length, int kind = kShadowRay) const;
+
+  // The same for the first rays of paths, several times as fast. hits and hidden have packet.count entries.
+  void closest_hits(PathTracer& tracer, const RayPacket& packet, Hit* hits) const;
+  void occluded(PathTracer& tracer, const RayPacket& packet, bool* hidden) const;
 
  private:
   struct Handles;

@@ -92,14 +92,22 @@ float center_depth(Job& job, int eye, int x, int y) {
 // The samples from..to - 1 of all noisy pixels, or the share of them that each block gets.
 struct Pass {
   const SamplingPlan& plan;
+  const std::vector<uint8_t>& noisy;
   int from;
   int to;
+  SampleRange whole;  // samples in whose proportion the eyes share paths: those of the pass, or all if no pixel stops
 };
 
-int samples_in(const Pass& pass, int x, int y) {
+bool is_noisy(const Pass& pass, size_t block, int x, int y) {
+  return pass.noisy[block] >> class_of(x, y) & 1;
+}
+
+// Of a pixel in the pass; 0 if it is clean.
+float weight_in(const Pass& pass, int x, int y) {
   const size_t block = block_at(pass.plan, x, y);
-  if (!(pass.plan.noisy[block] >> class_of(x, y) & 1)) return 0;
-  return samples_of(pass.plan, block, pass.to) - samples_of(pass.plan, block, pass.from);
+  if (!is_noisy(pass, block, x, y)) return 0.0f;
+  return static_cast<float>(samples_of(pass.plan, block, pass.whole.end) -
+                            samples_of(pass.plan, block, pass.whole.begin));
 }
 
 int64_t fixed(float light) {
@@ -116,8 +124,8 @@ uint32_t fixed_square(float weight) {
   return static_cast<uint32_t>(std::lrint(weight * weight * kWeightUnit));
 }
 
-// The pixel's own path has ended.
-void add_path(const PathState& path, double unit, size_t pixel, EyeSamples& eye) {
+// What a path found for its own pixel.
+void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye) {
   const bool alone = !eye.alone.empty();
   for (size_t c = 0; c < 3; c++) {
     const int i = static_cast<int>(c);
@@ -138,7 +146,7 @@ void add_path(const PathState& path, double unit, size_t pixel, EyeSamples& eye)
   add(eye.weights, pixel, fixed_square(weight));
 }
 
-// A path of the other eye has ended that shares its light with this pixel.
+// What a path of the other eye found for this pixel.
 void add_shared(const PathState& path, size_t pixel, EyeSamples& eye) {
   for (size_t c = 0; c < 3; c++) add(eye.light, 3 * pixel + c, fixed(path.other_radiance[static_cast<int>(c)]));
   if (!eye.weights.empty()) add(eye.weights, pixel, fixed_square(1.0f - path.own_share));
@@ -150,87 +158,157 @@ struct Target {
   EyeSamples* other;
 };
 
-// If the other eye sees what the path hit, its pixel, else none.
-std::optional<size_t> share_with_other_eye(Job& job, const Camera& camera, const Pass& pass, int eye, int x, int y,
-                                           vec2 uv, Hit hit) {
-  if (hit.t < 0.0f) return std::nullopt;
-  PathTracer& tracer = job.tracer;
-  const Ray& ray = tracer.path.ray;
-  const vec2 size(static_cast<float>(job.options.width), static_cast<float>(job.options.height));
-  const Counterpart found =
-      counterpart_of(camera, job.filter, size, eye, vec2(static_cast<float>(x), static_cast<float>(y)), uv,
-                     ray.direction, ray.origin + ray.direction * hit.t);
-  if (!found.exists) return std::nullopt;
-  const int theirs = samples_in(pass, found.x, found.y), ours = samples_in(pass, x, y);
-  // Just short of the surface.
-  const float length = found.distance * (1.0f - 1e-4f);
-  if (theirs == 0 || job.embree.occluded(tracer, {found.origin, found.direction}, length, kPathRay))
-    return std::nullopt;
-  tracer.share_path(found.direction, found.density * static_cast<float>(theirs) / static_cast<float>(ours));
-  return static_cast<size_t>(found.y) * static_cast<size_t>(job.options.width) + static_cast<size_t>(found.x);
+// The first rays of a pixel's samples, traced at once, and where the other eye sees what they hit.
+struct FirstHits {
+  RayPacket packet;
+  vec2 uv[RayPacket::kMost];
+  Hit hits[RayPacket::kMost];
+  Counterpart counterparts[RayPacket::kMost];  // exists: both eyes see the hit
+};
+
+// False if the picture is empty at the pixel.
+[[gnu::flatten]] bool trace_first_rays(Job& job, int eye, int x, int y, int first, FirstHits& out) {
+  const vec2 home = pixel_center(job, x, y);
+  RayPacket& packet = out.packet;
+  packet.count = RayPacket::kMost;
+  packet.seed = pixel_seed(job, eye, x, y);
+  packet.index = static_cast<uint>(first);
+  for (int i = 0; i < packet.count; i++) {
+    const uint index = packet.index + static_cast<uint>(i);
+    const vec2 place = random_pair(packet.seed, index, kPixelPair);
+    out.uv[i] = job.tracer.filtered_position(job.filter, x, y, job.options.width, job.options.height, place);
+    const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(packet.seed, index, kLensPair) : vec2(0.0f);
+    packet.times[i] = job.shutter ? random_pair(packet.seed, index, kTimePair).x : 0.5f;
+    packet.rays[i] = job.cameras.size() > 1
+                         ? camera_ray(camera_at(job.cameras, packet.times[i]), eye, home, out.uv[i], lens)
+                         : camera_ray(job.camera, eye, home, out.uv[i], lens);
+    if (packet.rays[i].direction == vec3(0.0f)) return false;
+  }
+  job.embree.closest_hits(job.tracer, packet, out.hits);
+  return true;
 }
 
-// Traces one sample of a pixel. False if the picture is empty there.
-[[gnu::flatten]] bool trace_sample(Job& job, const Pass& pass, int x, int y, uint index, size_t pixel, Target target) {
-  const int eye = target.eye.eye, width = job.options.width, height = job.options.height;
-  const uint seed = pixel_seed(job, eye, x, y);
-  const PathState& path = job.tracer.path;
-  const vec2 uv = job.tracer.filtered_position(job.filter, x, y, width, height, random_pair(seed, index, kPixelPair));
-  const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
-  if (job.shutter) job.tracer.ray_time = random_pair(seed, index, kTimePair).x;
-  Camera moving;
-  const Camera* camera = &job.camera;
-  if (job.cameras.size() > 1) moving = camera_at(job.cameras, job.tracer.ray_time), camera = &moving;
-  const Ray ray = camera_ray(*camera, eye, pixel_center(job, x, y), uv, lens);
-  if (ray.direction == vec3(0.0f)) return false;
-  job.tracer.start_path(ray, job.media, seed, index);
-  const Hit hit = job.embree.closest_hit(job.tracer, ray, kPathRay);
-  std::optional<size_t> shared;
-  if (job.shares) shared = share_with_other_eye(job, *camera, pass, eye, x, y, uv, hit);
-  trace_path(job, hit);
-  if (shared) add_shared(path, *shared, *target.other);
-  if (job.options.transparent && path.depth < 0.0f) return true;  // the path hit nothing
-  if (path.caught) {
-    target.eye.caught[pixel]++;
-    target.eye.light_with[pixel] += double{path.light_with};
-    target.eye.light_without[pixel] += double{path.light_without};
-    return true;
+// Finds the counterparts of the hits that the other eye sees, too.
+[[gnu::flatten]] void find_counterparts(Job& job, int eye, int x, int y, FirstHits& out) {
+  const vec2 size(static_cast<float>(job.options.width), static_cast<float>(job.options.height));
+  const vec2 pixel(static_cast<float>(x), static_cast<float>(y));
+  RayPacket back = out.packet;
+  bool any = false;
+  for (int i = 0; i < back.count; i++) {
+    const Ray ray = out.packet.rays[i];
+    Counterpart& found = out.counterparts[i];
+    found.exists = false;
+    back.lengths[i] = 0.0f;
+    if (out.hits[i].t < 0.0f) continue;
+    const Camera camera = job.cameras.size() > 1 ? camera_at(job.cameras, back.times[i]) : job.camera;
+    found = counterpart_of(camera, job.filter, size, eye, pixel, out.uv[i], ray.direction,
+                           ray.origin + ray.direction * out.hits[i].t);
+    if (!found.exists) continue;
+    any = true;
+    back.rays[i] = {found.origin, found.direction};
+    back.lengths[i] = found.distance * (1.0f - 1e-4f);  // just short of the surface
   }
-  if (!target.eye.hits.empty()) target.eye.hits[pixel]++;
-  add_path(path, job.unit, pixel, target.eye);
+  if (!any) return;
+  bool hidden[RayPacket::kMost];
+  job.embree.occluded(job.tracer, back, hidden);
+  for (int i = 0; i < back.count; i++) out.counterparts[i].exists &= !hidden[i];
+}
+
+// A path has ended that began in this pixel.
+void add_path(const Job& job, size_t pixel, EyeSamples& eye) {
+  const PathState& path = job.tracer.path;
+  if (job.options.transparent && path.depth < 0.0f) return;  // it hit nothing
+  if (path.caught) {
+    eye.caught[pixel]++;
+    eye.light_with[pixel] += double{path.light_with};
+    eye.light_without[pixel] += double{path.light_without};
+    return;
+  }
+  if (!eye.hits.empty()) eye.hits[pixel]++;
+  add_light(path, job.unit, pixel, eye);
+}
+
+// Traces those of a packet's samples that are within first .. last - 1. False if the picture is empty there. What a ray
+// hits may depend on the others of its packet, where surfaces coincide, so packets are the same whatever the range.
+bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRange range, Target target) {
+  const size_t width = static_cast<size_t>(job.options.width);
+  const size_t pixel = static_cast<size_t>(y) * width + static_cast<size_t>(x);
+  FirstHits start;
+  if (!trace_first_rays(job, target.eye.eye, x, y, packet * RayPacket::kMost, start)) return false;
+  if (job.shares) find_counterparts(job, target.eye.eye, x, y, start);
+  const float ours = weight_in(pass, x, y);
+  for (int i = 0; i < RayPacket::kMost; i++) {
+    const int index = packet * RayPacket::kMost + i;
+    if (index < range.begin || index >= range.end) continue;
+    job.tracer.ray_time = start.packet.times[i];
+    job.tracer.start_path(start.packet.rays[i], job.media, start.packet.seed, static_cast<uint>(index));
+    const Counterpart& other = start.counterparts[i];
+    const float theirs = job.shares && other.exists ? weight_in(pass, other.x, other.y) : 0.0f;
+    if (theirs > 0.0f) job.tracer.share_path(other.direction, other.density * theirs / ours);
+    trace_path(job, start.hits[i]);
+    if (theirs > 0.0f) {
+      add_shared(job.tracer.path, static_cast<size_t>(other.y) * width + static_cast<size_t>(other.x), *target.other);
+    }
+    add_path(job, pixel, target.eye);
+  }
   return true;
 }
 
 // Takes the job by value: each block traces with its own path state.
 void render_block(Job job, const Pass& pass, int block, Target target) {
   const size_t b = static_cast<size_t>(block);
-  const int first = samples_of(pass.plan, b, pass.from);
+  const int first = samples_of(pass.plan, b, pass.from), last = samples_of(pass.plan, b, pass.to);
   const int x0 = block % pass.plan.columns * kBlockSize, y0 = block / pass.plan.columns * kBlockSize;
   for (int y = y0; y < std::min(y0 + kBlockSize, job.options.height); y++) {
     for (int x = x0; x < std::min(x0 + kBlockSize, job.options.width); x++) {
-      const int count = samples_in(pass, x, y);
-      if (count == 0) continue;
+      if (!is_noisy(pass, b, x, y)) continue;
       const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.options.width) + static_cast<size_t>(x);
-      if (pass.from == 0 && !target.eye.depth.empty())
-        target.eye.depth[pixel] = center_depth(job, target.eye.eye, x, y);
-      for (int i = first; i < first + count; i++) {
-        if (!trace_sample(job, pass, x, y, static_cast<uint>(i), pixel, target)) break;
+      const bool is_first = pass.from == samples_of_part(job.options).begin;
+      if (is_first && !target.eye.depth.empty()) target.eye.depth[pixel] = center_depth(job, target.eye.eye, x, y);
+      for (int i = first / RayPacket::kMost; i * RayPacket::kMost < last; i++) {
+        if (!trace_packet(job, pass, x, y, i, {first, last}, target)) break;
       }
-      target.eye.count[pixel] += static_cast<uint32_t>(count);
+      target.eye.count[pixel] += static_cast<uint32_t>(last - first);
     }
   }
 }
 
-// Renders a pass of both eyes from one pool of work. The thread that finishes a block reports what is done of the pass.
-void render_pass(const Job& job, const Pass& pass, PictureSamples& samples, const Progress& progress) {
-  const int per_eye = static_cast<int>(pass.plan.noisy.size());
+// Seconds after which the samples are kept again, and of the slices of work between which they can be.
+constexpr double kKeepSeconds = 25.0;
+constexpr double kSliceSeconds = 2.0;
+
+// Keeps the samples every now and then, if the caller wants them.
+class Keeper {
+ public:
+  explicit Keeper(const KeepSamples& keep) : keep_(keep) {}
+  bool wanted() const { return static_cast<bool>(keep_); }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  void keep(const PictureSamples& samples) {
+    if (keep_) keep_(samples);
+    kept_ = seconds();
+  }
+  void keep_if_due(const PictureSamples& samples) {
+    if (seconds() - kept_ > kKeepSeconds) keep(samples);
+  }
+
+ private:
+  const KeepSamples& keep_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double kept_ = 0.0;
+};
+
+// Renders the blocks begin .. end - 1 of a pass, of both eyes. The thread that finishes a block reports what is done of
+// the pass. If a caller keeps the samples, only whole slices are of use.
+void render_slice(const Job& job, const Pass& pass, int begin, int end, PictureSamples& samples,
+                  const Progress& progress, bool keeps) {
+  const int per_eye = static_cast<int>(samples.noisy.size());
   const int total = per_eye * static_cast<int>(samples.eyes.size());
-  std::atomic<int> done = 0;
+  std::atomic<int> done = begin;
   std::atomic<bool> stop = false;
   std::mutex reporting;
-  tbb::parallel_for(0, total, [&](int i) {
+  tbb::parallel_for(begin, end, [&](int i) {
     const int work = job.options.last_tile_first ? total - 1 - i : i;
-    if (stop || (progress.cancelled && progress.cancelled())) {
+    if (stop || (!keeps && progress.cancelled && progress.cancelled())) {
       stop = true;
       return;
     }
@@ -243,7 +321,27 @@ void render_pass(const Job& job, const Pass& pass, PictureSamples& samples, cons
     }
   });
   if (stop) throw Error(ErrorKind::kCancelled, "rendering was stopped");
-  samples.done = pass.to;
+  samples.blocks_done = end;
+}
+
+// Renders what is left of the pass that has begun.
+void render_pass(const Job& job, const Pass& pass, PictureSamples& samples, const Progress& progress, Keeper& keeper) {
+  const int total = static_cast<int>(samples.noisy.size() * samples.eyes.size());
+  int slice = keeper.wanted() ? 16 : total;
+  while (samples.blocks_done < total) {
+    const double began = keeper.seconds();
+    const int end = std::min(samples.blocks_done + slice, total);
+    render_slice(job, pass, samples.blocks_done, end, samples, progress, keeper.wanted());
+    const double took = std::max(keeper.seconds() - began, 1e-6);
+    slice = std::clamp(static_cast<int>(slice * kSliceSeconds / took), 1 + slice / 2, 4 * slice);
+    if (progress.cancelled && progress.cancelled()) {
+      keeper.keep(samples);
+      throw Error(ErrorKind::kCancelled, "rendering was stopped");
+    }
+    keeper.keep_if_due(samples);
+  }
+  samples.done = samples.pass_to;
+  samples.blocks_done = 0;
 }
 
 // What lies out of focus has no place in the other eye's picture, and a catcher carries no light.
@@ -252,17 +350,25 @@ bool can_share(const StereoCamera& camera, const Scene& scene, const RenderOptio
 }
 
 // Passes until the picture is clean, has all samples or has no time left.
-void render_passes(const Job& job, SamplingPlan plan, PictureSamples& samples, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+void render_passes(const Job& job, const SamplingPlan& plan, PictureSamples& samples, const Progress& progress,
+                   const KeepSamples& keep) {
+  Keeper keeper(keep);
   Passes passes(job.options, samples.done);
-  while (const int step = passes.next_step(seconds())) {
+  if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+  const bool stops = job.options.noise > 0.0f || job.options.time_limit > 0.0;
+  while (samples.pass_to > samples.done || passes.next_step(keeper.seconds()) > 0) {
+    if (samples.pass_to > samples.done) {
+      passes.resume_step(samples.pass_to - samples.done);
+    } else {
+      samples.pass_to = samples.done + passes.step();
+    }
     Progress part = progress;
-    if (progress.report) part.report = [&](double done) { progress.report(passes.fraction(done, seconds())); };
-    const double began = seconds();
-    render_pass(job, {plan, samples.done, samples.done + step}, samples, part);
-    passes.finish_step(seconds() - began);
-    if (passes.can_judge()) passes.expect(judge_noise(samples, job.options, plan));
+    if (progress.report) part.report = [&](double done) { progress.report(passes.fraction(done, keeper.seconds())); };
+    const double began = keeper.seconds();
+    const SampleRange whole = stops ? SampleRange{samples.done, samples.pass_to} : SampleRange{0, job.options.samples};
+    render_pass(job, {plan, samples.noisy, samples.done, samples.pass_to, whole}, samples, part, keeper);
+    passes.finish_step(keeper.seconds() - began);
+    if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
   }
   if (progress.report) progress.report(1.0);
 }
@@ -304,14 +410,20 @@ Picture CpuRenderer::render(const StereoCamera& stereo, const RenderOptions& opt
 
 Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOptions& wanted,
                             const Progress& progress) const {
-  assert(path.size() % 2 == 1);
-  assert(wanted.transparent || !has_catchers(parts_->scene));
-  const StereoCamera& stereo = path[path.size() / 2];
-  const RenderOptions options = with_height(wanted, stereo);
-  std::vector<Camera> cameras;
-  for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
+  const RenderOptions options = with_height(wanted, path[path.size() / 2]);
   check_picture_memory(options);
   PictureSamples samples = no_samples(options);
+  sample(path, options, samples, progress);
+  return develop(samples, options);
+}
+
+void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
+                         const Progress& progress, const KeepSamples& keep) const {
+  assert(path.size() % 2 == 1 && fit(samples, options));
+  assert(options.transparent || !has_catchers(parts_->scene));
+  const StereoCamera& stereo = path[path.size() / 2];
+  std::vector<Camera> cameras;
+  for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
   parts_->arena.execute([&] {
     PathTracer tracer = parts_->tracer;
     tracer.ray_time = 0.5f;
@@ -327,9 +439,8 @@ Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOpti
                   options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
                   layer_unit(options),
                   can_share(stereo, parts_->scene, options)};
-    render_passes(job, make_plan(stereo, options), samples, progress);
+    render_passes(job, make_plan(stereo, options), samples, progress, keep);
   });
-  return develop(samples, options);
 }
 
 Picture render_cpu(const Scene& scene, const StereoCamera& stereo, const RenderOptions& options,

@@ -3,16 +3,20 @@
 //
 // The path tracer on the CPU: the kernel on Embree.
 #pragma once
+#include <functional>
 #include <memory>
 #include <span>
 
 #include "ods/base/progress.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/picture/picture.h"
+#include "ods/render/picture_samples.h"
 #include "ods/render/render_options.h"
 #include "ods/scene/motion.h"
 
 namespace ods {
+
+using KeepSamples = std::function<void(const PictureSamples& samples)>;
 
 // A scene ready to be rendered, for videos: from one frame to the next only what moves is rebuilt.
 class CpuRenderer {
@@ -33,6 +37,13 @@ class CpuRenderer {
   // camera, and so is the depth layer. With open_shutter() the scene moves as well: every sample has its own time,
   // evenly distributed.
   Picture render(std::span<const StereoCamera> path, const RenderOptions& options, const Progress& progress = {}) const;
+
+  // Likewise, in a way that can be interrupted: goes on from `samples`, which are no_samples() or those that an earlier
+  // call has kept, and leaves what develop() makes the picture of. The result has the same bits, wherever it was
+  // interrupted. `keep` gets the samples at least every 30 seconds, and before kCancelled is thrown.
+  // Precondition: options.height > 0, fit(samples, options).
+  void sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
+              const Progress& progress = {}, const KeepSamples& keep = {}) const;
 
  private:
   struct Parts;
