@@ -37,11 +37,11 @@ static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
   rtcOccluded1(scene, &ray, &arguments);
 }
 
-static void intersect16(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
+static void intersect16(const int* valid, RTCScene scene, EmbreeContext& context, bool coherent, RTCRayHit16& rays) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  if (coherent) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcIntersect16(valid, scene, &rays, &arguments);
 }
 
@@ -66,8 +66,8 @@ static void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
 
-static void intersect16(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+static void intersect16(const int* valid, RTCScene scene, EmbreeContext& context, bool coherent, RTCRayHit16& rays) {
+  if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid, scene, &context, &rays);
 }
 
@@ -98,6 +98,7 @@ struct EmbreeScene::Handles {
   RTCScene top = nullptr;
   RTCScene still = nullptr;      // null if nothing moves
   uint still_id = 0;             // in the top scene
+  bool coherent = true;          // trace packets of rays as one; Embree 3.13 may never return where there are instances
   std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
   std::vector<char> moves;       // by instance
 
@@ -263,11 +264,13 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : hand
       attach(handles_->shared[mesh], make_geometry(device, scene, scene.meshes[mesh], nullptr), 0);
       rtcCommitScene(handles_->shared[mesh]);
     }
+    handles_->coherent = false;
     RTCGeometry geometry = make_instance(device, handles_->shared[mesh], scene, instance);
     if (hidden) rtcDisableGeometry(geometry);
     attach(handles_->top, geometry, i);
   }
   if (split) {
+    handles_->coherent = false;
     rtcCommitScene(handles_->still);
     Instance here{};
     here.motion = -1;
@@ -375,7 +378,7 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   RayContext context = packet_context(tracer, packet, handles_->still_id);
-  intersect16(valid, handles_->top, context.embree, found);
+  intersect16(valid, handles_->top, context.embree, handles_->coherent, found);
   for (int i = 0; i < packet.count; i++) {
     const bool missed = found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID;
     hits[i].t = missed ? -1.0f : found.ray.tfar[i];
