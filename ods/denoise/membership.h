@@ -19,10 +19,13 @@ inline float feature_weight(float normals, float albedos) {
   return taper(normals * (1.0f / (kNormal * kNormal)) + albedos * (1.0f / (kAlbedo * kAlbedo)));
 }
 
-// Welch's test: from the squared distance of the means, all channels added, and the sum of the two variances.
+// Welch's test: from the squared distance of the means, all channels added, and the sum of the two variances. The
+// weight is nearly 1 up to a standard deviation, so that an outlier gives its neighbours as much as they give each
+// other: else its light would be lost.
 inline float light_weight(float distance, float variance) {
-  constexpr float kSigmas = 3.0f;
-  return taper(distance / (3.0f * kSigmas * kSigmas * variance + 1e-30f));
+  constexpr float kSigmas = 2.5f;
+  const float t = std::min(distance / (3.0f * kSigmas * kSigmas * variance + 1e-30f), 1.0f);
+  return taper(t * t);
 }
 
 }  // namespace ods
