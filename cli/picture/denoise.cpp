@@ -21,7 +21,7 @@ ods::StoredNoise read_input(DenoiseJob& job) {
   ods::StoredNoise noise = ods::read_noise(job.picture, job.layers, job.input);
   if (noise.unusable > 0) {
     note(
-        fmt::format("{}: {} pixels have no usable light or variance (NaN, infinite or negative): taken from their "
+        fmt::format("{}: {} pixels without usable light or variance (NaN, infinite or negative): taken from their "
                     "neighbours",
                     job.input, noise.unusable));
   }
