@@ -177,7 +177,8 @@ void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std
                   Block& block) {
   int widest = 1;
   for (int y = block.inside.top; y < block.inside.bottom; y++) widest = std::max(widest, stretch_of(noisy, pass, y));
-  block.margin = kRadius * pass.stride * widest;
+  block.across = kRadius * pass.stride * widest;
+  block.down = kRadius * pass.stride;
   load_block(noisy, from, block);
   Sums sums;
   for (int y = block.inside.top; y < block.inside.bottom; y++) {

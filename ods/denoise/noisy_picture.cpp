@@ -128,13 +128,13 @@ static void put_pixel(const NoisyPicture& noisy, const std::vector<Level>& level
 }
 
 void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block) {
-  const int m = block.margin;
   const Cell &cell = block.cell, &inside = block.inside;
-  const size_t count = static_cast<size_t>(block.stride()) * static_cast<size_t>(inside.bottom - inside.top + 2 * m);
+  const size_t count =
+      static_cast<size_t>(block.stride()) * static_cast<size_t>(inside.bottom - inside.top + 2 * block.down);
   for (std::vector<float>& plane : block.planes) plane.resize(count);
   size_t to = 0;
-  for (int y = inside.top - m; y < inside.bottom + m; y++) {
-    for (int x = inside.left - m; x < inside.right + m; x++, to++) {
+  for (int y = inside.top - block.down; y < inside.bottom + block.down; y++) {
+    for (int x = inside.left - block.across; x < inside.right + block.across; x++, to++) {
       const bool is_own = x >= cell.left && x < cell.right && y >= cell.top && y < cell.bottom;
       put_pixel(noisy, levels, is_own ? Texel{block.eye, x, y} : neighbour_of(noisy, block.eye, cell, x, y), block, to);
     }

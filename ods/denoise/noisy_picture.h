@@ -66,18 +66,19 @@ Level first_level(const NoisyPicture& noisy, int eye);
 
 enum Plane { kRed, kGreen, kBlue, kVariance, kNormalX, kNormalY, kNormalZ, kAlbedoR, kAlbedoG, kAlbedoB, kPlaneCount };
 
-// Part of a cell with a margin all around.
+// Part of a cell with a margin around it.
 struct Block {
   int eye = 0;
-  Cell cell;    // the cell that it is in
-  Cell inside;  // the part, in the eye's pixels
-  int margin = 0;
+  Cell cell;       // the cell that it is in
+  Cell inside;     // the part, in the eye's pixels
+  int across = 0;  // the margin's columns on either side
+  int down = 0;    // and its rows
   std::array<std::vector<float>, kPlaneCount> planes;
 
-  int stride() const { return inside.right - inside.left + 2 * margin; }
-  // The row of the eye's row y, from the column inside.left; `margin` columns before and after the part are valid.
+  int stride() const { return inside.right - inside.left + 2 * across; }
+  // The row of the eye's row y, from the column inside.left; those of the margin are before and after the part.
   const float* row(Plane plane, int y) const {
-    return planes[plane].data() + static_cast<ptrdiff_t>(y - inside.top + margin) * stride() + margin;
+    return planes[plane].data() + static_cast<ptrdiff_t>(y - inside.top + down) * stride() + across;
   }
 };
 

@@ -23,11 +23,11 @@ struct Grid {
   std::vector<float> values;
   explicit Grid(const Block& of)
       : block(of),
-        values(static_cast<size_t>(of.stride()) *
-               static_cast<size_t>(of.inside.bottom - of.inside.top + 2 * of.margin)) {}
+        values(static_cast<size_t>(of.stride()) * static_cast<size_t>(of.inside.bottom - of.inside.top + 2 * of.down)) {
+  }
   float& at(int x, int y) {
-    return values[static_cast<size_t>((y - block.inside.top + block.margin) * block.stride() + x - block.inside.left +
-                                      block.margin)];
+    return values[static_cast<size_t>((y - block.inside.top + block.down) * block.stride() + x - block.inside.left +
+                                      block.across)];
   }
 };
 
@@ -121,7 +121,7 @@ void smooth_variance(const NoisyPicture& noisy, std::vector<Level>& levels) {
   std::vector<std::vector<uint16_t>> smooth;
   for (const Level& level : levels) smooth.push_back(level.variance);
   for_each_block(noisy, [&](Block& block) {
-    block.margin = kMargin;
+    block.across = block.down = kMargin;
     load_block(noisy, levels, block);
     const Cell& inside = block.inside;
     Grid pure(block), variance(block);
