@@ -11,7 +11,7 @@
 namespace {
 
 constexpr const char* kExamples =
-    "  ods render room --statistics -o noisy.exr && ods denoise noisy.exr -o clean.exr\n"
+    "  ods denoise noisy.exr -o clean.exr\n"
     "  ods denoise noisy.exr -o clean_TB.png --exposure 0.5\n"
     "  ods denoise other_TB.exr -o clean_TB.exr --half-a halfA --half-b halfB";
 
