@@ -74,6 +74,24 @@ void add_neighbours(const RowPair& pair, int count, float share, Sums& sums) {
   }
 }
 
+// A pixel that resembles no other, at the edge of a thing, turns to those beside it: else an outlier there would stay.
+void add_beside(const Block& block, int y, Sums& sums) {
+  constexpr float kAlone = 0.25f;  // weight of all neighbours below which a pixel is alone
+  for (int x = 0; x < block.inside.right - block.inside.left; x++) {
+    const float own = block.row(kVariance, y)[x];
+    if (!(own > 0.0f) || sums.weight[x] > 1.0f + kAlone) continue;
+    for (int i = 0; i < 9; i++) {
+      const RowPair pair = pair_rows(block, y, i % 3 - 1, i / 3 - 1);
+      const float theirs = pair.next[kVariance][x];
+      if (i == 4 || theirs < 0.0f) continue;
+      const float weight = 0.5f * light_weight(squared_distance(pair, kRed, x), own + theirs);
+      sums.weight[x] += weight;
+      for (int c = 0; c < 3; c++) sums.light[c][x] += weight * pair.next[kRed + c][x];
+      sums.variance[x] += weight * weight * theirs;
+    }
+  }
+}
+
 // The nine pixels around the place where the other eye sees the same.
 void add_other_eye(const NoisyPicture& noisy, const std::vector<Level>& from, const Block& block, float share, int x,
                    int y, Sums& sums) {
@@ -192,6 +210,7 @@ void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std
         add_neighbours(pair, block.inside.right - block.inside.left, share, sums);
       }
     }
+    if (pass.stride == 1) add_beside(block, y, sums);
     if (pass.other_eye > 0.0f) {
       for (int x = block.inside.left; x < block.inside.right; x++)
         add_other_eye(noisy, from, block, pass.other_eye, x, y, sums);
