@@ -24,7 +24,7 @@ using Truth = std::function<float(int x, int y)>;
 // Two eyes, lat-long: `truth` with normal noise of this standard deviation, and its variance.
 Picture noisy_picture(float deviation, const Truth& truth, int width = kWidth) {
   std::mt19937 engine(7);
-  std::normal_distribution<float> noise(0.0f, deviation);
+  std::normal_distribution<float> noise(0.0f, 1.0f);
   Picture picture;
   for (const int which : {kLeft, kRight}) {
     EyeImage eye;
@@ -34,7 +34,7 @@ Picture noisy_picture(float deviation, const Truth& truth, int width = kWidth) {
     for (int y = 0; y < width / 2; y++) {
       for (int x = 0; x < width; x++) {
         for (int c = 0; c < 3; c++) {
-          eye.radiance.at(x, y)[c] = truth(x, y) + (deviation > 0.0f ? noise(engine) : 0.0f);
+          eye.radiance.at(x, y)[c] = truth(x, y) + deviation * noise(engine);
           eye.variance.at(x, y)[c] = deviation * deviation;
         }
         *eye.samples.at(x, y) = 16.0f;
