@@ -20,10 +20,10 @@ ods::StoredNoise read_input(DenoiseJob& job) {
   note_guesses(job.input, job.picture);
   ods::StoredNoise noise = ods::read_noise(job.picture, job.layers, job.input);
   if (noise.unusable > 0) {
-    note(
-        fmt::format("{}: {} pixels without usable light or variance (NaN, infinite or negative): taken from their "
-                    "neighbours",
-                    job.input, noise.unusable));
+    note(fmt::format(
+        "{}: {} pixels without usable light or variance (NaN, infinite, negative or of one sample): taken from their "
+        "neighbours",
+        job.input, noise.unusable));
   }
   if (!noise.has_features)
     note(fmt::format("{}: no albedo and no normals, which would keep textures sharper", job.input));

@@ -139,12 +139,12 @@ int64_t count_unusable(const EyeImage& eye) {
   int64_t count = 0;
   for (size_t i = 0; i < eye.radiance.pixels.size(); i += 3) {
     float sum = 0.0f;
-    bool is_negative = false;
+    bool is_unusable = !eye.samples.pixels.empty() && eye.samples.pixels[i / 3] < 2.0f;
     for (size_t c = i; c < i + 3; c++) {
       sum += eye.radiance.pixels[c] + eye.variance.pixels[c];
-      is_negative = is_negative || eye.variance.pixels[c] < 0.0f;
+      is_unusable = is_unusable || eye.variance.pixels[c] < 0.0f;
     }
-    if (is_negative || !std::isfinite(sum)) count++;
+    if (is_unusable || !std::isfinite(sum)) count++;
   }
   return count;
 }
@@ -176,6 +176,12 @@ StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, c
     eye.normal = read(found.normal);
     eye.albedo = read(found.albedo);
     noise.unusable += count_unusable(eye);
+  }
+  if (noise.unusable == static_cast<int64_t>(pixels * stored.eyes.size())) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' has no pixel with usable light and variance (NaN, infinite, negative "
+                            "or of one sample): render it with 2 samples or more",
+                            path));
   }
   return noise;
 }

@@ -22,13 +22,14 @@ struct NoiseLayers {
 
 struct StoredNoise {
   Picture picture;            // as denoise() needs it
-  int64_t unusable = 0;       // pixels whose radiance or variance is NaN, infinite or negative
+  int64_t unusable = 0;       // pixels whose radiance or variance is NaN, infinite, negative or of one sample
   bool has_features = false;  // albedo or normals
 };
 
 // Reads a picture's radiance (of the layer `raw`, if it has been denoised before), variance and what else helps:
-// samples, Z, normals (N or a layer called normal), albedo. Throws Error(kInput): no variance, display-encoded;
-// Error(kUsage): a named layer that the picture does not contain; Error(kMemory). `path`: for messages.
+// samples, Z, normals (N or a layer called normal), albedo. Throws Error(kInput): no variance, or none that is usable,
+// display-encoded; Error(kUsage): a named layer that the picture does not contain; Error(kMemory). `path`: for
+// messages.
 StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, const std::string& path);
 
 // The stored picture with the denoised radiance as its colour. The noisy colour is in the layer `raw`. Both must

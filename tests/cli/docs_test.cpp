@@ -147,7 +147,7 @@ class Pages : public ::testing::Test {
     const std::string command = words_of(line).at(1);
     const bool has_width = has(line, "--width") || has(line, "--size"), of_rig = has(line, "--rig ");
     const bool renders = command == "render" || command == "video";
-    std::string more = renders ? " --samples 1" : "";
+    std::string more = renders ? has(line, "--statistics") ? " --samples 2" : " --samples 1" : "";
     if (command == "rig") {
       more += has(line, "--slits") ? " --width 512" : " --width 64";
     } else if (command == "testcard") {
@@ -210,7 +210,7 @@ class Pages : public ::testing::Test {
     const bool is_title = has(name, "title.") || has(name, "robot");  // has alpha
     std::string words = is_title ? "ods title T --text-height 1" : "ods render toys --samples 1";
     if (has(name, "_LR")) words += " --projection vr180";
-    if (has(name, "noisy")) words += " --statistics";
+    if (has(name, "noisy")) words += " --statistics --samples 2";
     if (has(name, "other")) return provide_halves(name);
     if (has(name, "panorama") || has(name, "left.") || has(name, "sky")) words += " --eyes mono";
     if (has(name, "#") || has(name, "%0")) words += " --frames 1-4";

@@ -137,6 +137,8 @@ TEST_F(StoredNoiseOf, PixelsWithoutUsableStatisticsAreCounted) {
 }
 
 TEST_F(StoredNoiseOf, WhatIsMissingIsSaid) {
+  EXPECT_EQ(kind_of_error({kColour, {rgb("variance"), all(0.0f)}, {{"samples"}, all(1.0f)}}, {}, "2 samples"),
+            ErrorKind::kInput);
   EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {}, "--half-a"), ErrorKind::kInput);
   EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {"mse", "", ""}, "no layer 'mse'"), ErrorKind::kUsage);
   EXPECT_EQ(kind_of_error({kColour, {{"a.X", "a.Q"}, all(1.0f)}}, {"", "a", "a"}, "no layer 'a'"), ErrorKind::kUsage);
