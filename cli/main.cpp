@@ -24,6 +24,7 @@
 int ods_camera(int argc, char** argv);
 int ods_compare(int argc, char** argv);
 int ods_convert(int argc, char** argv);
+int ods_denoise(int argc, char** argv);
 int ods_encode(int argc, char** argv);
 int ods_info(int argc, char** argv);
 int ods_inject(int argc, char** argv);
@@ -51,6 +52,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "render a scene as a stereo 360 picture or frames", ods_render},
     {"convert", "change a picture's projection, layout, size or eyes", ods_convert},
+    {"denoise", "remove the noise of a rendered picture, both eyes as one", ods_denoise},
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"title", "make a title with depth for stereo 360", ods_title},

@@ -54,6 +54,8 @@ void add_picture_options(Options& options, RenderJob& job) {
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   add_picture_options(options, job.render, job.save);
   options.text("--rig", "FILE", job.rig, "render the views of this rig (made by ods rig), for ods stitch");
+  options.flag("--statistics", job.render.statistics,
+               "also write each pixel's variance and number of samples, for ods denoise (.exr)");
   options.flag("--transparent", job.render.transparent,
                "leave the background transparent, for ods over; the sky still lights the scene (.exr .png .tif .webp)");
   options.texts(
@@ -132,6 +134,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   if (!job.scene.catchers.empty() && !job.render.transparent) {
     throw UsageError("--shadow-catcher needs --transparent");
   }
+  if (job.render.statistics && !ods::keeps_layers(job.output)) throw UsageError("--statistics needs an .exr");
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);
   finish_render_job(options, quality, job);

@@ -39,6 +39,7 @@ TEST_F(Cli, HelpStartsWithExamples) {
                             "project --help",
                             "compare --help",
                             "convert --help",
+                            "denoise --help",
                             "lint --help",
                             "title --help",
                             "over --help",

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/picture/save.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
@@ -146,7 +147,7 @@ class Pages : public ::testing::Test {
     const std::string command = words_of(line).at(1);
     const bool has_width = has(line, "--width") || has(line, "--size"), of_rig = has(line, "--rig ");
     const bool renders = command == "render" || command == "video";
-    std::string more = renders ? " --samples 1" : "";
+    std::string more = renders ? has(line, "--statistics") ? " --samples 2" : " --samples 1" : "";
     if (command == "rig") {
       more += has(line, "--slits") ? " --width 512" : " --width 64";
     } else if (command == "testcard") {
@@ -209,9 +210,27 @@ class Pages : public ::testing::Test {
     const bool is_title = has(name, "title.") || has(name, "robot");  // has alpha
     std::string words = is_title ? "ods title T --text-height 1" : "ods render toys --samples 1";
     if (has(name, "_LR")) words += " --projection vr180";
+    if (has(name, "noisy")) words += " --statistics --samples 2";
+    if (has(name, "other")) return provide_halves(name);
     if (has(name, "panorama") || has(name, "left.") || has(name, "sky")) words += " --eyes mono";
     if (has(name, "#") || has(name, "%0")) words += " --frames 1-4";
     make(words + " --width 96 -o " + quoted(name));
+  }
+
+  // As another renderer writes it: two pictures of half of the samples each, and a variance of one channel.
+  void provide_halves(const std::string& name) {
+    ods::PictureRows rows;
+    rows.eye = {32, 16};
+    rows.eyes = {ods::kLeft, ods::kRight};
+    for (const char* layer : {"", "halfA.", "halfB."}) {
+      const std::string of = layer;
+      rows.layers.push_back({{of + "R", of + "G", of + "B"}, ods::LayerRule::kMean, ods::SampleType::kFloat});
+    }
+    rows.layers.push_back({{"noise"}, ods::LayerRule::kNearest, ods::SampleType::kFloat});
+    rows.fill = [](int, int y, std::span<float> row) {
+      for (size_t i = 0; i < row.size(); i++) row[i] = 0.1f * static_cast<float>((i + static_cast<size_t>(y)) % 7);
+    };
+    ods::save_picture(rows, nullptr, {}, folder.path(name));
   }
 
   void make(const std::string& words) { EXPECT_EQ(shell(words), 0) << words << "\n" << log(); }

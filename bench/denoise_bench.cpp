@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What denoising buys, and what it costs: the error of N samples denoised against that of 8 N samples; how much the
+// eyes differ where they see the same; CPU seconds and memory of a large picture.
+//
+// The truth is not needed. Two pictures A and B of 8 N samples with other seeds have independent noise, so the mean of
+// (d - A)(d - B) is the squared error of d, and half of that of (A - B)^2 the squared error of 8 N samples. Errors are
+// taken of linear light, which one bright lamp's edge may rule, and of what a screen shows (clipped to 0..1, sRGB).
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "ods/denoise/denoise.h"
+#include "ods/image/tone.h"
+#include "ods/kernel/camera/project.h"
+#include "ods/render/cpu/render.h"
+#include "ods/scene/load/load.h"
+
+namespace {
+
+using namespace ods;
+
+double cpu_seconds() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double peak_megabytes() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// The atrium, the shared scene, has no light of its own: a white sky of 1.
+struct Subject {
+  Scene scene;
+  StereoCamera camera;
+};
+
+Subject load_subject(const std::string& name) {
+  Subject subject;
+  if (name == "atrium") {
+    const std::string path = SHARED_SCENES "/atrium.glb";
+    subject.scene = load_scene(std::filesystem::exists(path) ? path : "fractal", {});
+    subject.scene.environment = Environment();
+    subject.scene.environment.radiance = vec3(1.0f);
+    subject.camera.position = vec3(0.0f, 1.6f, 0.0f);
+  } else {
+    subject.scene = load_scene(name, {});
+    subject.camera.position = default_view(subject.scene).position;
+  }
+  return subject;
+}
+
+Picture render(const Subject& subject, int width, int samples, uint32_t seed) {
+  RenderOptions options;
+  options.width = width;
+  options.samples = samples;
+  options.seed = seed;
+  options.statistics = true;
+  return render_cpu(subject.scene, subject.camera, options, {});
+}
+
+using View = float (*)(float value);
+float linear(float value) {
+  return value;
+}
+float shown(float value) {
+  return srgb_encode(std::clamp(value, 0.0f, 1.0f));
+}
+
+// The mean over all values of all eyes; those that are not finite are left out.
+double mean_of(std::initializer_list<const Picture*> pictures, View view,
+               const std::function<double(const std::vector<double>&)>& of) {
+  double sum = 0.0;
+  size_t count = 0;
+  const Picture& first = **pictures.begin();
+  for (size_t eye = 0; eye < first.eyes.size(); eye++) {
+    for (size_t i = 0; i < first.eyes[eye].radiance.pixels.size(); i++) {
+      std::vector<double> values;
+      bool finite = true;
+      for (const Picture* picture : pictures) {
+        const float value = picture->eyes[eye].radiance.pixels[i];
+        finite = finite && std::isfinite(value);
+        values.push_back(double{view(value)});
+      }
+      if (finite) sum += of(values), count++;
+    }
+  }
+  return sum / static_cast<double>(count);
+}
+
+double error(const Picture& d, const Picture& a, const Picture& b, View view) {
+  const double square = mean_of({&d, &a, &b}, view, [](const auto& v) { return (v[0] - v[1]) * (v[0] - v[2]); });
+  return std::sqrt(std::max(square, 0.0));
+}
+
+// RMS of the difference between a pixel of the left eye and the right eye's picture where it shows the same point.
+double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, View view) {
+  const Camera camera = make_camera(stereo);
+  const EyeImage &left = picture.eyes[0], &right = picture.eyes[1];
+  const int width = left.depth.width, height = left.depth.height;
+  const vec2 size(static_cast<float>(width), static_cast<float>(height));
+  double sum = 0.0;
+  size_t count = 0;
+  for (int i = 0; i < width * height; i++) {
+    const int x = i % width, y = i / width;
+    const float depth = *left.depth.at(x, y);
+    if (depth >= kFarDepth) continue;
+    const vec2 uv = (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / size;
+    const Ray ray = camera_ray(camera, kLeft, uv);
+    const ImagePosition place = project_point(camera, kRight, ray.origin + ray.direction * depth);
+    const vec2 at = place.uv * size - 0.5f, corner = floor(at), share = at - corner;
+    if (!place.seen || corner.y < 0.0f || corner.y + 1.0f >= size.y) continue;
+    vec3 there(0.0f);
+    bool same = true;
+    for (int k = 0; k < 4; k++) {
+      const int column = (static_cast<int>(corner.x) + k % 2 + width) % width, row = static_cast<int>(corner.y) + k / 2;
+      same = same && std::abs(*right.depth.at(column, row) / place.depth - 1.0f) < 0.05f;
+      const float weight = (k % 2 == 1 ? share.x : 1.0f - share.x) * (k / 2 == 1 ? share.y : 1.0f - share.y);
+      for (int c = 0; c < 3; c++) there[c] += weight * view(right.radiance.at(column, row)[c]);
+    }
+    for (int c = 0; same && c < 3; c++) {
+      const double off = double{view(left.radiance.at(x, y)[c])} - double{there[c]};
+      if (std::isfinite(off)) sum += off * off, count++;
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+// Ratios to the error of the raw picture of as many samples.
+void error_against_eight_times_the_samples(benchmark::State& state, const std::string& name, int width, int samples) {
+  const Subject subject = load_subject(name);
+  const Picture raw = render(subject, width, samples, 1);
+  const Picture a = render(subject, width, 8 * samples, 2), b = render(subject, width, 8 * samples, 3);
+  for (auto _ : state) {
+    Picture both = raw, alone = raw;
+    denoise(both, subject.camera);
+    DenoiseOptions options;
+    options.both_eyes = false;
+    denoise(alone, subject.camera, options);
+    for (const View view : {&linear, &shown}) {
+      const std::string of = view == &linear ? "_linear" : "";
+      const double before = error(raw, a, b, view);
+      const double eight = mean_of({&a, &b}, view, [](const auto& v) { return 0.5 * (v[0] - v[1]) * (v[0] - v[1]); });
+      state.counters["raw" + of] = before;
+      state.counters["denoised_over_raw" + of] = error(both, a, b, view) / before;
+      state.counters["raw_of_8N_over_raw" + of] = std::sqrt(eight) / before;
+      state.counters["eyes_difference_over_alone" + of] =
+          difference_of_eyes(both, subject.camera, view) / difference_of_eyes(alone, subject.camera, view);
+    }
+    const double energy = mean_of({&both}, linear, [](const auto& v) { return v[0]; });
+    state.counters["energy"] = energy / mean_of({&raw}, linear, [](const auto& v) { return v[0]; });
+  }
+}
+
+// Both eyes 4096x2048. Peak memory is that of the process: the picture with its statistics needs 940 MB.
+void large_picture(benchmark::State& state) {
+  const Subject subject = load_subject("toys");
+  Picture picture = render(subject, 4096, 2, 1);
+  const double pixels = 2.0 * 4096 * 2048;
+  for (auto _ : state) {
+    const double start = cpu_seconds();
+    denoise(picture, subject.camera);
+    state.counters["cpu_s"] = cpu_seconds() - start;
+    state.counters["us_per_pixel"] = 1e6 * (cpu_seconds() - start) / pixels;
+    state.counters["peak_MB"] = peak_megabytes();
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::RegisterBenchmark("large_picture", large_picture)->Iterations(1)->Unit(benchmark::kSecond);
+  for (const auto& [width, samples] : {std::pair{512, 16}, std::pair{384, 64}}) {
+    for (const char* name : {"atrium", "room", "toys", "wineglass"}) {
+      const auto run = [=, w = width, n = samples](benchmark::State& state) {
+        error_against_eight_times_the_samples(state, name, w, n);
+      };
+      benchmark::RegisterBenchmark(("error/" + std::string(name) + "/" + std::to_string(samples)).c_str(), run)
+          ->Iterations(1)
+          ->Unit(benchmark::kSecond);
+    }
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods denoise: removes the noise of a finished picture.
+#include "ods/denoise/denoise.h"
+
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/picture_options.h"
+#include "cli/picture/denoise_job.h"
+
+namespace {
+
+ods::StoredNoise read_input(DenoiseJob& job) {
+  ods::OpenOptions open;
+  open.format = job.known;
+  job.picture = ods::open_picture(job.input, open);
+  note_guesses(job.input, job.picture);
+  ods::StoredNoise noise = ods::read_noise(job.picture, job.layers, job.input);
+  if (noise.unusable > 0) {
+    note(fmt::format(
+        "{}: {} pixels without usable light or variance (NaN, infinite, negative or of one sample): taken from their "
+        "neighbours",
+        job.input, noise.unusable));
+  }
+  if (!noise.has_features)
+    note(fmt::format("{}: no albedo and no normals, which would keep textures sharper", job.input));
+  return noise;
+}
+
+void denoise_file(DenoiseJob& job, ProgressLines& lines) {
+  const auto start = std::chrono::steady_clock::now();
+  ods::StoredNoise noise = read_input(job);
+  ods::Progress progress;
+  progress.report = [&](double done) { lines.report(0.9 * done, seconds_since(start), {"denoise", 0, 0, job.output}); };
+  ods::denoise(noise.picture, job.picture.camera, job.options, progress);
+  const ods::PictureRows rows = ods::denoised_rows(job.picture, noise.picture);
+  const auto files = ods::save_picture(rows, &job.picture.camera, job.save, job.output);
+  lines.report(1.0, seconds_since(start), {"denoise", 0, 0, job.output});
+  lines.clear();
+  for (const std::string& file : files) announce_file(file);
+  note(fmt::format("{} denoised in {}", files.front(), duration_text(seconds_since(start))));
+}
+
+void denoise(int argc, char** argv) {
+  DenoiseJob job;
+  if (!read_denoise_job(job, argc, argv)) return;
+  run_long_job(job.progress, job.options.threads, [&](ProgressLines& lines) { denoise_file(job, lines); });
+}
+
+}  // namespace
+
+int ods_denoise(int argc, char** argv) {
+  return run_command([=] { denoise(argc, argv); });
+}

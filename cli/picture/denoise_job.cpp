@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture/denoise_job.h"
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/picture_options.h"
+#include "cli/options/projection_options.h"
+#include "ods/convert/convert.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods denoise noisy.exr -o clean.exr\n"
+    "  ods denoise noisy.exr -o clean_TB.png --exposure 0.5\n"
+    "  ods denoise other_TB.exr -o clean_TB.exr --half-a halfA --half-b halfB";
+
+constexpr const char* kSummary =
+    "Removes the noise of a rendered picture by what the renderer knows about each pixel: its variance, or two "
+    "pictures "
+    "of\n"
+    "half of the samples each. Albedo, normals and depth help if the file has them. Both eyes are denoised as one. "
+    "What the\n"
+    "samples know for sure stays: the more samples, the less is changed.";
+
+void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::ProjectionSetting>& projection) {
+  options.argument("IN", job.input, "input file: .exr; %V in the name reads one file per eye");
+  options.group("Input, if the file does not tell");
+  options.text("--variance", "NAME", job.layers.variance, "layer with the variance of each pixel's mean");
+  options.text("--half-a", "NAME", job.layers.half_a, "layer with the mean of half of the samples");
+  options.text("--half-b", "NAME", job.layers.half_b, "layer with that of the others");
+  options.custom(
+      "--from-projection", "NAME", "",
+      [&](const std::string& name) { projection = projection_by_name("--from-projection", name); }, "its projection");
+  add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
+}
+
+void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::Layout>& layout, bool& alone) {
+  options.group("Output");
+  options.text(
+      "-o,--output", "FILE", job.output,
+      "output file: .exr keeps all layers, and the noisy colour as layer raw; also .png .jpg .tif .webp .hdr; %V "
+      "in the name writes one file per eye");
+  options.flag("--each-eye", alone, "denoise each eye alone");
+  add_layout_option(options, layout, "how both eyes share the file; by default the input's");
+  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
+  options.group("Console");
+  options.number("--threads", job.options.threads, 0, 1024, "number of threads; 0: all processors");
+  add_progress_options(options, job.progress);
+}
+
+}  // namespace
+
+bool read_denoise_job(DenoiseJob& job, int argc, char** argv) {
+  Options options("denoise", kSummary, kExamples);
+  std::optional<ods::Layout> layout;
+  bool alone = false;
+  add_input_options(options, job, job.known.projection);
+  add_output_options(options, job, layout, alone);
+  if (!options.parse(argc, argv)) return false;
+  if (job.output.empty()) throw UsageError("no output file: add -o picture.exr");
+  if (job.layers.half_a.empty() != job.layers.half_b.empty()) throw UsageError("--half-a and --half-b go together");
+  if (!job.layers.half_a.empty() && !job.layers.variance.empty()) {
+    throw UsageError("--variance or --half-a with --half-b, not both");
+  }
+  refuse_overwriting(job.output, job.input);
+  job.options.both_eyes = !alone;
+  ods::OpenOptions open;
+  open.format = job.known;
+  job.picture = ods::open_picture_header(job.input, open);
+  const ods::ConvertTarget same = ods::same_format(job.picture);
+  save_as_it_was(job.picture, job.picture.camera.projection, job.output, layout, options.given("--tone"), job.save);
+  note_misleading_name(job.output, job.save, same.eyes.size(), job.picture.camera.projection);
+  ods::check_output(job.output, job.save, same.eyes, same.eye, &job.picture.camera.projection);
+  return true;
+}

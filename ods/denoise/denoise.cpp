@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/denoise/denoise.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <mutex>
+
+#include "ods/base/error.h"
+#include "ods/base/memory.h"
+#include "ods/denoise/filter.h"
+
+namespace ods {
+namespace {
+
+constexpr FilterPass kPasses[] = {{1, 2.0f}, {2}, {4}, {8}, {16, 1.0f}};
+
+// Counts blocks of all passes; the thread that finishes one reports.
+class Steps {
+ public:
+  Steps(const Progress& progress, size_t total) : progress_(progress), total_(static_cast<double>(total)) {}
+  bool stopped() {
+    if (!stop_ && progress_.cancelled && progress_.cancelled()) stop_ = true;
+    return stop_;
+  }
+  void done() {
+    const double count = static_cast<double>(++count_);
+    if (!progress_.report || !reporting_.try_lock()) return;
+    progress_.report(std::min(count / total_, 1.0));
+    reporting_.unlock();
+  }
+
+ private:
+  const Progress& progress_;
+  double total_;
+  std::atomic<size_t> count_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::mutex reporting_;
+};
+
+void check_statistics(const std::vector<Level>& levels) {
+  for (const Level& level : levels) {
+    for (size_t i = 0; i < level.variance.size(); i++) {
+      if (unpack_variance(level.variance[i]) >= 0.0f && std::isfinite(level.light[3 * i])) return;
+    }
+  }
+  throw Error(ErrorKind::kInput,
+              "cannot denoise: the variance of every pixel is NaN, infinite, negative or of fewer than 2 samples");
+}
+
+void put_back(const NoisyPicture& noisy, const std::vector<Level>& levels, Picture& picture) {
+  for (size_t e = 0; e < levels.size(); e++) {
+    EyeImage& eye = picture.eyes[e];
+    tbb::parallel_for(0, noisy.height(), [&](int y) {
+      for (int x = 0; x < noisy.width(); x++) {
+        const size_t i = noisy.index(x, y);
+        // Exact or alone: as it was, bit for bit.
+        if (!(unpack_variance(levels[e].variance[i]) > 0.0f)) continue;
+        const vec3 by = divisor(eye, i);
+        for (size_t c = 0; c < 3; c++) {
+          eye.radiance.pixels[3 * i + c] = levels[e].light[3 * i + c] * by[static_cast<int>(c)];
+        }
+      }
+    });
+  }
+}
+
+void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options,
+                  const Progress& progress) {
+  NoisyPicture noisy;
+  open_noisy(noisy, picture, camera);
+  std::vector<Level> levels, next;
+  for (int eye = 0; eye < static_cast<int>(picture.eyes.size()); eye++) levels.push_back(first_level(noisy, eye));
+  check_statistics(levels);
+  smooth_variance(noisy, levels);
+  next = levels;
+  const bool both = options.both_eyes && picture.eyes.size() == 2 && !picture.eyes[0].depth.pixels.empty() &&
+                    !picture.eyes[1].depth.pixels.empty();
+  Steps steps(progress, std::size(kPasses) * count_blocks(noisy));
+  for (FilterPass pass : kPasses) {
+    if (!both) pass.other_eye = 0.0f;
+    for_each_block(noisy, [&](Block& block) {
+      if (steps.stopped()) return;
+      filter_block(noisy, levels, next, pass, block);
+      steps.done();
+    });
+    if (steps.stopped()) throw Error(ErrorKind::kCancelled, "denoising was stopped");
+    std::swap(levels, next);
+  }
+  put_back(noisy, levels, picture);
+  if (progress.report) progress.report(1.0);
+}
+
+}  // namespace
+
+void denoise(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options, const Progress& progress) {
+  assert(!picture.eyes.empty() && picture.eyes.size() <= 2);
+  assert(!picture.eyes.front().variance.pixels.empty() && !picture.eyes.back().variance.pixels.empty());
+  const Image& first = picture.eyes[0].radiance;
+  check_memory(28 * static_cast<size_t>(first.width) * static_cast<size_t>(first.height) * picture.eyes.size(),
+               "denoising", "a smaller picture or a single eye needs less");
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  arena.execute([&] { denoise_here(picture, camera, options, progress); });
+}
+
+}  // namespace ods

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the denoiser works on: the light without albedo and its variance, in blocks whose margins show what the world
+// has there.
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ods/convert/panorama.h"
+
+namespace ods {
+
+// A variance in 16 bits: a float without the lower half of its bits. Below 0: unknown.
+inline uint16_t pack_variance(float v) {
+  return static_cast<uint16_t>((std::bit_cast<uint32_t>(v) + 0x8000u) >> 16);
+}
+inline float unpack_variance(uint16_t v) {
+  return std::bit_cast<float>(static_cast<uint32_t>(v) << 16);
+}
+
+inline constexpr float kUnknown = -1.0f;  // as a variance
+
+// An eye's light at one stage.
+struct Level {
+  std::vector<float> light;        // 3 per pixel: radiance / divisor()
+  std::vector<uint16_t> variance;  // mean of the channels
+};
+
+struct NoisyPicture {
+  StoredPicture shape;  // size, eyes and camera, without pixels
+  Source source;
+  Camera camera;
+  std::vector<Cell> cells;
+  const Picture* picture = nullptr;
+  bool turns = false;  // a row is a whole turn
+
+  int width() const { return shape.size.width; }
+  int height() const { return shape.size.height; }
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
+  }
+  const EyeImage& eye(int i) const { return picture->eyes[static_cast<size_t>(i)]; }
+};
+
+// The picture must outlive the result and must not move. The result is not to be moved.
+void open_noisy(NoisyPicture& noisy, const Picture& picture, const StereoCamera& camera);
+
+// The texel next to a cell, across its edge; nothing where the picture ends.
+std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y);
+
+// By what the radiance is divided: the albedo, and a little for light that the albedo does not colour.
+vec3 divisor(const EyeImage& eye, size_t pixel);
+
+vec3 normal_at(const EyeImage& eye, size_t pixel);
+vec3 albedo_at(const EyeImage& eye, size_t pixel);
+
+// Whether the pixel shows nothing but the sky, which has no noise.
+bool is_bare_sky(const EyeImage& eye, size_t pixel);
+
+// The first level, from radiance and variance.
+Level first_level(const NoisyPicture& noisy, int eye);
+
+enum Plane { kRed, kGreen, kBlue, kVariance, kNormalX, kNormalY, kNormalZ, kAlbedoR, kAlbedoG, kAlbedoB, kPlaneCount };
+
+// Part of a cell with a margin around it.
+struct Block {
+  int eye = 0;
+  Cell cell;       // the cell that it is in
+  Cell inside;     // the part, in the eye's pixels
+  int across = 0;  // the margin's columns on either side
+  int down = 0;    // and its rows
+  std::array<std::vector<float>, kPlaneCount> planes;
+
+  int stride() const { return inside.right - inside.left + 2 * across; }
+  // The row of the eye's row y, from the column inside.left; those of the margin are before and after the part.
+  const float* row(Plane plane, int y) const {
+    return planes[plane].data() + static_cast<ptrdiff_t>(y - inside.top + down) * stride() + across;
+  }
+};
+
+void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block);
+
+}  // namespace ods

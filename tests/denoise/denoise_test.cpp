@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The denoiser on pictures whose truth is known.
+#include "ods/denoise/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "ods/base/error.h"
+#include "tests/support/pictures.h"
+
+namespace ods {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr int kWidth = 128;
+
+using Truth = std::function<float(int x, int y)>;
+
+// Two eyes, lat-long: `truth` with normal noise of this standard deviation, and its variance.
+Picture noisy_picture(float deviation, const Truth& truth, int width = kWidth) {
+  std::mt19937 engine(7);
+  std::normal_distribution<float> noise(0.0f, 1.0f);
+  Picture picture;
+  for (const int which : {kLeft, kRight}) {
+    EyeImage eye;
+    eye.eye = which;
+    eye.radiance = eye.variance = Image(width, width / 2, 3);
+    eye.samples = Image(width, width / 2, 1);
+    for (int y = 0; y < width / 2; y++) {
+      for (int x = 0; x < width; x++) {
+        for (int c = 0; c < 3; c++) {
+          eye.radiance.at(x, y)[c] = truth(x, y) + deviation * noise(engine);
+          eye.variance.at(x, y)[c] = deviation * deviation;
+        }
+        *eye.samples.at(x, y) = 16.0f;
+      }
+    }
+    picture.eyes.push_back(eye);
+  }
+  return picture;
+}
+
+double rmse(const Picture& picture, const Truth& truth, const std::function<bool(int x, int y)>& where) {
+  double sum = 0.0;
+  int count = 0;
+  for (const EyeImage& eye : picture.eyes) {
+    for (int y = 0; y < eye.radiance.height; y++) {
+      for (int x = 0; x < eye.radiance.width; x++) {
+        if (!where(x, y)) continue;
+        for (int c = 0; c < 3; c++) {
+          const double off = double{eye.radiance.at(x, y)[c]} - double{truth(x, y)};
+          sum += off * off, count++;
+        }
+      }
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
+bool everywhere(int, int) {
+  return true;
+}
+
+TEST(Denoise, ANoisyConstantBecomesFlat) {
+  const Truth one = [](int, int) { return 1.0f; };
+  Picture picture = noisy_picture(0.2f, one);
+  denoise(picture, {});
+  EXPECT_LT(rmse(picture, one, everywhere), 0.2 / 8.0);
+}
+
+// Neither the seam of the panorama nor a pole is noisier than the middle: windows go on there.
+TEST(Denoise, SeamAndPolesAreAsCleanAsTheMiddle) {
+  const Truth one = [](int, int) { return 1.0f; };
+  Picture picture = noisy_picture(0.2f, one, 256);
+  denoise(picture, {});
+  const double all = rmse(picture, one, everywhere);
+  EXPECT_LT(rmse(picture, one, [](int x, int) { return x < 2 || x >= 254; }), 1.5 * all);
+  EXPECT_LT(rmse(picture, one, [](int, int y) { return y < 2 || y >= 126; }), 1.5 * all);
+}
+
+// A step of light at the seam, and one at the pole, where the left eye continues in the right one half a turn away.
+TEST(Denoise, NeighboursAcrossThePoleAreTheOtherEyes) {
+  const Truth truth = [](int x, int) { return x < kWidth / 2 ? 1.0f : 3.0f; };
+  Picture picture = noisy_picture(0.0f, truth);
+  // One noisy pixel in the top row of each eye; its neighbours above are in the other eye, where it is brighter.
+  for (EyeImage& eye : picture.eyes) {
+    for (int c = 0; c < 3; c++) eye.variance.at(kWidth / 4, 0)[c] = 4.0f;
+  }
+  denoise(picture, {});
+  for (const EyeImage& eye : picture.eyes) EXPECT_GT(eye.radiance.at(kWidth / 4, 0)[0], 1.2f);
+}
+
+TEST(Denoise, ASignificantEdgeStays) {
+  const Truth truth = [](int x, int) { return x >= 32 && x < 96 ? 2.0f : 1.0f; };
+  Picture picture = noisy_picture(0.05f, truth);
+  denoise(picture, {});
+  const auto beside = [](int x, int) { return x == 31 || x == 32 || x == 95 || x == 96; };
+  EXPECT_LT(rmse(picture, truth, beside), 0.03);
+}
+
+TEST(Denoise, LightWithoutVarianceKeepsItsBits) {
+  const Truth truth = [](int x, int y) { return 0.1f + static_cast<float>((x * 7 + y * 13) % 11); };
+  Picture picture = noisy_picture(0.0f, truth);
+  for (EyeImage& eye : picture.eyes) eye.albedo = Image(kWidth, kWidth / 2, 3);
+  const uint64_t before = digest(picture);
+  denoise(picture, {});
+  EXPECT_EQ(digest(picture), before);
+}
+
+// Fireflies are spread, not lost: the sum is the same within one of its own standard deviations.
+TEST(Denoise, EnergyIsKept) {
+  const Truth truth = [](int x, int) { return x % 64 < 32 ? 1.0f : 0.5f; };
+  Picture picture = noisy_picture(0.1f, truth);
+  std::mt19937 engine(3);
+  for (EyeImage& eye : picture.eyes) {
+    for (int i = 0; i < 60; i++) {
+      const size_t at = engine() % (eye.radiance.pixels.size() / 3);
+      for (size_t c = 0; c < 3; c++) {  // one sample of 16 has met a lamp
+        eye.radiance.pixels[3 * at + c] += 5.0f;
+        eye.variance.pixels[3 * at + c] += 25.0f;
+      }
+    }
+  }
+  const auto sum_of = [](const Picture& of) {
+    double sum = 0.0;
+    for (const EyeImage& eye : of.eyes) {
+      for (float value : eye.radiance.pixels) sum += double{value};
+    }
+    return sum;
+  };
+  double variance = 0.0;
+  for (const EyeImage& eye : picture.eyes) {
+    for (float value : eye.variance.pixels) variance += double{value};
+  }
+  const double before = sum_of(picture);
+  denoise(picture, {});
+  EXPECT_NEAR(sum_of(picture), before, std::sqrt(3.0 * variance));  // the three channels are the same fireflies
+  for (const EyeImage& eye : picture.eyes) {
+    for (float value : eye.radiance.pixels) EXPECT_LT(value, 3.5f);
+  }
+}
+
+TEST(Denoise, TexturesInTheAlbedoStay) {
+  const Truth texture = [](int x, int y) { return (x + y) % 2 == 0 ? 0.8f : 0.7f; };
+  Picture picture = noisy_picture(0.0f, texture);
+  std::mt19937 engine(5);
+  std::normal_distribution<float> noise(0.0f, 0.2f);
+  for (EyeImage& eye : picture.eyes) {
+    eye.albedo = eye.radiance;
+    for (float& value : eye.radiance.pixels) value *= 1.0f + noise(engine);
+    for (float& value : eye.variance.pixels) value = 0.0225f;
+  }
+  denoise(picture, {});
+  EXPECT_LT(rmse(picture, texture, everywhere), 0.02);
+}
+
+TEST(Denoise, PixelsWithoutUsableStatisticsAreFilledOrTested) {
+  const Truth one = [](int, int) { return 1.0f; };
+  Picture picture = noisy_picture(0.1f, one);
+  EyeImage& eye = picture.eyes[0];
+  eye.radiance.at(5, 20)[1] = kNaN;
+  eye.variance.at(5, 20)[1] = kNaN;
+  eye.radiance.at(9, 30)[0] = std::numeric_limits<float>::infinity();
+  eye.variance.at(20, 30)[2] = kNaN;
+  eye.variance.at(21, 31)[2] = -1.0f;
+  eye.variance.at(22, 32)[0] = std::numeric_limits<float>::infinity();
+  *eye.samples.at(30, 30) = 1.0f;
+  denoise(picture, {});
+  EXPECT_LT(rmse(picture, one, everywhere), 0.03);
+}
+
+TEST(Denoise, APictureWithoutAnyUsableVarianceIsAnError) {
+  Picture picture = noisy_picture(0.1f, [](int, int) { return 1.0f; });
+  for (EyeImage& eye : picture.eyes) {
+    for (float& value : eye.variance.pixels) value = kNaN;
+  }
+  const uint64_t before = digest(picture);
+  EXPECT_THROW(denoise(picture, {}), Error);
+  EXPECT_EQ(digest(picture), before);
+}
+
+TEST(Denoise, ItCanBeStopped) {
+  Picture picture = noisy_picture(0.1f, [](int, int) { return 1.0f; });
+  Progress progress;
+  progress.cancelled = [] { return true; };
+  const uint64_t before = digest(picture);
+  try {
+    denoise(picture, {}, {}, progress);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kCancelled);
+  }
+  EXPECT_EQ(digest(picture), before);
+}
+
+// A pixel that cannot be told from its neighbours may be wrong by a part of the noise: far less than the noise itself.
+TEST(Denoise, ItConverges) {
+  const Truth truth = [](int x, int y) {
+    return 1.0f + 0.5f * std::sin(static_cast<float>(x) * 0.2f) * std::cos(static_cast<float>(y) * 0.3f);
+  };
+  for (const float deviation : {0.1f, 0.01f, 0.001f}) {
+    Picture picture = noisy_picture(deviation, truth);
+    const double raw = rmse(picture, truth, everywhere);
+    denoise(picture, {});
+    EXPECT_LT(rmse(picture, truth, everywhere), raw) << deviation;
+  }
+}
+
+TEST(Denoise, EveryProjectionIsTaken) {
+  const Truth one = [](int, int) { return 1.0f; };
+  for (const NamedProjection& projection : named_projections()) {
+    StereoCamera camera;
+    camera.projection = projection.setting;
+    Picture picture = noisy_picture(0.2f, one, 96);
+    for (EyeImage& eye : picture.eyes) {
+      eye.depth = Image(96, 48, 1);
+      std::fill(eye.depth.pixels.begin(), eye.depth.pixels.end(), 2.0f);
+      eye.normal = eye.albedo = Image(96, 48, 3);
+      std::fill(eye.normal.pixels.begin(), eye.normal.pixels.end(), 0.5f);
+      std::fill(eye.albedo.pixels.begin(), eye.albedo.pixels.end(), 0.5f);
+    }
+    denoise(picture, camera);
+    // Outside an image circle there is nothing to be averaged.
+    const Projection seen = make_projection(projection.setting);
+    const auto inside = [&](int x, int y) {
+      const vec2 uv((static_cast<float>(x) + 0.5f) / 96.0f, (static_cast<float>(y) + 0.5f) / 48.0f);
+      return !has_image_circle(seen.kind) || look_of(seen, uv, uv).seen;
+    };
+    EXPECT_LT(rmse(picture, one, inside), 0.2 / 5.0) << projection.name;
+  }
+}
+
+// Both eyes look at one wall of a sphere: what they see of it becomes more alike together than alone.
+TEST(Denoise, TheEyesGetTheSameLight) {
+  const Truth one = [](int, int) { return 1.0f; };
+  double difference[2];
+  for (const bool both : {false, true}) {
+    Picture picture = noisy_picture(0.2f, one);
+    for (EyeImage& eye : picture.eyes) {
+      eye.depth = Image(kWidth, kWidth / 2, 1);
+      std::fill(eye.depth.pixels.begin(), eye.depth.pixels.end(), 50.0f);  // far: the eyes see it at the same place
+    }
+    DenoiseOptions options;
+    options.both_eyes = both;
+    denoise(picture, {}, options);
+    double sum = 0.0;
+    for (size_t i = 0; i < picture.eyes[0].radiance.pixels.size(); i++) {
+      sum += std::pow(double{picture.eyes[0].radiance.pixels[i]} - double{picture.eyes[1].radiance.pixels[i]}, 2.0);
+    }
+    difference[both] = std::sqrt(sum);
+  }
+  EXPECT_LT(difference[1], 0.7 * difference[0]);
+}
+
+TEST(Denoise, TheNumberOfThreadsChangesNoBit) {
+  const Truth truth = [](int x, int y) { return x * y % 3 == 0 ? 1.0f : 2.0f; };
+  uint64_t digests[3];
+  for (size_t i = 0; i < 3; i++) {
+    Picture picture = noisy_picture(0.3f, truth, 320);
+    for (EyeImage& eye : picture.eyes) {
+      eye.depth = Image(320, 160, 1);
+      std::fill(eye.depth.pixels.begin(), eye.depth.pixels.end(), 3.0f);
+    }
+    DenoiseOptions options;
+    options.threads = std::array{1, 2, 5}[i];
+    denoise(picture, {}, options);
+    digests[i] = digest(picture);
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+  EXPECT_EQ(digests[0], digests[2]);
+}
+
+}  // namespace
+}  // namespace ods
