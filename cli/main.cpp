@@ -16,6 +16,7 @@
 #include "cli/console/exit_code.h"
 #include "cli/console/manual.h"
 #include "ods/base/error.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/image/image_codec.h"
 
@@ -95,10 +96,8 @@ void open_closed_streams() {
 }
 
 int unknown_command(const char* name) {
-  std::vector<std::string> names;
-  for (const Command& command : kCommands) names.push_back(command.name);
   std::fprintf(stderr, "ods: error: there is no command '%s'%s (ods --help lists them)\n", name,
-               ods::did_you_mean(name, names).c_str());
+               ods::did_you_mean(name, ods::names_of(kCommands)).c_str());
   return kExitUsage;
 }
 

@@ -46,7 +46,7 @@ void camera(int argc, char** argv) {
     return;
   }
   if (ods::format_of_path(output)) {
-    throw UsageError(fmt::format("'{}' would be a picture; what a camera is said in is text", output));
+    throw UsageError(fmt::format("'{}' is the name of a picture, but a camera export is a text file", output));
   }
   ods::write_file(output, result.text);
   announce_file(output);

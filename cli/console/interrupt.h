@@ -9,6 +9,6 @@ using LastWords = const char* (*)(int signal);
 const char* plain_last_words(int signal);  // "ods: interrupted"
 
 // From now on such a signal removes unfinished files, prints the last words and ends the process at once with 128 + its
-// number, even while loading, rendering or saving. `last_words` runs in the signal handler: it must only return a
-// literal.
+// number, even while loading, rendering or saving. `last_words` runs in the signal handler:
+// it must only return a literal.
 void end_on_interrupts(LastWords last_words = plain_last_words);

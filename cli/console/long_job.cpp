@@ -9,19 +9,18 @@
 
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
+#include "ods/base/names.h"
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void add_progress_options(Options& options, ProgressMode& mode) {
-  std::vector<std::string> names;
-  for (const ProgressMode each : kProgressModes) names.emplace_back(progress_mode_name(each));
   const auto set = [&mode](size_t i) {
     mode = kProgressModes[i];
     console.json = mode == ProgressMode::kJson;
   };
-  options.choice("--progress", names, std::string(progress_mode_name(mode)), set,
+  options.choice("--progress", ods::names_of(kProgressModeTable), std::string(progress_mode_name(mode)), set,
                  "how to report progress: deadline, openjd and tractor print their lines on stdout; json makes every "
                  "line on stderr a JSON object");
   options.at_once("--progress");  // so that errors in other options are JSON, too

@@ -50,7 +50,8 @@ std::vector<float> parse_numbers(const std::string& text) {
 
 Options::Options(const std::string& command, const std::string& summary, const std::string& examples)
     : app_(std::make_unique<CLI::App>("", "ods " + command)), manual_{command, summary, examples, "", {}} {
-  app_->set_help_flag("-h,--help");
+  app_->set_help_flag();  // CLI11's runs after the options' callbacks
+  app_->add_flag_callback("-h,--help", [] { throw CLI::CallForHelp(); })->trigger_on_parse();  // for -qh
 }
 
 Options::~Options() = default;
@@ -187,16 +188,28 @@ std::string Options::describe_extras() const {
   return fmt::format("'{}' is an extra argument", first);
 }
 
+// The help that the words ask for, if any. parse() looks for it first, because arguments and options may open files
+// when they are set, and a fault there would hide the help. A value "--help" must therefore be written --output=--help,
+// or follow "--".
+static std::optional<ManualFormat> wanted_help(int argc, char** argv) {
+  for (int i = 1; i < argc; i++) {
+    const std::string_view word = argv[i];
+    if (word == "--") break;
+    if (const auto format = manual_format(word)) return format;
+    if (word.starts_with("--help")) {
+      throw UsageError(fmt::format("there is no option '{}': give --help, or --help=man, bash or zsh", word));
+    }
+  }
+  return {};
+}
+
 bool Options::parse(int argc, char** argv) {
   const auto print = [this](ManualFormat format) {
     manual_.usage += "[OPTION...]";
     std::fputs(write_manual(manual_, format).c_str(), stdout);
     return false;
   };
-  if (argc == 2 && std::string_view(argv[1]).starts_with("--help")) {
-    if (const auto format = manual_format(argv[1])) return print(*format);
-    throw UsageError(fmt::format("there is no option '{}': give --help alone, or --help=man, bash or zsh", argv[1]));
-  }
+  if (const auto format = wanted_help(argc, argv)) return print(*format);
   try {
     app_->parse(argc, argv);
     return true;

@@ -50,11 +50,9 @@ class Options {
   template <class Row, size_t kCount>
   void choice(const std::string& name, ods::MemberOf<Row[kCount]>& value, const Row (&table)[kCount],
               const std::string& text) {
-    std::vector<std::string> names;
-    for (const Row& row : table) names.emplace_back(row.name);
     choice(
-        name, names, std::string(ods::name_in(table, value)), [&value, &table](size_t i) { value = table[i].member; },
-        text);
+        name, ods::names_of(table), std::string(ods::name_in(table, value)),
+        [&value, &table](size_t i) { value = table[i].member; }, text);
   }
 
   // The same by index in the list of names.
@@ -65,10 +63,8 @@ class Options {
   template <class Row, size_t kCount>
   void choice(const std::string& name, std::optional<ods::MemberOf<Row[kCount]>>& value, const Row (&table)[kCount],
               const std::string& text) {
-    std::vector<std::string> names;
-    for (const Row& row : table) names.emplace_back(row.name);
     choice(
-        name, names, "", [&value, &table](size_t i) { value = table[i].member; }, text);
+        name, ods::names_of(table), "", [&value, &table](size_t i) { value = table[i].member; }, text);
   }
 
   // Passes the word to `set`, which throws UsageError if it is invalid.
@@ -83,7 +79,8 @@ class Options {
 
   bool given(const std::string& name) const;
 
-  // False if help was requested; it has been printed, in the format of --help=FORMAT. Throws UsageError.
+  // False if help was requested; it has been printed, in the format of --help=FORMAT. A request anywhere before "--"
+  // wins over all else on the line: nothing is set, no file is opened. Throws UsageError.
   bool parse(int argc, char** argv);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames rendered by several processes together, on one machine or many: the process that claims a frame makes it
-// (ods/files/claim.h).
+// Frames rendered by several processes together, on one machine or many:
+// the process that claims a frame makes it (ods/files/claim.h).
 #pragma once
 #include <functional>
 #include <string>

@@ -39,8 +39,8 @@ void add_camera_source(Options& options, CameraSource& source) {
 }
 
 Sidecar read_camera_source(CameraSource& source) {
-  int height =
-      source.width == source.file.eye.width ? source.file.eye.height : 0;  // the source's height goes with its width
+  // The source's height goes with its width.
+  int height = source.width == source.file.eye.width ? source.file.eye.height : 0;
   finish_camera_options(source.camera, source.width, height);
   Sidecar file = source.file;
   file.camera = place_camera(source.camera);

@@ -11,6 +11,7 @@
 
 #include "cli/console/console.h"
 #include "cli/options/field_option.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_preset.h"
 #include "ods/image/image_file.h"
@@ -35,9 +36,7 @@ WordAndNumbers split(const std::string& text) {
 }
 
 std::string merge_names() {
-  std::vector<std::string_view> names;
-  for (const int each : ods::kMerges) names.push_back(ods::merge_name(each));
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}", fmt::join(ods::names_of(ods::kMergeTable), ", "));
 }
 
 // MODE[,START[,END[,EXPONENT]]]
@@ -99,19 +98,13 @@ void parse_lens(const std::string& text, StereoCamera& stereo) {
   stereo.lens_radius = numbers[0], stereo.focus_distance = numbers[1];
 }
 
-std::vector<std::string> preset_names() {
-  std::vector<std::string> names;
-  for (const ods::CameraPreset& each : ods::camera_presets()) names.emplace_back(each.name);
-  return names;
-}
-
 // NAME[:PARAMETER=VALUE,...]
 void parse_camera_preset(const std::string& text, CameraOptions& camera) {
   const size_t colon = std::min(text.find(':'), text.size());
   const std::string name = text.substr(0, colon);
   const ods::CameraPreset* preset = ods::find_camera_preset(name);
   if (!preset) {
-    const std::vector<std::string> names = preset_names();
+    const std::vector<std::string> names = ods::names_of(ods::camera_presets());
     throw UsageError(fmt::format("--camera-preset knows no '{}'{}; it knows {}", name, ods::did_you_mean(name, names),
                                  fmt::join(names, ", ")));
   }
@@ -142,7 +135,7 @@ void add_camera_preset_option(Options& options, CameraOptions& camera) {
       [&](const std::string& text) { parse_camera_preset(text, camera); },
       "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
       "the options below override it");
-  options.offer("--camera-preset", preset_names());
+  options.offer("--camera-preset", ods::names_of(ods::camera_presets()));
 }
 
 void add_circle_options(Options& options, CameraOptions& camera) {

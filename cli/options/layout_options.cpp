@@ -5,17 +5,12 @@
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 
 using ods::Layout;
 
 namespace {
-
-std::vector<std::string> layout_names() {
-  std::vector<std::string> names;
-  for (Layout layout : ods::kLayouts) names.emplace_back(ods::layout_name(layout));
-  return names;
-}
 
 // "top-bottom (over-under, ou, tb), bottom-top (under-over, bt), ..."
 std::string layout_list() {
@@ -36,18 +31,18 @@ std::string layout_list() {
 Layout layout_by_name(const std::string& name, const std::string& word) {
   if (auto layout = ods::layout_of(word)) return *layout;
   throw UsageError(fmt::format("{}: there is no layout '{}'{} (--help lists them)", name, word,
-                               ods::did_you_mean(word, layout_names())));
+                               ods::did_you_mean(word, ods::names_of(ods::kLayoutTable))));
 }
 
 void add_layout_option(Options& options, Layout& layout, const std::string& text) {
   auto set = [&](const std::string& word) { layout = layout_by_name("--layout", word); };
   options.custom("--layout", "LAYOUT", std::string(ods::layout_name(layout)), set, text + ": " + layout_list());
-  options.offer("--layout", layout_names());
+  options.offer("--layout", ods::names_of(ods::kLayoutTable));
 }
 
 void add_layout_option(Options& options, std::optional<Layout>& layout, const std::string& text,
                        const std::string& name) {
   auto set = [&layout, name](const std::string& word) { layout = layout_by_name(name, word); };
   options.custom(name, "LAYOUT", "", set, name == "--layout" ? text + ": " + layout_list() : text);
-  options.offer(name, layout_names());
+  options.offer(name, ods::names_of(ods::kLayoutTable));
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/console/console.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/sizes.h"
 #include "ods/image/format/file_format.h"
@@ -14,18 +15,12 @@
 
 using ods::Layout;
 
-static std::vector<std::string> size_names() {
-  std::vector<std::string> names;
-  for (const ods::NamedSize& size : ods::named_sizes()) names.emplace_back(size.name);
-  return names;
-}
-
 const ods::NamedSize& size_by_name(const std::string& name) {
   for (const ods::NamedSize& size : ods::named_sizes()) {
     if (size.name == name) return size;
   }
-  throw UsageError(
-      fmt::format("there is no size '{}'{} (ods sizes lists them)", name, ods::did_you_mean(name, size_names())));
+  throw UsageError(fmt::format("there is no size '{}'{} (ods sizes lists them)", name,
+                               ods::did_you_mean(name, ods::names_of(ods::named_sizes()))));
 }
 
 void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layout) {
@@ -38,7 +33,7 @@ void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layo
   };
   options.custom("--size", "NAME", "", set,
                  "set width, height, layout and eyes to a named size (ods sizes lists them)");
-  options.offer("--size", size_names());
+  options.offer("--size", ods::names_of(ods::named_sizes()));
 }
 
 void add_picture_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {

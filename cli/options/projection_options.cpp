@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "cli/console/console.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_fields.h"
 
@@ -87,15 +88,9 @@ void parse_face(const std::string& name, bool has_other, ProjectionSetting& proj
 
 }  // namespace
 
-static std::vector<std::string> projection_names() {
-  std::vector<std::string> names;
-  for (const NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
-  return names;
-}
-
 ProjectionSetting projection_by_name(const std::string& option, const std::string& name) {
   if (const NamedProjection* named = ods::find_projection(name)) return named->setting;
-  const std::vector<std::string> names = projection_names();
+  const std::vector<std::string> names = ods::names_of(ods::named_projections());
   throw UsageError(
       fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
 }
@@ -110,8 +105,8 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
         projection = projection_by_name(option, text);
         *is_named = true;
       },
-      fmt::format("projection of each eye's picture: {}", fmt::join(projection_names(), ", ")));
-  options.offer(name.empty() ? option : name + ",--projection", projection_names());
+      fmt::format("projection of each eye's picture: {}", fmt::join(ods::names_of(ods::named_projections()), ", ")));
+  options.offer(name.empty() ? option : name + ",--projection", ods::names_of(ods::named_projections()));
   options.custom(
       "--face", "NAME", "",
       [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },

@@ -9,6 +9,7 @@
 
 #include "cli/console/console.h"
 #include "ods/base/error.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/files/confined_file.h"
 #include "ods/scene/builtin/builtin.h"
@@ -25,9 +26,7 @@ static void add_confine_option(Options& options, SceneSource& source) {
 
 void add_scene_argument(Options& options, SceneSource& source) {
   options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
-  std::vector<std::string> builtin;
-  for (const ods::BuiltinScene& scene : ods::builtin_scenes()) builtin.emplace_back(scene.name);
-  options.offer("SCENE", builtin);
+  options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
                  "number of the scene in the file, counted from 0; by default the file's default scene");

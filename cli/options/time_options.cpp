@@ -10,6 +10,7 @@
 
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/files/frames.h"
 
@@ -80,8 +81,7 @@ void check_time_options(const TimeOptions& time) {
 void start_clock(TimeOptions& time, ods::Scene& scene) {
   ods::Animation& animation = scene.animation;
   const bool timed = time.time || asks_for_video(time);
-  std::vector<std::string> names;
-  for (const ods::Clip& clip : animation.clips) names.push_back(clip.name);
+  const std::vector<std::string> names = ods::names_of(animation.clips);
   if (!timed && time.animation.empty()) {
     if (!names.empty()) note("the scene stands at rest; --time SECONDS or --frames LIST plays its animation");
     return;

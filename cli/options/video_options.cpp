@@ -14,6 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/options/apple_option.h"
 #include "cli/options/picture_options.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/lint/players.h"
 
@@ -22,9 +23,7 @@ using ods::Chroma, ods::Container, ods::Extent, ods::VideoCodec, ods::Layout;
 namespace {
 
 std::string encoder_list() {
-  std::vector<std::string_view> names;
-  for (const ods::EncoderFacts& facts : ods::known_encoders()) names.push_back(facts.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}", fmt::join(ods::names_of(ods::known_encoders()), ", "));
 }
 
 void parse_encoder(const std::string& name, VideoWishes& wishes) {

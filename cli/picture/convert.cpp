@@ -42,8 +42,6 @@ void say_what_is_missing(const ods::Conversion& conversion) {
 }
 
 void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
-  const std::string fault = ods::conversion_fault(job.picture, job.target);
-  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
   const auto start = std::chrono::steady_clock::now();
   ods::Conversion conversion = ods::convert(job.picture, job.target);
   if (conversion.no_depth > 0) {

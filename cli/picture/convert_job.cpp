@@ -39,12 +39,12 @@ struct Wishes {
   bool mono = false;
 };
 
-// Opens the input's header as soon as --from-* options are known; the options after it change what the header says.
+// Opens the input as soon as --from-* options are known; the options after it change what its header says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
   ods::OpenOptions open;
   open.format = job.known;
-  job.picture = ods::open_picture_header(path, open);
+  job.picture = job.reader.emplace(path, open).header();
   wishes.camera.stereo = job.picture.camera;
 }
 
@@ -139,6 +139,13 @@ void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
   note_misleading_name(job.output, job.save, job.target.eyes.size(), stereo.projection);
 }
 
+// Asked of the header, so that nobody waits for pixels in vain, and of the pixels: reading them may leave out a layer
+// of depth that the header promised.
+void refuse_impossible(const ConvertJob& job) {
+  const std::string fault = ods::conversion_fault(job.picture, job.target);
+  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
+}
+
 }  // namespace
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
@@ -160,15 +167,13 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   refuse_overwriting(job.output, job.input);
   set_target(options, wishes, job);
   ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
-  const std::string fault = ods::conversion_fault(job.picture, job.target);
-  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
+  refuse_impossible(job);
   return true;
 }
 
 void open_input(ConvertJob& job) {
-  ods::OpenOptions open;
-  open.format = job.known;
-  open.scratch_folder = folder_of(job.output);
-  job.picture = ods::open_picture(job.input, open);
+  job.picture = job.reader->read(folder_of(job.output));
+  job.reader.reset();  // it may hold a decoder's memory
   note_guesses(job.input, job.picture);
+  refuse_impossible(job);
 }

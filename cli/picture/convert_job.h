@@ -3,6 +3,7 @@
 //
 // What ods convert has to do.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "cli/console/progress.h"
@@ -13,8 +14,9 @@
 struct ConvertJob {
   std::string input;
   std::string output;
-  ods::FormatHint known;       // of the input
-  ods::StoredPicture picture;  // only its header until open_input()
+  ods::FormatHint known;                     // of the input
+  std::optional<ods::PictureReader> reader;  // of the input, until open_input()
+  ods::StoredPicture picture;                // only its header until open_input()
   ods::ConvertTarget target;
   ods::SaveOptions save;
   int threads = 0;
@@ -24,5 +26,5 @@ struct ConvertJob {
 // Values that are not given remain the input's. Returns false if help was asked for. Throws UsageError and ods::Error.
 bool read_convert_job(ConvertJob& job, int argc, char** argv);
 
-// Reads the input's pixels. Throws ods::Error.
+// Reads the input's pixels. Throws UsageError and ods::Error.
 void open_input(ConvertJob& job);

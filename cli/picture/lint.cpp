@@ -63,7 +63,7 @@ std::string layout_word(const LintReport& report) {
   return std::string(report.layout ? ods::layout_name(*report.layout) : report.eye_count > 1 ? "separate" : "one eye");
 }
 
-std::vector<std::string_view> names_of(const std::vector<ods::Check>& checks) {
+std::vector<std::string_view> check_names(const std::vector<ods::Check>& checks) {
   std::vector<std::string_view> names;
   for (const ods::Check check : checks) names.push_back(check_name(check));
   return names;
@@ -85,7 +85,7 @@ void print_text(const LintJob& job, const LintReport& report) {
                fault_title(finding.fault), finding.certainty, finding.evidence, finding.cure);
   }
   for (const std::string& text : report.notes) fmt::print("note: {}\n", text);
-  fmt::print("judged: {}\n", fmt::join(names_of(report.judged), ", "));
+  fmt::print("judged: {}\n", fmt::join(check_names(report.judged), ", "));
   for (const ods::NotJudged& each : report.not_judged) {
     fmt::print("not judged: {} ({})\n", check_name(each.check), each.reason);
   }
@@ -102,7 +102,7 @@ void print_json(const LintJob& job, const LintReport& report) {
                {"reason", report.reason},
                {"projection", report.projection},
                {"findings", Json::array()},
-               {"judged", names_of(report.judged)},
+               {"judged", check_names(report.judged)},
                {"not_judged", Json::array()},
                {"notes", report.notes}};
   for (const ods::NotJudged& each : report.not_judged) {

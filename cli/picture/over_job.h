@@ -29,6 +29,6 @@ struct OverJob {
 // False if help was requested. Throws UsageError and ods::Error.
 bool read_over_job(OverJob& job, int argc, char** argv);
 
-// Throws UsageError if the two cannot be composited. `first` is the foreground's first picture, or a template of a
-// video's.
+// Throws UsageError if the two cannot be composited. `first` is the foreground's first picture,
+// or a template of a video's.
 void check_over(const OverJob& job, const ods::StoredPicture& first, const ods::StoredPicture& background);

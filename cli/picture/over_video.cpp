@@ -29,18 +29,18 @@ Range range_of(const OverJob& job) {
   check_rising(*job.frames);
   const Range range{job.frames->front(), job.frames->back()};
   if (static_cast<size_t>(range.last - range.first) + 1 == job.frames->size()) return range;
-  throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, like its sound");
+  throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, prototype its sound");
 }
 
 VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream, const Range& range) {
   VideoWishes wishes = job.video;
   wishes.output = job.output;
   wishes.rate = stream.rate;
-  const auto like = packing_like(stream, container_for(job.output));
-  if (like && !job.has_target && !wishes.codec && wishes.encoder.empty()) {
-    wishes.codec = like->codec;
-    wishes.bits = wishes.bits.value_or(like->bits);
-    wishes.chroma = wishes.chroma.value_or(like->chroma);
+  const auto prototype = packing_like(stream, container_for(job.output));
+  if (prototype && !job.has_target && !wishes.codec && wishes.encoder.empty()) {
+    wishes.codec = prototype->codec;
+    wishes.bits = wishes.bits.value_or(prototype->bits);
+    wishes.chroma = wishes.chroma.value_or(prototype->chroma);
   }
   if (!wishes.sound.empty() || !video.has_sound) return wishes;
   wishes.sound = video.path;
@@ -51,9 +51,9 @@ VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoS
 
 ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
   ods::VideoPlan plan;
-  plan.eye = video.like.size;
-  plan.eyes = video.like.eyes.size();
-  plan.layout = video.like.layout;
+  plan.eye = video.prototype.size;
+  plan.eyes = video.prototype.eyes.size();
+  plan.layout = video.prototype.layout;
   plan.size = stream.size;
   plan.metadata = video.metadata;
   return plan;
@@ -62,9 +62,9 @@ ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
 void check_job(const OverJob& job, const VideoInput& video) {
   if (job.has_tone || job.has_exposure)
     throw UsageError("--exposure and --tone are for scene-linear frames, not for videos");
-  if (job.layout && *job.layout != video.like.layout) {
+  if (job.layout && *job.layout != video.prototype.layout) {
     throw UsageError(fmt::format("the video stays {}; --layout needs frames as output (-o 'x.####.png')",
-                                 layout_name(video.like.layout)));
+                                 layout_name(video.prototype.layout)));
   }
   refuse_overwriting(job.output, job.background);
   refuse_overwriting(job.output, job.foreground);
@@ -79,10 +79,10 @@ void check_job(const OverJob& job, const VideoInput& video) {
 ods::StoredPicture first_of(Footage& front) {
   if (front.kind() == FootageKind::kPicture) return *front.picture(0);
   if (front.kind() == FootageKind::kVideo) {
-    ods::StoredPicture like = front.video().like;
-    like.eyes[0].layers.push_back({{"R", "G", "B"}});
-    if (front.stream().has_alpha) like.eyes[0].layers[0].channels.emplace_back("A");
-    return like;
+    ods::StoredPicture prototype = front.video().prototype;
+    prototype.eyes[0].layers.push_back({{"R", "G", "B"}});
+    if (front.stream().has_alpha) prototype.eyes[0].layers[0].channels.emplace_back("A");
+    return prototype;
   }
   const std::vector<int> frames = front.frames();
   if (!frames.empty()) return *front.picture(frames.front());
@@ -99,12 +99,12 @@ void check_rising(const std::vector<int>& frames) {
 void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const VideoInput& video = back.video();
-  note_guesses(back.path(), video.like);
+  note_guesses(back.path(), video.prototype);
   check_job(job, video);
   const ods::StoredPicture first = first_of(front);
   note_guesses(front.path(), first);
-  check_over(job, first, video.like);
-  for (const std::string& warning : over_warnings(first, video.like)) warn(warning);
+  check_over(job, first, video.prototype);
+  for (const std::string& warning : over_warnings(first, video.prototype)) warn(warning);
   if (front.kind() == FootageKind::kVideo && front.stream().rate.value() != back.stream().rate.value()) {
     warn(fmt::format("the foreground has {:.4g} frames per second, the background {:.4g}: frames are paired by number",
                      front.stream().rate.value(), back.stream().rate.value()));

@@ -10,16 +10,11 @@
 #include <sstream>
 
 #include "cli/console/console.h"
+#include "ods/base/names.h"
 #include "ods/files/atomic_file.h"
 #include "ods/stitch/slit_file.h"
 
 using ods::RigTarget;
-
-static std::vector<std::string_view> all_names() {
-  std::vector<std::string_view> names;
-  for (const RigTarget target : ods::kRigTargets) names.push_back(ods::rig_target_name(target));
-  return names;
-}
 
 static std::vector<RigTarget> parse_targets(const std::string& words) {
   std::vector<RigTarget> targets;
@@ -27,7 +22,8 @@ static std::vector<RigTarget> parse_targets(const std::string& words) {
   for (std::string word; std::getline(stream, word, ',');) {
     const std::optional<RigTarget> found = ods::find_in(ods::kRigTargetTable, word);
     if (!found) {
-      throw UsageError(fmt::format("--for: '{}' is none of {}", word, fmt::join(all_names(), ", ")));
+      throw UsageError(
+          fmt::format("--for: '{}' is none of {}", word, fmt::join(ods::names_of(ods::kRigTargetTable), ", ")));
     }
     if (std::find(targets.begin(), targets.end(), *found) == targets.end()) targets.push_back(*found);
   }
@@ -39,7 +35,7 @@ void add_script_option(Options& options, std::vector<RigTarget>& targets) {
       "--for", "LIST", "", [&](const std::string& words) { targets = parse_targets(words); },
       fmt::format("write scripts that render the views, next to the rig, for any of: {}; untested in their programs: "
                   "usd, unity, unreal",
-                  fmt::join(all_names(), ", ")));
+                  fmt::join(ods::names_of(ods::kRigTargetTable), ", ")));
 }
 
 void write_rig(const ods::SlitRig& rig, const std::vector<RigTarget>& targets, const std::string& output) {

@@ -141,16 +141,21 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, bounces, eyes, filter, layers, transparent, seed, threads, light_sampling,
-               last_tile_first] = options;
+  const auto& [width, height, samples, noise, time_limit, even_noise, bounces, eyes, share_paths, filter, layers,
+               transparent, statistics, seed, threads, light_sampling, last_tile_first] = options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
   add_number(settings, "--samples", samples);
+  add_number(settings, "--noise", static_cast<double>(noise));
+  add_number(settings, "--time-limit", time_limit);
+  add_flag(settings, "even noise", even_noise);
+  add_flag(settings, "shared paths", share_paths);
   add_number(settings, "--bounces", bounces);
   add(settings, "--eyes", std::string(ods::eyes_name(eyes)));
   add(settings, "--filter", std::string(ods::pixel_filter_name(filter)));
   add_flag(settings, "layers", layers);
   add_flag(settings, "--transparent", transparent);
+  add_flag(settings, "statistics", statistics);
   add(settings, "--seed", fmt::format("{}", seed));
 }
 

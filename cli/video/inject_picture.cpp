@@ -5,6 +5,7 @@
 #include "cli/console/console.h"
 #include "cli/video/inject_job.h"
 #include "ods/base/error.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/picture/metadata/tag_picture.h"
 
@@ -17,10 +18,8 @@ ods::FormatHint known_format(const InjectJob& job) {
   if (job.projection.empty()) return known;
   const ods::NamedProjection* named = ods::find_projection(job.projection == "flat" ? "perspective" : job.projection);
   if (!named) {
-    std::vector<std::string> names;
-    for (const ods::NamedProjection& each : ods::named_projections()) names.emplace_back(each.name);
     throw UsageError(fmt::format("--projection: pictures have no projection '{}'{}", job.projection,
-                                 ods::did_you_mean(job.projection, names)));
+                                 ods::did_you_mean(job.projection, ods::names_of(ods::named_projections()))));
   }
   known.projection = named->setting;
   return known;

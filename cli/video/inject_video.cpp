@@ -58,7 +58,7 @@ bool asks_for_something(const InjectJob& job) {
 void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, const ods::VideoTrack& track,
                       bool matters) {
   std::string texts, options;
-  for (const ods::FormConflict& conflict : find_conflicts(known, track, job.file)) {
+  for (const ods::MetadataConflict& conflict : find_conflicts(known, track, job.file)) {
     texts += (texts.empty() ? "" : "; ") + conflict.text;
     options += (options.empty() ? "" : ", and ") + conflict.options;
   }

@@ -6,8 +6,8 @@
 
 namespace ods {
 
-// The shortest decimal that rounds to this float: 0.065, not 0.06499999761581421. Converting it back gives the same
-// bits.
+// The shortest decimal that rounds to this float: 0.065, not 0.06499999761581421.
+// Converting it back gives the same bits.
 double decimal(float value);
 
 }  // namespace ods

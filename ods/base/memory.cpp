@@ -51,8 +51,8 @@ static size_t left_in_group(const std::string& folder, bool version_2) {
   return left_of(*limit, left_of(*used, cached));
 }
 
-// The process's own group and all its ancestors may have limits. In a container its own group may be mounted at the
-// root.
+// The process's own group and all its ancestors may have limits. In a container its own group may be
+// mounted at the root.
 static size_t left_in_groups(const std::string& root) {
   std::ifstream stream(root + "/proc/self/cgroup");
   size_t left = SIZE_MAX;

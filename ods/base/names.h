@@ -13,9 +13,11 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace ods {
 
@@ -57,6 +59,14 @@ constexpr std::array<MemberOf<Row[count]>, count> members_of(const Row (&table)[
   std::array<MemberOf<Row[count]>, count> members{};
   for (size_t i = 0; i < count; i++) members[i] = table[i].member;
   return members;
+}
+
+// The names of all rows, in the order of the table, which may be any range of things with a `name`.
+template <class Rows>
+std::vector<std::string> names_of(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.emplace_back(row.name);
+  return names;
 }
 
 // Whether the numbers 0 .. expected - 1 have a row each and no two rows share a name: for sets that the kernel counts.

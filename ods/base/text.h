@@ -10,8 +10,8 @@ namespace ods {
 // A-Z become a-z; other bytes are unchanged.
 std::string small_letters(std::string text);
 
-// Replaces control characters by spaces and trims trailing spaces: a file name may hold line breaks or terminal
-// escapes.
+// Replaces control characters by spaces and trims trailing spaces: a file name may hold line
+// breaks or terminal escapes.
 std::string one_line(std::string text);
 
 // A library's error message in one line. Some libraries turn every exception into text: if the text reports

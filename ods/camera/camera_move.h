@@ -13,10 +13,10 @@ namespace ods {
 struct CameraMove {
   double seconds = 10.0;  // the duration of the turns and the flight
   double turns = 0.0;     // turns to the right, at constant speed; they continue after `seconds`
-  std::optional<vec3>
-      pivot;  // the camera circles the vertical line through this point and always faces it; none: it turns in place
-  std::vector<vec3> fly_to;  // the places that it flies through, from its own position; it starts and ends gently, and
-                             // stays at the last one
+  // The camera circles the vertical line through this point and always faces it; none: it turns in place.
+  std::optional<vec3> pivot;
+  // The places that it flies through, from its own position; it starts and ends gently, and stays at the last one.
+  std::vector<vec3> fly_to;
 };
 
 bool moves(const CameraMove& move);

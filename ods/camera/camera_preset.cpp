@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_fields.h"
 
@@ -279,8 +280,7 @@ const CameraPreset* find_camera_preset(std::string_view name) {
 }
 
 StereoCamera camera_like(const CameraPreset& preset, const std::map<std::string, std::string>& given) {
-  std::vector<std::string> names;
-  for (const PresetParameter& parameter : preset.parameters) names.emplace_back(parameter.name);
+  const std::vector<std::string> names = names_of(preset.parameters);
   for (const auto& [name, value] : given) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw std::invalid_argument(fmt::format("{} has no '{}'{}; it has {}", preset.name, name, did_you_mean(name, names),

@@ -139,6 +139,13 @@ std::optional<Extent> unpacked_size(Layout layout, Extent packed) {
   return Extent{packed.width / cuts.width, packed.height / cuts.height};
 }
 
+std::optional<Extent> whole_eye(Layout layout, Extent packed) {
+  const std::optional<Extent> eye = unpacked_size(layout, packed);
+  if (!eye) return std::nullopt;
+  const Extent squeeze = squeeze_of(layout, 2);
+  return Extent{eye->width * squeeze.width, eye->height * squeeze.height};
+}
+
 Neighbours neighbours_of(int x, int y, Extent eye) {
   Neighbours found;
   const auto add = [&](int nx, int ny) {

@@ -23,8 +23,7 @@ enum class Layout {
   kSideBySideHalf,  // side-by-side with eyes squeezed to half their width
   kRowInterleaved,  // each row of the left eye is followed by the right eye's row; no rows are dropped
   kColumnInterleaved,
-  kCheckerboard,  // a file of the eye's size, the left eye's pixel where x + y is even: half of each eye's pixels are
-                  // dropped
+  kCheckerboard,  // a file of the eye's size: the left eye's pixels where x + y is even, the right eye's elsewhere
   kAnaglyph,      // for red-cyan glasses: see anaglyph.h
   kAnaglyphHalf,
   kAnaglyphDubois,
@@ -139,6 +138,9 @@ std::vector<EyeRow> packed_row(Layout layout, Extent eye, int eye_count, int y);
 // The size of either eye in a packed image; empty if an image of that size cannot have this layout. Squeezed eyes keep
 // their stored size. Precondition: not an anaglyph.
 std::optional<Extent> unpacked_size(Layout layout, Extent packed);
+
+// The size that either eye had before it was squeezed; empty as unpacked_size(). Precondition: not an anaglyph.
+std::optional<Extent> whole_eye(Layout layout, Extent packed);
 
 // The top left corner of an eye in a packed image. `eye` is the size of either, `index` is 0 for the left or the only
 // one.

@@ -116,11 +116,11 @@ static double polynomial_slope(const std::array<float, 5>& k, double r) {
   return -(double{k[1]} + r * (2.0 * double{k[2]} + r * (3.0 * double{k[3]} + r * 4.0 * double{k[4]})));
 }
 
-constexpr int kPolynomialSteps =
-    4096;  // from the axis to the corner, in the search for the radius where a polynomial reaches an angle
+// From the axis to the corner, in the search for the radius where a polynomial reaches an angle.
+constexpr int kPolynomialSteps = 4096;
 
-// The radius of the image circle, millimetres: where the angle first reaches half the field of view, at most the
-// corner.
+// The radius of the image circle, millimetres: where the angle first reaches half the field of view,
+// at most the corner.
 static double polynomial_edge(const ProjectionSetting& setting) {
   const double corner = std::hypot(double{setting.sensor.x}, double{setting.sensor.y}) / 2.0;
   const double half = glm::radians(double{setting.fov}) / 2.0;
@@ -181,8 +181,7 @@ std::string projection_fault(const ProjectionSetting& setting) {
   return has_lens(setting.kind) ? lens_fault(setting) : "";
 }
 
-// --- the kinds
-// ---------------------------------------------------------------------------------------------------------
+// --- the kinds -------------------------------------------------------------------------------------------------------
 
 namespace {
 

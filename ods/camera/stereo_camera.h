@@ -78,8 +78,8 @@ struct StereoCamera {
   bool operator==(const StereoCamera&) const = default;
 };
 
-// Precondition: every field is finite, ipd >= 0, the projection has no fault. The result points into the merge map of
-// `stereo`.
+// Precondition: every field is finite, ipd >= 0, the projection has no fault.
+// The result points into the merge map of `stereo`.
 Camera make_camera(const StereoCamera& stereo);
 
 // Turns the camera in its own frame, by degrees relative to its orientation.

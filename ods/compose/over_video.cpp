@@ -67,13 +67,13 @@ std::shared_ptr<VideoFrame> copied_frame(const DecodedFrame& frame, const VideoS
     copy_planes(frame.planes, stream.size, result->planes());
     return result;
   }
-  for (size_t eye = 0; eye < video.like.eyes.size(); eye++) {
-    const Planes from = planes_of(frame.planes, video.like, eye);
+  for (size_t eye = 0; eye < video.prototype.eyes.size(); eye++) {
+    const Planes from = planes_of(frame.planes, video.prototype, eye);
     const auto codes = [&](int y, std::span<float> row) {
-      get_codes(from, video.like.size, stream.color, y, 0, row);
+      get_codes(from, video.prototype.size, stream.color, y, 0, row);
       for (float& code : row) code = std::clamp(code, 0.0f, 1.0f);
     };
-    put_ycbcr(codes, video.like.size, planes_of(result->planes(), video.like, eye));
+    put_ycbcr(codes, video.prototype.size, planes_of(result->planes(), video.prototype, eye));
   }
   return result;
 }
@@ -233,13 +233,13 @@ class VideoOver {
 
  private:
   void lay(const Cover& cover, const Work& work) const {
-    lay_cover(cover, back_.video().like, back_.stream().color, work.back.planes, work.frame->planes());
+    lay_cover(cover, back_.video().prototype, back_.stream().color, work.back.planes, work.frame->planes());
   }
 
   Cover cover_of(const StoredPicture& front) const {
-    const StoredPicture& like = back_.video().like;
-    const std::string fault = over_fault(front, like, over_);
-    if (fault.empty()) return make_cover(front, like, over_);
+    const StoredPicture& prototype = back_.video().prototype;
+    const std::string fault = over_fault(front, prototype, over_);
+    if (fault.empty()) return make_cover(front, prototype, over_);
     throw Error(ErrorKind::kUsage, fmt::format("'{}' over '{}': {}", front_.path(), back_.path(), fault));
   }
 

@@ -34,8 +34,8 @@ void copy_planes(const Planes& from, Extent size, const Planes& to);
 std::shared_ptr<VideoFrame> copied_frame(const DecodedFrame& frame, const VideoStream& stream, const VideoInput& video,
                                          const Packing& packing);
 
-// Composites the cover into `to`, which holds the same picture as `from`; both are whole pictures in the video's
-// layout.
+// Composites the cover into `to`, which holds the same picture as `from`;
+// both are whole pictures in the video's layout.
 void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& color, const Planes& from,
                const Planes& to);
 

@@ -43,8 +43,8 @@ float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& s
 // distance and height above 0.
 Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& setting, const Lettering& lettering);
 
-// Fills row y of one eye with R, G, B (premultiplied), A, and Z (metres along the ray, kFarDepth where there is no
-// letter).
+// Fills row y of one eye with R, G, B (premultiplied), A, and Z (metres along the ray,
+// kFarDepth where there is no letter).
 void fill_title_row(const Title& title, int eye, int y, std::span<float> row);
 
 // The text's angular width in degrees, from the centre of the viewing circle.

@@ -39,8 +39,8 @@ struct Conversion {
   PictureRows rows;
   bool sees_around = false;  // the target's eyes are in other places than the picture's
   int64_t no_depth = 0;      // pixels of the picture, of both eyes, without a valid depth: Reprojection
-  // Target pixels filled so far for which the picture has nothing. All their channels are 0, except depth, which is
-  // kFarDepth.
+  // Target pixels filled so far for which the picture has nothing. All their channels are 0, except depth,
+  // which is kFarDepth.
   std::shared_ptr<std::atomic<int64_t>> empty = std::make_shared<std::atomic<int64_t>>(0);
 };
 

@@ -11,8 +11,8 @@ namespace ods {
 
 // --- tents ----------------------------------------------------------------------------------------------------------
 
-// Below this the picture is only interpolated: blurring by a hundredth of half a texel would cost sharpness for
-// nothing.
+// Below this the picture is only interpolated: blurring by a hundredth of half a texel would
+// cost sharpness for nothing.
 static const float kMinRadius = 0.15f;
 static const int kMaxPoints = 65;  // along one axis
 
@@ -99,8 +99,8 @@ static Position split_exactly(float at) {
   return {whole, from - static_cast<float>(whole)};
 }
 
-// A place this close to the centre of a texel is meant to be exactly there: the round trip through angles has that much
-// error.
+// A place this close to the centre of a texel is meant to be exactly there:
+// the round trip through angles has that much error.
 static Position split(float at) {
   const float kTolerance = 1.0f / 256.0f;
   const Position exact = split_exactly(at);

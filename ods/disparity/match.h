@@ -11,8 +11,8 @@
 
 namespace ods {
 
-// Angles are in radians. A tile has the same width on the sphere at every elevation: its columns grow towards the
-// poles.
+// Angles are in radians. A tile has the same width on the sphere at every elevation:
+// its columns grow towards the poles.
 struct Search {
   int rows = 12;  // of a tile, in pixels of the view
   int columns = 16;

@@ -36,7 +36,7 @@ data.clip_end = 10000.0
 class Script {
  public:
   Script(const Sidecar& file, std::vector<std::string>& warnings)
-      : file_(file), rig_(file.camera), warnings_(warnings) {
+      : file_(file), camera_(file.camera), warnings_(warnings) {
     warnings_ = lacking(file, {.system = "Blender", .tilt = true, .toe_in = true, .partial = true});
     place();
     lens();
@@ -54,7 +54,7 @@ class Script {
   }
 
   void place() {
-    const std::array<glm::dvec3, 4> columns = placement(rig_);
+    const std::array<glm::dvec3, 4> columns = placement(camera_);
     const auto row = [&](const char* end, int axis, double sign) {
       std::string numbers;
       for (const glm::dvec3& column : columns) numbers += fmt::format("{:.8g}, ", sign * column[axis] + 0.0);
@@ -68,7 +68,7 @@ class Script {
   }
 
   void lens() {
-    const ProjectionSetting& setting = rig_.projection;
+    const ProjectionSetting& setting = camera_.projection;
     if (setting.kind == kPerspective) return window();
     line("data.type = \"PANO\"");
     line("panorama = data if hasattr(data, \"panorama_type\") else data.cycles");
@@ -87,21 +87,21 @@ class Script {
 
   void fisheye() {
     line("panorama.panorama_type = \"FISHEYE_EQUIDISTANT\"");
-    line("put(panorama, \"fisheye_fov\", radians({}))", rig_.projection.fov);
+    line("put(panorama, \"fisheye_fov\", radians({}))", camera_.projection.fov);
     turned_lens();
   }
 
   void window() {
     line("data.type = \"PERSP\"");
     line("data.sensor_fit = \"HORIZONTAL\"");
-    line("data.angle = radians({})", rig_.projection.fov);
+    line("data.angle = radians({})", camera_.projection.fov);
     warn("a window's eyes stand on a circle square to the world's up, whatever the pitch");
     turned_lens();
   }
 
   // A lens that points elsewhere rotates the viewing circle with it, unless it only turns about the circle's axis.
   void turned_lens() {
-    const ProjectionSetting& setting = rig_.projection;
+    const ProjectionSetting& setting = camera_.projection;
     if (setting.tilt != 0.0f) warn(fmt::format("the lens cannot tilt {} degrees while the eyes stay", setting.tilt));
     if (setting.pan == 0.0f) return;
     line("camera.matrix_world = camera.matrix_world @ Matrix.Rotation(radians({}), 4, \"Y\")", 0.0f - setting.pan);
@@ -114,15 +114,15 @@ class Script {
     line("stereo = data.stereo");
     line("stereo.use_spherical_stereo = True");
     line("stereo.pivot = \"CENTER\"");
-    line("stereo.interocular_distance = {}", rig_.ipd);
-    line("stereo.convergence_mode = \"{}\"", rig_.convergence == kToeIn ? "TOE" : "PARALLEL");
-    if (rig_.convergence == kToeIn) line("stereo.convergence_distance = {}", rig_.convergence_distance);
-    const PoleMergeSetting& merge = rig_.top;
+    line("stereo.interocular_distance = {}", camera_.ipd);
+    line("stereo.convergence_mode = \"{}\"", camera_.convergence == kToeIn ? "TOE" : "PARALLEL");
+    if (camera_.convergence == kToeIn) line("stereo.convergence_distance = {}", camera_.convergence_distance);
+    const PoleMergeSetting& merge = camera_.top;
     const bool cosine = merge.mode == kMergeCosine && merge.exponent == 1.0f;
     const bool none = merge.mode == kMergeNone;
-    if (!same_merge(rig_.top, rig_.bottom) || (!none && !cosine)) {
+    if (!same_merge(camera_.top, camera_.bottom) || (!none && !cosine)) {
       warn(fmt::format("Blender's merge is a plain cosine, the same at both poles, not {}; it is left off",
-                       merge_text(rig_)));
+                       merge_text(camera_)));
       return line("stereo.use_pole_merge = False");
     }
     line("stereo.use_pole_merge = {}", none ? "False" : "True");
@@ -167,7 +167,7 @@ class Script {
   void warn(const std::string& warning) { warnings_.push_back(warning); }
 
   const Sidecar& file_;
-  const StereoCamera& rig_;
+  const StereoCamera& camera_;
   std::vector<std::string>& warnings_;
   std::string text_;
 };

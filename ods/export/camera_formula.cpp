@@ -62,11 +62,11 @@ class Writer {
  public:
   Writer(const Sidecar& file, const FormulaView& view)
       : file_(file),
-        rig_(file.camera),
+        camera_(file.camera),
         setting_(file.camera.projection),
         view_(view),
         level_(is_level()),
-        has_axis_(rig_.axis && !level_) {}
+        has_axis_(camera_.axis && !level_) {}
 
   CameraFormula write() {
     write_eyes();
@@ -78,8 +78,8 @@ class Writer {
  private:
   // A rotation about the vertical axis only needs no matrix.
   bool is_level() const {
-    const bool level = rig_.pitch == 0.0f && rig_.roll == 0.0f;
-    const bool upright = !rig_.axis || (level && *rig_.axis == vec3(0.0f, 1.0f, 0.0f));
+    const bool level = camera_.pitch == 0.0f && camera_.roll == 0.0f;
+    const bool upright = !camera_.axis || (level && *camera_.axis == vec3(0.0f, 1.0f, 0.0f));
     return upright && (level || view_.camera_frame);
   }
 
@@ -129,9 +129,9 @@ class Writer {
   }
 
   Formula turn_to_right() {
-    if (view_.camera_frame || !level_ || rig_.yaw == 0.0f) return 0.0;
-    const Formula yaw = parameter("yaw", rig_.yaw, "degrees to the right");
-    return (rig_.mirrored ? -1.0 : 1.0) * (kExactPi / 180.0) * yaw;
+    if (view_.camera_frame || !level_ || camera_.yaw == 0.0f) return 0.0;
+    const Formula yaw = parameter("yaw", camera_.yaw, "degrees to the right");
+    return (camera_.mirrored ? -1.0 : 1.0) * (kExactPi / 180.0) * yaw;
   }
 
   // theta and phi of the direction, relative to the viewing circle's axis.
@@ -162,16 +162,16 @@ class Writer {
       phi = atan2(d[1], sqrt(squared(d[0]) + squared(d[2])));
     }
     theta = theta + turn_to_right();
-    if (rig_.convergence == kShift && !is_number(side_, 0.0)) {
+    if (camera_.convergence == kShift && !is_number(side_, 0.0)) {
       theta = theta - side_ * asin(min(ipd() / (2.0 * distance()), 1.0));
     }
     theta_ = step("theta", theta);
     phi_ = step("phi", phi);
   }
 
-  Formula ipd() { return parameter("ipd", rig_.ipd, "distance between the eyes"); }
+  Formula ipd() { return parameter("ipd", camera_.ipd, "distance between the eyes"); }
   Formula distance() {
-    return parameter("convergence_distance", rig_.convergence_distance, "of the point without parallax");
+    return parameter("convergence_distance", camera_.convergence_distance, "of the point without parallax");
   }
 
   // A direction of any length, in the camera's frame.
@@ -247,17 +247,18 @@ class Writer {
 
   // The camera's frame in the world: right, up and back.
   std::array<glm::dvec3, 3> frame() const {
-    std::array<glm::dvec3, 3> columns = orientation(radians(rig_.yaw), radians(rig_.pitch), radians(rig_.roll));
-    if (rig_.mirrored) columns[2] = -columns[2];
+    std::array<glm::dvec3, 3> columns =
+        orientation(radians(camera_.yaw), radians(camera_.pitch), radians(camera_.roll));
+    if (camera_.mirrored) columns[2] = -columns[2];
     return columns;
   }
 
   // A frame, relative to the camera's, whose up is the viewing circle's axis; right and back are as close to the
   // camera's as possible.
   std::array<glm::dvec3, 3> circle() const {
-    if (!rig_.axis) return {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
+    if (!camera_.axis) return {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     const std::array<glm::dvec3, 3> camera = frame();
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(*rig_.axis));
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(*camera_.axis));
     const glm::dvec3 up(glm::dot(axis, camera[0]), glm::dot(axis, camera[1]), glm::dot(axis, camera[2]));
     const glm::dvec3 near_back = std::abs(up.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, up.z < 0.0 ? 1 : -1, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(up, near_back));
@@ -297,7 +298,7 @@ class Writer {
   }
 
   Formula merge() {
-    const PoleMergeSetting &top = rig_.top, &bottom = rig_.bottom;
+    const PoleMergeSetting &top = camera_.top, &bottom = camera_.bottom;
     if (same_merge(top, bottom)) return step("merge", merge_of_pole(top, ""));
     const Formula above = merge_of_pole(top, "top_");
     return step("merge", select(phi_, merge_of_pole(bottom, "bottom_"), above));
@@ -309,7 +310,7 @@ class Writer {
     if (has_axis_) result = combine(circle(), result);
     const bool by_matrix = !level_ && !view_.camera_frame;
     if (by_matrix) result = combine(frame(), result);
-    const bool turned = view_.left_handed != (rig_.mirrored && !by_matrix);
+    const bool turned = view_.left_handed != (camera_.mirrored && !by_matrix);
     if (view_.left_handed && !by_matrix && !view_.camera_frame) {
       result[2] = parameter("handedness", turned ? -1.0f : 1.0f, "-1: z points ahead, 1: mirrored") * result[2];
     } else {
@@ -319,15 +320,15 @@ class Writer {
   }
 
   void write_ray() {
-    const bool stereo = !is_number(side_, 0.0) && rig_.ipd > 0.0f;
-    const Formula left = stereo || rig_.neck != 0.0f ? merge() : Formula(1.0);
+    const bool stereo = !is_number(side_, 0.0) && camera_.ipd > 0.0f;
+    const Formula left = stereo || camera_.neck != 0.0f ? merge() : Formula(1.0);
     const Formula radius = stereo ? step("radius", side_ * ipd() * left / 2.0) : Formula(0.0);
     const Formula ahead =
-        rig_.neck == 0.0f ? Formula(0.0) : parameter("neck", rig_.neck, "the eyes stand before it") * left;
+        camera_.neck == 0.0f ? Formula(0.0) : parameter("neck", camera_.neck, "the eyes stand before it") * left;
     const Formula sine = sin(theta_), cosine = cos(theta_);
     Vector origin{radius * cosine + ahead * sine, 0.0, radius * sine - ahead * cosine};
     Vector d{sine * cos(phi_), sin(phi_), -(cosine * cos(phi_))};
-    if (rig_.convergence == kToeIn && stereo) {
+    if (camera_.convergence == kToeIn && stereo) {
       const Formula far = distance();
       const Formula size = step("size", sqrt(squared(far) + squared(radius)));
       d = {(far * d[0] - radius * cosine) / size, far * d[1] / size, (far * d[2] - radius * sine) / size};
@@ -342,7 +343,7 @@ class Writer {
     out_.direction = d;
     out_.location = into_world(origin);
     if (view_.camera_frame) return;
-    const vec3 place = rig_.position * vec3(1.0f, 1.0f, view_.left_handed ? -1.0f : 1.0f);
+    const vec3 place = camera_.position * vec3(1.0f, 1.0f, view_.left_handed ? -1.0f : 1.0f);
     const char* names[] = {"location_x", "location_y", "location_z"};
     for (int i = 0; i < 3; i++) {
       Formula& part = out_.location[static_cast<size_t>(i)];
@@ -351,7 +352,7 @@ class Writer {
   }
 
   const Sidecar& file_;
-  const StereoCamera& rig_;
+  const StereoCamera& camera_;
   const ProjectionSetting& setting_;
   const FormulaView& view_;
   const bool level_;

@@ -20,8 +20,8 @@ struct FormulaView {
   Formula u;                 // position in the whole picture, 0..1 from left to right, in terms of x and y
   Formula v;                 // likewise, 0..1 from top to bottom
   bool left_handed = false;  // the renderer's world z points ahead; ours points back
-  bool camera_frame =
-      false;  // the renderer places its camera by other means: location and direction are in the camera's frame
+  // The renderer places its camera by other means: location and direction are in the camera's frame.
+  bool camera_frame = false;
 };
 
 struct NamedFormula {

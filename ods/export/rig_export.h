@@ -46,8 +46,8 @@ struct RigScript {
 
 struct RigExport {
   std::vector<RigScript> scripts;
-  std::vector<std::string>
-      warnings;  // what the target cannot do for this rig, one line each; the text includes them too
+  // What the target cannot do for this rig, one line each; the text includes them too.
+  std::vector<std::string> warnings;
 };
 
 // `name`: of the rig's file, without folder and without .json. The scripts name the rig and each other by it.

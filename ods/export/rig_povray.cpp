@@ -68,8 +68,8 @@ static std::string camera_text(const SlitRig& rig, const std::vector<std::string
 
 RigExport rig_to_povray(const SlitRig& rig, const std::string& name) {
   RigExport result;
-  // POV-Ray writes as many digits as the last frame of the animation has: 9999, of which the views are the first
-  // frames.
+  // POV-Ray writes as many digits as the last frame of the animation has: 9999,
+  // of which the views are the first frames.
   const size_t digits = std::max<size_t>(4, std::to_string(rig.views.size()).size());
   const std::vector<std::string> head = head_lines(
       rig, name,

@@ -75,8 +75,8 @@ static std::string temporary_prefix(const std::string& path) {
   return fmt::format(".{}.tmp.{}.", fs::path(path).filename().native().substr(0, 120), host);
 }
 
-// Creates a file with a name unique to this host and process, locked while it is open. Null, with errno set, on
-// failure.
+// Creates a file with a name unique to this host and process, locked while it is open. Null,
+// with errno set, on failure.
 static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
   static std::atomic<unsigned> counter{0};
   const std::string prefix = temporary_prefix(path);

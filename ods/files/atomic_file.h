@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Atomic writes: a file is written beside its final name, flushed to disk, then renamed, so a file that exists is
-// complete.
+// Atomic writes: a file is written beside its final name, flushed to disk, then renamed,
+// so a file that exists is complete.
 #pragma once
 #include <cstdio>
 #include <list>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads a file's bytes. Unless stated otherwise, throws Error(kInput): no such file, a folder, a device, or no
-// permission.
+// Reads a file's bytes. Unless stated otherwise, throws Error(kInput): no such file, a folder, a device,
+// or no permission.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -18,8 +18,8 @@ Error cannot_read(const std::string& path, const std::string& why);
 
 size_t file_size(const std::string& path);
 
-// Size and modification time, "517 bytes, of 1700000000123"; they change with the contents. Empty if there is no such
-// file.
+// Size and modification time, "517 bytes, of 1700000000123"; they change with the contents.
+// Empty if there is no such file.
 std::string file_identity(const std::string& path);
 
 // The whole file. Throws Error(kInput) before reading if it has more than `most` bytes, Error(kMemory) if it does not

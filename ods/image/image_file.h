@@ -51,8 +51,8 @@ class RowReader {
   // Reads the first `channels` channels of rows begin..end, interleaved by pixel. Throws Error(kInput).
   virtual void read(int begin, int end, size_t channels, std::byte* to) = 0;
 
-  // The channels in which the reader found an integer above 2^24, which floats cannot represent exactly, and that
-  // number.
+  // The channels in which the reader found an integer above 2^24, which floats cannot represent exactly,
+  // and that number.
   virtual const std::map<size_t, unsigned>& beyond_floats() const = 0;
 };
 

@@ -139,8 +139,8 @@ struct BsdfEvaluator : SurfaceReader {
     vec3 base = clamp(surface.base_color, vec3(0.0f), vec3(1.0f));
     float root = (surface.ior - 1.0f) / (surface.ior + 1.0f);
     float f0 = root * root;
-    float f90 =
-        clamp(50.0f * f0, 0.0f, 1.0f);  // an index near 1 gives no highlight at grazing angles either (Lagarde 2014)
+    // An index near 1 gives no highlight at grazing angles either (Lagarde 2014).
+    float f90 = clamp(50.0f * f0, 0.0f, 1.0f);
 
     vec2 albedo = vec2(1.0f, 0.0f);
     float s = schlick(bsdf.wo.z);
@@ -243,8 +243,8 @@ struct BsdfEvaluator : SurfaceReader {
     return result;
   }
 
-  // Glass: chooses reflection or transmission by Fresnel, with what remains of pick (rescaled to 0..1). Local
-  // directions.
+  // Glass: chooses reflection or transmission by Fresnel, with what remains of pick (rescaled
+  // to 0..1). Local directions.
   inline vec3 sample_glass(Bsdf bsdf, vec3 h, float pick) {
     bool reflected = pick < glass_fresnel(bsdf, dot(bsdf.wo, h));
     vec3 mirror = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;

@@ -13,6 +13,14 @@ namespace ods {
 const int kFilterBlackmanHarris = 0;  // radius 1.5 pixels
 const int kFilterBox = 1;             // the pixel itself
 
+// The filter at an offset from the pixel's centre, over its value there.
+inline float filter_value(int shape, float offset) {
+  if (shape == kFilterBox) return abs(offset) <= 0.5f ? 1.0f : 0.0f;
+  if (abs(offset) >= 1.5f) return 0.0f;
+  float turn = 2.0943951f * offset;  // 2 pi / 3
+  return 0.35875f + 0.48829f * cos(turn) + 0.14128f * cos(2.0f * turn) + 0.01168f * cos(3.0f * turn);
+}
+
 #ifdef __cplusplus
 struct FilterSampler : SceneView {
 #endif

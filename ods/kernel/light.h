@@ -3,8 +3,8 @@
 //
 // Picks a light and a point on it, and gives the pdf (probability density) with which sampling would have found the
 // light that a given ray hits.
-// Lights are picked in proportion to their power from Walker's alias table, which the host builds
-// (ods/render/lights.h).
+// Lights are picked in proportion to their power from Walker's alias table,
+// which the host builds (ods/render/lights.h).
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/bsdf.h"
@@ -17,11 +17,21 @@ struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
   vec3 end;       // where a shadow ray ends, just in front of the light; unused at kFarAway
-  vec3 radiance;  // arriving radiance; for lights without size (pdf 0) already divided by the probability of picking
-                  // them
+  vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the probability of picking them
   float pdf;      // per solid angle, including the probability of picking the light
   bool valid;
 };
+
+inline LightSample no_light() {
+  LightSample light;
+  light.direction = vec3(0.0f);
+  light.distance = 0.0f;
+  light.end = vec3(0.0f);
+  light.radiance = vec3(0.0f);
+  light.pdf = 0.0f;
+  light.valid = false;
+  return light;
+}
 
 // Walker's alias method: slot was picked uniformly; draw in [0, 1) decides between it and its alias.
 inline int alias_pick(AliasEntry entry, int slot, float draw) {

@@ -24,6 +24,12 @@
 //   alpha = 1 - light_with / light_without
 //
 // For all other paths (reflected, refracted or scattered) a catcher is an ordinary surface.
+//
+// Both eyes from one path: if the other eye sees the path's first surface, too, the light that the path finds from
+// there on goes to both (share_path()). Each way in which a pixel's light is found, by its own paths and by those of
+// the other eye, is weighted by how likely it finds that light (Veach's balance heuristic), so neither adds noise where
+// it fits badly: a mirror has no light to share, a glossy surface little. What the surface emits belongs to its own
+// path alone.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/medium.h"
@@ -57,6 +63,21 @@ struct PathState {
   float shadow_length;
   vec3 shadow_light;
   bool shadow_pending;
+
+  // Both eyes from one path. What a sample adds to the other eye's pixel is in units of this eye's samples: it needs no
+  // further weight.
+  bool shared;           // the other eye sees the first surface
+  vec3 other_direction;  // from the other eye to it
+  float other_density;   // of the other eye's samples there, over this eye's
+  Bsdf other;            // of the first surface
+  float own_share;       // of the light after the first surface, this eye's
+  vec3 other_ratio;      // light for the other eye over light for this one; 0: not shared
+  float alone_ratio;     // light if it were not shared, over light for this eye
+  float other_pdf;       // like pdf, as if the other eye had chosen the ray's direction
+  vec3 other_radiance;   // for the other eye's pixel
+  vec3 alone_radiance;   // for this one if nothing were shared: tells how much a single path varies
+  vec3 shadow_other;     // like shadow_light
+  vec3 shadow_alone;
 
   bool caught;          // the first surface is a catcher; the next three fields belong to such a path
   bool blocked;         // an object that is neither a catcher nor an emitter is between the catcher and the light
@@ -121,14 +142,37 @@ struct PathTracer : MediumReader {
     path.seed = seed;
     path.index = index;
     path.shadow_pending = false;
+    path.shared = false;
+    path.own_share = 1.0f;
+    path.other_ratio = vec3(0.0f);
+    path.alone_ratio = 1.0f;
+    path.other_pdf = 0.0f;
+    path.other_radiance = vec3(0.0f);
+    path.alone_radiance = vec3(0.0f);
     path.caught = false;
     path.depth = -1.0f;
     path.normal = vec3(0.0f);
     path.albedo = vec3(0.0f);
   }
 
+  // The other eye sees the point that the path's first ray hits, along this direction (unit length). density: of
+  // Counterpart, times the other pixel's number of samples over this pixel's. Before the first shade().
+  inline void share_path(vec3 direction, float density) {
+    path.shared = true;
+    path.other_direction = direction;
+    path.other_density = density;
+  }
+
+  inline void add_light(vec3 light, vec3 light_for_other) {
+    path.radiance += light;
+    path.alone_radiance += light * path.alone_ratio;
+    path.other_radiance += light_for_other * path.other_ratio;
+  }
+
   inline void add_shadow_light() {
     path.radiance += path.shadow_light;
+    path.alone_radiance += path.shadow_alone;
+    path.other_radiance += path.shadow_other;
   }
 
   inline vec2 path_random(uint pair) {
@@ -149,16 +193,23 @@ struct PathTracer : MediumReader {
   }
 
   // Weight of light that the path's own ray hit, which light sampling finds with light_pdf.
-  inline float scattered_weight(PathSettings settings, float light_pdf) {
-    if (path.pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
+  inline float scattered_weight(PathSettings settings, float pdf, float light_pdf) {
+    if (pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
     if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
     if (settings.light_sampling == kLightSamplingLightsOnly) return 0.0f;
-    return power_heuristic(path.pdf, light_pdf);
+    return power_heuristic(pdf, light_pdf);
+  }
+
+  inline void meet_light(PathSettings settings, vec3 light, float light_pdf) {
+    vec3 arriving = path.throughput * light;
+    float weight = scattered_weight(settings, path.pdf, light_pdf);
+    float other_weight = weight;
+    if (path.other_pdf != path.pdf) other_weight = scattered_weight(settings, path.other_pdf, light_pdf);
+    add_light(arriving * weight, arriving * other_weight);
   }
 
   inline void meet_environment(PathSettings settings) {
-    float weight = scattered_weight(settings, environment_pdf(path.ray.direction));
-    path.radiance += path.throughput * environment_radiance(path.ray.direction) * weight;
+    meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(path.ray.direction));
     path.alive = false;
   }
 
@@ -166,6 +217,8 @@ struct PathTracer : MediumReader {
   inline void pass_through(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
     path.pdf = 0.0f;
+    path.other_pdf = 0.0f;
+    if (path.bounce == 0) path.shared = false;
     path.travelled += t;
     path.passed += 1;
     if (path.passed > kMaxPassed) path.alive = false;
@@ -204,10 +257,9 @@ struct PathTracer : MediumReader {
     if (candidates == 0) return;
     float draw = path_random(kCandidatePair).x;
     float total = 0.0f;
-    vec3 direction = vec3(0.0f);
-    float distance = 0.0f;
-    vec3 end = vec3(0.0f);
+    LightSample chosen = no_light();
     vec3 chosen_light = vec3(0.0f);
+    float chosen_brightness = 0.0f;
     for (int i = 0; i < candidates; i++) {
       uint pair = kLightPair + 3u * uint(i);
       LightSample light =
@@ -220,23 +272,60 @@ struct PathTracer : MediumReader {
       total += brightness;
       float share = brightness / total;
       if (draw < share) {
-        direction = light.direction;
-        distance = light.distance;
-        end = light.end;
-        chosen_light = arriving * (1.0f / brightness);
+        chosen = light;
+        chosen_light = arriving;
+        chosen_brightness = brightness;
         draw = draw / share;
       } else {
         draw = (draw - share) / (1.0f - share);
       }
     }
     if (!(total > 0.0f)) return;
-    path.shadow_light = path.throughput * chosen_light * (total / float(candidates));
-    shadow_towards(surface, direction, distance, end);
+    vec3 scale = path.throughput * (total / (float(candidates) * chosen_brightness));
+    path.shadow_light = chosen_light * scale;
+    path.shadow_alone = path.shadow_light * path.alone_ratio;
+    path.shadow_other = path.shadow_light * path.other_ratio;
+    if (path.shared && path.bounce == 0) {
+      bool through = dot(chosen.direction, surface.geometric) < 0.0f;
+      vec3 for_other = unshadowed_light(settings, path.other, chosen, through ? beyond : medium);
+      float own_share = chosen_brightness / (chosen_brightness + path.other_density * luminance(for_other));
+      path.shadow_other = for_other * scale * (path.other_density * own_share);
+      path.shadow_light = path.shadow_light * own_share;
+    }
+    shadow_towards(surface, chosen.direction, chosen.distance, chosen.end);
+  }
+
+  // The first surface as the other eye sees it. Not shared: what only one eye sees, what lies almost in line with an
+  // eye's ray, and shading normals that were bent towards a viewer.
+  inline void share_surface(Surface surface, vec3 direction, float eta) {
+    float here = -dot(direction, surface.geometric);
+    float there = -dot(path.other_direction, surface.geometric);
+    float facing = min(-dot(direction, surface.normal), -dot(path.other_direction, surface.normal));
+    path.shared = min(here, there) > 0.02f && facing > 4e-3f && !surface.volume;
+    if (!path.shared) return;
+    path.other_density = path.other_density * there / here;
+    path.other = make_bsdf(surface, path.other_direction, eta);
+  }
+
+  // Divides the light that a scattered ray will find between the eyes.
+  inline void share_scattered(BsdfSample found) {
+    if (!(found.pdf > 0.0f)) return;
+    BsdfValue value = bsdf_value(path.other, found.direction);
+    float other_part = path.other_density * value.pdf;
+    path.own_share = found.pdf / (found.pdf + other_part);
+    path.alone_ratio = 1.0f / path.own_share;
+    path.other_pdf = value.pdf;
+    vec3 for_other = value.value * (path.other_density / found.pdf);
+    if (found.weight.x > 0.0f) path.other_ratio.x = for_other.x / found.weight.x;
+    if (found.weight.y > 0.0f) path.other_ratio.y = for_other.y / found.weight.y;
+    if (found.weight.z > 0.0f) path.other_ratio.z = for_other.z / found.weight.z;
+    path.throughput = path.throughput * path.own_share;
   }
 
   // Ends dim paths at random and makes the others brighter to match, which adds no bias. Source: Arvo and Kirk, 1990.
   inline void play_roulette(float draw) {
-    float chance = max(path.throughput.x, max(path.throughput.y, path.throughput.z)) / kRouletteThreshold;
+    vec3 both = path.throughput * (vec3(1.0f) + path.other_ratio);
+    float chance = max(both.x, max(both.y, both.z)) / kRouletteThreshold;
     if (chance >= 1.0f) return;
     path.alive = draw < chance;
     if (path.alive) path.throughput = path.throughput * (1.0f / chance);
@@ -249,6 +338,8 @@ struct PathTracer : MediumReader {
     path.ray.origin = offset_point(surface.position, found.through ? -surface.geometric : surface.geometric);
     path.ray.direction = found.direction;
     path.pdf = found.pdf;
+    path.other_pdf = found.pdf;
+    if (path.shared && path.bounce == 0) share_scattered(found);
     path.travelled = 0.0f;
     path.passed = 0;
     if (found.through && surface.volume) path.media = beyond;
@@ -283,6 +374,7 @@ struct PathTracer : MediumReader {
       aim_at_light(settings, surface, white, medium, medium);
     }
     path.caught = true;
+    path.shared = false;
     path.blocked = false;
     path.light_without = 0.0f;
     path.light_with = 0.0f;
@@ -357,8 +449,7 @@ struct PathTracer : MediumReader {
     bool unlit = scene_material(material_index).unlit == 1;
     if (!unlit && surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
       float distance = path.travelled + hit.t;
-      float weight = scattered_weight(settings, hit_light_pdf(hit, path.ray.direction, distance));
-      path.radiance += path.throughput * surface.emission * weight;
+      meet_light(settings, surface.emission, hit_light_pdf(hit, path.ray.direction, distance));
     }
     // The wall of a volume inside a denser volume.
     if (volume && beyond == medium) {
@@ -369,7 +460,7 @@ struct PathTracer : MediumReader {
 
     if (path.bounce == 0) note_first_hit(surface, hit.t);
     if (unlit) {
-      path.radiance += path.throughput * surface.base_color;
+      add_light(path.throughput * surface.base_color, path.throughput * surface.base_color);
       path.alive = false;
       return;
     }
@@ -377,7 +468,9 @@ struct PathTracer : MediumReader {
       path.alive = false;
       return;
     }
-    Bsdf bsdf = make_bsdf(surface, path.ray.direction, volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior);
+    float eta = volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior;
+    Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);
+    if (path.shared && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
     if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, medium, beyond);
     scatter(surface, bsdf, beyond_media);
   }

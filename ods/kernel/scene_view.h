@@ -23,8 +23,8 @@ const int kTablesSize = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize;
 
 // In GLSL all functions of the kernel are plain functions, included in order. C++ needs a `this` to find the scene, so
 // each header continues the struct of the previous one: SceneView, FilterSampler, TextureReader, SurfaceReader,
-// BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is complete. The inheritance means no more than
-// that.
+// BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is complete.
+// The inheritance means no more than that.
 #ifdef __cplusplus
 struct SceneView {
   const Vertex* vertices = nullptr;

@@ -99,8 +99,7 @@ struct SurfaceReader : TextureReader {
     float wa;  // barycentric weights of the hit point
     float wb;
     float wc;
-    bool bends;   // the mesh deforms: a vertex's position, normal and tangent are in these rows, each plus the vertex's
-                  // number
+    bool bends;   // the mesh deforms: a vertex's position, normal and tangent are in these rows plus its number
     uint before;  // a row of MotionVertex
     uint after;
     float share;
@@ -199,8 +198,8 @@ struct SurfaceReader : TextureReader {
 
   inline Triangle triangle_of(Instance instance, Corners k) {
     Triangle triangle;
-    // Edges come before the translation: far from the origin, corners rounded in world space would lose small
-    // triangles.
+    // Edges come before the translation: far from the origin,
+    // corners rounded in world space would lose small triangles.
     vec3 a = position_now(k, k.a);
     triangle.a = to_world(instance, a);
     triangle.ab = turn_to_world(instance, position_now(k, k.b) - a);

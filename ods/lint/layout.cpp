@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two eyes at one place show nearly the same picture; two parts of one picture do not. So every way to cut a file is
-// tried.
+// Two eyes at one place show nearly the same picture; two parts of one picture do not.
+// So every way to cut a file is tried.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -130,7 +130,7 @@ bool check_layout(const Subject& subject, LintReport& report) {
   }
   if (misread < 0.5 && alone >= 0.1) {
     report.findings.push_back({Fault::kMonoAsStereo, alone,
-                               fmt::format("what is said to be two eyes ({}) shows two places: {}",
+                               fmt::format("it should show two eyes ({}), but shows two places: {}",
                                            subject.format.layout.reason, matching(read)),
                                "it is one picture: give it the shape of one eye (lat-long: twice as wide as high) and "
                                "show it as mono"});

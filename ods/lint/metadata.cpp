@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the statements of the file, its name and its sidecar with each other and with the picture, whose layout is
-// known.
+// Compares the statements of the file, its name and its sidecar with each other and with the picture,
+// whose layout is known.
 #include "ods/picture/metadata/metadata.h"
 
 #include <fmt/format.h>

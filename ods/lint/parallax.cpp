@@ -165,8 +165,8 @@ Stillness stillness_of(const Matches& matches) {
 
 }  // namespace
 
-// Judges at all scales: noise that is the same in both eyes has no parallax either, but only where it is not averaged
-// out.
+// Judges at all scales: noise that is the same in both eyes has no parallax either,
+// but only where it is not averaged out.
 static bool check_twice(const Subject& subject, const std::vector<Matches>& scales, LintReport& report) {
   const std::vector<Image>& eyes = subject.eyes;
   const char* cure = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
@@ -214,8 +214,8 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
                                      50.0 - 50.0 * upright, parallaxes.all.size());
   if (!subject.camera) {
     const double growth = growth_downwards(parallaxes);
-    // Eyes that converge at mid-distance have parallax of both signs; if they converge close by, only the ground
-    // decides.
+    // Eyes that converge at mid-distance have parallax of both signs; if they converge close by,
+    // only the ground decides.
     certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
     evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }

@@ -122,7 +122,7 @@ static std::string advice(const VideoFile& video, const VideoTrack& track, const
   }
   const std::string which = video.tracks.size() > 1 ? fmt::format(" --track {}", track.id) : "";
   std::string options;
-  for (const FormConflict& conflict : find_conflicts({}, track, path)) {
+  for (const MetadataConflict& conflict : find_conflicts({}, track, path)) {
     options += fmt::format("{}{}", options.empty() ? ", told which is true: " : ", and ", conflict.options);
   }
   return fmt::format(" (ods inject{} {}{})", which, what, options);

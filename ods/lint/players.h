@@ -4,8 +4,8 @@
 // What players will take a video or a picture for, and why. Players differ in the metadata that they read; these are
 // their kinds.
 // Sources: google/spatial-media (V2 has priority over V1); Meta, "Mobile media overview" (suffixes; square is
-// top-bottom); Skybox and DeoVR, their pages on file names. Names of layouts and projections: layout_of() and
-// named_projections().
+// top-bottom); Skybox and DeoVR, their pages on file names. Names of layouts and projections:
+// layout_of() and named_projections().
 #pragma once
 #include <string>
 #include <string_view>

@@ -35,8 +35,8 @@ using ViewChannels = std::map<std::string, size_t>;
 // Bare names belong to the view that `is_default`. A file of one view ("") has all of them.
 ViewChannels channels_of_view(const FileInfo& info, const std::string& view, bool is_default);
 
-// R, G, B and perhaps A of the colour; of grey files Y and A; else the layer that ends in Combined. Takes them out of
-// `channels`.
+// R, G, B and perhaps A of the colour; of grey files Y and A; else the layer that ends in Combined.
+// Takes them out of `channels`.
 std::optional<ChannelLayer> take_color(ViewChannels& channels);
 
 // The layers that are left: channels in the order of the file, layers in that of their names, the same in both views.

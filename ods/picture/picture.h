@@ -26,10 +26,15 @@ struct EyeImage {
   Image normal;    // 3 channels: world space, first hit, averaged over the pixel; 0: no hit
   Image albedo;    // 3 channels: first hit, averaged over the pixel
   Image alpha{};   // 1 channel: coverage; radiance is premultiplied by it. Empty: 1 everywhere
+
+  // How noisy the radiance is, for denoising.
+  Image variance{};  // 3 channels: of the pixel's mean, as if its samples were independent
+  Image samples{};   // 1 channel: how many samples the pixel has
 };
 
 // One eye, or left then right, of equal size. Depth, normal and albedo are empty unless requested
-// (RenderOptions::layers), and so is alpha (RenderOptions::transparent).
+// (RenderOptions::layers), and so are alpha (RenderOptions::transparent), variance and samples
+// (RenderOptions::statistics).
 struct Picture {
   std::vector<EyeImage> eyes;
 };

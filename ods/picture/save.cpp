@@ -437,6 +437,8 @@ static const std::vector<ImageLayer>& image_layers() {
       {&EyeImage::depth, {{"Z"}, LayerRule::kNearest, SampleType::kFloat}},
       {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kHalf}},
       {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, SampleType::kHalf}},
+      {&EyeImage::variance, {{"variance.R", "variance.G", "variance.B"}, LayerRule::kNearest, SampleType::kFloat}},
+      {&EyeImage::samples, {{"samples"}, LayerRule::kNearest, SampleType::kFloat}},
   };
   return layers;
 }

@@ -362,11 +362,8 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
   }
 }
 
-static StoredPicture open_picture(const std::string& path, const OpenOptions& options, bool with_pixels) {
-  Readers readers = open_files(path);
-  StereoFormat format = find_format(readers[0]->info(), path, options.format);
-  const MemoryFile right(format.is_photo ? read_right_eye(path) : "");
-  if (format.is_photo) open_right_eye(readers, right, path);
+// What the file says of itself, without the eyes.
+static StoredPicture describe(const Readers& readers, StereoFormat format, const std::string& path) {
   const FileInfo& info = readers[0]->info();
   StoredPicture picture;
   picture.is_float = info.is_float;
@@ -385,26 +382,56 @@ static StoredPicture open_picture(const std::string& path, const OpenOptions& op
     picture.guesses.push_back(fmt::format("it has {} parts; only the first is read", parts->second[0]));
   }
   picture.size = eye_size(picture, info, path);
-  std::vector<FileShare> shares = shares_of(readers, path, picture.layout, options.color_only);
-  keep_common(shares, path, picture.guesses);
-  if (with_pixels) {
-    picture.memory = make_room(shares, info, options);
-    for (const auto& reader : readers) read_file(*reader, shares, *picture.memory);
-    leave_out_unreadable(shares, path, picture.guesses);
-    picture.memory->release();
-  }
-  picture.eyes = make_eyes(shares, picture.layout, picture.size, format.eye);
+  return picture;
+}
+
+// --- the reader ------------------------------------------------------------------------------------------------------
+
+struct PictureReader::State {
+  std::string path;
+  OpenOptions options;
+  Readers readers;
+  int eye = kMono;                // of a picture of one eye
+  std::vector<FileShare> shares;  // point to the readers
+  StoredPicture header;
+};
+
+PictureReader::PictureReader(const std::string& path, const OpenOptions& options) {
+  Readers readers = open_files(path);
+  StereoFormat format = find_format(readers[0]->info(), path, options.format);
+  if (format.is_photo) open_right_eye(readers, MemoryFile(read_right_eye(path)), path);
+  StoredPicture header = describe(readers, format, path);
+  std::vector<FileShare> shares = shares_of(readers, path, header.layout, options.color_only);
+  keep_common(shares, path, header.guesses);
+  header.eyes = make_eyes(shares, header.layout, header.size, format.eye);
+  state_.reset(new State{path, options, std::move(readers), format.eye, std::move(shares), std::move(header)});
+}
+
+PictureReader::~PictureReader() = default;
+PictureReader::PictureReader(PictureReader&& other) noexcept = default;
+PictureReader& PictureReader::operator=(PictureReader&& other) noexcept = default;
+
+const StoredPicture& PictureReader::header() const {
+  return state_->header;
+}
+
+StoredPicture PictureReader::read(const std::string& scratch_folder) {
+  OpenOptions& options = state_->options;
+  options.scratch_folder = scratch_folder;
+  std::vector<FileShare>& shares = state_->shares;
+  StoredPicture picture = state_->header;
+  picture.memory = make_room(shares, state_->readers[0]->info(), options);
+  for (const auto& reader : state_->readers) read_file(*reader, shares, *picture.memory);
+  leave_out_unreadable(shares, state_->path, picture.guesses);
+  picture.memory->release();
+  picture.eyes = make_eyes(shares, picture.layout, picture.size, state_->eye);
   const bool is_checkerboard = arrangement_of(picture.layout).how == EyePacking::kCheckerboard;
-  if (with_pixels && is_checkerboard) take_checkerboard_apart(picture, options);
+  if (is_checkerboard) take_checkerboard_apart(picture, options);
   return picture;
 }
 
 StoredPicture open_picture(const std::string& path, const OpenOptions& options) {
-  return open_picture(path, options, true);
-}
-
-StoredPicture open_picture_header(const std::string& path, const OpenOptions& options) {
-  return open_picture(path, options, false);
+  return PictureReader(path, options).read(options.scratch_folder);
 }
 
 }  // namespace ods

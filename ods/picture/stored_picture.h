@@ -71,7 +71,25 @@ struct OpenOptions {
 // eyes of unequal size; Error(kOutput), Error(kMemory) as Scratch.
 StoredPicture open_picture(const std::string& path, const OpenOptions& options = {});
 
-// The same without pixels: those of every layer are nullptr. Faults that only reading the pixels shows are not found.
-StoredPicture open_picture_header(const std::string& path, const OpenOptions& options = {});
+// open_picture() in two steps, for callers who decide by the header what to do with the pixels. The file is opened and
+// checked once. Both steps throw as open_picture() does.
+class PictureReader {
+ public:
+  explicit PictureReader(const std::string& path, const OpenOptions& options = {});
+  ~PictureReader();
+  PictureReader(PictureReader&& other) noexcept;
+  PictureReader& operator=(PictureReader&& other) noexcept;
+
+  // The picture without pixels: those of every layer are nullptr. Faults that only the pixels show are not found yet.
+  const StoredPicture& header() const;
+
+  // The picture with its pixels. It may have fewer layers than the header: those with numbers too large for a float are
+  // left out. `scratch_folder` replaces that of OpenOptions. Precondition: not called before.
+  StoredPicture read(const std::string& scratch_folder);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace ods

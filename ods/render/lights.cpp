@@ -39,8 +39,8 @@ std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights) {
   return table;
 }
 
-// Brightness of each texel times its solid angle. The neighbours of a texel contribute, because interpolation spreads
-// them.
+// Brightness of each texel times its solid angle. The neighbours of a texel contribute,
+// because interpolation spreads them.
 static std::vector<double> environment_weights(const Environment& environment) {
   const int w = environment.width, h = environment.height;
   const double pi = std::acos(-1.0);

@@ -20,11 +20,4 @@ std::vector<int> eye_list(Eyes eyes) {
   return {};
 }
 
-size_t picture_bytes(const RenderOptions& options) {
-  const size_t radiance = 3, alpha = 1, depth = 1, normal = 3, albedo = 3;
-  const size_t channels = radiance + (options.transparent ? alpha : 0) + (options.layers ? depth + normal + albedo : 0);
-  const size_t width = static_cast<size_t>(options.width);
-  return eye_list(options.eyes).size() * width * static_cast<size_t>(options.height) * channels * sizeof(float);
-}
-
 }  // namespace ods

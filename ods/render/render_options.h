@@ -42,22 +42,24 @@ constexpr std::string_view pixel_filter_name(PixelFilter filter) {
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
 struct RenderOptions {
-  int width = 2048;  // of one eye
-  int height = 0;    // 0: natural_height() of the camera's projection
-  int samples = 64;  // per pixel
-  int bounces = 8;   // a path has up to bounces + 1 segments
+  int width = 2048;         // of one eye
+  int height = 0;           // 0: natural_height() of the camera's projection
+  int samples = 64;         // the most that a pixel gets, 1 .. kMaxSamples (ods/render/picture_samples.h)
+  float noise = 0.0f;       // blocks of pixels stop when they are as clean as this, in Cycles' measure; 0: none stops
+  double time_limit = 0.0;  // seconds after which no further samples begin; 0: no limit
+  bool even_noise = true;   // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
+  int bounces = 8;          // a path has up to bounces + 1 segments
   Eyes eyes = Eyes::kBothEyes;
+  bool share_paths = true;  // light that a path of one eye finds goes to both, where both see the first surface
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide
   bool layers = true;        // depth, normal and albedo beside radiance; otherwise their images are empty
   bool transparent = false;  // the sky lights the scene but is invisible: alpha is 0 where a ray hits nothing;
                              // required if the scene has catchers (ods/scene/catchers.h)
+  bool statistics = false;   // variance and samples beside radiance
   uint32_t seed = 0;
   int threads = 0;  // 0: all processors
   LightSampling light_sampling = LightSampling::kBoth;
   bool last_tile_first = false;  // renders the tiles in reverse: for tests that the order changes nothing
 };
-
-// The memory that the Picture of these options needs. Precondition: height > 0.
-size_t picture_bytes(const RenderOptions& options);
 
 }  // namespace ods

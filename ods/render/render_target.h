@@ -13,6 +13,9 @@ namespace ods {
 // RenderOptions' fields.
 RenderOptions with_height(RenderOptions options, const StereoCamera& stereo);
 
+// The memory that the Picture of these options needs, and what its samples add up to. Precondition: options.height > 0.
+size_t picture_bytes(const RenderOptions& options);
+
 // Throws Error(kMemory) if there is not enough memory for the picture. Precondition: options.height > 0.
 void check_picture_memory(const RenderOptions& options);
 

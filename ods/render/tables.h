@@ -8,8 +8,8 @@
 namespace ods {
 
 // All kTablesSize entries, computed at the first call that needs them and kept. That takes some tens of milliseconds of
-// CPU time, three times as much with those for volumes of rough glass, which are 0 until requested. Safe from any
-// thread.
+// CPU time, three times as much with those for volumes of rough glass, which are 0 until requested.
+// Safe from any thread.
 const std::vector<float>& kernel_tables(bool glass);
 
 }  // namespace ods

@@ -10,8 +10,8 @@
 // the same with only the catchers and the emitters in the scene; alpha is 0 where no light would arrive anyway. So
 // compositing dims the background by what the objects block of its light. Light reflected by other objects does not
 // count, and glass casts an opaque shadow. A catcher hides what is behind it. Mirrors and indirect light see its own
-// material, so it reflects its colour onto objects standing on it. Pictures of such scenes need
-// RenderOptions::transparent.
+// material, so it reflects its colour onto objects standing on it.
+// Pictures of such scenes need RenderOptions::transparent.
 #pragma once
 #include <string>
 #include <vector>

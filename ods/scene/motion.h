@@ -21,8 +21,8 @@ struct SceneChange {
 // Evaluates the playing clips of scene.animation at a time and updates the scene. What they do not animate, and
 // everything if no clip plays, is at rest. The result depends on the time alone, not on earlier calls. All guarantees
 // of ods/scene/gltf/gltf.h hold at every time, except that triangles of a deformed mesh may temporarily have no area;
-// no ray hits those. Instances that are scaled to zero or further than 1e9 m from the origin are hidden
-// (Scene::hidden).
+// no ray hits those. Instances that are scaled to zero or further than 1e9 m from the
+// origin are hidden (Scene::hidden).
 SceneChange set_time(Scene& scene, double seconds);
 
 }  // namespace ods

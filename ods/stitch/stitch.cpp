@@ -69,8 +69,8 @@ struct RowSums {
   }
 };
 
-// The start of a journal. After it come the marks, one per batch, then pixels, ordered by eye, batch, row, pixel,
-// channel.
+// The start of a journal. After it come the marks, one per batch, then pixels, ordered by eye, batch,
+// row, pixel, channel.
 constexpr std::string_view kMark = "omnistereo stitching journal\n";
 struct JournalHead {
   char mark[32];

@@ -42,11 +42,11 @@ static ColumnRuns runs_of(const Testcard& card, const std::vector<Card>& marks, 
 
 static void draw_still(const TestcardVideo& video) {
   const Extent eye = video.card.eye;
-  for (size_t i = 0; i < video.like.eyes.size(); i++) {
-    const EyeCorner corner = eye_corner(video.like.layout, eye, static_cast<int>(i));
+  for (size_t i = 0; i < video.prototype.eyes.size(); i++) {
+    const EyeCorner corner = eye_corner(video.prototype.layout, eye, static_cast<int>(i));
     const auto rows = [&](int y, std::span<float> row) {
       std::vector<float> pixels(row.size());
-      fill_testcard_row(video.card, video.like.eyes[i].eye, y, pixels);
+      fill_testcard_row(video.card, video.prototype.eyes[i].eye, y, pixels);
       const size_t width = row.size() / 3;
       for (size_t k = 0; k < row.size(); k++)
         row[k % 3 * width + k / 3] = video_code(std::clamp(pixels[k], 0.0f, 1.0f));
@@ -62,9 +62,9 @@ TestcardVideo make_testcard_video(const Testcard& card, const StereoCamera& ster
   video.camera = stereo;
   video.rate = rate;
   video.packing = packing;
-  video.like.size = card.eye;
-  video.like.layout = plan.eyes == 2 ? plan.layout : Layout::kSeparate;
-  for (const int eye : eyes) video.like.eyes.push_back({eye, {}});
+  video.prototype.size = card.eye;
+  video.prototype.layout = plan.eyes == 2 ? plan.layout : Layout::kSeparate;
+  for (const int eye : eyes) video.prototype.eyes.push_back({eye, {}});
   video.still = std::make_shared<VideoFrame>(plan.size, packing);
   draw_still(video);
   const std::vector<Card> marks = testcard_marks(stereo, card.eye, 0, rate.value());
@@ -72,7 +72,7 @@ TestcardVideo make_testcard_video(const Testcard& card, const StereoCamera& ster
   for (size_t i = 0; i < plan.eyes; i++) {
     video.runs[i].resize(static_cast<size_t>(card.eye.height));
     tbb::parallel_for(0, card.eye.height, [&](int y) {
-      video.runs[i][static_cast<size_t>(y)] = runs_of(card, marks, video.like.eyes[i].eye, y);
+      video.runs[i][static_cast<size_t>(y)] = runs_of(card, marks, video.prototype.eyes[i].eye, y);
     });
   }
   return video;
@@ -92,7 +92,7 @@ std::shared_ptr<VideoFrame> testcard_frame(const TestcardVideo& video, int numbe
       row.rgba.assign(4 * static_cast<size_t>(runs.back()[1] - row.first), 0.0f);
       for (const auto& [first, last] : runs) {
         std::vector<float> pixels(3 * static_cast<size_t>(last - first));
-        fill_testcard_pixels(card, video.like.eyes[i].eye, first, y, pixels);
+        fill_testcard_pixels(card, video.prototype.eyes[i].eye, first, y, pixels);
         float* out = &row.rgba[4 * static_cast<size_t>(first - row.first)];
         for (size_t k = 0; k < pixels.size(); k += 3, out += 4) {
           std::copy_n(&pixels[k], 3, out);
@@ -103,7 +103,7 @@ std::shared_ptr<VideoFrame> testcard_frame(const TestcardVideo& video, int numbe
   }
   auto frame = std::make_shared<VideoFrame>(video.still->extent(), video.packing);
   copy_planes(video.still->planes(), video.still->extent(), frame->planes());
-  lay_cover(cover, video.like, {}, video.still->planes(), frame->planes());
+  lay_cover(cover, video.prototype, {}, video.still->planes(), frame->planes());
   return frame;
 }
 

@@ -22,7 +22,7 @@ struct TestcardVideo {
   StereoCamera camera;
   FrameRate rate;
   Packing packing;
-  StoredPicture like;                         // eyes without layers
+  StoredPicture prototype;                    // eyes without layers
   std::shared_ptr<VideoFrame> still;          // without marks
   std::vector<std::vector<ColumnRuns>> runs;  // where marks are: rows of each eye
 };

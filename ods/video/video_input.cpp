@@ -66,8 +66,8 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   video.track = track.id;
   video.has_sound = !info.sound.empty();
   if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
-  StoredPicture& like = video.like;
-  video.metadata = metadata_of(track, known, path, like.guesses);
+  StoredPicture& prototype = video.prototype;
+  video.metadata = metadata_of(track, known, path, prototype.guesses);
   FileInfo file;
   file.width = track.size.width;
   file.height = track.size.height;
@@ -75,26 +75,26 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   FormatHint all;
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
   all.projection = projection_of(video.metadata, path);
-  like.camera = find_format(file, path, all).camera;
-  set_orientation(like.camera, video.metadata);
+  prototype.camera = find_format(file, path, all).camera;
+  set_orientation(prototype.camera, video.metadata);
   if (video.metadata.ipd > 0.0) {
-    like.camera.ipd = static_cast<float>(video.metadata.ipd);
-    like.has_ipd = true;
+    prototype.camera.ipd = static_cast<float>(video.metadata.ipd);
+    prototype.has_ipd = true;
   }
-  like.layout = *all.layout;
-  like.layout_reason = "the video says so";
-  const std::optional<Extent> eye = unpacked_size(like.layout, track.size);
+  prototype.layout = *all.layout;
+  prototype.layout_reason = "the video says so";
+  const std::optional<Extent> eye = unpacked_size(prototype.layout, track.size);
   if (!eye) {
     throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}", track.size.width, track.size.height,
-                                     layout_name(like.layout)));
+                                     layout_name(prototype.layout)));
   }
   if ((eye->width | eye->height) % 2 != 0) {
     throw unusable(path, fmt::format("its eyes of {}x{} pixels share chroma samples: their sides are odd", eye->width,
                                      eye->height));
   }
-  like.size = *eye;
-  like.eyes.resize(like.layout == Layout::kSeparate ? 1 : 2);
-  for (size_t i = 0; like.eyes.size() == 2 && i < 2; i++) like.eyes[i].eye = i == 0 ? kLeft : kRight;
+  prototype.size = *eye;
+  prototype.eyes.resize(prototype.layout == Layout::kSeparate ? 1 : 2);
+  for (size_t i = 0; prototype.eyes.size() == 2 && i < 2; i++) prototype.eyes[i].eye = i == 0 ? kLeft : kRight;
   return video;
 }
 
@@ -114,7 +114,7 @@ static uint16_t alpha16(const DecodedFrame& frame, int x, int y) {
 }
 
 StoredPicture picture_of(const VideoInput& video, const VideoStream& stream, const DecodedFrame& frame) {
-  StoredPicture picture = video.like;
+  StoredPicture picture = video.prototype;
   const Extent eye = picture.size;
   const size_t channels = stream.has_alpha ? 4 : 3;
   const size_t row_bytes = static_cast<size_t>(eye.width) * channels * sizeof(uint16_t);

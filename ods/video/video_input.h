@@ -18,7 +18,7 @@ struct VideoInput {
   SphericalMetadata metadata;  // complete
   bool has_sound = false;
   std::optional<Ambisonics> ambisonics;  // of its sound track
-  StoredPicture like;                    // every picture except its pixels: eyes without layers
+  StoredPicture prototype;               // every picture except its pixels: eyes without layers
 };
 
 // Missing metadata is completed as ods inject does; `known` takes precedence. The eye distance comes from the video

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Converts display-encoded RGB to a video's limited-range BT.709 Y'CbCr (black 16, white 235 at 8 bits), rounded to
-// nearest. Source: ITU-R BT.709-6, 3.2 to 4.6. Converts back, also from BT.601. Source of its matrix: ITU-R BT.601-7,
-// 2.5.
+// nearest. Source: ITU-R BT.709-6, 3.2 to 4.6. Converts back, also from BT.601. Source of its matrix:
+// ITU-R BT.601-7, 2.5.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -39,6 +39,7 @@ TEST(Names, ATableGivesNameLookUpAndList) {
   EXPECT_EQ(find_in(kWhole, "cherry"), std::nullopt);
   EXPECT_EQ(find_in(kWhole, ""), std::nullopt);
   EXPECT_EQ(members_of(kWhole), (std::array{Fruit::kPlum, Fruit::kApple, Fruit::kPear}));
+  EXPECT_EQ(names_of(kWhole), (std::vector<std::string>{"plum", "apple", "pear"}));
   EXPECT_EQ(row_in(kNumbers, 0).name, "none");
 }
 

@@ -201,6 +201,19 @@ TEST(Layout, UnpackUndoesEveryPacking) {
   }
 }
 
+TEST(Layout, TheWholeEyeIsTheEyeBeforeItWasSqueezed) {
+  const Extent eye{4, 2};
+  for (Layout layout : kLayouts) {
+    if (is_anaglyph(layout)) continue;
+    const int count = arrangement_of(layout).how == EyePacking::kAlone ? 1 : 2;
+    const std::optional<Extent> whole = whole_eye(layout, packed_size(layout, squeezed_eye(layout, eye, count), count));
+    ASSERT_TRUE(whole) << layout_name(layout);
+    EXPECT_EQ(whole->width, eye.width) << layout_name(layout);
+    EXPECT_EQ(whole->height, eye.height) << layout_name(layout);
+  }
+  EXPECT_EQ(whole_eye(Layout::kTopBottomHalf, {4, 3}), std::nullopt);
+}
+
 TEST(Layout, OddSizesCannotBeUnpacked) {
   EXPECT_FALSE(unpacked_size(Layout::kTopBottom, {4, 3}));
   EXPECT_FALSE(unpacked_size(Layout::kRowInterleaved, {4, 1}));

@@ -138,7 +138,7 @@ TEST_F(CliConvert, ColourSpacesAreHonoured) {
   EXPECT_NE(err.find(warning), std::string::npos) << err;
 }
 
-TEST_F(CliConvert, GuessesAreSaid) {
+TEST_F(CliConvert, GuessesAreReported) {
   const std::string room = make("room_TB.png");
   ASSERT_EQ(convert(room, "a.png"), 0);
   EXPECT_NE(err.find("_TB"), std::string::npos) << err;

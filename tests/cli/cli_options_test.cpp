@@ -112,7 +112,7 @@ TEST_F(Cli, BadCamerasAreUsageErrors) {
   }
 }
 
-TEST_F(Cli, ANameThatMisleadsIsSaidOnce) {
+TEST_F(Cli, AMisleadingNameIsReportedOnce) {
   for (const auto& [name, more] :
        {std::pair<std::string, std::string>{"a_180_LR.png", ""}, {"a_180_LR.####.png", " --frames 1 --turntable 1"}}) {
     ASSERT_EQ(run("render furnace --width 16 --samples 1 -o " + folder.path(name) + more), 0) << err;

@@ -73,7 +73,7 @@ TEST_F(CliStitch, ScriptsStandBesideTheRig) {
   EXPECT_NE(err.find("'max' is none of blender, povray"), std::string::npos) << err;
 }
 
-TEST_F(CliStitch, ViewsThatAreMissingAreSaidTogether) {
+TEST_F(CliStitch, MissingViewsAreReportedTogether) {
   ASSERT_EQ(plan(), 0) << err;
   ASSERT_EQ(render(), 0) << err;
   for (const char* name : {"views/0003.exr", "views/0004.exr", "views/0020.exr"}) {

@@ -61,6 +61,29 @@ TEST_F(Cli, HelpStartsWithExamples) {
   }
 }
 
+// Whatever else is on the line, faults included, and before any file is opened.
+TEST_F(Cli, HelpWinsWhereverItStands) {
+  for (const char* words :
+       {"convert absent.png --help", "convert absent.png -h", "convert -h absent.png", "convert absent.png -qh",
+        "camera --from absent.json --help", "camera --help --from absent.json", "convert --from-camera absent.json -h",
+        "render furnace --width 0 --help", "render --progress loudly --help", "render --unknown -h",
+        "render -h --width", "render furnace -o --help", "project x y --help"}) {
+    EXPECT_EQ(run(words), 0) << words << "\n" << err;
+    EXPECT_EQ(err, "") << words;
+    EXPECT_NE(out.find("Usage: ods "), std::string::npos) << words << "\n" << out;
+  }
+  EXPECT_EQ(run("convert absent.png --help=man"), 0) << err;
+  EXPECT_TRUE(out.starts_with(".TH ")) << out;
+}
+
+TEST_F(Cli, HelpIsAValueBehindTwoDashesOrAnEqualsSign) {
+  EXPECT_EQ(run("title -q --width 64 --text-height 3 -o " + folder.path("a.png") + " -- --help"), 0) << err;
+  EXPECT_EQ(out, "");
+  EXPECT_EQ(files(), 1u);
+  EXPECT_EQ(run("render furnace --output=--help"), 2);
+  EXPECT_NE(err.find("'--help'"), std::string::npos) << err;
+}
+
 TEST_F(Cli, HelpPrintsDefaults) {
   run("render --help");
   for (const char* part : {"--width N", "[2048]", "[0.065]", "[blackman-harris]", "[top-bottom]", "draft"}) {

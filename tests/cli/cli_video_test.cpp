@@ -332,7 +332,7 @@ TEST_F(Video, FramesThatNoJobOfOursMadeStay) {
   EXPECT_EQ(folder.read("victim"), "mine");
 }
 
-TEST_F(Video, HowMuchRoomTheFramesNeedIsSaid) {
+TEST_F(Video, TheRoomThatFramesNeedIsReported) {
   ASSERT_EQ(run("video furnace --width 512 --samples 1 --frames 1-4 -o " + folder.path("a.mp4")), 0) << err;
   EXPECT_NE(err.find("the frames need up to 6 MB in '" + folder.path("a.mp4.frames") + "'; "), std::string::npos)
       << err;
@@ -360,7 +360,7 @@ TEST_F(Video, AKilledVideoGoesOnWhereItWas) {
   EXPECT_EQ(files(), 2u);
 }
 
-TEST_F(Video, WhatCannotBeIsSaidBeforeAnythingIsRendered) {
+TEST_F(Video, ImpossibleWishesFailBeforeAnythingIsRendered) {
   const std::tuple<std::string, int, const char*> kCases[] = {
       {words("a.avi"), 2, "ends in .mp4"},
       {words("a.mp4", "--codec prores"), 2, "not prores, which goes into mov, mkv"},

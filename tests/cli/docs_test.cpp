@@ -58,7 +58,7 @@ struct Command {
   std::string redirects;  // "> camera.inc"
 };
 
-// What follows two spaces in help, or # anywhere, is said to readers; what follows || is done where ods fails.
+// Two spaces in help, and # anywhere, start a remark to the reader; what follows || runs if ods fails.
 Command parse_line(const std::string& line) {
   const std::regex command(
       "(ods (?:'[^']*'|\"[^\"]*\"|  ?-|  ?\\\\|[^'\"<>|# ]| (?![ #<>|])|#(?!\\s))*)\\s*([<>] *\\S+)?.*");

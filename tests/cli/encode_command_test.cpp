@@ -36,7 +36,7 @@ TEST_F(EncodeCommand, FramesBecomeAVideo) {
   EXPECT_EQ(err.find("warning"), std::string::npos) << err;
 }
 
-TEST_F(EncodeCommand, SoundOfAVideoThatIsThereCanBeSaidToBeAmbisonics) {
+TEST_F(EncodeCommand, TheSoundOfAnExistingVideoCanBeTaggedAsAmbisonics) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   folder.write("sound.wav", ods::made::wav(4, 0.2));
   const std::string video = folder.path("video.mov"), encode = "encode -q " + pattern() + " --codec h264 -o ";
@@ -53,7 +53,7 @@ TEST_F(EncodeCommand, SoundOfAVideoThatIsThereCanBeSaidToBeAmbisonics) {
   expect_one_line("has 0 sound tracks");
 }
 
-TEST_F(EncodeCommand, SoundOfAnotherLengthIsSaid) {
+TEST_F(EncodeCommand, SoundOfAnotherLengthIsReported) {
   ods::made::write_frames(pattern(), {1, 2, 3, 4, 5, 6});
   const std::string words =
       "encode " + pattern() + " --codec h264 -o " + folder.path("video.mp4") + " --audio " + folder.path("sound.wav");
@@ -171,7 +171,7 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
   }
 }
 
-TEST_F(EncodeCommand, SizesThatNoLevelHoldsAreSaidWithTheLargest) {
+TEST_F(EncodeCommand, SizesBeyondEveryLevelAreReportedWithTheLargest) {
   ods::made::write_frames(pattern(), {1}, Layout::kTopBottom, {4096, 544});
   const std::string words = "encode " + pattern() +
                             " --from-layout top-bottom --from-projection lat-long --codec h264 " +

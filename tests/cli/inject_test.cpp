@@ -224,7 +224,7 @@ TEST_F(Inject, WhatContradictsTheVideoNeedsAWord) {
 }
 
 // Where nothing is written anew that is in doubt, it is only said.
-TEST_F(Inject, ContradictionsThatDoNotMatterAreSaid) {
+TEST_F(Inject, HarmlessContradictionsAreReported) {
   Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole), v1_box("top-bottom"));
   video.name = "a_360_LR.mp4";
   for (const char* option : {"--yaw 30", "--ambisonics"}) {
@@ -234,7 +234,7 @@ TEST_F(Inject, ContradictionsThatDoNotMatterAreSaid) {
   EXPECT_FALSE(inject(video, "--apple")) << "which says the layout once more";
 }
 
-TEST_F(Inject, WhatAPlaceCannotHoldIsSaid) {
+TEST_F(Inject, WhatAPlaceCannotHoldIsReported) {
   const Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole) + vexu(3, "equi", "over"), v1_box("top-bottom"));
   ASSERT_TRUE(inject(video, "--projection cubemap"));
   EXPECT_NE(err.find("its V1 says top-bottom, lat-long: taken out"), std::string::npos) << err;

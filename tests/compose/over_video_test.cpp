@@ -172,7 +172,7 @@ TEST_F(VideoOver, FramesGoOverTheirPicturesAlone) {
 }
 
 // What the video says in vexu, else what its sidecar does.
-TEST_F(VideoOver, ATitleForOtherEyesIsSaid) {
+TEST_F(VideoOver, ATitleForOtherEyesIsReported) {
   const std::string video = make_video_file("video.mp4", {});
   StereoCamera camera;
   camera.ipd = 0.07f;
@@ -180,7 +180,7 @@ TEST_F(VideoOver, ATitleForOtherEyesIsSaid) {
   const StoredPicture title = open_picture(folder.path("title.exr"));
   const auto warning = [&] {
     std::string all;
-    for (const std::string& each : over_warnings(title, open_video(video).like)) all += each;
+    for (const std::string& each : over_warnings(title, open_video(video).prototype)) all += each;
     return all;
   };
   Sidecar sidecar;
@@ -193,7 +193,7 @@ TEST_F(VideoOver, ATitleForOtherEyesIsSaid) {
   for (const double ipd : {0.06, 0.07}) {
     metadata.ipd = ipd;
     tag_video(video, video, 1, metadata);
-    EXPECT_EQ(open_video(video).like.has_ipd, true);
+    EXPECT_EQ(open_video(video).prototype.has_ipd, true);
     EXPECT_EQ(
         warning().find("for eyes 70 mm apart, the background for 60: make it with --ipd 0.06") != std::string::npos,
         ipd == 0.06)
@@ -202,7 +202,7 @@ TEST_F(VideoOver, ATitleForOtherEyesIsSaid) {
   }
 }
 
-TEST_F(VideoOver, WhatCannotBeLaidOverIsSaid) {
+TEST_F(VideoOver, WhatCannotBeCompositedIsReported) {
   StereoCamera other;
   other.ipd = 0.1f;
   write_title(folder.path("title.exr"), other);
@@ -212,7 +212,7 @@ TEST_F(VideoOver, WhatCannotBeLaidOverIsSaid) {
   const std::vector<std::string> names = folder.names();
   EXPECT_EQ(std::count(names.begin(), names.end(), "titled.mp4"), 0);
   Footage back(video, {});
-  EXPECT_EQ(over_warnings(open_picture(folder.path("title.exr")), back.video().like).size(), 1u);
+  EXPECT_EQ(over_warnings(open_picture(folder.path("title.exr")), back.video().prototype).size(), 1u);
 }
 
 // --- without a codec -------------------------------------------------------------------------------------------------
@@ -224,10 +224,10 @@ struct Bench {
   DecodedFrame frame;
 
   Bench(int bits, Chroma chroma, ColorCode color) {
-    video.like.size = kEye;
-    video.like.layout = Layout::kTopBottom;
-    video.like.eyes.resize(2);
-    video.like.eyes[0].eye = kLeft, video.like.eyes[1].eye = kRight;
+    video.prototype.size = kEye;
+    video.prototype.layout = Layout::kTopBottom;
+    video.prototype.eyes.resize(2);
+    video.prototype.eyes[0].eye = kLeft, video.prototype.eyes[1].eye = kRight;
     stream.size = {kEye.width, 2 * kEye.height};
     stream.bits = bits, stream.chroma = chroma, stream.color = color;
     memory = std::make_shared<VideoFrame>(stream.size, Packing{VideoCodec::kHevc, bits, chroma, {}});
@@ -265,7 +265,8 @@ TEST(LayCover, LeavesNumbersThatItDoesNotCover) {
       const Bench bench(bits, chroma, {});
       const Packing packing{VideoCodec::kHevc, bits, chroma, {}};
       const auto to = copied_frame(bench.frame, bench.stream, bench.video, packing);
-      lay_cover(make_cover(title, bench.video.like, {}), bench.video.like, {}, bench.frame.planes, to->planes());
+      lay_cover(make_cover(title, bench.video.prototype, {}), bench.video.prototype, {}, bench.frame.planes,
+                to->planes());
       const Extent block = chroma_block(chroma);
       for (size_t i = 0; i < 3; i++) {
         for (int y = 0; y < bench.rows(i); y++) {

@@ -81,7 +81,7 @@ TEST(CameraExport, WhatATargetLacksStandsInItsText) {
   EXPECT_GT(said, 500u);
 }
 
-// Each of these is something that some system has not: it is said for every system that is not told formulas.
+// Each of these is something that some target lacks: every target that does not take formulas reports it.
 TEST(CameraExport, NothingIsDroppedSilently) {
   std::vector<Sidecar> odd(5);
   odd[0].camera.convergence = kShift;

@@ -33,7 +33,7 @@ TEST(Frames, RangesAsFarmsWriteThem) {
   EXPECT_EQ(parse_frames("-999999999-999999999x999999999"), (Frames{-999999999, 0, 999999999}));
 }
 
-TEST(Frames, WhatIsNoRangeIsSaid) {
+TEST(Frames, InvalidRangesAreReported) {
   const std::pair<const char*, const char*> kCases[] = {
       {"", "a number is missing at the end"},
       {"1-", "a number is missing at the end"},

@@ -270,7 +270,7 @@ TEST(ColorSpace, GreyProfilesAreHonoured) {
 }
 
 // Each is sRGB then, and told.
-TEST(ColorSpace, WhatCannotBeHonouredIsTold) {
+TEST(ColorSpace, WhatCannotBeHonouredIsReported) {
   const TemporaryFolder folder;
   const std::string huge = png_chunk("gAMA", std::string(4, '\0'));
   const Chromaticities line{{0.1, 0.1}, {0.2, 0.2}, {0.3, 0.3}, {0.3127, 0.329}};

@@ -50,25 +50,18 @@ void expect_eye(const Image& image, const Image& saved, FileFormat format) {
 
 TEST(LoadEyes, UndoesEveryLayoutInEveryFormat) {
   const Picture picture{{make_eye(kLeft), make_eye(kRight)}};
-  for (const char* extension : {"png", "jpg", "tif", "webp", "hdr", "exr"}) {
-    for (Layout layout : kLayouts) {
-      const FileFormat format = *format_of_path(std::string("a.") + extension);
-      const bool lossy = format == FileFormat::kJpeg || format == FileFormat::kWebp;
-      if (layout == Layout::kMultiview && format != FileFormat::kExr) continue;
-      if (is_anaglyph(layout) || (arrangement_of(layout).is_interleaved() && lossy)) continue;
-      if (layout == Layout::kCheckerboard) continue;  // it keeps half of each eye
-      SCOPED_TRACE(std::string(extension) + " " + std::string(layout_name(layout)));
-      const TemporaryFolder folder;
-      const std::string path = folder.path(std::string(layout == Layout::kSeparate ? "%V." : "a.") + extension);
-      save_picture(picture, options_for(layout), path);
-      const LoadedEyes loaded = load_eyes(path, layout);
-      ASSERT_EQ(loaded.eyes.size(), 2u);
-      EXPECT_EQ(loaded.guess.layout, layout);
-      EXPECT_EQ(loaded.is_float, is_scene_referred(format));
-      for (size_t i = 0; i < 2; i++) expect_eye(loaded.eyes[i], picture.eyes[i].radiance, format);
-      const bool says_so = format == FileFormat::kExr || layout == Layout::kSeparate;
-      EXPECT_TRUE(!says_so || load_eyes(path).guess.layout == layout) << "without being told";
-    }
+  for (const SavedForm& form : every_saved_form()) {
+    SCOPED_TRACE(form.text());
+    const TemporaryFolder folder;
+    const std::string path = folder.path(form.name);
+    save_picture(picture, options_for(form.layout), path);
+    const LoadedEyes loaded = load_eyes(path, form.layout);
+    ASSERT_EQ(loaded.eyes.size(), 2u);
+    EXPECT_EQ(loaded.guess.layout, form.layout);
+    EXPECT_EQ(loaded.is_float, is_scene_referred(form.format));
+    for (size_t i = 0; i < 2; i++) expect_eye(loaded.eyes[i], picture.eyes[i].radiance, form.format);
+    const bool says_so = form.format == FileFormat::kExr || form.layout == Layout::kSeparate;
+    EXPECT_TRUE(!says_so || load_eyes(path).guess.layout == form.layout) << "without being told";
   }
 }
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -41,24 +42,45 @@ void expect_eye(const StoredPicture& picture, const StoredEye& eye, FileFormat f
 }
 
 TEST(OpenPicture, GivesBackTheEyesOfEveryLayoutAndFormat) {
-  for (const char* extension : {"png", "jpg", "tif", "webp", "hdr", "exr"}) {
-    for (Layout layout : kLayouts) {
-      const FileFormat format = *format_of_path(std::string("a.") + extension);
-      const bool lossy = format == FileFormat::kJpeg || format == FileFormat::kWebp;
-      if (layout == Layout::kMultiview && format != FileFormat::kExr) continue;
-      if (is_anaglyph(layout) || (arrangement_of(layout).is_interleaved() && lossy)) continue;
-      if (layout == Layout::kCheckerboard) continue;  // it keeps half of each eye
-      SCOPED_TRACE(std::string(extension) + " " + std::string(layout_name(layout)));
-      const TemporaryFolder folder;
-      const std::string path = folder.path(std::string(layout == Layout::kSeparate ? "%V." : "a.") + extension);
-      save_picture(picture_rows({kLeft, kRight}, false, true), nullptr, options_for(layout), path);
-      const StoredPicture picture = open_picture(path, as(layout));
-      ASSERT_EQ(picture.eyes.size(), 2u);
-      EXPECT_EQ(picture.layout, layout);
-      EXPECT_EQ(picture.is_float, is_scene_referred(format));
-      EXPECT_EQ(picture.eyes[0].eye, kLeft);
-      EXPECT_EQ(picture.eyes[1].eye, kRight);
-      for (const StoredEye& eye : picture.eyes) expect_eye(picture, eye, format);
+  for (const SavedForm& form : every_saved_form()) {
+    SCOPED_TRACE(form.text());
+    const TemporaryFolder folder;
+    const std::string path = folder.path(form.name);
+    save_picture(picture_rows({kLeft, kRight}, false, true), nullptr, options_for(form.layout), path);
+    const StoredPicture picture = open_picture(path, as(form.layout));
+    ASSERT_EQ(picture.eyes.size(), 2u);
+    EXPECT_EQ(picture.layout, form.layout);
+    EXPECT_EQ(picture.is_float, is_scene_referred(form.format));
+    EXPECT_EQ(picture.eyes[0].eye, kLeft);
+    EXPECT_EQ(picture.eyes[1].eye, kRight);
+    for (const StoredEye& eye : picture.eyes) expect_eye(picture, eye, form.format);
+  }
+}
+
+// The file is not opened again for its pixels: they are read though it has been deleted.
+TEST(PictureReader, OpensEachFileOnce) {
+  for (const char* name :
+       {"a_TB.png", "a_TB.jpg", "a_TB.tif", "a_TB.webp", "a_TB.hdr", "a.exr", "%V.png", "a.vr.jpg"}) {
+    SCOPED_TRACE(name);
+    const TemporaryFolder folder;
+    const std::string path = folder.path(name);
+    SaveOptions options;
+    if (names_eye(path)) options.layout = Layout::kSeparate;
+    const StereoCamera camera;
+    save_picture(picture_rows({kLeft, kRight}, false, false), &camera, options, path);
+    const StoredPicture expected = open_picture(path);
+    PictureReader reader(path);
+    EXPECT_EQ(reader.header().layout, expected.layout);
+    EXPECT_EQ(reader.header().guesses, expected.guesses);
+    ASSERT_EQ(reader.header().eyes.size(), 2u);
+    for (const StoredEye& eye : reader.header().eyes) EXPECT_EQ(eye.layers[0].first, nullptr);
+    for (const std::string& file : folder.names()) ASSERT_TRUE(std::filesystem::remove(folder.path(file)));
+    const StoredPicture picture = reader.read("");
+    ASSERT_EQ(picture.eyes.size(), 2u);
+    for (size_t i = 0; i < 2; i++) {
+      for (int y = 0; y < kHeight; y++) {
+        EXPECT_EQ(value_at(picture.eyes[i].layers[0], 5, y, 1), value_at(expected.eyes[i].layers[0], 5, y, 1));
+      }
     }
   }
 }

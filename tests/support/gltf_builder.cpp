@@ -68,6 +68,11 @@ Binary small_png() {
           0x6a, 0xa1, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 }
 
+Binary flip_bits(Binary bytes, int flips, std::mt19937& random) {
+  for (int i = 0; i < flips; i++) bytes[random() % bytes.size()] ^= static_cast<unsigned char>(1u << random() % 8);
+  return bytes;
+}
+
 std::string error_of(const Binary& bytes) {
   try {
     const Scene scene = load_gltf_bytes(bytes, "test.glb");

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,9 @@ Binary make_glb(const std::string& text, const Binary& binary);
 
 // A 2x2 PNG: (255,128,0,255) everywhere.
 Binary small_png();
+
+// The same bytes with `flips` of their bits flipped.
+Binary flip_bits(Binary bytes, int flips, std::mt19937& random);
 
 // What load_gltf_bytes() says about these bytes; empty when it takes them.
 std::string error_of(const Binary& bytes);

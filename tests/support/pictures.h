@@ -23,6 +23,7 @@ inline RenderOptions small_render(int width, int samples) {
   options.samples = samples;
   options.eyes = Eyes::kMonoEye;
   options.filter = PixelFilter::kBox;
+  options.even_noise = false;
   return options;
 }
 

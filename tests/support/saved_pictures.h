@@ -3,6 +3,10 @@
 //
 // Saving pictures in tests that read them back.
 #pragma once
+#include <string>
+#include <vector>
+
+#include "ods/camera/layout.h"
 #include "ods/image/format/file_format.h"
 #include "ods/picture/save.h"
 
@@ -31,6 +35,31 @@ inline float tolerance(FileFormat format) {
       return 0.0005f;
   }
   return 0.0f;
+}
+
+// A file from which both eyes come back as they were saved, codecs aside.
+struct SavedForm {
+  Layout layout;
+  FileFormat format;
+  std::string name;  // "a.png", "%V.png"
+  std::string text() const { return name + " " + std::string(layout_name(layout)); }
+};
+
+// Every layout in every format, but anaglyphs and checkerboards, which keep only part of each eye, and interleaved eyes
+// in lossy formats, which mix them.
+inline std::vector<SavedForm> every_saved_form() {
+  std::vector<SavedForm> forms;
+  for (const std::string extension : {"png", "jpg", "tif", "webp", "hdr", "exr"}) {
+    const FileFormat format = *format_of_path("a." + extension);
+    const bool lossy = format == FileFormat::kJpeg || format == FileFormat::kWebp;
+    for (Layout layout : kLayouts) {
+      if (layout == Layout::kMultiview && format != FileFormat::kExr) continue;
+      if (is_anaglyph(layout) || layout == Layout::kCheckerboard) continue;
+      if (arrangement_of(layout).is_interleaved() && lossy) continue;
+      forms.push_back({layout, format, (layout == Layout::kSeparate ? "%V." : "a.") + extension});
+    }
+  }
+  return forms;
 }
 
 }  // namespace ods

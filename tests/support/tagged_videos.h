@@ -172,8 +172,7 @@ inline std::vector<Tagged> videos_of_elements() {
   };
 }
 
-// --- videos of our own and of FFmpeg's
-// --------------------------------------------------------------------------------
+// --- videos of our own and of FFmpeg's -------------------------------------------------------------------------------
 
 inline std::vector<Tagged> videos_of_ours(const TemporaryFolder& folder) {
   std::vector<Tagged> cases;

@@ -61,7 +61,7 @@ TEST(TestcardVideo, AFrameIsTheWholeCardOfItsMoment) {
         const EyeCorner corner = eye_corner(layout, eye, static_cast<int>(i));
         for (int y = 0; y < eye.height; y++) {
           std::vector<float> row(3 * static_cast<size_t>(eye.width));
-          fill_testcard_row(whole, video.like.eyes[i].eye, y, row);
+          fill_testcard_row(whole, video.prototype.eyes[i].eye, y, row);
           for (int x = 0; x < eye.width; x++) {
             const float* c = &row[3 * static_cast<size_t>(x)];
             const float bright = 0.2126f * video_code(c[0]) + 0.7152f * video_code(c[1]) + 0.0722f * video_code(c[2]);

@@ -78,7 +78,7 @@ TEST_F(Decode, EveryContainerCodecAndLayoutComesBack) {
         EXPECT_EQ(video.stream().chroma, usual(codec).chroma);
         EXPECT_NEAR(video.stream().rate.value(), 30.0, 1e-6);
         EXPECT_EQ(video.frames(), (std::vector<int>{0, 1, 2}));
-        EXPECT_EQ(video.video().like.layout, layout);
+        EXPECT_EQ(video.video().prototype.layout, layout);
         for (int frame = 0; frame < 3; frame++) {
           const std::optional<StoredPicture> picture = video.picture(frame);
           ASSERT_TRUE(picture);

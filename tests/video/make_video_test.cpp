@@ -105,8 +105,7 @@ TEST_F(MakeVideo, OddSidesAreRefused) {
   check_packing(plan, {VideoCodec::kProRes, 10, Chroma::k422, {}});
 }
 
-// --- the video
-// --------------------------------------------------------------------------------------------------------
+// --- the video -------------------------------------------------------------------------------------------------------
 
 class MadeVideo : public MakeVideo {
  protected:
@@ -185,7 +184,7 @@ TEST_F(MadeVideo, ItSaysHowFarItsEyesAreApartWhereTheFramesDo) {
   files = find_frames(folder.path("b.#.exr"));
   video = plan_video(files, {}, {});
   make("video.mp4");
-  EXPECT_FALSE(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu) << "it is for who asks";
+  EXPECT_FALSE(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu) << "only on request";
   options.for_apple = true;
   make("video.mp4");
   EXPECT_EQ(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu.value().ipd, 0.05);

@@ -117,8 +117,7 @@ TEST(Ycbcr, SharedColoursLieOnTheLeftPixels) {
   }
 }
 
-// --- pictures
-// ----------------------------------------------------------------------------------------------------------
+// --- pictures --------------------------------------------------------------------------------------------------------
 
 StoredPicture picture_of(std::vector<float>& memory, Extent size, size_t channels, SampleType sample) {
   StoredPicture picture;

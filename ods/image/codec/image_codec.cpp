@@ -6,8 +6,16 @@
 
 namespace ods {
 
+static constexpr ImageCodec kCodec = {openimageio::read_image,    openimageio::read_info,    openimageio::open_rows,
+                                      openimageio::read_channels, openimageio::decode_image, openimageio::write_image};
+
 const ImageCodec& image_codec() {
-  return openimageio::codec();
+  return kCodec;
 }
 
 }  // namespace ods
+
+// For programs that load this library at run time.
+extern "C" const ods::ImageCodec* ods_image_codec() {
+  return &ods::kCodec;
+}

@@ -190,15 +190,4 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   }
 }
 
-static constexpr ImageCodec kCodec = {read_image, read_info, open_rows, read_channels, decode_image, write_image};
-
-const ImageCodec& codec() {
-  return kCodec;
-}
-
 }  // namespace ods::openimageio
-
-// For programs that load this library at run time.
-extern "C" const ods::ImageCodec* ods_image_codec() {
-  return &ods::openimageio::codec();
-}

@@ -7,13 +7,11 @@
 
 #include "ods/image/format/file_format.h"
 #include "ods/image/format/sample_type.h"
-#include "ods/image/image_codec.h"
+#include "ods/image/image_file.h"
 
 namespace ods::openimageio {
 
-const ImageCodec& codec();
-
-// What it holds: see image_file.h.
+// What an ImageCodec holds: see image_file.h.
 Image read_image(const std::string& path, std::string* color_fault);
 FileInfo read_info(const std::string& path);
 std::unique_ptr<RowReader> open_rows(const std::string& path);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// JPEG structure that libjpeg does not expose. Sources: ITU-T T.81, annex B; Adobe, "XMP Specification Part 3" for
-// packets.
+// JPEG structure that libjpeg does not expose. Sources: ITU-T T.81, annex B; Adobe,
+// "XMP Specification Part 3" for packets.
 #pragma once
 #include <cstddef>
 #include <cstdint>

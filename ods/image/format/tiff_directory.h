@@ -32,8 +32,8 @@ inline constexpr uint16_t kTiffWidth = 256, kTiffHeight = 257, kTiffXmp = 700;
 // Throws Error(kInput): no valid directory.
 TiffDirectory read_tiff_directory(const FileInput& file);
 
-// The bytes of an entry; nothing if the entry is missing, lies beyond the end of the file or has more than `most`
-// bytes.
+// The bytes of an entry; nothing if the entry is missing, lies beyond the end of the file or has
+// more than `most` bytes.
 std::optional<std::string> tiff_value(const FileInput& file, const TiffDirectory& directory, uint16_t tag,
                                       uint64_t most);
 // The first number of an entry.

@@ -9,9 +9,9 @@
 //   rho^2 = r^2 + L^2 with L = dot(point, F) = n + t cos(phi),   tan(phi) = y / (L - n).
 // With toe-in at C it leaves along C d - r R, and at s times that vector
 //   rho^2 = r^2 (1 - s)^2 + (n + s C cos(phi))^2,   y = s C sin(phi).
-// Without a merge and a neck both have a closed form, and so has r = ipd/2 cos(phi). Otherwise r and n depend on phi,
-// and the equation in phi has one root, since a circle that shrinks towards the poles never makes rays cross: bisection
-// finds it.
+// Without a merge and a neck both have a closed form, below the merge's start too, and so has r = ipd/2 cos(phi).
+// Otherwise r and n depend on phi, and the equation in phi has one root, since a circle that shrinks towards the poles
+// never makes rays cross: bisection finds it.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/camera.h"
@@ -21,6 +21,7 @@ namespace ods {
 struct ImagePosition {
   vec2 uv;      // both 0..1
   float depth;  // along the ray from its own origin
+  vec3 origin;  // of the ray, in the world
   bool seen;    // false: no ray of this eye meets the point, or the picture does not reach it
 };
 
@@ -79,7 +80,9 @@ inline float elevation_of(Camera camera, float r, float rho, float y, vec3 headi
   if (y < 0.0f) merge = camera.bottom;
   float sign_of_y = y < 0.0f ? -1.0f : 1.0f;
   if (camera.neck == 0.0f) {
-    if (merge.mode == kMergeNone || r == 0.0f) return sign_of_y * plain_elevation(camera, r, rho, abs(y));
+    float plain = plain_elevation(camera, r, rho, abs(y));
+    bool merges = merge.mode != kMergeNone && (merge.mode == kMergeMap || plain > merge.start);
+    if (!merges || r == 0.0f) return sign_of_y * plain;
     if (camera.convergence != kToeIn && shrinks_as_cosine(merge)) return sign_of_y * cosine_elevation(r, rho, abs(y));
   }
   float low = 0.0f;
@@ -122,11 +125,13 @@ inline ImagePosition project_point(Camera camera, int eye, vec3 point) {
     heading = (toward * meeting.along - cross(toward, camera.axis) * (side * meeting.across)) * (1.0f / size);
     direction = heading * cos(phi) + camera.axis * sin(phi);
   }
+  vec3 start = (cross(heading, camera.axis) * (side * r) + heading * camera.neck) * left;
   if (camera.convergence == kShift) direction = turn_about(direction, camera.axis, -shift_angle(camera, eye));
   ImagePoint place = place_of(camera.projection, direction);
   ImagePosition position;
   position.uv = place.uv;
   position.depth = meeting.depth;
+  position.origin = camera.center + start.x * camera.right + start.y * camera.up + start.z * camera.back;
   position.seen = place.seen && rho >= meeting.across && meeting.depth > 0.0f && meeting.along >= camera.neck * left;
   return position;
 }

@@ -6,8 +6,8 @@
 // does.
 //
 // Image positions: u is 0..1 from left to right, v is 0..1 from top to bottom of one eye's picture. Directions are in
-// the camera's frame: x right, y up, z back. theta is the heading, 0 ahead and positive to the right; phi is the
-// elevation.
+// the camera's frame: x right, y up, z back. theta is the heading, 0 ahead and positive to the right;
+// phi is the elevation.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/merge.h"
@@ -36,8 +36,8 @@ inline bool is_fisheye(int kind) {
   return kind == kFisheye || kind == kFisheyeEquisolid;
 }
 
-// The picture is an ellipse, Projection::circle; outside it the frame is empty. A fisheye's circle touches the frame's
-// edges.
+// The picture is an ellipse, Projection::circle; outside it the frame is empty.
+// A fisheye's circle touches the frame's edges.
 inline bool has_image_circle(int kind) {
   return is_fisheye(kind) || kind == kFisheyePolynomial;
 }
@@ -162,6 +162,10 @@ inline vec3 to_lens(Projection projection, vec3 d) {
 }
 
 // The image circle touches the picture's edges. home decides what is inside, as in look_of().
+inline bool inside_circle(Projection projection, vec2 uv) {
+  return length(vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y) / projection.circle) <= 1.0f;
+}
+
 inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
   vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
   float r = length(p);
@@ -169,7 +173,7 @@ inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kFisheyeEquisolid) angle = 2.0f * asin(min(sin(0.25f * projection.angle) * r, 1.0f));
   float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
   ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
-  look.seen = length(vec2(2.0f * home.x - 1.0f, 1.0f - 2.0f * home.y)) <= 1.0f;
+  look.seen = inside_circle(projection, home);
   return look;
 }
 
@@ -194,8 +198,8 @@ inline float polynomial_angle(Projection projection, float r) {
   return max(-(projection.k0 + r * k), 0.0f);
 }
 
-// The derivative of the angle, radians per millimetre. It is above 0 within the picture: projection_fault() ensures
-// that.
+// The derivative of the angle, radians per millimetre. It is above 0 within the picture:
+// projection_fault() ensures that.
 inline float polynomial_slope(Projection projection, float r) {
   return -(projection.k1 + r * (2.0f * projection.k2 + r * (3.0f * projection.k3 + r * 4.0f * projection.k4)));
 }
@@ -206,7 +210,7 @@ inline ViewDirection polynomial_look(Projection projection, vec2 home, vec2 uv) 
   float angle = polynomial_angle(projection, r);
   float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
   ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
-  look.seen = length(vec2(2.0f * home.x - 1.0f, 1.0f - 2.0f * home.y) / projection.circle) <= 1.0f;
+  look.seen = inside_circle(projection, home);
   return look;
 }
 
@@ -393,9 +397,59 @@ inline ImagePoint place_of(Projection projection, vec3 direction) {
   return nothing;
 }
 
+// A cube's position within the cell of its home, both coordinates -1..1, upwards.
+inline vec2 place_in_cell(int kind, vec2 home, vec2 uv) {
+  float columns = float(cube_columns(kind));
+  float rows = 6.0f / columns;
+  return vec2(2.0f * (uv.x * columns - floor(home.x * columns)) - 1.0f,
+              1.0f - 2.0f * (uv.y * rows - floor(home.y * rows)));
+}
+
+// Whether the picture at uv is that of the pixel at home: it is not beyond the edge of a cube's face.
+inline bool same_face(Projection projection, vec2 home, vec2 uv) {
+  if (!is_cube(projection.kind)) return true;
+  vec2 place = place_in_cell(projection.kind, home, uv);
+  return abs(place.x) <= 1.0f && abs(place.y) <= 1.0f;
+}
+
+// Of a plane at the distance 1, per area.
+inline float plane_solid_angle(vec2 p) {
+  float square = 1.0f + dot(p, p);
+  return 1.0f / (square * sqrt(square));
+}
+
+// Likewise, of a plane whose coordinates are the tangents of angles in -pi/4..pi/4, per square of those angles.
+inline float eac_solid_angle(vec2 place) {
+  vec2 p = vec2(tan(0.25f * kPi * place.x), tan(0.25f * kPi * place.y));
+  return plane_solid_angle(p) * (1.0f + p.x * p.x) * (1.0f + p.y * p.y);
+}
+
+// The solid angle that a small piece of the picture covers, over that of an equally large piece elsewhere in it:
+// steradians up to a factor that is the same for the whole picture.
+inline float relative_solid_angle(Projection projection, vec2 home, vec2 uv) {
+  vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
+  if (projection.kind == kLatLong) return abs(cos(projection.center.y + 0.5f * p.y * projection.span.y));
+  if (projection.kind == kCylinder)
+    return plane_solid_angle(vec2(0.0f, projection.center.y + 0.5f * p.y * projection.span.y));
+  if (projection.kind == kPerspective) return plane_solid_angle(p * projection.half_size);
+  if (projection.kind == kFisheye) {
+    float angle = max(0.5f * projection.angle * length(p), 1e-4f);
+    return sin(min(angle, kPi)) / angle;
+  }
+  if (projection.kind == kFisheyePolynomial) {
+    float r = max(length(vec2(0.5f * p.x * projection.sensor.x, 0.5f * p.y * projection.sensor.y)), 1e-4f);
+    return sin(min(polynomial_angle(projection, r), kPi)) * polynomial_slope(projection, r) / r;
+  }
+  if (projection.kind == kEacFace) return eac_solid_angle(p);
+  if (projection.kind == kEac) return eac_solid_angle(place_in_cell(projection.kind, home, uv));
+  if (is_cube(projection.kind)) return plane_solid_angle(place_in_cell(projection.kind, home, uv));
+  return 1.0f;  // kFisheyeEquisolid
+}
+
 #ifdef __cplusplus
 static_assert(sizeof(Projection) == 104);
-static_assert(kProjectionCount == 11,
-              "a new projection is named in is_cube() .. above, cube_cell(), look_of(), place_of()");
+static_assert(
+    kProjectionCount == 11,
+    "a new projection is named in is_cube() .. above, cube_cell(), look_of(), place_of(), relative_solid_angle()");
 }  // namespace ods
 #endif

@@ -267,10 +267,8 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (known.projection) {
     format.camera.projection = *known.projection;
   } else if (!camera) {
-    const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});
-    const Extent squeeze = squeeze_of(layout, 2);
-    format.camera.projection =
-        guess_projection({eye.width * squeeze.width, eye.height * squeeze.height}, path, format.guesses);
+    const Extent eye = whole_eye(layout, {info.width, info.height}).value_or(Extent{1, 1});
+    format.camera.projection = guess_projection(eye, path, format.guesses);
   }
   return format;
 }
@@ -299,9 +297,8 @@ Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings)
   const bool has_both = format.layout.layout.has_value() || format.is_photo;
   file.eyes = has_both ? std::vector{kLeft, kRight} : std::vector{format.eye};
   const Layout packing = has_both ? file.layout : Layout::kSeparate;
-  const Extent eye = unpacked_size(packing, {info.width, info.height}).value_or(Extent{info.width, info.height});
-  const Extent squeeze = squeeze_of(packing, static_cast<int>(file.eyes.size()));
-  file.eye = {eye.width * squeeze.width, eye.height * squeeze.height};
+  const Extent size{info.width, info.height};
+  file.eye = whole_eye(packing, size).value_or(size);
   return file;
 }
 

@@ -69,9 +69,8 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
   }
   if (!known.projection && !format.has_camera && read_name(path).projection == nullptr) {
     const Layout layout = tag.layout.value_or(Layout::kSeparate);
-    const Extent eye = unpacked_size(layout, {info.width, info.height}).value_or(Extent{1, 1});
-    const Extent squeeze = squeeze_of(layout, 2);
-    if (natural_height(format.camera.projection, eye.width * squeeze.width) != eye.height * squeeze.height) {
+    const std::optional<Extent> eye = whole_eye(layout, {info.width, info.height});
+    if (!eye || natural_height(format.camera.projection, eye->width) != eye->height) {
       throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
                                        "shows: give --layout and --projection",
                                        info.width, info.height));

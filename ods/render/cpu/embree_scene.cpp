@@ -311,10 +311,10 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   return hit;
 }
 
-bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length) const {
+bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int kind) const {
   RTCRay shadow;
   set_ray(shadow, ray, length, tracer.ray_time);
-  RayContext context = make_context(tracer, kShadowRay, handles_->still_id);
+  RayContext context = make_context(tracer, kind, handles_->still_id);
   occlude(handles_->top, context.embree, shadow);
   return shadow.tfar < 0.0f;
 }

@@ -28,9 +28,9 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   // Safe from many threads at once. Each needs its own tracer, which reads the same scene and decides about surfaces
-  // with alpha. kind: kPathRay or kHalfAlphaRay.
+  // with alpha. kind: how it decides, kPathRay, kShadowRay or kHalfAlphaRay.
   Hit closest_hit(PathTracer& tracer, const Ray& ray, int kind) const;
-  bool occluded(PathTracer& tracer, const Ray& ray, float length) const;
+  bool occluded(PathTracer& tracer, const Ray& ray, float length, int kind = kShadowRay) const;
 
  private:
   struct Handles;

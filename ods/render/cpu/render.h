@@ -24,8 +24,8 @@ class CpuRenderer {
   // Applies what set_time() changed in the scene.
   void update(const SceneChange& change);
 
-  // Renders as render_cpu() does on a new CpuRenderer, bit for bit, whatever was rendered before. options.threads is
-  // ignored.
+  // Renders as render_cpu() does on a new CpuRenderer, bit for bit, whatever was rendered before.
+  // options.threads is ignored.
   Picture render(const StereoCamera& camera, const RenderOptions& options, const Progress& progress = {}) const;
 
   // Likewise with a camera that moves while the shutter is open. path: the camera at evenly spaced times from the

@@ -16,8 +16,8 @@ void add_lantern(Scene& scene, const Finishes& finishes, const glm::mat4& place,
 // A pot with leaves on bent stems, `height` metres tall.
 void add_plant(Scene& scene, const Finishes& finishes, const glm::mat4& place, float height, int leaves, uint seed);
 
-// A row of books on a shelf of size.x by size.y by size.z, some lying flat, with an occasional vase; different for each
-// seed.
+// A row of books on a shelf of size.x by size.y by size.z, some lying flat, with an occasional vase;
+// different for each seed.
 void add_books(Scene& scene, const Finishes& finishes, const glm::mat4& place, vec3 size, uint seed);
 
 // A framed picture from patterns.h, centred at the origin.

@@ -73,8 +73,8 @@ Shape make_prism(const std::vector<vec2>& polygon, float depth);
 // Texture coordinates are (s * size.x, (1 - t) * size.y).
 Shape make_surface(int columns, int rows, vec2 size, const std::function<vec3(float s, float t)>& position);
 
-// One line of text (ods/image/stroke_font.h) made of bars, centred, read from +Z, `height` tall, strokes `stroke`
-// thick.
+// One line of text (ods/image/stroke_font.h) made of bars, centred, read from +Z, `height` tall,
+// strokes `stroke` thick.
 Shape make_text(const std::string& text, float height, float stroke);
 
 // Two surfaces that meet in a seam at |x| = size.x / 2 and |z| = size.z / 2, like a filled cushion. Closed.

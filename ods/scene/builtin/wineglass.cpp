@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // "wineglass": glass, wine and water on a laid table. Liquids overlap the wall of their glass slightly: where media
-// overlap, the one with the highest index of refraction counts, so the boundary is the glass's own and no film of air
-// remains.
+// overlap, the one with the highest index of refraction counts, so the boundary is the glass's own and no
+// film of air remains.
 #include <cmath>
 
 #include "ods/kernel/camera/camera.h"

@@ -40,8 +40,8 @@ struct SceneOptions {
   std::string confine{};  // the only folder that files are read from (ods/files/confined_file.h); empty: no limit
 };
 
-// Throws Error(kInput), naming the file: missing, damaged, or unsupported. Throws Error(kUsage): no scene with that
-// index.
+// Throws Error(kInput), naming the file: missing, damaged, or unsupported. Throws Error(kUsage):
+// no scene with that index.
 Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 
 // The same from memory; `path` stands for it in messages, and relative paths start from its folder.

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "ods/base/error.h"
+#include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/reduced_textures.h"
@@ -26,10 +27,8 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
   }
   std::error_code error;
   if (!std::filesystem::exists(name, error)) {
-    std::vector<std::string> names;
-    for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
-    throw Error(ErrorKind::kInput,
-                fmt::format("{}: no such file, and no built-in scene{}", name, did_you_mean(name, names)));
+    throw Error(ErrorKind::kInput, fmt::format("{}: no such file, and no built-in scene{}", name,
+                                               did_you_mean(name, names_of(builtin_scenes()))));
   }
   Scene scene = load_gltf(name, options);
   reduce_textures(scene);

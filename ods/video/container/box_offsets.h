@@ -17,8 +17,8 @@ struct Move {
   int64_t growth = 0;
   uint64_t file_size = 0;  // of the old file
 
-  // The new offset of a byte of the old file. Throws MalformedFile if that byte is replaced or beyond the end of the
-  // file.
+  // The new offset of a byte of the old file. Throws MalformedFile if that byte is replaced or beyond the
+  // end of the file.
   uint64_t operator()(uint64_t offset) const;
 };
 

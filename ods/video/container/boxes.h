@@ -40,8 +40,8 @@ struct Box {
 // Parses consecutive boxes; fewer than 8 bytes left over go into `tail`. Throws MalformedFile.
 std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail);
 
-// Parses the body after its first `prefix` bytes into children. Does nothing if the box is open already. Throws
-// MalformedFile.
+// Parses the body after its first `prefix` bytes into children. Does nothing if the box is
+// open already. Throws MalformedFile.
 void open_box(Box& box, size_t prefix);
 
 // The first child of this type; null if there is none.
@@ -65,8 +65,8 @@ struct FileBox {
   uint64_t end() const { return offset + size; }
 };
 
-// All top-level boxes in order. Throws MalformedFile if one is longer than the file or there are more than a million;
-// Error(kInput).
+// All top-level boxes in order. Throws MalformedFile if one is longer than the file or there are more
+// than a million; Error(kInput).
 std::vector<FileBox> scan_boxes(const FileInput& file);
 
 // Reads a box into memory. `opened` is the chain of types to open, from the box down; the contents of these are kept in

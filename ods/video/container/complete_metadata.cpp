@@ -51,13 +51,6 @@ static FormatHint as_picture(const SphericalMetadata& known) {
   return metadata;
 }
 
-// The eye's size before squeezing.
-static Extent whole_eye(Layout layout, Extent file) {
-  const Extent eye = unpacked_size(layout, file).value_or(file);
-  const Extent squeeze = squeeze_of(layout, 2);
-  return {eye.width * squeeze.width, eye.height * squeeze.height};
-}
-
 std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
   std::optional<SphericalMetadata> said;
   for (const std::optional<SphericalMetadata>* place : {&track.v2, &track.v1, &track.vexu}) {
@@ -85,7 +78,7 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
 // Pictures default to lat-long. Videos must not: an ordinary video must not become a sphere.
 static void guess_projection(SphericalMetadata& known, const StereoFormat& format, const VideoTrack& track,
                              const std::string& path) {
-  const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size);
+  const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size).value_or(track.size);
   const bool is_told = format.has_camera || read_name(path).projection != nullptr;
   if (!is_told && natural_height(format.camera.projection, eye.width) != eye.height) {
     throw Error(ErrorKind::kInput,
@@ -175,13 +168,13 @@ static std::string word_of(const SphericalMetadata& metadata) {
   return metadata.is_partial() && same_sphere(metadata, half) ? "vr180" : "lat-long";
 }
 
-static FormConflict layout_conflict(const SphericalMetadata& said, VideoStereo other, const std::string& reason) {
+static MetadataConflict layout_conflict(const SphericalMetadata& said, VideoStereo other, const std::string& reason) {
   return {fmt::format("it says {}, but {}", stereo_name(*said.stereo), reason),
           fmt::format("--layout {} or --layout {}", stereo_name(*said.stereo), stereo_name(other))};
 }
 
-static FormConflict projection_conflict(const SphericalMetadata& said, const ProjectionSetting& other,
-                                        const std::string& reason) {
+static MetadataConflict projection_conflict(const SphericalMetadata& said, const ProjectionSetting& other,
+                                            const std::string& reason) {
   SphericalMetadata eye = said;
   eye.stereo.reset();
   eye.yaw = eye.pitch = eye.roll = 0.0;
@@ -196,7 +189,7 @@ static FormConflict projection_conflict(const SphericalMetadata& said, const Pro
 
 // Contradictions from a sidecar, and from the name.
 static void compare_with_names(const SphericalMetadata& known, const SphericalMetadata& said, const StereoFormat& found,
-                               const std::string& path, std::vector<FormConflict>& conflicts) {
+                               const std::string& path, std::vector<MetadataConflict>& conflicts) {
   const NameWords words = read_name(path);
   const bool has_sidecar = found.layout.source == LayoutSource::kSidecar;
   const bool is_custom = said.stereo == VideoStereo::kCustom || said.stereo == VideoStereo::kOther;
@@ -213,9 +206,9 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
   }
 }
 
-std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
-                                         const std::string& path) {
-  std::vector<FormConflict> conflicts;
+std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
+                                             const std::string& path) {
+  std::vector<MetadataConflict> conflicts;
   const std::optional<SphericalMetadata> said = said_metadata(track);
   if (!said) return conflicts;
   try {

@@ -31,13 +31,13 @@ SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& t
                                     std::vector<std::string>& guesses);
 
 // A contradiction to the video's own metadata.
-struct FormConflict {
+struct MetadataConflict {
   std::string text;     // "it says top-bottom, but its name ends in _LR"
   std::string options;  // of ods inject, to resolve it: "--layout top-bottom or --layout side-by-side"
 };
 // Contradictions from the sidecar, the name and the shape, except those that `known` resolves.
-std::vector<FormConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
-                                         const std::string& path);
+std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
+                                             const std::string& path);
 
 // Why a whole-sphere video with this metadata cannot have this size, for messages; empty if it can.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size);

@@ -72,8 +72,8 @@ void tag_video(Element& video, const std::optional<SphericalMetadata>& metadata)
 // Whether a SimpleTag holds a V1.
 bool is_v1_tag(const Element& tag);
 
-// Updates the angles of each V1 in an opened Tag and removes those that contradict the metadata. Adds none. Throws
-// MalformedFile.
+// Updates the angles of each V1 in an opened Tag and removes those that contradict the metadata.
+// Adds none. Throws MalformedFile.
 void tag_v1(Element& tag, const std::optional<SphericalMetadata>& metadata);
 
 }  // namespace ods::matroska

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A video in any container: its tracks, its metadata, and how to tag it. The containers are mp4_file.h and
-// matroska_file.h.
+// A video in any container: its tracks, its metadata, and how to tag it.
+// The containers are mp4_file.h and matroska_file.h.
 #pragma once
 #include <cstdint>
 #include <functional>

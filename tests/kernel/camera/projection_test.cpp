@@ -47,6 +47,32 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
   }
 }
 
+// Against the area that the exact directions around a place span, over that of another place in the picture.
+TEST(Projections, SolidAnglesAreThoseOfTheirDirections) {
+  Dice dice(3);
+  for (const ProjectionSetting& setting : many_settings(dice)) {
+    const Projection projection = make_projection(setting);
+    const auto exact = [&](vec2 uv) {
+      const double h = 1e-4;
+      const auto at = [&](double u, double v) {
+        return normalize(exact_direction(setting, vec2(static_cast<float>(u), static_cast<float>(v))));
+      };
+      const double u = double{uv.x}, v = double{uv.y};
+      return length(cross(at(u + h, v) - at(u - h, v), at(u, v + h) - at(u, v - h)));
+    };
+    double first = 0.0;
+    for (int i = 0; i < 300; i++) {
+      const vec2 uv = vec2(0.02f) + 0.96f * dice.pair();
+      if (has_image_circle(setting.kind) && !in_circle(setting, uv)) continue;
+      const vec2 place = place_in_cell(setting.kind, uv, uv);
+      if (is_cube(setting.kind) && max(abs(place.x), abs(place.y)) > 0.99f) continue;  // no difference over an edge
+      const double ratio = exact(uv) / double{relative_solid_angle(projection, uv, uv)};
+      if (first == 0.0) first = ratio;
+      ASSERT_NEAR(ratio / first, 1.0, 2e-2) << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
+    }
+  }
+}
+
 // What lies outside is known to: no place is seen whose direction is another.
 TEST(Projections, KnowWhatTheyDoNotSee) {
   Dice dice(2);
@@ -229,7 +255,7 @@ TEST(Projections, HaveTheirNaturalHeight) {
   EXPECT_EQ(height("cylinder", 6283), 3464);  // 2 pi wide, 2 tan(60) high
 }
 
-TEST(Projections, FaultsAreTold) {
+TEST(Projections, FaultsAreReported) {
   for (auto spoil :
        {+[](ProjectionSetting& s) { s.longitude = vec2(10.0f, 10.0f); },
         +[](ProjectionSetting& s) { s.longitude = vec2(0.0f, 361.0f); },

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a picture's form is found: attributes, sidecars, GPano, names and shapes; and what of that is said.
+// How a picture's form is found: attributes, sidecars, GPano, names and shapes; and which guesses are reported.
 #include "ods/picture/metadata/stereo_format.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(Metadata, EveryMergeAndConvergenceComesBack) {
   }
 }
 
-TEST(Metadata, SenselessAttributesAreLeftAsideAndSaidSo) {
+TEST(Metadata, InvalidAttributesAreIgnoredAndReported) {
   FileInfo info;
   info.text["ods:projection"] = "lat-long";
   std::vector<std::string> warnings;
@@ -326,7 +326,7 @@ const Guess kGuesses[] = {
      {"side-by-side-half: its name ends in _hsbs", "lat-long: an eye has that shape"}},
 };
 
-TEST(Guesses, AreMadeByNameThenByShapeAndSaid) {
+TEST(Guesses, AreMadeByNameThenByShapeAndReported) {
   for (const Guess& guess : kGuesses) {
     const TemporaryFolder folder;
     SCOPED_TRACE(std::string(guess.name) + " " + std::to_string(guess.file.width));

@@ -389,6 +389,17 @@ TEST(TagPicture, AnOrdinaryPhotographBecomesNoSphere) {
   EXPECT_TRUE(is_full_lat_long(complete_tag(known, path, guesses).camera.projection));
 }
 
+// It was taken for a lat-long picture: eyes of no size passed for eyes of that shape.
+TEST(TagPicture, AFileThatCannotHaveTheLayoutBecomesNoSphere) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.tif");
+  save_picture(gradient({kMono}, kHeight + 1), {}, path);
+  FormatHint known;
+  known.layout = Layout::kTopBottom;
+  std::vector<std::string> guesses;
+  EXPECT_THROW(complete_tag(known, path, guesses), Error);
+}
+
 TEST(TagPicture, OtherFilesAreRefused) {
   const TemporaryFolder folder;
   save_picture(gradient({kMono}), {}, folder.path("a.webp"));

@@ -124,7 +124,7 @@ TEST_F(Photo, TheLeftEyeIsTheJpegItself) {
   EXPECT_EQ(load_eyes(path, Layout::kSeparate).eyes.size(), 1u) << "asked for as one eye";
 }
 
-TEST_F(Photo, PartsOfTheSphereAreSaid) {
+TEST_F(Photo, PartsOfTheSphereAreReported) {
   make({32, 32}, "vr180");
   const StoredPicture picture = open_picture(path);
   EXPECT_EQ(projection_name(picture.camera.projection), "vr180");

@@ -16,6 +16,7 @@
 #include "ods/kernel/path.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/lights.h"
+#include "ods/render/render_target.h"
 #include "ods/render/tables.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scenes.h"
@@ -31,6 +32,7 @@ TEST(Render, WhiteFurnaceBoxIsExactInEveryPixel) {
   add_box(scene, vec3(-1.0f, -2.0f, -1.5f), vec3(2.0f, 1.0f, 1.0f), add_material(scene, wall));
   RenderOptions options = small_render(32, 4);
   options.eyes = Eyes::kBothEyes;
+  options.share_paths = false;
   options.bounces = 4;
   options.light_sampling = LightSampling::kBsdfOnly;
   for (const EyeImage& eye : render_cpu(scene, StereoCamera{}, options).eyes) {
@@ -279,20 +281,6 @@ TEST(Render, FirstHitLayers) {
       }
     }
   }
-}
-
-// What a file cannot hold takes no memory, and changes nothing else.
-TEST(Render, LayersCanBeLeftOut) {
-  const Scene scene = floor_scene();
-  RenderOptions options = small_render(32, 2);
-  options.height = 16;
-  const Picture whole = render_cpu(scene, StereoCamera{}, options);
-  EXPECT_EQ(picture_bytes(options), 32u * 16 * 10 * sizeof(float));
-  options.layers = false;
-  const Picture bare = render_cpu(scene, StereoCamera{}, options);
-  EXPECT_EQ(picture_bytes(options), 32u * 16 * 3 * sizeof(float));
-  EXPECT_EQ(bare.eyes[0].radiance.pixels, whole.eyes[0].radiance.pixels);
-  EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
 }
 
 TEST(Render, APictureLargerThanTheMemoryIsAnError) {

@@ -340,8 +340,7 @@ TEST(BoxOffsets, NothingLiesInTheHeaderOrBehindTheEnd) {
   EXPECT_THROW(move(uint64_t{1} << 63), MalformedFile);
 }
 
-// --- bad input
-// ---------------------------------------------------------------------------------------------------------
+// --- bad input -------------------------------------------------------------------------------------------------------
 
 TEST_F(Mp4Video, CutShortAnywhereIsAnErrorAndNothingElse) {
   for (bool first : {true, false}) {

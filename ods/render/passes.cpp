@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ods {
+
+// A pass takes this share of what time is left: the next one may take longer for each sample.
+static constexpr double kShareOfTime = 0.9;
+
+int fewest_samples(const RenderOptions& options) {
+  const int fewest = static_cast<int>(std::ceil(16.0 / std::pow(static_cast<double>(options.noise), 0.3)));
+  return std::min(std::max(fewest, 4), options.samples);
+}
+
+Passes::Passes(const RenderOptions& options, int done)
+    : options_(options), begun_with_(done), done_(done), expected_(options.samples) {}
+
+bool Passes::can_judge() const {
+  return options_.noise > 0.0f && done_ >= fewest_samples(options_);
+}
+
+int Passes::next_step(double seconds) {
+  const bool limited = options_.time_limit > 0.0;
+  step_ = options_.samples - done_;
+  if (options_.noise > 0.0f && done_ < fewest_samples(options_)) step_ = fewest_samples(options_) - done_;
+  if (can_judge()) step_ = expected_ > done_ ? std::min(step_, std::max(16, done_ / 4)) : 0;
+  if (limited && done_ == begun_with_) step_ = std::min(step_, 1);
+  if (limited && done_ > begun_with_) {
+    const double affordable = kShareOfTime * (options_.time_limit - seconds) / seconds_per_sample_;
+    late_ = step_ > 0 && affordable < 1.0;
+    step_ = std::min({step_, std::max(done_, 1), static_cast<int>(std::clamp(affordable, 0.0, 1e9))});
+  }
+  return step_;
+}
+
+void Passes::finish_step(double seconds) {
+  seconds_per_sample_ = std::max(seconds / step_, 1e-9);
+  done_ += step_;
+}
+
+void Passes::expect(double more) {
+  expected_ = std::min(done_ * (1.0 + more), static_cast<double>(options_.samples));
+}
+
+double Passes::fraction(double part, double seconds) {
+  double now = (done_ + part * step_) / std::max(expected_, static_cast<double>(done_ + step_));
+  if (options_.time_limit > 0.0) now = std::max(now, std::min(seconds / options_.time_limit, 1.0));
+  shown_ = std::max(shown_, now);
+  return shown_;
+}
+
+}  // namespace ods

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/picture_samples.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "ods/render/render_target.h"
+
+namespace ods {
+
+double layer_unit(const RenderOptions& options) {
+  return static_cast<double>(uint32_t{1} << (30 - std::bit_width(static_cast<uint32_t>(options.samples))));
+}
+
+static bool needs_squares(const RenderOptions& options) {
+  return options.statistics || options.noise > 0.0f;
+}
+
+bool shares_paths(const RenderOptions& options) {
+  return options.share_paths && options.eyes == Eyes::kBothEyes;
+}
+
+PictureSamples no_samples(const RenderOptions& options) {
+  PictureSamples samples{options.width, options.height, 0, {}};
+  const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
+  for (const int eye : eye_list(options.eyes)) {
+    EyeSamples& sums = samples.eyes.emplace_back();
+    sums.eye = eye;
+    sums.count.resize(pixels);
+    sums.light.resize(3 * pixels);
+    if (needs_squares(options)) sums.squares.resize(3 * pixels);
+    if (needs_squares(options) && shares_paths(options)) sums.alone.resize(3 * pixels), sums.weights.resize(pixels);
+    if (options.layers) {
+      sums.normal.resize(3 * pixels);
+      sums.albedo.resize(3 * pixels);
+      sums.depth.resize(pixels, kFarDepth);
+    }
+    if (options.transparent) {
+      sums.hits.resize(pixels);
+      sums.caught.resize(pixels);
+      sums.light_with.resize(pixels);
+      sums.light_without.resize(pixels);
+    }
+  }
+  return samples;
+}
+
+size_t samples_bytes(const RenderOptions& options) {
+  const size_t count = sizeof(uint32_t), light = 3 * sizeof(int64_t), squares = 3 * sizeof(double);
+  const size_t alone = shares_paths(options) ? 3 * sizeof(int64_t) + sizeof(uint32_t) : 0;
+  const size_t layers = 6 * sizeof(int32_t) + sizeof(float), catchers = 2 * sizeof(uint32_t) + 2 * sizeof(double);
+  const size_t pixel = count + light + (needs_squares(options) ? squares + alone : 0) + (options.layers ? layers : 0) +
+                       (options.transparent ? catchers : 0);
+  return eye_list(options.eyes).size() * static_cast<size_t>(options.width) * static_cast<size_t>(options.height) *
+         pixel;
+}
+
+// The variance of a sample over their number; with shared paths each sample has a weight, and more of them add up.
+vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
+  const double count = eye.count[pixel];
+  if (count < 2.0) return vec3(0.0f);
+  const std::vector<int64_t>& sums = eye.alone.empty() ? eye.light : eye.alone;
+  const double weights = eye.weights.empty() ? count : eye.weights[pixel] / double{kWeightUnit};
+  vec3 variance;
+  for (int c = 0; c < 3; c++) {
+    const size_t at = 3 * pixel + static_cast<size_t>(c);
+    const double mean = static_cast<double>(sums[at]) / (kLightUnit * count);
+    const double of_sample = (eye.squares[at] - mean * mean * count) / (count - 1.0);
+    variance[c] = static_cast<float>(std::max(of_sample * weights / (count * count), 0.0));
+  }
+  return variance;
+}
+
+static float alpha_of(const EyeSamples& eye, size_t pixel) {
+  double covered = eye.hits[pixel];
+  const double without = eye.light_without[pixel];
+  if (without > 0.0) covered += eye.caught[pixel] * (1.0 - eye.light_with[pixel] / without);
+  return static_cast<float>(covered / std::max(eye.count[pixel], 1u));
+}
+
+static void develop_pixel(const EyeSamples& eye, size_t pixel, double unit, EyeImage& image) {
+  const double count = std::max(eye.count[pixel], 1u);
+  for (size_t at = 3 * pixel; at < 3 * pixel + 3; at++) {
+    image.radiance.pixels[at] = static_cast<float>(static_cast<double>(eye.light[at]) / (kLightUnit * count));
+    if (eye.normal.empty()) continue;
+    image.normal.pixels[at] = static_cast<float>(eye.normal[at] / (unit * count));
+    image.albedo.pixels[at] = static_cast<float>(eye.albedo[at] / (unit * count));
+  }
+  if (!eye.hits.empty()) image.alpha.pixels[pixel] = alpha_of(eye, pixel);
+  if (!eye.depth.empty()) {
+    const float depth = eye.depth[pixel];
+    const bool shadowed = eye.hits.empty() || image.alpha.pixels[pixel] > 0.0f;
+    image.depth.pixels[pixel] = depth >= 0.0f ? depth : shadowed ? -depth : kFarDepth;
+  }
+  if (image.variance.pixels.empty()) return;
+  const vec3 variance = variance_of_mean(eye, pixel);
+  for (int c = 0; c < 3; c++) image.variance.pixels[3 * pixel + static_cast<size_t>(c)] = variance[c];
+  image.samples.pixels[pixel] = static_cast<float>(eye.count[pixel]);
+}
+
+Picture develop(const PictureSamples& samples, const RenderOptions& options) {
+  Picture picture = blank_picture(options);
+  const double unit = layer_unit(options);
+  const size_t width = static_cast<size_t>(samples.width);
+  for (size_t e = 0; e < samples.eyes.size(); e++) {
+    tbb::parallel_for(0, samples.height, [&](int y) {
+      const size_t row = static_cast<size_t>(y) * width;
+      for (size_t x = 0; x < width; x++) develop_pixel(samples.eyes[e], row + x, unit, picture.eyes[e]);
+    });
+  }
+  return picture;
+}
+
+}  // namespace ods

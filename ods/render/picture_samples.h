@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the samples of a picture have added up to so far: the state of a picture that is being rendered.
+//
+// The sums are whole numbers. Adding them in another order gives the same bits, so threads may finish in any order and
+// several machines can render samples of the same picture.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ods/kernel/math.h"
+#include "ods/picture/picture.h"
+#include "ods/render/render_options.h"
+
+namespace ods {
+
+struct EyeSamples {
+  int eye = 0;                  // as in EyeImage
+  std::vector<uint32_t> count;  // samples of each pixel
+  std::vector<int64_t> light;   // 3 per pixel, in units of 1 / kLightUnit
+
+  // RenderOptions::statistics or noise: how much a sample varies. Doubles are added in the order of the samples.
+  std::vector<double> squares;    // 3 per pixel: of the samples' radiance
+  std::vector<int64_t> alone;     // if the eyes share paths: like light, as if nothing were shared; so are squares
+  std::vector<uint32_t> weights;  // likewise: squares of the weights that samples have in light, over kWeightUnit
+
+  // RenderOptions::layers.
+  std::vector<int32_t> normal;  // 3 per pixel, in units of 1 / layer_unit()
+  std::vector<int32_t> albedo;  // likewise
+  std::vector<float> depth;     // as in EyeImage; negative: of a catcher
+
+  // RenderOptions::transparent.
+  std::vector<uint32_t> hits;         // samples that hit something that is no catcher
+  std::vector<uint32_t> caught;       // samples that hit a catcher, and the light that they found (ods/kernel/path.h)
+  std::vector<double> light_with;     // luminance
+  std::vector<double> light_without;  // likewise
+};
+
+struct PictureSamples {
+  int width = 0;
+  int height = 0;
+  int done = 0;  // every pixel that is still noisy has the samples 0 .. done - 1, or its share of them
+  std::vector<EyeSamples> eyes;
+};
+
+// A sum of 2^20 samples as bright as a half float can be does not overflow, and the unit is the smallest half float.
+inline constexpr double kLightUnit = 1 << 24;
+
+inline constexpr float kWeightUnit = 1 << 10;
+
+// A brighter sample counts as this.
+inline constexpr float kBrightestSample = 1 << 19;
+
+// The largest number of samples that a pixel can have.
+inline constexpr int kMaxSamples = 1 << 20;
+
+// Components of normals and albedo are at most 1 in size; as many samples as wanted fit into 31 bits.
+double layer_unit(const RenderOptions& options);
+
+// Whether paths of one eye bring light to the other (ods/kernel/path.h).
+bool shares_paths(const RenderOptions& options);
+
+// No samples yet. Precondition: options.height > 0.
+PictureSamples no_samples(const RenderOptions& options);
+
+// The memory that no_samples() takes.
+size_t samples_bytes(const RenderOptions& options);
+
+// The picture that the samples amount to. A pixel without samples is black.
+Picture develop(const PictureSamples& samples, const RenderOptions& options);
+
+// The variance of a pixel's mean, per channel. 0 if it has less than two samples.
+vec3 variance_of_mean(const EyeSamples& eye, size_t pixel);
+
+}  // namespace ods

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/sampling_plan.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ods/kernel/camera/camera.h"
+
+namespace ods {
+
+// Blocks near the poles still get this share: a flat view of the picture shows them large.
+static constexpr float kSmallestShare = 0.125f;
+
+static size_t block_count(const SamplingPlan& plan) {
+  return static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+}
+
+static float block_angle(const Projection& projection, const RenderOptions& options, int column, int row) {
+  const vec2 size(static_cast<float>(options.width), static_cast<float>(options.height));
+  const vec2 begin(static_cast<float>(column * kBlockSize), static_cast<float>(row * kBlockSize));
+  const vec2 middle = (begin + min(begin + vec2(static_cast<float>(kBlockSize)), size)) * 0.5f / size;
+  return relative_solid_angle(projection, middle, middle);
+}
+
+SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options) {
+  SamplingPlan plan;
+  plan.columns = (options.width + kBlockSize - 1) / kBlockSize;
+  plan.rows = (options.height + kBlockSize - 1) / kBlockSize;
+  plan.share.assign(block_count(plan), 1.0f);
+  plan.noisy.assign(block_count(plan), 3);
+  if (!options.even_noise) return plan;
+  const Projection projection = make_camera(camera).projection;
+  std::vector<float> angles(block_count(plan));
+  tbb::parallel_for(0, plan.rows, [&](int row) {
+    for (int column = 0; column < plan.columns; column++) {
+      angles[static_cast<size_t>(row * plan.columns + column)] = block_angle(projection, options, column, row);
+    }
+  });
+  const float largest = *std::max_element(angles.begin(), angles.end());
+  for (size_t i = 0; i < angles.size(); i++) {
+    plan.share[i] = std::max(angles[i] / largest, kSmallestShare);
+  }
+  return plan;
+}
+
+size_t block_at(const SamplingPlan& plan, int x, int y) {
+  return static_cast<size_t>(y / kBlockSize * plan.columns + x / kBlockSize);
+}
+
+int samples_of(const SamplingPlan& plan, size_t block, int samples) {
+  return static_cast<int>(std::ceil(static_cast<double>(samples) * double{plan.share[block]}));
+}
+
+// Cycles' measure: the differences between all samples and half of them have the size of the mean's standard deviation.
+// Dark pixels are judged by the square root of their light, as eyes do.
+static double pixel_noise(const EyeSamples& eye, size_t pixel) {
+  const vec3 variance = variance_of_mean(eye, pixel);
+  const double deviation =
+      std::sqrt(double{variance.x}) + std::sqrt(double{variance.y}) + std::sqrt(double{variance.z});
+  const double count = std::max(eye.count[pixel], 1u);
+  double light = 0.0;
+  for (size_t c = 0; c < 3; c++) light += static_cast<double>(eye.light[3 * pixel + c]) / (kLightUnit * count);
+  return deviation / (1e-4 + (light < 1.0 ? std::sqrt(std::max(light, 0.0)) : light));
+}
+
+// The mean square of the noise of one class of a block's pixels, in both eyes, as if all pixels had the same size on
+// the sphere.
+static double block_noise(const PictureSamples& samples, const SamplingPlan& plan, size_t block, int wanted) {
+  const int x0 = static_cast<int>(block) % plan.columns * kBlockSize;
+  const int y0 = static_cast<int>(block) / plan.columns * kBlockSize;
+  double sum = 0.0;
+  int pixels = 0;
+  for (const EyeSamples& eye : samples.eyes) {
+    for (int y = y0; y < std::min(y0 + kBlockSize, samples.height); y++) {
+      for (int x = x0; x < std::min(x0 + kBlockSize, samples.width); x++) {
+        if (class_of(x, y) != wanted) continue;
+        const double noise =
+            pixel_noise(eye, static_cast<size_t>(y) * static_cast<size_t>(samples.width) + static_cast<size_t>(x));
+        sum += noise * noise;
+        pixels++;
+      }
+    }
+  }
+  return pixels > 0 ? sum / pixels * static_cast<double>(plan.share[block]) : 0.0;
+}
+
+double judge_noise(const PictureSamples& samples, const RenderOptions& options, SamplingPlan& plan) {
+  const double clean = std::pow(5.0 * static_cast<double>(options.noise), 2.0);  // 5: as Cycles scales its threshold
+  std::vector<double> excess(block_count(plan));
+  tbb::parallel_for(size_t{0}, plan.noisy.size(), [&](size_t block) {
+    for (int one : {0, 1}) {
+      if (!(plan.noisy[block] >> one & 1)) continue;
+      const double noise = block_noise(samples, plan, block, 1 - one) / clean;
+      if (noise <= 1.0) plan.noisy[block] = static_cast<uint8_t>(plan.noisy[block] & ~(1 << one));
+      excess[block] += 0.5 * std::max(noise - 1.0, 0.0);
+    }
+  });
+  double more = 0.0, shares = 0.0;
+  const double at_most = static_cast<double>(options.samples - samples.done) / std::max(samples.done, 1);
+  for (size_t i = 0; i < excess.size(); i++) {
+    more += double{plan.share[i]} * std::min(excess[i], at_most);
+    shares += double{plan.share[i]};
+  }
+  return more / shares;
+}
+
+}  // namespace ods

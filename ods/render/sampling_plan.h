@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How many samples each block of pixels gets.
+//
+// A pixel near the poles of a lat-long picture covers little of the sphere. It gets fewer samples, in proportion, so
+// that noise per solid angle is even. On top of that, blocks that are clean enough stop (RenderOptions::noise).
+//
+// No pixel decides on its own stop, which would favour the values that look clean. Pixels are in two classes, like the
+// squares of a chessboard: each class of a block stops when the other class is clean.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ods/camera/stereo_camera.h"
+#include "ods/render/picture_samples.h"
+
+namespace ods {
+
+inline constexpr int kBlockSize = 8;  // pixels
+
+inline int class_of(int x, int y) {
+  return (x + y) & 1;
+}
+
+struct SamplingPlan {
+  int columns = 0;  // blocks across
+  int rows = 0;
+  std::vector<float> share;    // of each block: of the samples that the pixels with the largest solid angle get, 0..1
+  std::vector<uint8_t> noisy;  // of each block: bit 0 and bit 1 for the classes of its pixels that are still sampled
+};
+
+// All blocks are noisy. Precondition: options.height > 0.
+SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options);
+
+size_t block_at(const SamplingPlan& plan, int x, int y);
+
+// How many of the first `samples` samples a pixel of this block takes.
+int samples_of(const SamplingPlan& plan, size_t block, int samples);
+
+// Marks the blocks that are still noisier than options.noise. Returns how many more samples the picture may need, as a
+// multiple of those it has: noise falls with the square root of their number. Precondition: options.noise > 0.
+double judge_noise(const PictureSamples& samples, const RenderOptions& options, SamplingPlan& plan);
+
+}  // namespace ods

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/sampling_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ods/camera/projection.h"
+#include "ods/kernel/camera/projection.h"
+#include "ods/render/render_target.h"
+
+namespace ods {
+namespace {
+
+RenderOptions options_of(const StereoCamera& camera, int width, int samples) {
+  RenderOptions options;
+  options.width = width;
+  options.samples = samples;
+  return with_height(options, camera);
+}
+
+TEST(SamplingPlan, LatLongSharesFollowTheCosine) {
+  const StereoCamera camera;
+  const RenderOptions options = options_of(camera, 1024, 64);
+  const SamplingPlan plan = make_plan(camera, options);
+  double least = 1.0;
+  for (int row = 0; row < plan.rows; row++) {
+    const auto cosine = [&](int i) { return std::sin(std::numbers::pi * (i + 0.5) / plan.rows); };
+    const double share = std::max(cosine(row) / cosine(plan.rows / 2), 0.125);
+    for (int column : {0, plan.columns / 3, plan.columns - 1}) {
+      const double found = double{plan.share[static_cast<size_t>(row * plan.columns + column)]};
+      EXPECT_NEAR(found, share, 1e-5) << row;
+      least = std::min(least, found);
+    }
+  }
+  EXPECT_EQ(least, 0.125);
+}
+
+// Equal areas have equal solid angles: every block has all samples.
+TEST(SamplingPlan, EquisolidFisheyesAreEven) {
+  StereoCamera camera;
+  camera.projection.kind = kFisheyeEquisolid;
+  const SamplingPlan plan = make_plan(camera, options_of(camera, 512, 64));
+  for (const float share : plan.share) EXPECT_NEAR(share, 1.0f, 2e-3f);
+}
+
+TEST(SamplingPlan, EveryPixelHasASampleAndTheLargestHaveAll) {
+  for (const NamedProjection& named : named_projections()) {
+    StereoCamera camera;
+    camera.projection = named.setting;
+    const SamplingPlan plan = make_plan(camera, options_of(camera, 240, 64));
+    int most = 0;
+    for (size_t block = 0; block < plan.share.size(); block++) {
+      ASSERT_EQ(samples_of(plan, block, 0), 0) << named.name;
+      ASSERT_GE(samples_of(plan, block, 1), 1) << named.name;
+      ASSERT_LE(samples_of(plan, block, 64), 64) << named.name;
+      most = std::max(most, samples_of(plan, block, 64));
+    }
+    EXPECT_EQ(most, 64) << named.name;
+  }
+}
+
+TEST(SamplingPlan, CanBeUniform) {
+  RenderOptions options = options_of(StereoCamera{}, 256, 64);
+  options.even_noise = false;
+  for (const float share : make_plan(StereoCamera{}, options).share) EXPECT_EQ(share, 1.0f);
+}
+
+// A block of 64 grey pixels of which one class has noise: the other class goes on, its own stops.
+TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
+  RenderOptions options = options_of(StereoCamera{}, 16, 64);
+  options.noise = 0.01f;
+  options.even_noise = false;
+  options.eyes = Eyes::kMonoEye;
+  PictureSamples samples = no_samples(options);
+  samples.done = 16;
+  EyeSamples& eye = samples.eyes[0];
+  for (int y = 0; y < 8; y++) {
+    for (int x = 0; x < 16; x++) {
+      const size_t pixel = static_cast<size_t>(y * 16 + x);
+      eye.count[pixel] = 16;
+      const bool noisy = x < 8 && class_of(x, y) == 0;
+      for (size_t c = 0; c < 3; c++) {
+        // Eight samples of 0 and eight of 1, or sixteen of 1/2.
+        eye.light[3 * pixel + c] = static_cast<int64_t>(8 * kLightUnit);
+        eye.squares[3 * pixel + c] = noisy ? 8.0 : 4.0;
+      }
+    }
+  }
+  SamplingPlan plan = make_plan(StereoCamera{}, options);
+  // Variance 1/4 of a sample, 1/60 of the mean; noise 3 sqrt(1/60) / 1.5 against 0.05.
+  const double excess = std::pow(3.0 * std::sqrt(1.0 / 60.0) / (1e-4 + 1.5) / 0.05, 2.0) - 1.0;
+  const double more = judge_noise(samples, options, plan);
+  EXPECT_EQ(plan.noisy[0], 2);
+  EXPECT_EQ(plan.noisy[1], 0);
+  EXPECT_NEAR(more, std::min(0.5 * excess, 3.0) / 2.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace ods
