@@ -26,8 +26,8 @@ static void tag_and_read(const std::string& path, uint64_t track) {
     return;
   }
   const ods::VideoFile video = ods::read_video_file(to.temporary());
-  for (const ods::VideoTrack& video : video.tracks) {
-    if (video.id == track && video.v2 && video.v2->stereo == metadata.stereo) return;
+  for (const ods::VideoTrack& read : video.tracks) {
+    if (read.id == track && read.v2 && read.v2->stereo == metadata.stereo) return;
   }
   std::abort();
 }

@@ -55,7 +55,6 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
 }
 
-// The folder of --confine with links resolved; empty if the option was not given.
 std::string confining_folder(const SceneSource& source) {
   if (source.confine.empty()) return "";
   std::error_code error;
@@ -86,13 +85,16 @@ static void add_environment(Scene& scene, const SceneSource& source) {
   }
   std::vector<float> numbers = parse_numbers(source.environment);
   if (numbers.empty()) {
-    if (!std::filesystem::exists(source.environment)) {
+    const std::string confined_to = confining_folder(source);
+    // Confined, the message is the same whether or not a file outside exists.
+    if (confined_to.empty() && !std::filesystem::exists(source.environment)) {
       throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
                                                    "'; a colour is written R,G,B, as 0.5,0.6,0.8");
     }
-    const ods::ConfinedFile checked(source.environment, confining_folder(source));
     std::string color_fault;
-    scene.environment = ods::load_environment(source.environment, &color_fault);
+    const ods::ConfinedFile file(source.environment, confined_to);
+    scene.environment =
+        file.read([&](const std::string& opened) { return ods::load_environment(opened, &color_fault); });
     if (!color_fault.empty()) warn(fmt::format("'{}': {}", source.environment, color_fault));
     if (scene.environment.width != 2 * scene.environment.height) {
       note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");

@@ -45,8 +45,8 @@ void add_file(Settings& settings, const std::string& option, const std::string& 
     settings.push_back({option, "missing", ods::one_line(path)});
     return;
   }
-  const ods::ConfinedFile file(path, confine);
-  settings.push_back({option, ods::md5_of_file(file.path()), ods::one_line(path)});
+  const std::string sum = ods::ConfinedFile(path, confine).read(ods::md5_of_file);
+  settings.push_back({option, sum, ods::one_line(path)});
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {

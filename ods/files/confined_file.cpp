@@ -20,7 +20,7 @@ static bool lies_within(const fs::path& file, const std::string& folder) {
   return file.native().starts_with(folder.ends_with('/') ? folder : folder + "/");
 }
 
-ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder) : path_(path) {
+ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder) : path_(path), opened_(path) {
   if (folder.empty()) return;
   const Error outside = cannot_read(path, fmt::format("it lies outside '{}'", folder));
   std::error_code error;
@@ -28,10 +28,18 @@ ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder) :
   file_size(path);  // says what is wrong with it by this name
   descriptor_ = open(path.c_str(), O_PATH | O_CLOEXEC);
   if (descriptor_ < 0) throw cannot_read(path, std::strerror(errno));
-  path_ = fmt::format("/proc/self/fd/{}", descriptor_);
-  if (lies_within(fs::read_symlink(path_, error), folder)) return;
+  opened_ = fmt::format("/proc/self/fd/{}", descriptor_);
+  if (lies_within(fs::read_symlink(opened_, error), folder)) return;
   close(descriptor_);
   throw outside;
+}
+
+std::string ConfinedFile::with_given_path(std::string text) const {
+  if (descriptor_ < 0) return text;
+  for (size_t at = text.find(opened_); at != std::string::npos; at = text.find(opened_, at + path_.size())) {
+    text.replace(at, opened_.size(), path_);
+  }
+  return text;
 }
 
 ConfinedFile::~ConfinedFile() {

@@ -5,6 +5,8 @@
 #pragma once
 #include <string>
 
+#include "ods/base/error.h"
+
 namespace ods {
 
 // Holds the file open, so that nobody can replace it between the check and the read.
@@ -18,11 +20,22 @@ class ConfinedFile {
   ConfinedFile& operator=(const ConfinedFile&) = delete;
   ~ConfinedFile();
 
-  // A path to this very file, valid while the object lives. Without a folder it is the path given.
-  const std::string& path() const { return path_; }
+  // Returns read(path), where the path leads to this very file. Errors that `read` throws name the file as it was
+  // given.
+  template <typename Read>
+  auto read(const Read& read) const {
+    try {
+      return read(opened_);
+    } catch (const Error& error) {
+      throw Error(error.kind(), with_given_path(error.what()));
+    }
+  }
 
  private:
-  std::string path_;
+  std::string with_given_path(std::string text) const;
+
+  std::string path_;    // as given
+  std::string opened_;  // of the descriptor; without a folder as given
   int descriptor_ = -1;
 };
 

@@ -6,7 +6,9 @@
 
 #include <cstdio>
 #include <mutex>
+#include <utility>
 
+#include "ods/base/text.h"
 #include "ods/files/read_file.h"
 
 extern "C" {
@@ -50,20 +52,45 @@ static void listen(void*, int level, const char* format, va_list words) {
   std::vsnprintf(line, sizeof(line), format, words);
   const std::lock_guard<std::mutex> lock(complaint_mutex);
   complaint = line;
-  while (complaint.ends_with('\n')) complaint.pop_back();
 }
 
 void keep_complaints() {
   av_log_set_callback(listen);
 }
 
-static std::string words_for(int code) {
-  const std::lock_guard<std::mutex> lock(complaint_mutex);
+// FFmpeg's own text for its codes helps nobody ("Not yet implemented in FFmpeg, patches welcome").
+static std::string reason_of(int code) {
+  constexpr int kLastSystemError = -4095;  // below are FFmpeg's own
+  switch (code) {
+    case AVERROR_INVALIDDATA:
+      return "it is damaged, or of a format that FFmpeg does not know";
+    case AVERROR_EOF:
+      return "it ends too early";
+    case AVERROR_STREAM_NOT_FOUND:
+      return "it has no such stream";
+    case AVERROR_DECODER_NOT_FOUND:
+      return "this machine's FFmpeg has no decoder for it; convert it to another format first";
+    case AVERROR_PATCHWELCOME:
+    case AVERROR(ENOSYS):
+    case AVERROR(EINVAL):
+      return "this machine's FFmpeg does not support that; try another codec, format or size, or a newer FFmpeg";
+    case AVERROR_BUG:
+    case AVERROR_BUG2:
+    case AVERROR_UNKNOWN:
+      return "FFmpeg failed without a reason; try another codec or format, or a newer FFmpeg";
+    default:
+      break;
+  }
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, text, sizeof(text));
-  std::string words = complaint.empty() ? text : fmt::format("{} ({})", text, complaint);
-  complaint.clear();
-  return words;
+  if (code >= kLastSystemError) return text;
+  return fmt::format("FFmpeg failed ({}); try another codec or format, or a newer FFmpeg", text);
+}
+
+static std::string words_for(int code) {
+  const std::lock_guard<std::mutex> lock(complaint_mutex);
+  const std::string said = std::exchange(complaint, "");
+  return said.empty() ? reason_of(code) : fmt::format("{} (FFmpeg says: {})", reason_of(code), one_line(said));
 }
 
 int checked(int code, ErrorKind kind, const std::string& what) {

@@ -38,8 +38,8 @@ T* made(T* object) {
 // Captures the libraries' log for the next error message instead of printing it.
 void keep_complaints();
 
-// Returns the code if it is zero or above. Otherwise throws Error with `what` and the library's reason; out of memory
-// is always kMemory, whatever `kind` is.
+// Returns the code if it is zero or above. Otherwise throws Error with `what`, the reason in our own words and what the
+// library logged; out of memory is always kMemory, whatever `kind` is.
 int checked(int code, ErrorKind kind, const std::string& what);
 
 // The same for reads that need little memory, such as a header or sound: if they run out of it, the file makes

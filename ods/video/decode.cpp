@@ -112,8 +112,9 @@ struct VideoDecoder::State {
 
   // Some demuxers number tracks differently: then use the stream that FFmpeg ranks best, which is the largest.
   void find_stream(uint64_t track) {
-    const int best =
-        checked(av_find_best_stream(file.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0), ErrorKind::kInput, what);
+    const int best = av_find_best_stream(file.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+    if (best == AVERROR_STREAM_NOT_FOUND) fail("FFmpeg finds no pictures in it; the file may be damaged or unfinished");
+    checked(best, ErrorKind::kInput, what);
     source = file->streams[best];
     for (unsigned i = 0; i < file->nb_streams; i++) {
       const AVStream* each = file->streams[i];

@@ -35,15 +35,24 @@ struct SoundFile {
 
 }  // namespace
 
+// The index of the best stream with sound, and its decoder if asked for.
+static int find_sound(AVFormatContext& file, const std::string& what, const AVCodec** codec) {
+  const int index = av_find_best_stream(&file, AVMEDIA_TYPE_AUDIO, -1, -1, codec, 0);
+  if (index == AVERROR_STREAM_NOT_FOUND) {
+    throw Error(ErrorKind::kInput, fmt::format("{}: it has none; give --audio a sound file (wav, flac, mp3 ...) or a "
+                                               "video with sound, or leave --audio out",
+                                               what));
+  }
+  return checked_small_input(index, what);
+}
+
 static SoundFile open_sound_file(const std::string& path) {
   const std::string what = fmt::format("cannot read the sound of '{}'", path);
   SoundFile sound;
   sound.file = av::open_file(path, what);
   AVFormatContext* file = sound.file.get();
   const AVCodec* codec = nullptr;
-  const int index = av_find_best_stream(file, AVMEDIA_TYPE_AUDIO, -1, -1, &codec, 0);
-  checked_small_input(index, what);
-  sound.stream = file->streams[index];
+  sound.stream = file->streams[find_sound(*file, what, &codec)];
   sound.decoder.reset(made(avcodec_alloc_context3(codec)));
   sound.decoder->pkt_timebase = sound.stream->time_base;
   checked_small_input(avcodec_parameters_to_context(sound.decoder.get(), sound.stream->codecpar), what);
@@ -214,8 +223,7 @@ class CopiedSound final : public Sound {
  public:
   CopiedSound(const std::string& path, Container container, const SoundCut& cut)
       : path_(path), cut_(cut), file_(av::open_file(path, what())) {
-    const int index =
-        checked_small_input(av_find_best_stream(file_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0), what());
+    const int index = find_sound(*file_, what(), nullptr);
     for (unsigned i = 0; i < file_->nb_streams; i++) file_->streams[i]->discard = AVDISCARD_ALL;
     source_ = file_->streams[index];
     file_->streams[index]->discard = AVDISCARD_DEFAULT;

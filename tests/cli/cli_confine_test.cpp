@@ -4,6 +4,10 @@
 // Scenes that name files where they have no business, and scenes with nothing to render.
 #include <fmt/format.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
@@ -96,6 +100,42 @@ TEST_F(Confine, TheSceneItselfAndTheSkyLieInsideToo) {
   EXPECT_EQ(run("video -q --width 16 --samples 1 " + outside + confine + " --duration 1 -o " + folder.path("f.mp4")),
             3);
   expect_refused("lies outside");
+}
+
+// A link that changes all the time: the file that was checked is the one that is read, or nothing is.
+TEST_F(Confine, ASkyIsNotReplacedAfterItsCheck) {
+  ASSERT_EQ(run("render -q --width 16 --samples 1 furnace -o " + folder.path("in/sky.hdr")), 0) << err;
+  std::atomic<bool> is_over = false;
+  std::thread other([&] {
+    for (const char* target = "out/secret"; !is_over; target = *target == 'o' ? "in/sky.hdr" : "out/secret") {
+      fs::create_symlink(folder.path(target), folder.path("new"));
+      fs::rename(folder.path("new"), folder.path("in/link.hdr"));
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    }
+  });
+  for (int i = 0; i < 16; i++) {
+    if (run("render -q --width 16 --samples 1 furnace -o " + folder.path("p.png") + " --env " +
+            folder.path("in/link.hdr") + " --confine " + folder.path("in")) != 0) {
+      expect_refused("link.hdr': it lies outside");
+    }
+  }
+  is_over = true;
+  other.join();
+}
+
+// Neither a scene nor a sky tells whether a file outside exists, and no message names a descriptor.
+TEST_F(Confine, MessagesNameTheFileAsItWasGiven) {
+  const std::string confine = " --confine " + folder.path("in");
+  const std::string sky = "render furnace -o " + folder.path("p.png") + confine + " --env ";
+  for (const std::string& command : {sky, "info" + confine + " "}) {
+    EXPECT_EQ(run(command + folder.path("out/secret")), 3);
+    expect_refused("/out/secret': it lies outside");
+    EXPECT_EQ(run(command + folder.path("out/absent")), 3);
+    expect_refused("/out/absent': it lies outside");
+    folder.write("in/broken.hdr", "no picture");
+    EXPECT_EQ(run(command + folder.path("in/broken.hdr")), 3);
+    expect_refused("/in/broken.hdr");
+  }
 }
 
 TEST_F(Confine, TheFolderMustBeThere) {

@@ -189,6 +189,7 @@ TEST_F(CliErrors, OfVideos) {
           {encode + "--layout anaglyph-dubois", kUsage, "--layout"},
           {encode + "--audio @absent.wav", kInput, "absent.wav"},
           {encode + "--audio @broken.png", kInput, "broken.png"},
+          {encode + "--audio @p_TB.png", kInput, "p_TB.png': it has none; give --audio a sound file"},
           {"encode @f.####.png -o /proc/a.mp4", kOutput, "/proc/a.mp4"},
           {"video furnace", kUsage, "-o"},
           {"video furnace -o @a.mp4", kUsage, "--duration"},

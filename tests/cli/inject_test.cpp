@@ -224,6 +224,22 @@ TEST_F(Inject, WhatContradictsTheVideoNeedsAWord) {
 }
 
 // Where nothing is written anew that is in doubt, it is only said.
+// Whether options or the name tell the layout. What the video states itself, right or wrong, stays.
+TEST_F(Inject, AVideoThatCannotHaveTheLayoutIsRefused) {
+  ods::made::Mp4Options options;
+  options.widths = {64}, options.height = 33;
+  const std::string odd = mp4(options);
+  for (const char* words : {"--layout top-bottom", "--layout top-bottom --projection lat-long"}) {
+    EXPECT_FALSE(inject({"", "odd.mp4", odd, {}}, words)) << words;
+    EXPECT_EQ(code, 3);
+    EXPECT_NE(err.find("odd.mp4': 64x33 pixels are not two eyes, top-bottom"), std::string::npos) << err;
+  }
+  EXPECT_FALSE(inject({"", "odd_360_TB.mp4", odd, {}}, "--yaw 3"));
+  EXPECT_NE(err.find("64x33 pixels are not two eyes"), std::string::npos) << err;
+  options.entry_boxes = st3d(1) + sv3d("", kHalf);
+  EXPECT_TRUE(inject({"", "odd.mp4", mp4(options), {}}, "--yaw 3")) << err;
+}
+
 TEST_F(Inject, HarmlessContradictionsAreReported) {
   Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole), v1_box("top-bottom"));
   video.name = "a_360_LR.mp4";

@@ -221,6 +221,25 @@ TEST(DecodeImage, RefusesHugeSizesInSmallFiles) {
   EXPECT_NE(refusal(exr), "");
 }
 
+// Libraries quote the names of files and channels: none of them means that memory ran out.
+TEST(ReadImage, NoNameIsTakenForLackOfMemory) {
+  std::string exr = small_file(FileFormat::kExr);
+  const size_t channel = exr.find(std::string("B\0\2\0\0\0", 6));  // its type: 2, float
+  ASSERT_NE(channel, std::string::npos);
+  exr[channel + 2] = 9;
+  const TemporaryFolder folder;
+  for (const char* name : {"a.exr", "bad_alloc.exr", "std::bad_alloc"}) {
+    folder.write(name, exr);
+    try {
+      read_info(folder.path(name));
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput) << name;
+      EXPECT_NE(std::string(error.what()).find("Pixel type"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(ReadImage, RefusesWhatIsNoFile) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);

@@ -67,14 +67,16 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
     if (!known.projection) tag.camera.projection = own->projection;  // the sidecar may contradict the file
     tag.camera.yaw = own->yaw, tag.camera.pitch = own->pitch, tag.camera.roll = own->roll;
   }
-  if (!known.projection && !format.has_camera && read_name(path).projection == nullptr) {
-    const Layout layout = tag.layout.value_or(Layout::kSeparate);
-    const std::optional<Extent> eye = whole_eye(layout, {info.width, info.height});
-    if (!eye || natural_height(format.camera.projection, eye->width) != eye->height) {
-      throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
-                                       "shows: give --layout and --projection",
-                                       info.width, info.height));
-    }
+  const std::optional<Extent> eye = whole_eye(tag.layout.value_or(Layout::kSeparate), {info.width, info.height});
+  if (!eye) {
+    throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}: give another --layout", info.width,
+                                     info.height, layout_name(*tag.layout)));
+  }
+  const bool is_told = known.projection || format.has_camera || read_name(path).projection != nullptr;
+  if (!is_told && natural_height(format.camera.projection, eye->width) != eye->height) {
+    throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
+                                     "shows: give --layout and --projection",
+                                     info.width, info.height));
   }
   guesses = format.guesses;
   return tag;

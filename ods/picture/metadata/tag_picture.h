@@ -25,7 +25,8 @@ struct PictureTag {
 FileInfo read_picture_header(const std::string& path);
 
 // Completes `known` as find_format() does; `guesses` lists what was guessed. Throws Error(kInput), also if nothing
-// tells what the picture shows: an ordinary photograph must not become a sphere.
+// tells what the picture shows (an ordinary photograph must not become a sphere), or if a picture of this size cannot
+// have the layout.
 PictureTag complete_tag(const FormatHint& known, const std::string& path, std::vector<std::string>& guesses);
 
 // Writes the picture with this tag to `to`, which may be `path` itself: the complete new file then replaces it. Without

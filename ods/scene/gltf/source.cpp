@@ -120,8 +120,9 @@ static Storage read_uri(const GltfFile& file, const std::string& uri, size_t mos
   if (uri.starts_with("data:")) return read_data_uri(file, uri);
   const std::string path = uri_path(file, uri);
   try {
-    const ConfinedFile opened(path, file.confine);
-    return share(read_start(opened.path(), most));
+    return ConfinedFile(path, file.confine).read([&](const std::string& opened) {
+      return share(read_start(opened, most));
+    });
   } catch (const Error& error) {
     if (!file.confine.empty()) {  // reveals nothing about files outside the folder
       if (error.kind() != ErrorKind::kInput) throw;
@@ -226,7 +227,7 @@ size_t external_bytes(const GltfFile& file, const ImageSource& image) {
   if (image.uri.empty() || image.uri.starts_with("data:")) return 0;
   const std::string path = uri_path(file, image.uri);
   try {
-    return file_size(ConfinedFile(path, file.confine).path());
+    return ConfinedFile(path, file.confine).read(file_size);
   } catch (const Error&) {
     return 0;  // reading it reports the fault
   }
@@ -278,13 +279,14 @@ static void parse(GltfFile& file, Bytes bytes) {
 // A binary container states its length; anything else must look like JSON before it is read.
 static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   constexpr size_t kLongestText = size_t(1) << 30;
-  const ConfinedFile opened(file.path, file.confine);
-  const std::vector<unsigned char> start = read_start(opened.path(), 64);
-  if (is_container(start)) return read_start(opened.path(), start.size() < 12 ? start.size() : read_uint32(start, 8));
-  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
-  const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
-  return read_file(opened.path(), kLongestText);
+  return ConfinedFile(file.path, file.confine).read([&](const std::string& opened) {
+    const std::vector<unsigned char> start = read_start(opened, 64);
+    if (is_container(start)) return read_start(opened, start.size() < 12 ? start.size() : read_uint32(start, 8));
+    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+    const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
+    return read_file(opened, kLongestText);
+  });
 }
 
 std::vector<std::string> gltf_files(const std::string& path, const std::string& confine) {

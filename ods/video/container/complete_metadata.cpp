@@ -115,9 +115,15 @@ static void take_words(SphericalMetadata& known, const SphericalMetadata& said) 
 SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& track, const std::string& path,
                                     std::vector<std::string>& guesses) {
   const std::optional<SphericalMetadata> said = said_metadata(track);
+  const bool is_new = known.stereo || !said;
   if (said) take_words(known, *said);
   const StereoFormat format = found_format(known, track, path);
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
+  if (is_new && !unpacked_size(layout, track.size)) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("cannot tag '{}': {}x{} pixels are not two eyes, {}: give another --layout", path,
+                            track.size.width, track.size.height, layout_name(layout)));
+  }
   if (!known.stereo) known.stereo = layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(layout);
   if (!known.projection) guess_projection(known, format, track, path);
   if (known.stereo != VideoStereo::kOneView && known.ipd == 0.0) {

@@ -26,7 +26,8 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track);
 
 // Completes `known`: missing stereo and projection, and everything that the caller cannot set (angles, eye distance,
 // source), come from the video's own metadata, else from its sidecar, name and shape. `guesses` lists what was guessed:
-// "top-bottom: its name ends in _TB". Throws Error(kInput) if nothing tells.
+// "top-bottom: its name ends in _TB". Throws Error(kInput) if nothing tells, or if a video of this size cannot have the
+// stereo that it does not state itself.
 SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& track, const std::string& path,
                                     std::vector<std::string>& guesses);
 

@@ -14,6 +14,8 @@ namespace ods {
 
 using namespace matroska;
 
+constexpr uint64_t kTypeVideo = 1, kTypeAudio = 2;  // TrackType
+
 // --- reading ---------------------------------------------------------------------------------------------------------
 
 namespace {
@@ -94,6 +96,11 @@ static std::optional<SphericalMetadata> v1_of(const Matroska& video, const Eleme
   return std::nullopt;
 }
 
+// What is read as a track, and what is tagged.
+static bool is_track_of_type(const Element& part, const Element& entry, uint64_t type) {
+  return part.id == kTracks && entry.id == kTrackEntry && child_number(entry, kTrackType) == type;
+}
+
 static VideoTrack read_track(const Matroska& video, const Element& entry) {
   VideoTrack track;
   track.id = child_number(entry, kTrackNumber);
@@ -117,10 +124,9 @@ VideoFile read_matroska(const FileInput& file) {
   info.container = child_text(video.head, kDocType) == "webm" ? Container::kWebm : Container::kMatroska;
   for (const auto& [index, part] : video.opened) {
     for (const Element& entry : part.children) {
-      if (part.id != kTracks || entry.id != kTrackEntry) continue;
-      const uint64_t type = child_number(entry, kTrackType);
-      if (type == 1) info.tracks.push_back(read_track(video, entry));
-      if (type == 2) info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), 0, {}});
+      if (is_track_of_type(part, entry, kTypeVideo)) info.tracks.push_back(read_track(video, entry));
+      if (!is_track_of_type(part, entry, kTypeAudio)) continue;
+      info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), 0, {}});
     }
   }
   return info;
@@ -132,9 +138,9 @@ static void tag_tracks(Matroska& video, uint64_t number, const std::optional<Sph
   const Element* tagged = nullptr;
   for (auto& [index, part] : video.opened) {
     for (Element& entry : part.children) {
-      if (part.id != kTracks || entry.id != kTrackEntry || child_number(entry, kTrackNumber) != number) continue;
+      if (!is_track_of_type(part, entry, kTypeVideo) || child_number(entry, kTrackNumber) != number) continue;
       Element* pictures = find_child(entry, kVideo);
-      if (pictures == nullptr) continue;
+      if (pictures == nullptr) throw MalformedFile("its video track has no description of its pictures");
       if (metadata && !can_say(Container::kMatroska, read_track(video, entry), *metadata)) {
         throw MalformedFile(fmt::format("mkv and webm cannot express {}", metadata_text(*metadata)));
       }
@@ -142,7 +148,7 @@ static void tag_tracks(Matroska& video, uint64_t number, const std::optional<Sph
       tagged = &entry;
     }
   }
-  if (tagged == nullptr) throw MalformedFile("its video track has no description of its pictures");
+  if (tagged == nullptr) throw MalformedFile(fmt::format("it has no video track {}", number));
   for (auto& [index, part] : video.opened) {
     for (Element& tag : part.children) {
       if (part.id == kTags && is_about(tag, *tagged)) tag_v1(tag, metadata);

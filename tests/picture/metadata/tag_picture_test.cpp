@@ -389,15 +389,25 @@ TEST(TagPicture, AnOrdinaryPhotographBecomesNoSphere) {
   EXPECT_TRUE(is_full_lat_long(complete_tag(known, path, guesses).camera.projection));
 }
 
-// It was taken for a lat-long picture: eyes of no size passed for eyes of that shape.
-TEST(TagPicture, AFileThatCannotHaveTheLayoutBecomesNoSphere) {
+// Whoever tells the layout and the projection.
+TEST(TagPicture, AFileThatCannotHaveTheLayoutIsRefused) {
   const TemporaryFolder folder;
-  const std::string path = folder.path("a.tif");
+  const std::string path = folder.path("a.tif"), named = folder.path("a_360_TB.tif");
   save_picture(gradient({kMono}, kHeight + 1), {}, path);
-  FormatHint known;
-  known.layout = Layout::kTopBottom;
-  std::vector<std::string> guesses;
-  EXPECT_THROW(complete_tag(known, path, guesses), Error);
+  save_picture(gradient({kMono}, kHeight + 1), {}, named);
+  FormatHint layout, both;
+  layout.layout = both.layout = Layout::kTopBottom;
+  both.projection = find_projection("lat-long")->setting;
+  for (const auto& [file, known] : {std::pair(path, layout), {path, both}, {named, FormatHint()}}) {
+    std::vector<std::string> guesses;
+    try {
+      complete_tag(known, file, guesses);
+      ADD_FAILURE() << file;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      EXPECT_NE(std::string(error.what()).find("are not two eyes, top-bottom"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(TagPicture, OtherFilesAreRefused) {

@@ -88,6 +88,13 @@ void expect_right_places(const std::string& video, bool says_position) {
   }
 }
 
+// The video with one more part at the end of its segment.
+std::string append_part(std::string video, const std::string& part) {
+  const made::Piece segment = made::pieces(video, {kSegment}).at(0);
+  video += part;
+  return video.replace(segment.begin - 8, 8, made::number((uint64_t{1} << 56) | (video.size() - segment.begin), 8));
+}
+
 std::vector<made::MatroskaOptions> variants() {
   std::vector<made::MatroskaOptions> all;
   for (size_t room : {size_t{0}, size_t{9}, size_t{200}}) {
@@ -176,15 +183,27 @@ TEST_F(MatroskaVideo, AV1InTheTagsIsReadAndTakenOut) {
                         made::element(0x67c8, name("TITLE") + made::element(0x4487, "kept")),
                     2);
   // The segment's parts are found by their sizes, of which this has two bytes.
-  std::string video = made::matroska({});
-  const made::Piece segment = made::pieces(video, {kSegment}).at(0);
-  video += made::element(0x1254c367, options.tags, 2);
-  video.replace(segment.begin - 8, 8, made::number((uint64_t{1} << 56) | (video.size() - segment.begin), 8));
+  const std::string video = append_part(made::matroska({}), made::element(0x1254c367, options.tags, 2));
   EXPECT_EQ(read(video).v1, old);
   const std::string tagged = tag(video, stacked());
   EXPECT_FALSE(read(tagged).v1);
   EXPECT_NE(tagged.find("kept"), std::string::npos);
   expect_right_places(tagged, false);
+}
+
+// The number alone does not make an entry the track that is tagged.
+TEST_F(MatroskaVideo, TagsTheEntryThatIsReadAsTheTrack) {
+  constexpr uint64_t kSubtitles = 17;
+  const std::string pictures = made::element(0xb0, made::number(256, 2)) + made::element(0xba, made::number(256, 2));
+  const std::string subtitles =
+      made::element(0xae, made::element(0xd7, made::number(1, 1)) + made::element(0x83, made::number(kSubtitles, 1)) +
+                              made::element(0xe0, pictures));
+  std::string video = append_part(made::matroska({}), made::element(kTracks, subtitles));
+  const std::string tagged = tag(video, stacked());
+  EXPECT_EQ(read(tagged).v2, stacked());
+  EXPECT_NE(tagged.find(subtitles), std::string::npos) << "changed what is not the video";
+  video[made::pieces(video, {kSegment, kTracks, 0xae, 0xe0}).at(0).at] = '\xec';  // the video has no Video any more
+  EXPECT_NE(error_of(video).find("no description of its pictures"), std::string::npos);
 }
 
 TEST_F(MatroskaVideo, CheckSumsAreMadeTrue) {
