@@ -14,6 +14,7 @@
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
 #include "ods/camera/layout.h"
+#include "ods/denoise/denoise.h"
 #include "ods/files/frames.h"
 #include "ods/kernel/random.h"
 #include "ods/render/cpu/render.h"
@@ -108,6 +109,26 @@ struct Rendered {
 
 using Saved = std::function<void(const Rendered& frame)>;
 
+constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
+
+// A video's frames are .exr, but what is looked at is the video. One sample has no variance.
+bool denoises(const RenderJob& job) {
+  const bool looked_at = job.time.is_video || !ods::keeps_light(job.output);
+  return job.denoise.value_or(looked_at ? Denoiser::kOwn : Denoiser::kNone) == Denoiser::kOwn && job.render.samples > 1;
+}
+
+// Leaves the layers that the job saves; of a picture with layers, the noisy one, too.
+void denoise_frame(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture& picture) {
+  for (ods::EyeImage& eye : picture.eyes) {
+    if (job.render.layers) eye.raw = eye.radiance;
+  }
+  ods::denoise(picture, camera, {true, job.render.threads});
+  if (job.render.layers) return;
+  for (ods::EyeImage& eye : picture.eyes) {
+    eye.depth = eye.normal = eye.albedo = eye.variance = eye.samples = ods::Image();
+  }
+}
+
 // Renders frames one after the other. Acceleration structures of static meshes are kept between frames.
 class FrameRenderer {
  public:
@@ -122,13 +143,17 @@ class FrameRenderer {
       place_camera(job_.camera, scene_);  // prints a note with the position
       renderer_.emplace(scene_, job_.render.threads);
     }
+    const ods::StereoCamera& camera = shot.cameras[shot.cameras.size() / 2];
     ods::RenderOptions options = job_.render;
     options.seed = frame.seed;
+    const bool cleans = denoises(job_);
+    options.layers |= cleans;
+    options.statistics |= cleans;
     ods::Progress progress;
-    progress.report = report;
-    const ods::Picture picture = renderer_->render(shot.cameras, options, progress);
-    return {ods::save_picture(picture, shot.cameras[shot.cameras.size() / 2], job_.save, frame.path),
-            picture.samples_taken};
+    if (report) progress.report = [&](double done) { report(cleans ? kShareOfRendering * done : done); };
+    ods::Picture picture = renderer_->render(shot.cameras, options, progress);
+    if (cleans) denoise_frame(job_, camera, picture);
+    return {ods::save_picture(picture, camera, job_.save, frame.path), picture.samples_taken};
   }
 
  private:

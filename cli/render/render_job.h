@@ -3,13 +3,14 @@
 //
 // The options of ods render.
 #pragma once
+#include <optional>
 #include <string>
-#include <string_view>
 
 #include "cli/console/progress.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/options/time_options.h"
+#include "cli/render/quality.h"
 #include "ods/picture/save.h"
 #include "ods/render/render_options.h"
 
@@ -19,22 +20,14 @@ struct RenderJob {
   TimeOptions time;
   ods::RenderOptions render;
   ods::SaveOptions save;
-  bool has_layout = false;  // given by an option
+  std::optional<Denoiser> denoise;  // none: for all files but those that keep the scene's light
+  bool has_layout = false;          // given by an option
   std::string output;
   std::string rig;  // a slit rig: render its views instead of the camera's picture
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// A preset of --quality; --width, --samples and --noise take precedence.
-struct Quality {
-  std::string_view name;
-  int width;
-  int samples;
-  float noise;
-};
-
-// Options shared with ods video, in a group of their own, and what remains to be done after parsing.
-void add_quality_options(Options& options, RenderJob& job, Quality& quality);
+// What remains to be done after parsing, for ods video, too.
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 
 // False if help was requested. Throws UsageError and ods::Error.

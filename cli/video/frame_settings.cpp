@@ -186,6 +186,7 @@ std::vector<Setting> frame_settings(const RenderJob& job) {
   add_time(settings, job.time);
   add_render(settings, job.render);
   add_save(settings, job.save);
+  add(settings, "--denoise", job.denoise ? std::string(ods::name_in(kDenoiserTable, *job.denoise)) : "by default");
   return settings;
 }
 

@@ -30,6 +30,7 @@ struct EyeImage {
   // How noisy the radiance is, for denoising.
   Image variance{};  // 3 channels: of the pixel's mean, as if its samples were independent
   Image samples{};   // 1 channel: how many samples the pixel has
+  Image raw{};       // 3 channels: the radiance before it was denoised
 };
 
 // One eye, or left then right, of equal size. Depth, normal and albedo are empty unless requested

@@ -438,6 +438,7 @@ static const std::vector<ImageLayer>& image_layers() {
       {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kHalf}},
       {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, SampleType::kHalf}},
       {&EyeImage::variance, {{"variance.R", "variance.G", "variance.B"}, LayerRule::kNearest, SampleType::kFloat}},
+      {&EyeImage::raw, {{"raw.R", "raw.G", "raw.B"}, LayerRule::kMean, SampleType::kHalf}},
       {&EyeImage::samples, {{"samples"}, LayerRule::kNearest, SampleType::kFloat}},
   };
   return layers;

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How clean a picture becomes, and at what price: the options that ods render and ods video share.
+#pragma once
+#include <string_view>
+
+#include "cli/console/options.h"
+#include "ods/base/names.h"
+
+struct RenderJob;
+
+enum class Denoiser { kNone, kOwn };
+inline constexpr ods::NameRow<Denoiser> kDenoiserTable[] = {
+    {Denoiser::kNone, "none"},
+    {Denoiser::kOwn, "own"},
+};
+static_assert(ods::has_every_member(kDenoiserTable));
+
+// A preset of --quality; --width, --samples and --noise take precedence.
+struct Quality {
+  std::string_view name;
+  int width;
+  int samples;
+  float noise;
+};
+
+// Options in a group of their own, and what remains to be done after parsing.
+void add_quality_options(Options& options, RenderJob& job, Quality& quality);
+void finish_quality(const Options& options, const Quality& quality, RenderJob& job);
