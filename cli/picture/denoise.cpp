@@ -13,12 +13,9 @@
 
 namespace {
 
-ods::StoredNoise read_input(DenoiseJob& job) {
-  ods::OpenOptions open;
-  open.format = job.known;
-  job.picture = ods::open_picture(job.input, open);
-  note_guesses(job.input, job.picture);
-  ods::StoredNoise noise = ods::read_noise(job.picture, job.layers, job.input);
+ods::StoredNoise read_input(const DenoiseJob& job, const ods::StoredPicture& picture) {
+  note_guesses(job.input, picture);
+  ods::StoredNoise noise = ods::read_noise(picture, job.layers, job.input);
   if (noise.unusable > 0) {
     note(fmt::format(
         "{}: {} pixels without usable light or variance (NaN, infinite, negative or of one sample): taken from their "
@@ -32,12 +29,14 @@ ods::StoredNoise read_input(DenoiseJob& job) {
 
 void denoise_file(DenoiseJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  ods::StoredNoise noise = read_input(job);
+  const ods::StoredPicture picture = job.reader->read("");
+  job.reader.reset();
+  ods::StoredNoise noise = read_input(job, picture);
   ods::Progress progress;
   progress.report = [&](double done) { lines.report(0.9 * done, seconds_since(start), {"denoise", 0, 0, job.output}); };
-  ods::denoise(noise.picture, job.picture.camera, job.options, progress);
-  const ods::PictureRows rows = ods::denoised_rows(job.picture, noise.picture);
-  const auto files = ods::save_picture(rows, &job.picture.camera, job.save, job.output);
+  ods::denoise(noise.picture, picture.camera, job.options, progress);
+  const ods::PictureRows rows = ods::denoised_rows(picture, noise.picture);
+  const auto files = ods::save_picture(rows, &picture.camera, job.save, job.output);
   lines.report(1.0, seconds_since(start), {"denoise", 0, 0, job.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);

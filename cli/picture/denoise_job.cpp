@@ -69,10 +69,11 @@ bool read_denoise_job(DenoiseJob& job, int argc, char** argv) {
   job.options.both_eyes = !alone;
   ods::OpenOptions open;
   open.format = job.known;
-  job.picture = ods::open_picture_header(job.input, open);
-  const ods::ConvertTarget same = ods::same_format(job.picture);
-  save_as_it_was(job.picture, job.picture.camera.projection, job.output, layout, options.given("--tone"), job.save);
-  note_misleading_name(job.output, job.save, same.eyes.size(), job.picture.camera.projection);
-  ods::check_output(job.output, job.save, same.eyes, same.eye, &job.picture.camera.projection);
+  job.reader.emplace(job.input, open);
+  const ods::StoredPicture& header = job.reader->header();
+  const ods::ConvertTarget same = ods::same_format(header);
+  save_as_it_was(header, header.camera.projection, job.output, layout, options.given("--tone"), job.save);
+  note_misleading_name(job.output, job.save, same.eyes.size(), header.camera.projection);
+  ods::check_output(job.output, job.save, same.eyes, same.eye, &header.camera.projection);
   return true;
 }

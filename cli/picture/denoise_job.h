@@ -3,6 +3,7 @@
 //
 // What ods denoise has to do.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "cli/console/progress.h"
@@ -14,8 +15,8 @@
 struct DenoiseJob {
   std::string input;
   std::string output;
-  ods::FormatHint known;       // of the input
-  ods::StoredPicture picture;  // only its header until the pixels are read
+  ods::FormatHint known;  // of the input
+  std::optional<ods::PictureReader> reader;
   ods::NoiseLayers layers;
   ods::DenoiseOptions options;
   ods::SaveOptions save;

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <vector>
 
+#include "cli/console/console.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/render_job.h"
 #include "ods/render/picture_samples.h"

@@ -113,7 +113,7 @@ constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the 
 
 // A video's frames are .exr, but what is looked at is the video. One sample has no variance.
 bool denoises(const RenderJob& job) {
-  const bool looked_at = job.time.is_video || !ods::keeps_light(job.output);
+  const bool looked_at = job.time.is_video || !keeps_light(job.output);
   return job.denoise.value_or(looked_at ? Denoiser::kOwn : Denoiser::kNone) == Denoiser::kOwn && job.render.samples > 1;
 }
 

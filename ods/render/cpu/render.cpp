@@ -110,8 +110,9 @@ float weight_in(const Pass& pass, int x, int y) {
                             samples_of(pass.plan, block, pass.whole.begin));
 }
 
+// NaN is no light.
 int64_t fixed(float light) {
-  return std::llrint(double{std::min(std::max(light, 0.0f), kBrightestSample)} * kLightUnit);
+  return light > 0.0f ? std::llrint(double{std::min(light, kBrightestSample)} * kLightUnit) : 0;
 }
 
 // Paths of the other eye may bring light to the same pixel at the same time.
