@@ -20,7 +20,8 @@ Passes::Passes(const RenderOptions& options, int done)
       end_(samples_of_part(options).end),
       begun_with_(done),
       done_(done),
-      expected_(samples_of_part(options).end) {}
+      expected_(options.noise > 0.0f ? std::min(2 * fewest_samples(options), options.samples)
+                                     : samples_of_part(options).end) {}
 
 bool Passes::can_judge() const {
   return options_.noise > 0.0f && done_ >= fewest_samples(options_);

@@ -12,7 +12,7 @@
 namespace ods {
 
 // Blocks near the poles still get this share: a flat view of the picture shows them large.
-static constexpr float kSmallestShare = 0.125f;
+static constexpr float kSmallestShare = 0.35f;
 
 static int blocks_along(int pixels) {
   return (pixels + kBlockSize - 1) / kBlockSize;

@@ -132,8 +132,7 @@ void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye
     const int i = static_cast<int>(c);
     add(eye.light, 3 * pixel + c, fixed(path.radiance[i]));
     if (!eye.squares.empty()) {
-      const double light =
-          std::min(double{alone ? path.alone_radiance[i] : path.radiance[i]}, double{kBrightestSample});
+      const double light = static_cast<double>(fixed(alone ? path.alone_radiance[i] : path.radiance[i])) / kLightUnit;
       eye.squares[3 * pixel + c] += light * light;
     }
     if (alone) eye.alone[3 * pixel + c] += fixed(path.alone_radiance[i]);
