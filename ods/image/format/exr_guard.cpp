@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace ods {
 
@@ -15,6 +16,36 @@ namespace {
 constexpr size_t kLongestName = 255;
 constexpr int64_t kMaxRowsOfAChunk = 256;  // DWAB's
 constexpr size_t kOffset = 8;              // bytes
+
+// OpenEXR reads the values of these types as long as they should be, whatever size the file states.
+struct TypeSize {
+  std::string_view type;
+  int32_t size;
+};
+constexpr TypeSize kTypeSizes[] = {{"box2f", 16},
+                                   {"box2i", 16},
+                                   {"chromaticities", 32},
+                                   {"compression", 1},
+                                   {"deepImageState", 1},
+                                   {"double", 8},
+                                   {"envmap", 1},
+                                   {"float", 4},
+                                   {"int", 4},
+                                   {"keycode", 28},
+                                   {"lineOrder", 1},
+                                   {"m33d", 72},
+                                   {"m33f", 36},
+                                   {"m44d", 128},
+                                   {"m44f", 64},
+                                   {"rational", 8},
+                                   {"tiledesc", 9},
+                                   {"timecode", 8},
+                                   {"v2d", 16},
+                                   {"v2f", 8},
+                                   {"v2i", 8},
+                                   {"v3d", 24},
+                                   {"v3f", 12},
+                                   {"v3i", 12}};
 
 struct Box {
   int32_t left, top, right, bottom;
@@ -57,6 +88,44 @@ class HeaderReader {
   const ByteReader& read_;
 };
 
+// Whether a list of channels ends where its attribute does.
+bool is_channel_list(HeaderReader in, size_t size) {
+  constexpr size_t kChannel = 16;  // bytes after its name
+  const size_t end = in.at + size;
+  while (in.at < end) {
+    const std::optional<std::string> name = in.word();
+    if (!name || (!name->empty() && !in.skip(kChannel))) return false;
+    if (name->empty()) return in.at == end;
+  }
+  return false;
+}
+
+bool is_text_list(HeaderReader in, size_t size) {
+  const size_t end = in.at + size;
+  while (in.at < end) {
+    const std::optional<uint32_t> length = in.number<uint32_t>(in.at);
+    if (!length || !in.skip(sizeof *length) || !in.skip(*length)) return false;
+  }
+  return in.at == end;
+}
+
+bool is_preview(const HeaderReader& in, size_t size) {
+  const uint64_t width = in.number<uint32_t>(in.at).value_or(0), height = in.number<uint32_t>(in.at + 4).value_or(0);
+  return width <= size && height <= size && size == 8 + 4 * width * height;
+}
+
+// Whether OpenEXR will read as many bytes of the value at in.at as the file states; if not, it goes on somewhere else
+// than this guard, or makes room for what is not there.
+bool has_true_size(const HeaderReader& in, const std::string& type, size_t size) {
+  for (const TypeSize& known : kTypeSizes) {
+    if (known.type == type) return size == static_cast<size_t>(known.size);
+  }
+  if (type == "chlist") return is_channel_list(in, size);
+  if (type == "stringvector") return is_text_list(in, size);
+  if (type == "preview") return is_preview(in, size);
+  return type != "floatvector" || size % sizeof(float) == 0;
+}
+
 // Skips attributes up to the empty name that ends them.
 bool skip_attributes(HeaderReader& in) {
   Box box{};
@@ -68,6 +137,7 @@ bool skip_attributes(HeaderReader& in) {
     const std::optional<std::string> type = in.word();
     const std::optional<int32_t> size = in.number<int32_t>(in.at);
     if (!type || !size || *size < 0 || !in.skip(sizeof *size)) return false;
+    if (!has_true_size(in, *type, static_cast<size_t>(*size))) return false;
     if (*name == "dataWindow") box = in.number<Box>(in.at).value_or(Box{});
     if (*name == "tiles") {
       columns = in.number<uint32_t>(in.at).value_or(0);

@@ -10,7 +10,8 @@
 namespace ods {
 
 // Whether an EXR of this size is long enough for what its headers announce: attributes, and an offset table entry for
-// every chunk. OpenEXR allocates for these before it checks the file, so a few bytes can ask for gigabytes.
+// every chunk. False also if an attribute states another size than its value has. OpenEXR allocates for these before it
+// checks the file, so a few bytes can ask for gigabytes.
 bool has_room_for_header(size_t file_size, const ByteReader& read);
 
 }  // namespace ods
