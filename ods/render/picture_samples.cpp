@@ -142,16 +142,18 @@ static void develop_pixel(const EyeSamples& eye, size_t pixel, double unit, EyeI
   image.samples.pixels[pixel] = static_cast<float>(eye.count[pixel]);
 }
 
-Picture develop(const PictureSamples& samples, const RenderOptions& options) {
-  Picture picture = blank_picture(options);
+Picture develop(PictureSamples samples, const RenderOptions& options) {
+  Picture picture;
   const double unit = layer_unit(options);
   const size_t width = static_cast<size_t>(samples.width);
-  for (size_t e = 0; e < samples.eyes.size(); e++) {
+  for (EyeSamples& eye : samples.eyes) {
+    EyeImage& image = picture.eyes.emplace_back(blank_eye(options, eye.eye));
     tbb::parallel_for(0, samples.height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * width;
-      for (size_t x = 0; x < width; x++) develop_pixel(samples.eyes[e], row + x, unit, picture.eyes[e]);
+      for (size_t x = 0; x < width; x++) develop_pixel(eye, row + x, unit, image);
     });
-    for (const uint32_t count : samples.eyes[e].count) picture.samples_taken += count;
+    for (const uint32_t count : eye.count) picture.samples_taken += count;
+    eye = {};  // a large picture has no room for both
   }
   return picture;
 }

@@ -86,7 +86,7 @@ void add_samples(PictureSamples& sum, const PictureSamples& part);
 size_t samples_bytes(const RenderOptions& options);
 
 // The picture that the samples amount to. A pixel without samples is black.
-Picture develop(const PictureSamples& samples, const RenderOptions& options);
+Picture develop(PictureSamples samples, const RenderOptions& options);
 
 // The variance of a pixel's mean, per channel. 0 if it has less than two samples.
 vec3 variance_of_mean(const EyeSamples& eye, size_t pixel);

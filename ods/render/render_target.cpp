@@ -24,7 +24,8 @@ size_t picture_bytes(const RenderOptions& options) {
                           (options.layers ? depth + normal + albedo : 0) +
                           (options.statistics ? variance + samples : 0);
   const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
-  return eye_list(options.eyes).size() * pixels * channels * sizeof(float) + samples_bytes(options);
+  const size_t of_eye = pixels * channels * sizeof(float);
+  return samples_bytes(options) + of_eye;  // develop() frees the samples of an eye before it makes the next
 }
 
 void check_picture_memory(const RenderOptions& options) {
@@ -32,18 +33,16 @@ void check_picture_memory(const RenderOptions& options) {
                "a smaller width or a single eye needs less");
 }
 
-Picture blank_picture(const RenderOptions& options) {
-  Picture picture;
-  for (int eye : eye_list(options.eyes)) {
-    const int w = options.width, h = options.height;
-    EyeImage& image = picture.eyes.emplace_back(EyeImage{eye, Image(w, h, 3), {}, {}, {}, {}});
-    if (options.transparent) image.alpha = Image(w, h, 1);
-    if (options.statistics) image.variance = Image(w, h, 3), image.samples = Image(w, h, 1);
-    if (!options.layers) continue;
+EyeImage blank_eye(const RenderOptions& options, int eye) {
+  const int w = options.width, h = options.height;
+  EyeImage image{eye, Image(w, h, 3), {}, {}, {}, {}};
+  if (options.transparent) image.alpha = Image(w, h, 1);
+  if (options.statistics) image.variance = Image(w, h, 3), image.samples = Image(w, h, 1);
+  if (options.layers) {
     image.depth = Image(w, h, 1);
     image.normal = image.albedo = Image(w, h, 3);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace ods

@@ -13,13 +13,13 @@ namespace ods {
 // RenderOptions' fields.
 RenderOptions with_height(RenderOptions options, const StereoCamera& stereo);
 
-// The memory that the Picture of these options needs, and what its samples add up to. Precondition: options.height > 0.
+// The memory that rendering takes: what the samples add up to, and the Picture. Precondition: options.height > 0.
 size_t picture_bytes(const RenderOptions& options);
 
 // Throws Error(kMemory) if there is not enough memory for the picture. Precondition: options.height > 0.
 void check_picture_memory(const RenderOptions& options);
 
-// A black picture with the options' size, eyes and layers. Precondition: options.height > 0.
-Picture blank_picture(const RenderOptions& options);
+// A black picture of one eye with the options' size and layers. Precondition: options.height > 0.
+EyeImage blank_eye(const RenderOptions& options, int eye);
 
 }  // namespace ods

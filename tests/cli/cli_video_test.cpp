@@ -176,7 +176,6 @@ const std::map<std::string, std::string> kVideoAlone = {
     {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
     {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
     {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
-    {"--quality", "draft"},
 };
 const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
@@ -209,7 +208,11 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--fly-to", "0,1,0"},
     {"--shutter", "180"},
     {"--grain", "changing"},
+    {"--quality", "draft"},
     {"--samples", "2"},
+    {"--noise", "0.05"},
+    {"--time-limit", "1h"},
+    {"--denoise", "none"},
     {"--bounces", "2"},
     {"--filter", "box"},
     {"--seed", "7"},

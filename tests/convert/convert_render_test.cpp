@@ -47,6 +47,7 @@ std::vector<Image> rendered(const StereoCamera& camera, Extent size) {
   options.height = size.height;
   options.samples = 32;
   options.bounces = 0;
+  options.even_noise = false;
   options.layers = false;
   std::vector<Image> images;
   for (EyeImage& eye : render_cpu(glowing_scene(), camera, options, {}).eyes) images.push_back(std::move(eye.radiance));

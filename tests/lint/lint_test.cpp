@@ -44,6 +44,7 @@ struct Studio {
     camera.position = default_view(scene).position;
     options.width = kWidth;
     options.samples = 4;
+    options.even_noise = false;
     options.bounces = 1;
     options.filter = PixelFilter::kBox;
     options.layers = false;

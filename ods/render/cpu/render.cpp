@@ -414,7 +414,7 @@ Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOpti
   check_picture_memory(options);
   PictureSamples samples = no_samples(options);
   sample(path, options, samples, progress);
-  return develop(samples, options);
+  return develop(std::move(samples), options);
 }
 
 void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
