@@ -15,7 +15,7 @@
 namespace {
 
 constexpr Quality kQualities[] = {
-    {"draft", 1024, 64, 0.3f}, {"preview", 2048, 512, 0.1f}, {"final", 4096, 4096, 0.02f}};
+    {"draft", 1024, 64, 0.3f}, {"preview", 2048, 1024, 0.04f}, {"final", 4096, 4096, 0.02f}};
 
 // Noise cannot fall to 0; at 10 everything is clean.
 float parse_noise(const std::string& word) {
