@@ -117,8 +117,9 @@ static void check_whole(Reader& reader, size_t size, const ByteReader& bytes, co
   if (reader.format == FileFormat::kJpeg && !is_whole_jpeg(size, bytes)) {
     throw cannot_read(name, "the JPEG is cut short or damaged");
   }
-  if (reader.format == FileFormat::kExr && !has_room_for_header(size, bytes)) {
-    throw cannot_read(name, "the EXR is cut short or damaged");
+  if (reader.format == FileFormat::kExr) {
+    const std::string fault = exr_header_fault(size, bytes);
+    if (!fault.empty()) throw cannot_read(name, fault);
   }
   if (reader.format != FileFormat::kPng) return;
   std::optional<std::vector<FileRange>> parts = essential_png(size, bytes);

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "ods/image/format/image_limits.h"
+
 namespace ods {
 
 namespace {
@@ -126,46 +128,52 @@ bool has_true_size(const HeaderReader& in, const std::string& type, size_t size)
   return type != "floatvector" || size % sizeof(float) == 0;
 }
 
-// Skips attributes up to the empty name that ends them.
-bool skip_attributes(HeaderReader& in) {
+constexpr const char* kDamaged = "the EXR is cut short or damaged";
+
+// Skips attributes up to the empty name that ends them. Returns what is wrong with them.
+std::string skip_attributes(HeaderReader& in, size_t file_size) {
   Box box{};
   int64_t columns = 0, rows = kMaxRowsOfAChunk;  // of a chunk; 0 columns: as wide as the picture
   for (;;) {
     const std::optional<std::string> name = in.word();
-    if (!name) return false;
+    if (!name) return kDamaged;
     if (name->empty()) break;
     const std::optional<std::string> type = in.word();
     const std::optional<int32_t> size = in.number<int32_t>(in.at);
-    if (!type || !size || *size < 0 || !in.skip(sizeof *size)) return false;
-    if (!has_true_size(in, *type, static_cast<size_t>(*size))) return false;
+    if (!type || !size || *size < 0 || !in.skip(sizeof *size)) return kDamaged;
+    if (!has_true_size(in, *type, static_cast<size_t>(*size))) return kDamaged;
     if (*name == "dataWindow") box = in.number<Box>(in.at).value_or(Box{});
     if (*name == "tiles") {
       columns = in.number<uint32_t>(in.at).value_or(0);
       rows = in.number<uint32_t>(in.at + 4).value_or(0);
     }
-    if (!in.skip(static_cast<size_t>(*size))) return false;
+    if (!in.skip(static_cast<size_t>(*size))) return kDamaged;
   }
   const int64_t width = int64_t{box.right} - box.left + 1, height = int64_t{box.bottom} - box.top + 1;
-  if (width < 1 || height < 1 || rows < 1) return true;  // invalid, but small
+  if (width < 1 || height < 1 || rows < 1) return "";  // invalid, but small
+  const auto side = [](int64_t length) { return static_cast<int>(std::min<int64_t>(length, INT32_MAX)); };
+  const int longest = side(std::max({width, height, columns, rows}));
+  const std::string fault = image_size_fault(side(width), side(height), longest, file_size);
+  if (!fault.empty()) return fault;
   const int64_t across = columns > 0 ? (width + columns - 1) / columns : 1, down = (height + rows - 1) / rows;
-  return in.has_room(across) && in.has_room(down) && in.has_room(across * down);
+  return in.has_room(across) && in.has_room(down) && in.has_room(across * down) ? "" : kDamaged;
 }
 
 }  // namespace
 
-bool has_room_for_header(size_t file_size, const ByteReader& read) {
+std::string exr_header_fault(size_t file_size, const ByteReader& read) {
   const uint32_t kSeveralParts = 1u << 12u;
   HeaderReader in(file_size, read);
   const std::optional<uint32_t> version = in.number<uint32_t>(4);
-  if (!version) return false;
+  if (!version) return kDamaged;
   in.at = 8;
   do {
-    if (!skip_attributes(in)) return false;
+    if (std::string fault = skip_attributes(in, file_size); !fault.empty()) return fault;
     const std::optional<char> next = in.number<char>(in.at);
-    if (!next) return false;
+    if (!next) return kDamaged;
     if (*next == 0) break;
   } while (*version & kSeveralParts);
-  return true;
+  return "";
 }
 
 }  // namespace ods

@@ -28,13 +28,17 @@ std::string channel(const std::string& name) {
   return name + std::string(17, '\0');
 }
 
-bool is_taken(const std::string& attributes) {
+std::string fault_of(const std::string& attributes) {
   const std::string file = "v/1\1" + number(2) + attributes + std::string(100, '\0');
-  return has_room_for_header(file.size(), [&](size_t offset, void* to, size_t count) {
+  return exr_header_fault(file.size(), [&](size_t offset, void* to, size_t count) {
     if (offset > file.size() || count > file.size() - offset) return false;
     std::memcpy(to, file.data() + offset, count);
     return true;
   });
+}
+
+bool is_taken(const std::string& attributes) {
+  return fault_of(attributes).empty();
 }
 
 const std::string kChannels = channel("B") + channel("G") + std::string(1, '\0');
@@ -76,6 +80,17 @@ TEST(ExrGuard, RefusesListsAndPreviewsThatAreNotThere) {
   for (const uint32_t side : {uint32_t{30000}, uint32_t{0x80000000}, uint32_t{0xffffffff}}) {
     EXPECT_FALSE(is_taken(attribute("preview", number(side) + number(side)))) << side;
   }
+}
+
+// OpenEXR would make room for rows of that width first.
+TEST(ExrGuard, RefusesPicturesBeyondTheLimits) {
+  const auto window = [](uint32_t right, uint32_t bottom) {
+    return "dataWindow" + std::string(1, '\0') + "box2i" + std::string(1, '\0') + number(16) + number(0) + number(0) +
+           number(right) + number(bottom);
+  };
+  EXPECT_EQ(fault_of(window(15, 7)), "");
+  EXPECT_EQ(fault_of(window(6094863, 7)), "6094864x8 pixels exceed the limits of 32768 per side and 268435456 in all");
+  EXPECT_NE(fault_of(window(0x7fffffff, 0x7fffffff)), "");
 }
 
 }  // namespace
