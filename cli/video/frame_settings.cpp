@@ -146,7 +146,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
   add_number(settings, "--samples", samples);
-  add_number(settings, "--noise", static_cast<double>(noise));
+  add_float(settings, "--noise", noise);
   add_number(settings, "--time-limit", time_limit);
   add_flag(settings, "even noise", even_noise);
   add_flag(settings, "shared paths", share_paths);
