@@ -29,6 +29,7 @@ int ods_encode(int argc, char** argv);
 int ods_info(int argc, char** argv);
 int ods_inject(int argc, char** argv);
 int ods_lint(int argc, char** argv);
+int ods_merge(int argc, char** argv);
 int ods_over(int argc, char** argv);
 int ods_probe(int argc, char** argv);
 int ods_project(int argc, char** argv);
@@ -53,6 +54,7 @@ constexpr Command kCommands[] = {
     {"render", "render a scene as a stereo 360 picture or frames", ods_render},
     {"convert", "change a picture's projection, layout, size or eyes", ods_convert},
     {"denoise", "remove the noise of a rendered picture, both eyes as one", ods_denoise},
+    {"merge", "put together parts of a picture that were rendered apart", ods_merge},
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"title", "make a title with depth for stereo 360", ods_title},

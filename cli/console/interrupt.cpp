@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstring>
 
 #include "ods/files/atomic_file.h"
@@ -14,14 +15,27 @@ namespace {
 
 LastWords words_of = plain_last_words;
 std::atomic<bool> said{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
+std::atomic<const char*> words_of_stop{nullptr};  // of the GentleStop, if there is one
+std::atomic<int> stop_signal{0};                  // 0: no stop is requested
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+                  std::atomic<const char*>::is_always_lock_free,
+              "a signal handler may touch them");
+
+void say(const char* words) {
+  const ssize_t ignored = write(STDERR_FILENO, words, std::strlen(words));
+  static_cast<void>(ignored);
+}
+
+[[noreturn]] void end_by(int number) {
+  ods::remove_unfinished_files();
+  if (!said.exchange(true)) say(words_of(number));
+  _exit(128 + number);
+}
 
 void on_signal(int number) {
-  ods::remove_unfinished_files();
-  const char* const words = words_of(number);
-  const ssize_t ignored = said.exchange(true) ? 0 : write(STDERR_FILENO, words, std::strlen(words));
-  static_cast<void>(ignored);
-  _exit(128 + number);
+  const char* const words = words_of_stop;
+  if (words == nullptr || stop_signal.exchange(number) != 0) end_by(number);
+  say(words);
 }
 
 }  // namespace
@@ -42,4 +56,22 @@ void end_on_interrupts(LastWords last_words) {
     action.sa_handler = on_signal;
     sigaction(number, &action, nullptr);
   }
+}
+
+GentleStop::GentleStop(const char* words) {
+  stop_signal = 0;
+  words_of_stop = words;
+}
+
+GentleStop::~GentleStop() {
+  words_of_stop = nullptr;
+}
+
+bool GentleStop::requested() const {
+  return stop_signal != 0;
+}
+
+void GentleStop::end() const {
+  std::fflush(stdout);
+  end_by(stop_signal);
 }

@@ -12,3 +12,19 @@ const char* plain_last_words(int signal);  // "ods: interrupted"
 // number, even while loading, rendering or saving. `last_words` runs in the signal handler:
 // it must only return a literal.
 void end_on_interrupts(LastWords last_words = plain_last_words);
+
+// While one of these exists, the first such signal asks for a stop, and only the second one ends the process. At most
+// one at a time.
+class GentleStop {
+ public:
+  // words: a literal, for stderr when the first signal comes.
+  explicit GentleStop(const char* words);
+  ~GentleStop();
+  GentleStop(const GentleStop&) = delete;
+  GentleStop& operator=(const GentleStop&) = delete;
+
+  bool requested() const;
+
+  // Ends the process as the signal would have. Precondition: requested().
+  [[noreturn]] void end() const;
+};

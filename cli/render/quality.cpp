@@ -73,5 +73,5 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
 void finish_quality(const Options& options, const Quality& quality, RenderJob& job) {
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (!options.given("--samples")) job.render.samples = quality.samples;
-  if (!options.given("--noise")) job.render.noise = quality.noise;
+  if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : quality.noise;
 }

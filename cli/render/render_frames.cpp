@@ -13,11 +13,13 @@
 #include "cli/frames/disk_room.h"
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/finish_picture.h"
+#include "cli/render/render_still.h"
 #include "ods/camera/layout.h"
-#include "ods/denoise/denoise.h"
 #include "ods/files/frames.h"
 #include "ods/kernel/random.h"
 #include "ods/render/cpu/render.h"
+#include "ods/render/render_target.h"
 #include "ods/scene/shutter.h"
 
 using ods::FrameNames;
@@ -102,32 +104,9 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
   return shot;
 }
 
-struct Rendered {
-  std::vector<std::string> files;
-  double samples;  // in all pixels together
-};
-
 using Saved = std::function<void(const Rendered& frame)>;
 
 constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
-
-// A video's frames are .exr, but what is looked at is the video. One sample has no variance.
-bool denoises(const RenderJob& job) {
-  const bool looked_at = job.time.is_video || !keeps_light(job.output);
-  return job.denoise.value_or(looked_at ? Denoiser::kOwn : Denoiser::kNone) == Denoiser::kOwn && job.render.samples > 1;
-}
-
-// Leaves the layers that the job saves; of a picture with layers, the noisy one, too.
-void denoise_frame(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture& picture) {
-  for (ods::EyeImage& eye : picture.eyes) {
-    if (job.render.layers) eye.raw = eye.radiance;
-  }
-  ods::denoise(picture, camera, {true, job.render.threads});
-  if (job.render.layers) return;
-  for (ods::EyeImage& eye : picture.eyes) {
-    eye.depth = eye.normal = eye.albedo = eye.variance = eye.samples = ods::Image();
-  }
-}
 
 // Renders frames one after the other. Acceleration structures of static meshes are kept between frames.
 class FrameRenderer {
@@ -144,16 +123,15 @@ class FrameRenderer {
       renderer_.emplace(scene_, job_.render.threads);
     }
     const ods::StereoCamera& camera = shot.cameras[shot.cameras.size() / 2];
-    ods::RenderOptions options = job_.render;
+    ods::RenderOptions options = ods::with_height(options_to_finish(job_), camera);
     options.seed = frame.seed;
-    const bool cleans = denoises(job_);
-    options.layers |= cleans;
-    options.statistics |= cleans;
     ods::Progress progress;
-    if (report) progress.report = [&](double done) { report(cleans ? kShareOfRendering * done : done); };
+    const double share = denoises(job_) ? kShareOfRendering : 1.0;
+    if (report) progress.report = [&, share](double done) { report(share * done); };
+    if (!asks_for_video(time_)) return render_still(job_, *renderer_, shot.cameras, options, progress);
     ods::Picture picture = renderer_->render(shot.cameras, options, progress);
-    if (cleans) denoise_frame(job_, camera, picture);
-    return {ods::save_picture(picture, camera, job_.save, frame.path), picture.samples_taken};
+    const double samples = picture.samples_taken;
+    return {finish_picture(job_, camera, std::move(picture), frame.path), samples};
   }
 
  private:

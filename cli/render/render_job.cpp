@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "ods/render/picture_samples.h"
 
 namespace {
 
@@ -17,6 +20,7 @@ constexpr const char* kExamples =
     "  ods render scene.glb -o eye_%V.png         eye_left.png and eye_right.png\n"
     "  ods render scene.glb -o picture.png --merge cosine,60,90\n"
     "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30\n"
+    "  ods render scene.glb -o part_3.exr --part 3/8   for ods merge 'part_#.exr'\n"
     "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
 
 void add_picture_options(Options& options, RenderJob& job) {
@@ -35,6 +39,51 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
+}
+
+// "3/8"
+ods::Part parse_part(const std::string& word) {
+  ods::Part part;
+  char end = 0;
+  if (std::sscanf(word.c_str(), "%d/%d%c", &part.number, &part.count, &end) == 2 && part.number >= 1 &&
+      part.number <= part.count && part.count <= ods::kMaxSamples) {
+    return part;
+  }
+  throw UsageError(fmt::format("--part is a part and their number, such as 3/8, not '{}'", word));
+}
+
+void add_long_options(Options& options, RenderJob& job) {
+  options.group("Long renderings of one picture");
+  options.flag("--resume", job.resume,
+               "go on where an interrupted run was: it keeps what it has in PICTURE.unfinished, every 30 s");
+  options.flag("--save-unfinished", job.save_unfinished,
+               "when interrupted (Ctrl-C, kill), save the picture as it is, and then end");
+  options.custom(
+      "--part", "I/N", "", [&](const std::string& word) { job.render.part = job.part.emplace(parse_part(word)); },
+      "render the I-th of N parts of the samples, as an .exr for ods merge: 3/8");
+}
+
+// Parts are exact shares of a fixed number of samples.
+void check_long_job(const Options& options, const RenderJob& job) {
+  const bool is_part = job.part.has_value();
+  for (const char* own : {"--resume", "--save-unfinished", "--part"}) {
+    if (!options.given(own)) continue;
+    if (asks_for_video(job.time)) {
+      throw UsageError(fmt::format("{} is for one picture; frames go on with --skip-existing", own));
+    }
+    if (!job.rig.empty()) throw UsageError(fmt::format("{} cannot be used with --rig", own));
+  }
+  for (const char* other : {"--noise", "--time-limit", "--denoise", "--layout", "--save-unfinished"}) {
+    if (is_part && options.given(other)) {
+      throw UsageError(
+          fmt::format("{} cannot be used with --part{}", other,
+                      options.given("--denoise") || options.given("--layout") ? ": it is for ods merge" : ""));
+    }
+  }
+  if (is_part && !ods::keeps_layers(job.output)) throw UsageError("--part needs an .exr, which ods merge reads");
+  if (is_part && job.render.part.count > job.render.samples) {
+    throw UsageError(fmt::format("{} samples cannot be {} parts", job.render.samples, job.render.part.count));
+  }
 }
 
 // A rig has its own cameras and size.
@@ -65,6 +114,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   add_camera_options(options, job.camera);
   add_time_options(options, job.time);
   add_quality_options(options, job, quality);
+  add_long_options(options, job);
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
@@ -81,5 +131,6 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);
   finish_render_job(options, quality, job);
+  check_long_job(options, job);
   return true;
 }

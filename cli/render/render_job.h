@@ -23,7 +23,10 @@ struct RenderJob {
   std::optional<Denoiser> denoise;  // none: for all files but those that keep the scene's light
   bool has_layout = false;          // given by an option
   std::string output;
-  std::string rig;  // a slit rig: render its views instead of the camera's picture
+  std::string rig;                // a slit rig: render its views instead of the camera's picture
+  std::optional<ods::Part> part;  // of the samples
+  bool resume = false;            // a still picture goes on from what an interrupted run has kept
+  bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
 };
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 #include "cli/console/console.h"
 #include "ods/files/atomic_file.h"
@@ -27,15 +26,6 @@ constexpr const char* kFrames = "frames";
 fs::file_type type_of(const std::string& path) {
   std::error_code ignored;
   return fs::symlink_status(path, ignored).type();
-}
-
-// Splits a line of the note at tabs; the parts themselves contain none.
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> parts;
-  std::istringstream stream(line);
-  for (std::string part; std::getline(stream, part, '\t');) parts.push_back(part);
-  parts.resize(std::max<size_t>(parts.size(), 3));
-  return parts;
 }
 
 // Whether a file in the folder is a partial copy of this one, left by a killed run.
@@ -102,25 +92,21 @@ std::string VideoJournal::pattern() const {
 bool VideoJournal::read_note(std::vector<Setting>& settings) {
   if (type_of(note_path()) != fs::file_type::regular) return false;
   const std::vector<unsigned char> bytes = ods::read_file(note_path(), size_t{64} << 20);
-  std::istringstream note(std::string(bytes.begin(), bytes.end()));
-  std::string line;
-  if (!std::getline(note, line) || line != kMark) return false;
-  while (std::getline(note, line)) {
-    const std::vector<std::string> parts = split(line);
-    if (parts[0] != kFrames) {
-      settings.push_back({parts[0], parts[1], parts[2]});
-    } else if (!parts[1].empty()) {
-      for (const int frame : ods::parse_frames(parts[1])) frames_.insert(frame);
+  const std::string note(bytes.begin(), bytes.end());
+  if (!note.starts_with(kMark + std::string("\n"))) return false;
+  for (const Setting& setting : parse_settings(note.substr(note.find('\n') + 1))) {
+    if (setting.option != kFrames) {
+      settings.push_back(setting);
+    } else if (!setting.value.empty()) {
+      for (const int frame : ods::parse_frames(setting.value)) frames_.insert(frame);
     }
   }
   return true;
 }
 
 void VideoJournal::write_note() const {
-  std::string note = fmt::format("{}\n{}\t{}\n", kMark, kFrames, ods::frames_text({frames_.begin(), frames_.end()}));
-  for (const Setting& setting : settings_) {
-    note += fmt::format("{}\t{}{}{}\n", setting.option, setting.value, setting.path.empty() ? "" : "\t", setting.path);
-  }
+  const std::string frames = ods::frames_text({frames_.begin(), frames_.end()});
+  const std::string note = fmt::format("{}\n{}\t{}\n{}", kMark, kFrames, frames, settings_text(settings_));
   ods::write_file(note_path(), note);
 }
 

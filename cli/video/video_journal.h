@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/video/frame_settings.h"
+#include "cli/render/frame_settings.h"
 #include "ods/files/claim.h"
 
 class VideoJournal {

@@ -10,6 +10,13 @@ namespace ods {
 // A pass takes this share of what time is left: the next one may take longer for each sample.
 static constexpr double kShareOfTime = 0.9;
 
+// At least this many samples, or a multiple: devices trace so many first rays at once. Passes grow from there, so that
+// what an interrupted rendering has soon covers the whole picture.
+static int whole_packets(int samples) {
+  constexpr int kPacket = 16;
+  return std::max((samples + kPacket - 1) / kPacket, 1) * kPacket;
+}
+
 int fewest_samples(const RenderOptions& options) {
   const int fewest = static_cast<int>(std::ceil(16.0 / std::pow(static_cast<double>(options.noise), 0.3)));
   return std::min(std::max(fewest, 4), options.samples);
@@ -31,7 +38,8 @@ int Passes::next_step(double seconds) {
   const bool limited = options_.time_limit > 0.0;
   step_ = end_ - done_;
   if (options_.noise > 0.0f && done_ < fewest_samples(options_)) step_ = fewest_samples(options_) - done_;
-  if (can_judge()) step_ = expected_ > done_ ? std::min(step_, std::max(16, done_ / 4)) : 0;
+  if (can_judge()) step_ = expected_ > done_ ? std::min(step_, whole_packets(done_ / 4)) : 0;
+  step_ = std::min(step_, whole_packets(done_ - samples_of_part(options_).begin));
   if (limited && done_ == begun_with_) step_ = std::min(step_, 1);
   if (limited && done_ > begun_with_) {
     const double affordable = kShareOfTime * (options_.time_limit - seconds) / seconds_per_sample_;

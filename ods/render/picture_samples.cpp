@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "ods/render/render_target.h"
 #include "ods/render/sampling_plan.h"
@@ -54,7 +55,7 @@ PictureSamples no_samples(const RenderOptions& options) {
 bool fit(const PictureSamples& samples, const RenderOptions& options) {
   const auto sizes = [](const EyeSamples& eye) {
     std::vector<size_t> list;
-    each_plane(eye, [&](const auto& plane) { list.push_back(plane.size()); });
+    each_plane(eye, [&](const char*, const auto& plane) { list.push_back(plane.size()); });
     return list;
   };
   RenderOptions small = options;
@@ -65,6 +66,8 @@ bool fit(const PictureSamples& samples, const RenderOptions& options) {
   fits = fits && samples.noisy.size() == block_count(options) && samples.eyes.size() == one.eyes.size();
   const SampleRange range = samples_of_part(options);
   fits = fits && range.begin <= samples.done && samples.done <= samples.pass_to && samples.pass_to <= range.end;
+  const size_t blocks = samples.noisy.size() * samples.eyes.size();
+  fits = fits && samples.blocks_done >= 0 && static_cast<size_t>(samples.blocks_done) <= blocks;
   for (size_t i = 0; fits && i < one.eyes.size(); i++) {
     std::vector<size_t> wanted = sizes(one.eyes[i]);
     for (size_t& size : wanted) size *= pixels;
@@ -92,11 +95,18 @@ void add_samples(PictureSamples& sum, const PictureSamples& part) {
 size_t samples_bytes(const RenderOptions& options) {
   const size_t count = sizeof(uint32_t), light = 3 * sizeof(int64_t), squares = 3 * sizeof(double);
   const size_t alone = shares_paths(options) ? 3 * sizeof(int64_t) + sizeof(uint32_t) : 0;
-  const size_t layers = 6 * sizeof(int32_t) + sizeof(float), catchers = 2 * sizeof(uint32_t) + 2 * sizeof(double);
+  const size_t layers = 6 * sizeof(int32_t) + sizeof(float), catchers = 2 * sizeof(uint32_t) + 2 * sizeof(int64_t);
   const size_t pixel = count + light + (needs_squares(options) ? squares + alone : 0) + (options.layers ? layers : 0) +
                        (options.transparent ? catchers : 0);
   return eye_list(options.eyes).size() * static_cast<size_t>(options.width) * static_cast<size_t>(options.height) *
          pixel;
+}
+
+// With 16 binary digits, in which the order does not show that the squares were added in.
+static float rounded(double variance) {
+  int exponent = 0;
+  const double digits = std::frexp(variance, &exponent);
+  return static_cast<float>(std::ldexp(std::rint(std::ldexp(digits, 16)), exponent - 16));
 }
 
 // The variance of a sample over their number; with shared paths each sample has a weight, and more of them add up.
@@ -105,27 +115,31 @@ vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
   if (count < 2.0) return vec3(0.0f);
   const std::vector<int64_t>& sums = eye.alone.empty() ? eye.light : eye.alone;
   const double weights = eye.weights.empty() ? count : eye.weights[pixel] / double{kWeightUnit};
-  vec3 variance;
+  vec3 variance(0.0f);
   for (int c = 0; c < 3; c++) {
     const size_t at = 3 * pixel + static_cast<size_t>(c);
     const double mean = static_cast<double>(sums[at]) / (kLightUnit * count);
-    const double of_sample = (eye.squares[at] - mean * mean * count) / (count - 1.0);
-    variance[c] = static_cast<float>(std::max(of_sample * weights / (count * count), 0.0));
+    const double difference = eye.squares[at] - mean * mean * count;
+    if (difference <= 1e-12 * eye.squares[at]) continue;  // what rounding leaves of samples that are all the same
+    variance[c] = rounded(difference / (count - 1.0) * weights / (count * count));
   }
   return variance;
 }
 
 static float alpha_of(const EyeSamples& eye, size_t pixel) {
   double covered = eye.hits[pixel];
-  const double without = eye.light_without[pixel];
-  if (without > 0.0) covered += eye.caught[pixel] * (1.0 - eye.light_with[pixel] / without);
+  const double with = static_cast<double>(eye.light_with[pixel]);
+  const double without = static_cast<double>(eye.light_without[pixel]);
+  if (without > 0.0) covered += eye.caught[pixel] * (1.0 - with / without);
   return static_cast<float>(covered / std::max(eye.count[pixel], 1u));
 }
 
-static void develop_pixel(const EyeSamples& eye, size_t pixel, double unit, EyeImage& image) {
+// light: the eye's, or what its own samples found.
+static void develop_pixel(const EyeSamples& eye, const std::vector<int64_t>& light, size_t pixel, double unit,
+                          EyeImage& image) {
   const double count = std::max(eye.count[pixel], 1u);
   for (size_t at = 3 * pixel; at < 3 * pixel + 3; at++) {
-    image.radiance.pixels[at] = static_cast<float>(static_cast<double>(eye.light[at]) / (kLightUnit * count));
+    image.radiance.pixels[at] = static_cast<float>(static_cast<double>(light[at]) / (kLightUnit * count));
     if (eye.normal.empty()) continue;
     image.normal.pixels[at] = static_cast<float>(eye.normal[at] / (unit * count));
     image.albedo.pixels[at] = static_cast<float>(eye.albedo[at] / (unit * count));
@@ -148,9 +162,11 @@ Picture develop(PictureSamples samples, const RenderOptions& options) {
   const size_t width = static_cast<size_t>(samples.width);
   for (EyeSamples& eye : samples.eyes) {
     EyeImage& image = picture.eyes.emplace_back(blank_eye(options, eye.eye));
+    // In the middle of a pass one eye lacks the light that it has given to the other.
+    const std::vector<int64_t>& light = samples.blocks_done > 0 && !eye.alone.empty() ? eye.alone : eye.light;
     tbb::parallel_for(0, samples.height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * width;
-      for (size_t x = 0; x < width; x++) develop_pixel(eye, row + x, unit, image);
+      for (size_t x = 0; x < width; x++) develop_pixel(eye, light, row + x, unit, image);
     });
     for (const uint32_t count : eye.count) picture.samples_taken += count;
     eye = {};  // a large picture has no room for both

@@ -31,18 +31,20 @@ struct EyeSamples {
   std::vector<float> depth;     // as in EyeImage; negative: of a catcher
 
   // RenderOptions::transparent.
-  std::vector<uint32_t> hits;         // samples that hit something that is no catcher
-  std::vector<uint32_t> caught;       // samples that hit a catcher, and the light that they found (ods/kernel/path.h)
-  std::vector<double> light_with;     // luminance
-  std::vector<double> light_without;  // likewise
+  std::vector<uint32_t> hits;          // samples that hit something that is no catcher
+  std::vector<uint32_t> caught;        // samples that hit a catcher, and the light that they found (ods/kernel/path.h)
+  std::vector<int64_t> light_with;     // luminance, in units of 1 / kLightUnit
+  std::vector<int64_t> light_without;  // likewise
 };
 
-// Calls function(plane) for each vector of an EyeSamples.
+// Calls function(name, plane) for each vector of an EyeSamples.
 template <typename Eye, typename Function>
 void each_plane(Eye& eye, const Function& function) {
-  function(eye.count), function(eye.light), function(eye.squares), function(eye.alone), function(eye.weights);
-  function(eye.normal), function(eye.albedo), function(eye.depth);
-  function(eye.hits), function(eye.caught), function(eye.light_with), function(eye.light_without);
+  function("count", eye.count), function("light", eye.light);
+  function("squares", eye.squares), function("alone", eye.alone), function("weights", eye.weights);
+  function("normal", eye.normal), function("albedo", eye.albedo), function("depth", eye.depth);
+  function("hits", eye.hits), function("caught", eye.caught);
+  function("light_with", eye.light_with), function("light_without", eye.light_without);
 }
 
 struct PictureSamples {
@@ -85,7 +87,8 @@ void add_samples(PictureSamples& sum, const PictureSamples& part);
 // The memory that no_samples() takes.
 size_t samples_bytes(const RenderOptions& options);
 
-// The picture that the samples amount to. A pixel without samples is black.
+// The picture that the samples amount to. A pixel without samples is black. In the middle of a pass, eyes that share
+// paths need `alone`.
 Picture develop(PictureSamples samples, const RenderOptions& options);
 
 // The variance of a pixel's mean, per channel. 0 if it has less than two samples.

@@ -26,6 +26,13 @@
 namespace ods {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+class Sanitized : public testing::Environment {
+  void SetUp() override { GTEST_SKIP() << "skipped: the address sanitizer has an operator new of its own"; }
+};
+[[maybe_unused]] testing::Environment* const kSanitized = testing::AddGlobalTestEnvironment(new Sanitized);
+#endif
+
 // Does the work again and again, with ever more allocations that succeed, until it gets through. lasts: after the first
 // that fails all others do. Returns how often it failed.
 int survive(const std::function<void()>& work, bool lasts, size_t bytes = 0) {

@@ -30,28 +30,17 @@ constexpr bool kSanitized = false;
 #endif
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words : {"--help",
-                            "-h",
-                            "help",
-                            "render --help",
-                            "info --help",
-                            "camera --help",
-                            "project --help",
-                            "compare --help",
-                            "convert --help",
-                            "denoise --help",
-                            "lint --help",
-                            "title --help",
-                            "over --help",
-                            "sizes --help",
-                            "scenes --help",
-                            "testcard --help",
-                            "video --help",
-                            "encode --help",
-                            "rig --help",
-                            "stitch --help",
-                            "probe --help",
-                            "inject --help"}) {
+  for (const char* words : {"--help",         "-h",
+                            "help",           "render --help",
+                            "info --help",    "camera --help",
+                            "project --help", "compare --help",
+                            "convert --help", "denoise --help",
+                            "lint --help",    "title --help",
+                            "over --help",    "sizes --help",
+                            "scenes --help",  "testcard --help",
+                            "video --help",   "encode --help",
+                            "rig --help",     "stitch --help",
+                            "probe --help",   "inject --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_TRUE(out.find("Commands:") != std::string::npos || out.find("-q,--quiet") != std::string::npos) << words;
@@ -282,8 +271,8 @@ TEST_F(Cli, AnInterruptedRenderLeavesNoFile) {
 // However often it is told to stop, and while it saves.
 TEST_F(Cli, AnInterruptEndsSaving) {
   for (const int times : {1, 2}) {
-    Ods command({"render", "furnace", "--width", "2048", "--samples", "1", "--bounces", "0", "--progress", "json", "-o",
-                 folder.path("a.exr")});
+    Ods command({"render", "furnace", "--width", "2048", "--samples", "1", "--bounces", "0", "--eyes", "mono",
+                 "--progress", "json", "-o", folder.path("a.exr")});
     command.wait_for("\"progress\":1.00");
     for (int i = 0; i < 10000 && files() == 0; i++) usleep(1000);  // until its temporary file is there
     for (int i = 0; i < times; i++) command.kill(SIGINT);

@@ -244,7 +244,7 @@ TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
   EXPECT_GT(options.size(), 60u);
   for (const std::string& option : options) {
     const size_t known = kVideoAlone.count(option) + kOfFrames.count(option) + kOthers.count(option);
-    EXPECT_EQ(known, 1u) << option << ": does it change frames? Then cli/video/frame_settings.cpp has to know it";
+    EXPECT_EQ(known, 1u) << option << ": does it change frames? Then cli/render/frame_settings.cpp has to know it";
   }
 }
 

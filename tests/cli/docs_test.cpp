@@ -18,7 +18,9 @@
 #include <string>
 #include <vector>
 
+#include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
+#include "ods/render/unfinished.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
@@ -128,6 +130,7 @@ class Pages : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directory(folder.path("home"));
+    setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // as in cli_runner.h
     setenv("XDG_CACHE_HOME", folder.path("home").c_str(), 1);  // a program that a test runs has no business elsewhere
   }
 
@@ -147,7 +150,10 @@ class Pages : public ::testing::Test {
     const std::string command = words_of(line).at(1);
     const bool has_width = has(line, "--width") || has(line, "--size"), of_rig = has(line, "--rig ");
     const bool renders = command == "render" || command == "video";
-    std::string more = renders ? has(line, "--statistics") ? " --samples 2" : " --samples 1" : "";
+    std::string more = !renders                    ? ""
+                       : has(line, "--statistics") ? " --samples 2"
+                       : has(line, "--part")       ? " --samples 8"
+                                                   : " --samples 1";
     if (command == "rig") {
       more += has(line, "--slits") ? " --width 512" : " --width 64";
     } else if (command == "testcard") {
@@ -197,6 +203,7 @@ class Pages : public ::testing::Test {
     if (kind == ".glb") return folder.write(name, scene());
     if (kind == ".wav") return folder.write(name, ods::made::wav(4, 0.2));
     if (kind == ".txt") return folder.write(name, "0,1,-2\n");
+    if (kind == ".unfinished") return provide_unfinished(name);
     if (kind == ".json") return make("ods camera --for json --width 4096 -o " + name);
     if (kind == ".mp4" || kind == ".mov" || kind == ".mkv" || kind == ".webm") {
       provide_file("sound.wav");
@@ -206,7 +213,23 @@ class Pages : public ::testing::Test {
     if (pictures.contains(kind)) provide_picture(name);
   }
 
+  // What an interrupted rendering leaves.
+  void provide_unfinished(const std::string& name) {
+    ods::RenderOptions options;
+    options.width = 96, options.height = 48, options.noise = 0.1f;
+    const std::string camera = ods::write_sidecar({ods::StereoCamera(), {options.width, options.height}});
+    ods::write_unfinished(folder.path(name), {"", camera, options}, ods::no_samples(options));
+  }
+
+  void provide_parts(const std::string& name) {
+    for (const std::string part : {"1", "2"}) {
+      const std::string file = std::regex_replace(name, std::regex("#|1|2"), part);
+      make("ods render toys --samples 4 --width 96 --part " + part + "/2 -o " + file);
+    }
+  }
+
   void provide_picture(const std::string& name) {
+    if (has(name, "part_")) return provide_parts(name);
     const bool is_title = has(name, "title.") || has(name, "robot");  // has alpha
     std::string words = is_title ? "ods title T --text-height 1" : "ods render toys --samples 1";
     if (has(name, "_LR")) words += " --projection vr180";

@@ -32,20 +32,25 @@ RenderOptions options_with(int samples, float noise, double time_limit) {
   return options;
 }
 
-TEST(Passes, AllSamplesAtOnce) {
-  EXPECT_EQ(steps_of(options_with(100, 0.0f, 0.0), 1.0), std::vector<int>{100});
+TEST(Passes, DoubleTheSamples) {
+  EXPECT_EQ(steps_of(options_with(100, 0.0f, 0.0), 1.0), (std::vector<int>{16, 16, 32, 36}));
+  EXPECT_EQ(steps_of(options_with(10, 0.0f, 0.0), 1.0), std::vector<int>{10});
 }
 
 TEST(Passes, GrowWhileItIsNoisy) {
   // ceil(16 / 0.01^0.3) = 64, then a quarter more each time.
-  EXPECT_EQ(steps_of(options_with(150, 0.01f, 0.0), 1.0), (std::vector<int>{64, 16, 20, 25, 25}));
+  EXPECT_EQ(steps_of(options_with(150, 0.01f, 0.0), 1.0), (std::vector<int>{16, 16, 32, 16, 32, 32, 6}));
 }
 
 TEST(Passes, EndWhenItIsClean) {
   const RenderOptions options = options_with(1000, 0.01f, 0.0);
   Passes passes(options, 0);
-  EXPECT_EQ(passes.next_step(0.0), 64);
-  passes.finish_step(1.0);
+  for (const int step : {16, 16, 32}) {
+    EXPECT_FALSE(passes.can_judge());
+    EXPECT_EQ(passes.next_step(0.0), step);
+    passes.finish_step(1.0);
+  }
+  EXPECT_TRUE(passes.can_judge());
   passes.expect(0.0);
   EXPECT_EQ(passes.next_step(1.0), 0);
   EXPECT_FALSE(passes.ran_out_of_time());
@@ -83,7 +88,7 @@ TEST(Passes, FractionNeverFallsAndEndsAtOne) {
 TEST(Passes, GoOnWhereAnEarlierRunStopped) {
   const RenderOptions options = options_with(100, 0.0f, 0.0);
   Passes passes(options, 40);
-  EXPECT_EQ(passes.next_step(0.0), 60);
+  EXPECT_EQ(passes.next_step(0.0), 48);
 }
 
 }  // namespace

@@ -20,6 +20,9 @@
 
 #include "tests/support/temporary_folder.h"
 
+// For the processes that tests start: GCC 12's search for leaks crashes now and then beside TBB's threads.
+inline const int kNoSearchForLeaks = setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
+
 // A running ods, its stdout and stderr in pipes.
 class Ods {
  public:

@@ -53,7 +53,7 @@ inline double pixel_mean(int width, int x, int y, const std::function<double(glm
 inline uint64_t digest(const Picture& picture) {
   uint64_t hash = 14695981039346656037u;
   for (const EyeImage& eye : picture.eyes) {
-    for (const Image* image : {&eye.radiance, &eye.depth, &eye.normal, &eye.albedo}) {
+    for (const Image* image : {&eye.radiance, &eye.depth, &eye.normal, &eye.albedo, &eye.variance, &eye.samples}) {
       for (float value : image->pixels) {
         uint32_t bits;
         std::memcpy(&bits, &value, sizeof bits);

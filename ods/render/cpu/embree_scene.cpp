@@ -368,7 +368,21 @@ static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, ui
   return make_context(tracer, kPathRay, still);
 }
 
+// Few rays are faster one by one. To the tracer they are the rays of a packet, all the same.
+static bool is_small(const RayPacket& packet) {
+  return packet.count <= 4;
+}
+
 void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit* hits) const {
+  if (is_small(packet)) {
+    for (int i = 0; i < packet.count; i++) {
+      const uint index = packet.index + static_cast<uint>(i);
+      tracer.ray_time = packet.times[i];
+      tracer.start_path(packet.rays[i], no_media(), packet.seed, index);
+      hits[i] = closest_hit(tracer, packet.rays[i], kPathRay);
+    }
+    return;
+  }
   RTCRayHit16 found;
   alignas(64) int valid[RayPacket::kMost] = {};
   set_rays(found.ray, packet);
@@ -390,6 +404,15 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
 }
 
 void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hidden) const {
+  if (is_small(packet)) {
+    for (int i = 0; i < packet.count; i++) {
+      const uint index = packet.index + static_cast<uint>(i);
+      tracer.ray_time = packet.times[i];
+      tracer.start_path(packet.rays[i], no_media(), packet.seed, index);
+      hidden[i] = packet.lengths[i] <= 0.0f || occluded(tracer, packet.rays[i], packet.lengths[i], kPathRay);
+    }
+    return;
+  }
   RTCRay16 shadows;
   alignas(64) int valid[RayPacket::kMost] = {};
   set_rays(shadows, packet);

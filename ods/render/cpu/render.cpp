@@ -170,7 +170,7 @@ struct FirstHits {
 [[gnu::flatten]] bool trace_first_rays(Job& job, int eye, int x, int y, int first, FirstHits& out) {
   const vec2 home = pixel_center(job, x, y);
   RayPacket& packet = out.packet;
-  packet.count = RayPacket::kMost;
+  packet.count = std::min(RayPacket::kMost, job.options.samples - first);
   packet.seed = pixel_seed(job, eye, x, y);
   packet.index = static_cast<uint>(first);
   for (int i = 0; i < packet.count; i++) {
@@ -220,8 +220,8 @@ void add_path(const Job& job, size_t pixel, EyeSamples& eye) {
   if (job.options.transparent && path.depth < 0.0f) return;  // it hit nothing
   if (path.caught) {
     eye.caught[pixel]++;
-    eye.light_with[pixel] += double{path.light_with};
-    eye.light_without[pixel] += double{path.light_without};
+    eye.light_with[pixel] += fixed(path.light_with);
+    eye.light_without[pixel] += fixed(path.light_without);
     return;
   }
   if (!eye.hits.empty()) eye.hits[pixel]++;
@@ -237,7 +237,7 @@ bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRa
   if (!trace_first_rays(job, target.eye.eye, x, y, packet * RayPacket::kMost, start)) return false;
   if (job.shares) find_counterparts(job, target.eye.eye, x, y, start);
   const float ours = weight_in(pass, x, y);
-  for (int i = 0; i < RayPacket::kMost; i++) {
+  for (int i = 0; i < start.packet.count; i++) {
     const int index = packet * RayPacket::kMost + i;
     if (index < range.begin || index >= range.end) continue;
     job.tracer.ray_time = start.packet.times[i];
@@ -284,17 +284,20 @@ class Keeper {
   bool wanted() const { return static_cast<bool>(keep_); }
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   void keep(const PictureSamples& samples) {
+    const double began = seconds();
     if (keep_) keep_(samples);
     kept_ = seconds();
+    took_ = kept_ - began;
   }
   void keep_if_due(const PictureSamples& samples) {
-    if (seconds() - kept_ > kKeepSeconds) keep(samples);
+    if (seconds() - kept_ > std::max(kKeepSeconds, 10.0 * took_)) keep(samples);
   }
 
  private:
   const KeepSamples& keep_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double kept_ = 0.0;
+  double took_ = 0.0;
 };
 
 // Renders the blocks begin .. end - 1 of a pass, of both eyes. The thread that finishes a block reports what is done of

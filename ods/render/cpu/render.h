@@ -40,8 +40,8 @@ class CpuRenderer {
 
   // Likewise, in a way that can be interrupted: goes on from `samples`, which are no_samples() or those that an earlier
   // call has kept, and leaves what develop() makes the picture of. The result has the same bits, wherever it was
-  // interrupted. `keep` gets the samples at least every 30 seconds, and before kCancelled is thrown.
-  // Precondition: options.height > 0, fit(samples, options).
+  // interrupted. `keep` gets the samples at least every 30 seconds, or, if it takes longer than 2.5 seconds, when ten
+  // times as much has passed; and before kCancelled is thrown. Precondition: options.height > 0, fit(samples, options).
   void sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
               const Progress& progress = {}, const KeepSamples& keep = {}) const;
 

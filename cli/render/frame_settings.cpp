@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/video/frame_settings.h"
+#include "cli/render/frame_settings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "ods/base/text.h"
 #include "ods/files/confined_file.h"
@@ -128,6 +129,7 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
 void add_time(Settings& settings, const TimeOptions& options) {
   const auto& [time, animation, frames, fps, duration, move, shutter, grain, skip_existing, is_video] = options;
   const auto& [seconds, turns, pivot, fly_to] = move;
+  add(settings, "--time", time ? fmt::format("{}", *time) : "0");
   add(settings, "--animation", animation.empty() ? "all" : animation);
   add_float(settings, "--fps", fps);
   add_float(settings, "--shutter", shutter);
@@ -187,6 +189,34 @@ std::vector<Setting> frame_settings(const RenderJob& job) {
   add_render(settings, job.render);
   add_save(settings, job.save);
   add(settings, "--denoise", job.denoise ? std::string(ods::name_in(kDenoiserTable, *job.denoise)) : "by default");
+  return settings;
+}
+
+std::vector<Setting> sample_settings(const RenderJob& job) {
+  Settings settings = frame_settings(job);
+  std::erase_if(settings, [](const Setting& s) { return s.option == "--time-limit" || s.option == "--layout"; });
+  add(settings, kPartSetting, fmt::format("{}/{}", job.render.part.number, job.render.part.count));
+  return settings;
+}
+
+std::string settings_text(const std::vector<Setting>& settings) {
+  std::string text;
+  for (const auto& [option, value, path] : settings) {
+    text += fmt::format("{}\t{}{}{}\n", option, value, path.empty() ? "" : "\t", path);
+  }
+  return text;
+}
+
+std::vector<Setting> parse_settings(const std::string& text) {
+  Settings settings;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream stream(line);
+    for (std::string field; std::getline(stream, field, '\t');) fields.push_back(field);
+    fields.resize(3);
+    settings.push_back({fields[0], fields[1], fields[2]});
+  }
   return settings;
 }
 

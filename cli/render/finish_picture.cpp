@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/finish_picture.h"
+
+#include <algorithm>
+
+#include "cli/options/picture_options.h"
+#include "ods/denoise/denoise.h"
+
+// A video's frames are .exr, but what is looked at is the video. One sample has no variance.
+bool denoises(const RenderJob& job) {
+  const bool looked_at = job.time.is_video || !keeps_light(job.output);
+  return job.denoise.value_or(looked_at ? Denoiser::kOwn : Denoiser::kNone) == Denoiser::kOwn && job.render.samples > 1;
+}
+
+// An interrupted picture may have too few samples.
+static bool has_variance(const ods::Picture& picture) {
+  return std::ranges::any_of(picture.eyes, [](const ods::EyeImage& eye) {
+    return std::ranges::any_of(eye.samples.pixels, [](float samples) { return samples > 1.0f; });
+  });
+}
+
+ods::RenderOptions options_to_finish(const RenderJob& job) {
+  ods::RenderOptions options = job.render;
+  const bool for_merge = job.part.has_value();
+  options.layers |= denoises(job) || for_merge;
+  options.statistics |= denoises(job) || for_merge || job.save_unfinished;
+  return options;
+}
+
+std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture picture,
+                                        const std::string& path) {
+  const bool cleans = denoises(job) && has_variance(picture);
+  if (cleans && job.render.layers) {
+    for (ods::EyeImage& eye : picture.eyes) eye.raw = eye.radiance;
+  }
+  if (cleans) ods::denoise(picture, camera, {true, job.render.threads});
+  const bool keeps_statistics = job.render.statistics || (cleans && job.render.layers);
+  for (ods::EyeImage& eye : picture.eyes) {
+    if (!job.render.layers) eye.depth = eye.normal = eye.albedo = ods::Image();
+    if (!keeps_statistics) eye.variance = eye.samples = ods::Image();
+  }
+  return ods::save_picture(picture, camera, job.save, path);
+}

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a rendered picture to its files: denoised if the job wants it, saved.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cli/render/render_job.h"
+#include "ods/picture/picture.h"
+
+// Whether the job's pictures are denoised: by its options, or by what they are for.
+bool denoises(const RenderJob& job);
+
+// The options with the layers that saving the job's pictures needs, and denoising them.
+ods::RenderOptions options_to_finish(const RenderJob& job);
+
+// `picture` was rendered with options_to_finish(), or with more layers. Returns the names of the files.
+std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture picture,
+                                        const std::string& path);

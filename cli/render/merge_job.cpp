@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/merge_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/picture_options.h"
+#include "cli/render/frame_settings.h"
+#include "ods/files/frames.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/render/part_file.h"
+#include "ods/render/render_target.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods merge 'part_#.exr' -o picture.exr\n"
+    "  ods merge part_1.exr part_2.exr -o picture_360_TB.png --denoise own\n"
+    "  ods merge picture.png.unfinished -o so_far.png";
+
+constexpr const char* kSummary =
+    "Puts the parts of a picture together, which ods render --part has made on any machines: the same bits as one\n"
+    "rendering of all samples. Or makes a picture of what an interrupted rendering has kept.";
+
+// The files that the words name; a pattern stands for those that exist.
+std::vector<std::string> files_of(const std::vector<std::string>& words) {
+  std::vector<std::string> files;
+  for (const std::string& word : words) {
+    const auto names = word.find('#') == std::string::npos ? std::nullopt : ods::frame_names(word);
+    if (!names) {
+      files.push_back(word);
+      continue;
+    }
+    const std::vector<int> numbers = ods::frames_on_disk(*names);
+    if (numbers.empty()) throw ods::Error(ods::ErrorKind::kInput, fmt::format("no file is called '{}'", word));
+    for (const int number : numbers) files.push_back(names->path(number));
+  }
+  return files;
+}
+
+std::vector<Setting> settings_of(const ods::SampledPicture& part) {
+  std::vector<Setting> settings = parse_settings(part.settings);
+  std::erase_if(settings, [](const Setting& setting) { return setting.option == kPartSetting; });
+  return settings;
+}
+
+// Why a part belongs to another picture than the first one; empty: to the same.
+std::string difference(const ods::SampledPicture& first, const ods::SampledPicture& part) {
+  if (first.options.part.count != part.options.part.count) {
+    return fmt::format("it is one of {} parts, not of {}", part.options.part.count, first.options.part.count);
+  }
+  return settings_difference(settings_of(first), settings_of(part));
+}
+
+std::string missing(const std::map<int, std::string>& parts, int count) {
+  std::vector<int> numbers;
+  for (int number = 1; number <= count; number++) {
+    if (!parts.contains(number)) numbers.push_back(number);
+  }
+  return ods::frames_text(numbers);
+}
+
+// Finds the parts' numbers and what picture they make.
+void open_parts(MergeJob& job, bool incomplete) {
+  std::map<int, std::string> parts;
+  std::string first;
+  for (const std::string& path : job.parts) {
+    ods::SampledPicture part = ods::read_part_header(path);
+    if (first.empty()) {
+      first = path;
+      job.picture = part;
+    }
+    if (const std::string why = difference(job.picture, part); !why.empty()) {
+      throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' does not belong to '{}': {}", path, first, why));
+    }
+    const auto [other, is_new] = parts.emplace(part.options.part.number, path);
+    if (!is_new) {
+      throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' and '{}' are the same part, {}/{}", other->second,
+                                                           path, part.options.part.number, part.options.part.count));
+    }
+  }
+  const int count = job.picture.options.part.count;
+  if (parts.size() < static_cast<size_t>(count)) {
+    const std::string without = fmt::format("of {} parts, these are missing: {}", count, missing(parts, count));
+    if (!incomplete) {
+      throw ods::Error(ods::ErrorKind::kInput, without + "; --incomplete makes the picture without them");
+    }
+    warn(without);
+  }
+  job.parts.clear();
+  for (const auto& [number, path] : parts) job.parts.push_back(path);
+  job.picture.options.part = {};
+}
+
+void open_pictures(MergeJob& job, bool incomplete) {
+  std::vector<std::string> ignored;
+  const std::string first = job.parts[0];
+  if (job.parts.size() == 1 && ods::is_unfinished(first)) {
+    job.picture = ods::read_unfinished(first, job.samples);
+    job.picture.options.statistics |= job.picture.options.noise > 0.0f;  // such samples have them, too
+    job.parts.clear();
+  } else {
+    open_parts(job, incomplete);
+    ods::check_picture_memory(job.picture.options);
+    job.samples = ods::no_samples(job.picture.options);
+  }
+  job.camera = ods::read_sidecar(job.picture.camera, first, ignored).camera;
+}
+
+void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& layout, bool& incomplete) {
+  RenderJob& render = job.render;
+  options.arguments("PART", job.parts, "the parts; # in a name stands for any number");
+  options.group("Output");
+  options.text("-o,--output", "FILE", render.output,
+               "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+  options.flag("--incomplete", incomplete, "make the picture even if parts are missing; it is noisier");
+  add_layout_option(options, layout, "how both eyes share the file", "--layout");
+  options.flag("--sidecar", render.save.sidecar, "also write the camera as JSON beside the picture");
+  options.flag("--statistics", render.render.statistics,
+               "also write each pixel's variance and number of samples (.exr)");
+  options.choice("--denoise", render.denoise, kDenoiserTable, "as in ods render");
+  options.number("--exposure", render.save.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", render.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
+  options.group("Console");
+  options.number("--threads", render.render.threads, 0, 1024, "number of threads; 0: all processors");
+  add_progress_options(options, render.progress);
+}
+
+// What the picture's files are made of, beside its samples.
+void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
+  RenderJob& render = job.render;
+  const ods::RenderOptions wished = render.render;
+  if (wished.statistics && !ods::keeps_layers(render.output)) throw UsageError("--statistics needs an .exr");
+  render.render = job.picture.options;
+  render.render.layers = ods::keeps_layers(render.output) && job.picture.options.layers;
+  render.render.statistics = wished.statistics;
+  render.render.threads = wished.threads;
+  render.save.layout = layout.value_or(ods::default_layout(job.camera.projection));
+  if (job.picture.options.statistics) return;
+  if (wished.statistics || render.denoise == Denoiser::kOwn) {
+    throw UsageError("the samples have no statistics: neither --statistics nor --denoise is possible");
+  }
+  render.denoise = Denoiser::kNone;
+}
+
+}  // namespace
+
+bool read_merge_job(MergeJob& job, int argc, char** argv) {
+  Options options("merge", kSummary, kExamples);
+  std::optional<ods::Layout> layout;
+  bool incomplete = false;
+  add_options(options, job, layout, incomplete);
+  if (!options.parse(argc, argv)) return false;
+  const std::string& output = job.render.output;
+  if (output.empty()) throw UsageError("no output file: add -o picture.exr");
+  if (job.parts.empty()) throw UsageError("no parts: name the files that ods render --part has made");
+  job.parts = files_of(job.parts);
+  for (const std::string& part : job.parts) refuse_overwriting(output, part);
+  open_pictures(job, incomplete);
+  finish_options(job, layout);
+  const ods::RenderOptions& picture = job.picture.options;
+  const std::vector<int> eyes = ods::eye_list(picture.eyes);
+  ods::check_output(output, job.render.save, eyes, {picture.width, picture.height}, &job.camera.projection);
+  note_misleading_name(output, job.render.save, eyes.size(), job.camera.projection);
+  return true;
+}

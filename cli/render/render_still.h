@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One picture: rendered so that it can be interrupted and resumed, or a part of its samples.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/render/render_job.h"
+#include "ods/render/cpu/render.h"
+
+struct Rendered {
+  std::vector<std::string> files;
+  double samples;  // in all pixels together
+};
+
+// Renders job.output. Ends the process if a signal interrupts it, after keeping what is rendered.
+Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer,
+                      std::span<const ods::StereoCamera> cameras, const ods::RenderOptions& options,
+                      const ods::Progress& progress);

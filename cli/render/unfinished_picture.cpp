@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/unfinished_picture.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "cli/render/frame_settings.h"
+#include "ods/picture/metadata/sidecar.h"
+
+std::string unfinished_path(const std::string& picture) {
+  return picture + ".unfinished";
+}
+
+ods::SampledPicture sampled_picture(const RenderJob& job, const ods::RenderOptions& options,
+                                    const ods::StereoCamera& camera) {
+  const ods::Sidecar sidecar{camera, {options.width, options.height}, job.save.layout, ods::eye_list(options.eyes)};
+  return {settings_text(sample_settings(job)), ods::write_sidecar(sidecar), options};
+}
+
+UnfinishedPicture::UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options,
+                                     const ods::StereoCamera& camera)
+    : job_(job), options_(options), camera_(camera), path_(unfinished_path(job.output)) {}
+
+const ods::SampledPicture& UnfinishedPicture::about() {
+  if (!about_) about_ = sampled_picture(job_, options_, camera_);
+  return *about_;
+}
+
+ods::PictureSamples UnfinishedPicture::begin() {
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(path_, ignored);
+  if (!job_.resume) {
+    if (exists) warn(fmt::format("'{}' has a picture that is not finished; --resume would go on with it", path_));
+    return ods::no_samples(options_);
+  }
+  if (!exists) {
+    note(fmt::format("there is no '{}': rendering starts from the beginning", path_));
+    return ods::no_samples(options_);
+  }
+  ods::PictureSamples samples;
+  const ods::SampledPicture then = ods::read_unfinished(path_, samples);
+  const std::string difference = settings_difference(parse_settings(then.settings), parse_settings(about().settings));
+  if (!difference.empty() || !ods::fit(samples, options_)) {
+    throw UsageError(fmt::format("'{}' was rendered with other options: {}; give the same ones, or leave --resume out",
+                                 path_, difference.empty() ? "its layers differ" : difference));
+  }
+  return samples;
+}
+
+void UnfinishedPicture::keep(const ods::PictureSamples& samples) {
+  if (failed_) return;
+  try {
+    ods::write_unfinished(path_, about(), samples);
+    kept_ = true;
+  } catch (const ods::Error& error) {
+    warn(fmt::format("what is rendered so far cannot be kept: {}", error.what()));
+    failed_ = true;
+    kept_ = false;
+  }
+}
+
+void UnfinishedPicture::remove() const {
+  std::error_code ignored;
+  if (kept_ || job_.resume) std::filesystem::remove(path_, ignored);
+}

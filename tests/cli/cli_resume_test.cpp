@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Long renderings as their user meets them: interrupted, resumed, in parts.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "tests/support/cli_runner.h"
+
+namespace {
+
+class Resume : public Cli {
+ protected:
+  // A picture that takes a few seconds, so that a signal comes in the middle.
+  std::vector<std::string> words(const std::string& file, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = {"render", "toys",    "--width", "128", "--samples",
+                                    "300",    "--noise", "none",    "-o",  folder.path(file)};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  // Starts, and sends the signal as soon as rendering is on its way. Returns the exit code.
+  int interrupted(const std::vector<std::string>& arguments, int number = SIGINT) {
+    Ods command(arguments);
+    command.wait_for(" %,");
+    command.kill(number);
+    const int code = command.finish();
+    out = command.out, err = command.err;
+    return code;
+  }
+
+  int whole(const std::vector<std::string>& arguments) {
+    Ods command(arguments);
+    const int code = command.finish();
+    out = command.out, err = command.err;
+    return code;
+  }
+};
+
+TEST_F(Resume, GoesOnToTheSameBits) {
+  ASSERT_EQ(whole(words("whole.png")), 0) << err;
+  ASSERT_EQ(interrupted(words("a.png")), 128 + SIGINT) << err;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png.unfinished", "whole.png"}));
+  EXPECT_NE(err.find("the same command with --resume goes on"), std::string::npos) << err;
+  EXPECT_TRUE(err.ends_with("ods: interrupted\n")) << err;
+  ASSERT_EQ(interrupted(words("a.png", {"--resume"}), SIGTERM), 128 + SIGTERM) << err;
+  ASSERT_EQ(whole(words("a.png", {"--resume"})), 0) << err;
+  EXPECT_EQ(folder.read("a.png"), folder.read("whole.png"));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "whole.png"}));
+}
+
+TEST_F(Resume, OtherOptionsAreRefusedByName) {
+  ASSERT_EQ(interrupted(words("a.png")), 128 + SIGINT) << err;
+  const std::string kept = folder.read("a.png.unfinished");
+  EXPECT_EQ(whole(words("a.png", {"--resume", "--seed", "3"})), 2);
+  EXPECT_NE(err.find("--seed was 0, now 3"), std::string::npos) << err;
+  EXPECT_EQ(folder.read("a.png.unfinished"), kept);
+  folder.write("a.png.unfinished", kept.substr(0, kept.size() / 2));
+  EXPECT_EQ(whole(words("a.png", {"--resume"})), 3);
+  EXPECT_NE(err.find("is damaged"), std::string::npos) << err;
+}
+
+TEST_F(Resume, WithoutAFileItBegins) {
+  ASSERT_EQ(run("render furnace --width 16 --samples 2 --resume -o " + folder.path("a.png")), 0) << err;
+  EXPECT_NE(err.find("rendering starts from the beginning"), std::string::npos) << err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
+}
+
+TEST_F(Resume, WhatThereIsCanBeSaved) {
+  ASSERT_EQ(interrupted(words("a.png", {"--save-unfinished"}), SIGTERM), 128 + SIGTERM) << err;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "a.png.unfinished"}));
+  EXPECT_EQ(out, folder.path("a.png") + "\n");
+  ASSERT_EQ(run("merge " + folder.path("a.png.unfinished") + " -o " + folder.path("b.png")), 0) << err;
+  EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
+}
+
+TEST_F(Resume, ASecondSignalEndsAtOnce) {
+  Ods command(words("a.png"));
+  command.wait_for(" %,");
+  command.kill(SIGINT);
+  command.wait_for("stopping");
+  command.kill(SIGINT);
+  EXPECT_EQ(command.finish(), 128 + SIGINT);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("a.png")));
+}
+
+class Merge : public Cli {
+ protected:
+  void SetUp() override {
+    for (int part = 1; part <= 3; part++) {
+      ASSERT_EQ(run(render("part_" + std::to_string(part) + ".exr", "--part " + std::to_string(part) + "/3")), 0)
+          << err;
+    }
+  }
+  std::string render(const std::string& file, const std::string& more) const {
+    return "render toys -q --width 48 --samples 20 -o " + folder.path(file) + " " + more;
+  }
+  std::string parts() const { return folder.path("part_#.exr"); }
+};
+
+TEST_F(Merge, GivesTheBitsOfOneRendering) {
+  for (const std::string file : {"a.png", "a.exr"}) {
+    ASSERT_EQ(run(render(file, "--noise none")), 0) << err;
+    const std::string whole = folder.read(file);
+    ASSERT_EQ(run("merge " + parts() + " -o " + folder.path(file)), 0) << err;
+    EXPECT_EQ(folder.read(file), whole) << file;
+  }
+  ASSERT_EQ(run(render("a.exr", "--noise none --statistics --denoise own")), 0) << err;
+  const std::string whole = folder.read("a.exr");
+  ASSERT_EQ(run("merge " + parts() + " --statistics --denoise own -o " + folder.path("a.exr")), 0) << err;
+  EXPECT_EQ(folder.read("a.exr"), whole);
+}
+
+TEST_F(Merge, MissingPartsAreNamed) {
+  std::filesystem::remove(folder.path("part_2.exr"));
+  const std::string merge = "merge " + parts() + " -o " + folder.path("a.png");
+  EXPECT_EQ(run(merge), 3);
+  EXPECT_NE(err.find("of 3 parts, these are missing: 2"), std::string::npos) << err;
+  EXPECT_EQ(run(merge + " --incomplete"), 0) << err;
+}
+
+TEST_F(Merge, WhatDoesNotBelongIsNamed) {
+  const std::string one = folder.path("part_1.exr"), to = " -o " + folder.path("a.png");
+  ASSERT_EQ(run(render("other.exr", "--part 2/3 --seed 5")), 0) << err;
+  EXPECT_EQ(run("merge " + one + " " + folder.path("other.exr") + to), 3);
+  EXPECT_NE(err.find("--seed was 0, now 5"), std::string::npos) << err;
+  ASSERT_EQ(run(render("other.exr", "--part 2/4")), 0) << err;
+  EXPECT_EQ(run("merge " + one + " " + folder.path("other.exr") + to), 3);
+  EXPECT_NE(err.find("it is one of 4 parts, not of 3"), std::string::npos) << err;
+  EXPECT_EQ(run("merge " + one + " " + one + to), 3);
+  EXPECT_NE(err.find("are the same part, 1/3"), std::string::npos) << err;
+  ASSERT_EQ(run(render("other.exr", "")), 0) << err;
+  EXPECT_EQ(run("merge " + one + " " + folder.path("other.exr") + to), 3);
+  EXPECT_NE(err.find("is no part of a picture"), std::string::npos) << err;
+  EXPECT_EQ(run("merge " + folder.path("none_#.exr") + to), 3);
+  EXPECT_EQ(run("merge " + one + " -o " + one), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("a.png")));
+}
+
+TEST_F(Merge, PartsAreExact) {
+  for (const std::string wrong : {"--part 4/3", "--part 0/3", "--part 3", "--part 1/3x", "--part 1/3 --noise 0.1",
+                                  "--part 1/3 --time-limit 1s", "--part 1/3 --denoise own", "--part 1/30"}) {
+    EXPECT_EQ(run(render("a.exr", wrong)), 2) << wrong << err;
+  }
+  EXPECT_EQ(run(render("a.png", "--part 1/3")), 2) << err;
+  EXPECT_EQ(run(render("a.#.exr", "--part 1/3 --frames 1-2")), 2) << err;
+  EXPECT_EQ(run(render("a.#.exr", "--resume --frames 1-2")), 2) << err;
+}
+
+}  // namespace

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/unfinished.h"
+
+#include <gtest/gtest.h>
+
+#include "ods/base/error.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/render/cpu/render.h"
+#include "ods/render/part_file.h"
+#include "ods/scene/load/load.h"
+#include "tests/support/pictures.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+RenderOptions options_with(bool everything) {
+  RenderOptions options = small_render(24, 20);
+  options.height = 12;
+  options.eyes = everything ? Eyes::kBothEyes : Eyes::kRightEye;
+  options.layers = options.statistics = options.transparent = everything;
+  return options;
+}
+
+PictureSamples samples_with(const RenderOptions& options) {
+  const Scene scene = load_scene("toys");
+  const StereoCamera camera;
+  PictureSamples samples = no_samples(options);
+  CpuRenderer(scene).sample({&camera, 1}, options, samples);
+  return samples;
+}
+
+SampledPicture about(const RenderOptions& options) {
+  return {"--seed\t7\n", write_sidecar({StereoCamera(), {options.width, options.height}}), options};
+}
+
+void expect_same(const PictureSamples& a, const PictureSamples& b) {
+  EXPECT_EQ(a.noisy, b.noisy);
+  EXPECT_EQ(std::vector({a.width, a.height, a.done, a.pass_to, a.blocks_done}),
+            std::vector({b.width, b.height, b.done, b.pass_to, b.blocks_done}));
+  ASSERT_EQ(a.eyes.size(), b.eyes.size());
+  for (size_t i = 0; i < a.eyes.size(); i++) {
+    EXPECT_EQ(a.eyes[i].eye, b.eyes[i].eye);
+    std::vector<std::string> left, right;
+    const auto bytes_into = [](std::vector<std::string>& list) {
+      return [&list](const char*, const auto& plane) {
+        const auto bytes = std::as_bytes(std::span(plane));
+        list.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      };
+    };
+    each_plane(a.eyes[i], bytes_into(left));
+    each_plane(b.eyes[i], bytes_into(right));
+    EXPECT_EQ(left, right);
+  }
+}
+
+TEST(Unfinished, ComesBackBitForBit) {
+  const TemporaryFolder folder;
+  for (const bool everything : {true, false}) {
+    const RenderOptions options = options_with(everything);
+    PictureSamples samples = samples_with(options);
+    samples.done = 3, samples.pass_to = 17, samples.blocks_done = 2;
+    write_unfinished(folder.path("a"), about(options), samples);
+    EXPECT_TRUE(is_unfinished(folder.path("a")));
+    PictureSamples again;
+    const SampledPicture picture = read_unfinished(folder.path("a"), again);
+    expect_same(again, samples);
+    EXPECT_EQ(picture.settings, about(options).settings);
+    EXPECT_EQ(picture.camera, about(options).camera);
+    EXPECT_EQ(samples_bytes(picture.options), samples_bytes(options));
+  }
+}
+
+// Every byte matters: a changed one is noticed, and so is a shorter file or a longer one.
+TEST(Unfinished, DamageIsNoticed) {
+  const TemporaryFolder folder;
+  RenderOptions options = options_with(false);
+  options.width = 4, options.height = 2;
+  write_unfinished(folder.path("a"), about(options), samples_with(options));
+  const std::string whole = folder.read("a");
+  const auto expect_refused = [&](const std::string& bytes, size_t at) {
+    folder.write("b", bytes);
+    PictureSamples samples;
+    try {
+      read_unfinished(folder.path("b"), samples);
+      ADD_FAILURE() << at;
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kMemory) << at << error.what();
+    }
+  };
+  for (size_t at = 0; at < whole.size(); at++) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x41);
+    expect_refused(bytes, at);
+    if (at % 5 == 0) expect_refused(whole.substr(0, at), at);
+  }
+  expect_refused(whole + '\0', whole.size());
+}
+
+TEST(PartFile, HoldsTheExactSums) {
+  const TemporaryFolder folder;
+  for (const bool everything : {true, false}) {
+    const RenderOptions options = options_with(everything);
+    PictureSamples samples = samples_with(options);
+    samples.eyes[0].light[5] = (int64_t{1} << 62) + 12345;  // beyond what floats and doubles hold
+    SampledPicture picture = about(options);
+    picture.options.part = {2, 3};
+    save_part(folder.path("part.exr"), picture, samples);
+    const SampledPicture header = read_part_header(folder.path("part.exr"));
+    EXPECT_EQ(header.options.part.number, 2);
+    EXPECT_EQ(header.options.part.count, 3);
+    EXPECT_EQ(header.settings, picture.settings);
+    EXPECT_EQ(header.camera, picture.camera);
+    EXPECT_EQ(samples_bytes(header.options), samples_bytes(options));
+    PictureSamples again = no_samples(options);
+    again.done = samples.done, again.pass_to = samples.pass_to;
+    add_part(folder.path("part.exr"), options, again);
+    expect_same(again, samples);
+  }
+}
+
+TEST(PartFile, OtherPicturesAreRefused) {
+  const TemporaryFolder folder;
+  const RenderOptions options = options_with(true);
+  PictureSamples sum = no_samples(options);
+  save_part(folder.path("small.exr"), about(options_with(false)), samples_with(options_with(false)));
+  EXPECT_THROW(add_part(folder.path("small.exr"), options, sum), Error);
+  folder.write("no.exr", "nothing of the kind");
+  EXPECT_THROW(read_part_header(folder.path("no.exr")), Error);
+  EXPECT_THROW(add_part(folder.path("no.exr"), options, sum), Error);
+}
+
+}  // namespace
+}  // namespace ods
