@@ -25,6 +25,14 @@ static PoleMerge make_merge(const PoleMergeSetting& setting) {
   return merge;
 }
 
+static CameraMap make_map(const std::shared_ptr<const Image>& image) {
+  CameraMap map;
+  map.width = image ? image->width : 0;
+  map.height = image ? image->height : 0;
+  map.texels = image ? image->pixels.data() : nullptr;
+  return map;
+}
+
 Camera make_camera(const StereoCamera& stereo) {
   assert(stereo.ipd >= 0.0f);
   assert(stereo.merge_map || (stereo.top.mode != kMergeMap && stereo.bottom.mode != kMergeMap));
@@ -49,9 +57,8 @@ Camera make_camera(const StereoCamera& stereo) {
   camera.top = make_merge(stereo.top);
   camera.bottom = make_merge(stereo.bottom);
   camera.projection = make_projection(stereo.projection);
-  camera.map_width = stereo.merge_map ? stereo.merge_map->width : 0;
-  camera.map_height = stereo.merge_map ? stereo.merge_map->height : 0;
-  camera.map = stereo.merge_map ? stereo.merge_map->pixels.data() : nullptr;
+  camera.merge_map = make_map(stereo.merge_map);
+  camera.head_tilt_map = make_map(stereo.head_tilt_map);
   return camera;
 }
 

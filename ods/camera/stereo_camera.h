@@ -66,6 +66,9 @@ struct StereoCamera {
   PoleMergeSetting top;
   PoleMergeSetting bottom;
   std::shared_ptr<const Image> merge_map;  // for kMergeMap: lat-long, 1 channel, 1 is full stereo and 0 is merged
+  // None: a level head. Lat-long, 1 channel: how far the head tilts in each direction, from 90 degrees to the left (0)
+  // over level (0.5) to 90 degrees to the right (1, the right eye below the left one).
+  std::shared_ptr<const Image> head_tilt_map;
   ProjectionSetting projection;
   int convergence = kParallel;
   float convergence_distance = 2.0f;  // metres
@@ -79,7 +82,7 @@ struct StereoCamera {
 };
 
 // Precondition: every field is finite, ipd >= 0, the projection has no fault.
-// The result points into the merge map of `stereo`.
+// The result points into the maps of `stereo`.
 Camera make_camera(const StereoCamera& stereo);
 
 // Turns the camera in its own frame, by degrees relative to its orientation.
