@@ -101,7 +101,7 @@ void add_map(Settings& settings, const std::string& option, const std::shared_pt
 
 // The rig's position and angles are those that place_camera() replaces for every scene.
 void add_camera(Settings& settings, const CameraOptions& camera) {
-  const auto& [rig, merge_map, merge_map_inverted, view_point, position, yaw, pitch, roll] = camera;
+  const auto& [rig, merge_map, merge_map_inverted, head_tilt_map, view_point, position, yaw, pitch, roll] = camera;
   const auto& [rig_position, rig_yaw, rig_pitch, rig_roll, ipd, top, bottom, map, tilt_map, projection, convergence,
                convergence_distance, neck, axis, lens_radius, focus_distance, mirrored] = rig;
   const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
@@ -116,7 +116,7 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
   add(settings, "--merge-top", merge_text(top));
   add(settings, "--merge-bottom", merge_text(bottom));
   add_map(settings, "--merge-map", map, merge_map);
-  add_map(settings, "--head-tilt-map", tilt_map, "");
+  add_map(settings, "--head-tilt-map", tilt_map, head_tilt_map);
   add_projection(settings, projection);
   const bool parallel = convergence == ods::kParallel;
   add(settings, "--convergence",
