@@ -163,8 +163,8 @@ void add_circle_options(Options& options, CameraOptions& camera) {
                "invert the map: black is full stereo, as in Arnold's manual");
   options.text(
       "--head-tilt-map", "FILE", camera.head_tilt_map,
-      "lat-long picture that tilts the head: white 90 degrees to the right, 50 % grey level, black 90 degrees to the "
-      "left");
+      "lat-long picture that tilts the head: white 90 degrees to the right, mid-grey not at all, black 90 degrees "
+      "to the left");
   options.custom(
       "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, stereo); },
       "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "

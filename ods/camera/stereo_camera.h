@@ -81,6 +81,13 @@ struct StereoCamera {
   bool operator==(const StereoCamera&) const = default;
 };
 
+// Two maps with the same numbers are one map.
+bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b);
+
+// Whether the eyes of both stand in the same places, from the circle's centre, for every line of sight. Precondition:
+// both have the same circle. Maps turn with the camera, so a camera with a map that varies around may not be turned.
+bool same_eyes(const StereoCamera& a, const StereoCamera& b);
+
 // Precondition: every field is finite, ipd >= 0, the projection has no fault.
 // The result points into the maps of `stereo`.
 Camera make_camera(const StereoCamera& stereo);
