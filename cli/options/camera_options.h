@@ -14,6 +14,7 @@ struct CameraOptions {
   ods::StereoCamera stereo;  // the part that holds for every scene
   std::string merge_map;
   bool merge_map_inverted = false;
+  std::string head_tilt_map;
   std::string view_point;
   std::optional<ods::vec3> position;
   std::optional<float> yaw;
@@ -31,7 +32,7 @@ void add_camera_options(Options& options, CameraOptions& camera);
 // Likewise without --camera, where no scene could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
-// Checks the options as a whole, reads the merge map, and finds the height of the picture if it is 0. Throws UsageError
+// Checks the options as a whole, reads the maps, and finds the height of the picture if it is 0. Throws UsageError
 // and ods::Error.
 void finish_camera_options(CameraOptions& camera, int width, int& height);
 

@@ -11,10 +11,13 @@
 
 #include "cli/console/console.h"
 #include "cli/options/field_option.h"
+#include "ods/base/error.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_preset.h"
 #include "ods/image/image_file.h"
+#include "ods/image/tone.h"
+#include "ods/picture/metadata/sidecar.h"
 
 using ods::CameraField, ods::StereoCamera, ods::PoleMergeSetting, ods::vec3;
 
@@ -158,6 +161,10 @@ void add_circle_options(Options& options, CameraOptions& camera) {
                "lat-long picture for --merge map: white is full stereo, black is none");
   options.flag("--merge-map-inverted", camera.merge_map_inverted,
                "invert the map: black is full stereo, as in Arnold's manual");
+  options.text(
+      "--head-tilt-map", "FILE", camera.head_tilt_map,
+      "lat-long picture that tilts the head: white 90 degrees to the right, mid-grey not at all, black 90 degrees "
+      "to the left");
   options.custom(
       "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, stereo); },
       "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
@@ -178,19 +185,24 @@ void add_eye_options(Options& options, CameraOptions& camera) {
   options.flag("--left-handed", stereo.mirrored, "swap front and back, to show a left-handed world as it is");
 }
 
-static void read_merge_map(CameraOptions& camera) {
-  std::string color_fault;
-  const ods::Image picture = ods::read_image(camera.merge_map, &color_fault);
-  if (!color_fault.empty()) warn(fmt::format("'{}': {}", camera.merge_map, color_fault));
-  auto map = std::make_shared<ods::Image>(picture.width, picture.height, 1);
-  for (int y = 0; y < picture.height; y++) {
-    for (int x = 0; x < picture.width; x++) {
-      const float white = picture.at(x, y)[0];
-      const float share = white > 0.0f ? std::min(white, 1.0f) : 0.0f;  // NaN: 0
-      *map->at(x, y) = camera.merge_map_inverted ? 1.0f - share : share;
-    }
+// value_of: a pixel's value in the map, 0..1, from its scene-linear light. NaN becomes `fallback`.
+template <class ValueOf>
+static std::shared_ptr<const ods::Image> read_map(const std::string& path, float fallback, ValueOf value_of) {
+  const ods::FileInfo info = ods::read_info(path);
+  if (int64_t{info.width} * info.height > ods::kLargestMap) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has {}x{} pixels: a map has at most {}; 4096x2048 are enough", path, info.width,
+                                 info.height, ods::kLargestMap));
   }
-  camera.stereo.merge_map = map;
+  std::string color_fault;
+  const ods::Image picture = ods::read_image(path, &color_fault);
+  if (!color_fault.empty()) warn(fmt::format("'{}': {}", path, color_fault));
+  auto map = std::make_shared<ods::Image>(picture.width, picture.height, 1);
+  for (size_t i = 0; i < map->pixels.size(); i++) {
+    const float value = value_of(picture.pixels[3 * i]);
+    map->pixels[i] = std::isnan(value) ? fallback : std::clamp(value, 0.0f, 1.0f);
+  }
+  return map;
 }
 
 void finish_eye_options(CameraOptions& camera) {
@@ -202,6 +214,13 @@ void finish_eye_options(CameraOptions& camera) {
     throw UsageError("--merge-map-inverted needs a picture: --merge-map FILE");
   if (!camera.merge_map.empty()) {
     if (!wanted) stereo.top.mode = stereo.bottom.mode = ods::kMergeMap;
-    read_merge_map(camera);
+    const auto share = [&](float white) { return camera.merge_map_inverted ? 1.0f - white : white; };
+    stereo.merge_map = read_map(camera.merge_map, 0.0f, share);
+  }
+  if (!camera.head_tilt_map.empty()) {
+    // Angles, not light: half is half, as painted.
+    const bool is_encoded = !ods::read_info(camera.head_tilt_map).is_float;
+    const auto tilt = [&](float value) { return is_encoded ? ods::srgb_encode(value) : value; };
+    stereo.head_tilt_map = read_map(camera.head_tilt_map, 0.5f, tilt);
   }
 }

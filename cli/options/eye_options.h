@@ -11,5 +11,5 @@ void add_camera_preset_option(Options& options, CameraOptions& camera);
 void add_circle_options(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);
 
-// Reads the picture that --merge-map names. Throws UsageError and ods::Error.
+// Reads the pictures that --merge-map and --head-tilt-map name. Throws UsageError and ods::Error.
 void finish_eye_options(CameraOptions& camera);

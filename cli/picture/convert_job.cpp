@@ -100,11 +100,11 @@ void add_camera(Options& options, CameraOptions& camera) {
 }
 
 // A mono picture is one of the existing eyes, wherever the eyes are to move.
-void note_unmoved(const ConvertJob& job, const StereoCamera& wished) {
+void note_unmoved(const ConvertJob& job, StereoCamera wished) {
   const StereoCamera& own = job.picture.camera;
-  const bool moves = wished.ipd != own.ipd || wished.neck != own.neck || !ods::same_merge(wished.top, own.top) ||
-                     !ods::same_merge(wished.bottom, own.bottom);
-  if (moves && job.target.eyes[0] == ods::kMono) note("--ipd, --merge and --eye-to-neck change nothing of one eye");
+  wished.yaw = own.yaw, wished.pitch = own.pitch, wished.roll = own.roll;
+  if (job.target.eyes[0] == ods::kMono && !ods::same_eyes(wished, own))
+    note("--ipd, --merge, --head-tilt-map and --eye-to-neck change nothing of one eye");
 }
 
 std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {

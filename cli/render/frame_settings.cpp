@@ -92,17 +92,18 @@ std::string merge_text(const ods::PoleMergeSetting& merge) {
   return fmt::format("{},{},{},{}", ods::merge_name(mode), start, end, exponent);
 }
 
-void add_merge_map(Settings& settings, const std::shared_ptr<const ods::Image>& map, const std::string& path) {
+void add_map(Settings& settings, const std::string& option, const std::shared_ptr<const ods::Image>& map,
+             const std::string& path) {
   if (!map) return;
   const std::string_view bytes(reinterpret_cast<const char*>(map->pixels.data()), map->pixels.size() * sizeof(float));
-  settings.push_back({"--merge-map", ods::md5(fmt::format("{}x{}", map->width, map->height) + std::string(bytes)),
-                      ods::one_line(path)});
+  settings.push_back(
+      {option, ods::md5(fmt::format("{}x{}", map->width, map->height) + std::string(bytes)), ods::one_line(path)});
 }
 
 // The rig's position and angles are those that place_camera() replaces for every scene.
 void add_camera(Settings& settings, const CameraOptions& camera) {
-  const auto& [rig, merge_map, merge_map_inverted, view_point, position, yaw, pitch, roll] = camera;
-  const auto& [rig_position, rig_yaw, rig_pitch, rig_roll, ipd, top, bottom, map, projection, convergence,
+  const auto& [rig, merge_map, merge_map_inverted, head_tilt_map, view_point, position, yaw, pitch, roll] = camera;
+  const auto& [rig_position, rig_yaw, rig_pitch, rig_roll, ipd, top, bottom, map, tilt_map, projection, convergence,
                convergence_distance, neck, axis, lens_radius, focus_distance, mirrored] = rig;
   const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
     return angle ? fmt::format("{}", *angle) : fallback;
@@ -115,7 +116,8 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
   add_float(settings, "--ipd", ipd);
   add(settings, "--merge-top", merge_text(top));
   add(settings, "--merge-bottom", merge_text(bottom));
-  add_merge_map(settings, map, merge_map);
+  add_map(settings, "--merge-map", map, merge_map);
+  add_map(settings, "--head-tilt-map", tilt_map, head_tilt_map);
   add_projection(settings, projection);
   const bool parallel = convergence == ods::kParallel;
   add(settings, "--convergence",

@@ -15,6 +15,31 @@ bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b) {
   return none || (a.mode == b.mode && a.start == b.start && a.end == b.end && a.exponent == b.exponent);
 }
 
+bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b) {
+  return a == b || (a && b && a->width == b->width && a->height == b->height && a->pixels == b->pixels);
+}
+
+static bool varies_around(const Image& map) {
+  for (int y = 0; y < map.height; y++) {
+    if (std::any_of(map.at(0, y), map.at(0, y) + map.width, [&](float value) { return value != *map.at(0, y); }))
+      return true;
+  }
+  return false;
+}
+
+bool same_eyes(const StereoCamera& a, const StereoCamera& b) {
+  if (a.ipd != b.ipd || a.neck != b.neck || !same_merge(a.top, b.top) || !same_merge(a.bottom, b.bottom)) return false;
+  const bool merges_by_map = a.top.mode == kMergeMap || a.bottom.mode == kMergeMap;
+  if (merges_by_map && !same_map(a.merge_map, b.merge_map)) return false;
+  if (!same_map(a.head_tilt_map, b.head_tilt_map)) return false;
+  const Camera first = make_camera(a), second = make_camera(b);
+  const bool same_up = length(first.up - second.up) < 1e-4f, same_right = length(first.right - second.right) < 1e-4f;
+  for (const std::shared_ptr<const Image>& map : {merges_by_map ? a.merge_map : nullptr, a.head_tilt_map}) {
+    if (map && !(same_up && (same_right || !varies_around(*map)))) return false;
+  }
+  return true;
+}
+
 static PoleMerge make_merge(const PoleMergeSetting& setting) {
   assert(setting.mode == kMergeNone || (setting.start < setting.end && setting.exponent > 0.0f));
   PoleMerge merge;
@@ -23,6 +48,14 @@ static PoleMerge make_merge(const PoleMergeSetting& setting) {
   merge.end = glm::radians(setting.end);
   merge.exponent = setting.exponent;
   return merge;
+}
+
+static CameraMap make_map(const std::shared_ptr<const Image>& image) {
+  CameraMap map;
+  map.width = image ? image->width : 0;
+  map.height = image ? image->height : 0;
+  map.texels = image ? image->pixels.data() : nullptr;
+  return map;
 }
 
 Camera make_camera(const StereoCamera& stereo) {
@@ -49,9 +82,8 @@ Camera make_camera(const StereoCamera& stereo) {
   camera.top = make_merge(stereo.top);
   camera.bottom = make_merge(stereo.bottom);
   camera.projection = make_projection(stereo.projection);
-  camera.map_width = stereo.merge_map ? stereo.merge_map->width : 0;
-  camera.map_height = stereo.merge_map ? stereo.merge_map->height : 0;
-  camera.map = stereo.merge_map ? stereo.merge_map->pixels.data() : nullptr;
+  camera.merge_map = make_map(stereo.merge_map);
+  camera.head_tilt_map = make_map(stereo.head_tilt_map);
   return camera;
 }
 

@@ -66,6 +66,9 @@ struct StereoCamera {
   PoleMergeSetting top;
   PoleMergeSetting bottom;
   std::shared_ptr<const Image> merge_map;  // for kMergeMap: lat-long, 1 channel, 1 is full stereo and 0 is merged
+  // None: a level head. Lat-long, 1 channel: how far the head tilts in each direction, from 90 degrees to the left (0)
+  // over level (0.5) to 90 degrees to the right (1, the right eye below the left one).
+  std::shared_ptr<const Image> head_tilt_map;
   ProjectionSetting projection;
   int convergence = kParallel;
   float convergence_distance = 2.0f;  // metres
@@ -78,8 +81,15 @@ struct StereoCamera {
   bool operator==(const StereoCamera&) const = default;
 };
 
+// Two maps with the same numbers are one map.
+bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b);
+
+// Whether the eyes of both stand in the same places, from the circle's centre, for every line of sight. Precondition:
+// both have the same circle. Maps turn with the camera, so a camera with a map that varies around may not be turned.
+bool same_eyes(const StereoCamera& a, const StereoCamera& b);
+
 // Precondition: every field is finite, ipd >= 0, the projection has no fault.
-// The result points into the merge map of `stereo`.
+// The result points into the maps of `stereo`.
 Camera make_camera(const StereoCamera& stereo);
 
 // Turns the camera in its own frame, by degrees relative to its orientation.

@@ -18,6 +18,7 @@ static StoredPicture with_eyes_of(StoredPicture foreground, const StereoCamera& 
   StereoCamera& own = foreground.camera;
   own.ipd = camera.ipd, own.neck = camera.neck, own.axis = camera.axis, own.mirrored = camera.mirrored;
   own.top = camera.top, own.bottom = camera.bottom, own.merge_map = camera.merge_map;
+  own.head_tilt_map = camera.head_tilt_map;
   return foreground;
 }
 
@@ -50,8 +51,12 @@ static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back,
                     "--ipd {:g}, or it appears at other distances",
                     1000.0f * front.ipd, 1000.0f * back.ipd, back.ipd));
   }
-  if (!same_merge(front.top, back.top) || !same_merge(front.bottom, back.bottom) || front.merge_map != back.merge_map) {
+  if (!same_merge(front.top, back.top) || !same_merge(front.bottom, back.bottom) ||
+      !same_map(front.merge_map, back.merge_map)) {
     warnings.push_back("the foreground has another pole merge: near the poles it does not stay on what it stands on");
+  }
+  if (!same_map(front.head_tilt_map, back.head_tilt_map)) {
+    warnings.push_back("the foreground has another --head-tilt-map: its eyes differ in height from the background's");
   }
   if (front.neck != back.neck) warnings.push_back("the foreground has another --eye-to-neck");
 }

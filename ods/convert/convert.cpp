@@ -39,9 +39,7 @@ static bool is_tilted(const StereoCamera& from, const StereoCamera& to) {
 // Whether the target's eyes are in other places than the picture's. A mono target takes one eye unchanged.
 static bool sees_around(const StoredPicture& picture, const ConvertTarget& target) {
   if (target.eyes[0] == kMono) return false;
-  const StereoCamera &from = picture.camera, &to = target.camera;
-  return picture.eyes[0].eye == kMono || from.ipd != to.ipd || from.neck != to.neck || !same_merge(from.top, to.top) ||
-         !same_merge(from.bottom, to.bottom) || from.merge_map != to.merge_map;
+  return picture.eyes[0].eye == kMono || !same_eyes(picture.camera, target.camera);
 }
 
 std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& target) {
@@ -82,7 +80,7 @@ namespace {
 
 // Maps the target's pixels to places in the source.
 struct Mapping {
-  StereoCamera stereo;  // owns the merge map that `camera` reads
+  StereoCamera stereo;  // owns the maps that `camera` reads
   Source source;
   Camera camera;  // of the target, with its centre at 0
   Extent size;

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "ods/kernel/camera/project.h"
+
 namespace ods {
 
 static vec2 size_of(const Source& source) {
@@ -81,6 +83,7 @@ static Place find_direction(const Source& source, int source_eye, vec3 d) {
 // The direction d' under which a toed-in picture stores the line of direction d: C d' minus the eye's offset is
 // parallel to d. The offset's size depends on the elevation, through the merge: a few iterations find both.
 static vec3 toed_in_label(const Camera& camera, int eye, vec3 d) {
+  if (has_head_tilt(camera)) return look_of_point(camera, eye, d, 0.0f).direction;
   const float c = camera.convergence_distance, height = dot(d, camera.axis);
   const vec3 level = d - camera.axis * height;
   if (length(level) == 0.0f) return d;

@@ -96,6 +96,7 @@ std::vector<std::string> lacking(const Sidecar& file, const Abilities& can) {
         fmt::format("shift to a convergence distance ({} m)", stereo.convergence_distance));
   lacks(stereo.lens_radius > 0.0f, "blur like our lens, which stands about the displaced eye");
   lacks(stereo.mirrored, "mirrored world");
+  lacks(stereo.head_tilt_map != nullptr, "head-tilt map");
   const bool partial = stereo.projection.kind == kLatLong && !is_full_lat_long(stereo.projection);
   lacks(!can.partial && partial, "part of a lat-long");
   return list;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "ods/export/camera_formula.h"
 #include "ods/export/writers.h"
 
 namespace ods {
@@ -64,7 +65,10 @@ CameraExport to_povray_fork(const Sidecar& file) {
     faults.push_back(
         fmt::format("its merge is a power of the cosine from 0 to 90 degrees, not {}", merge_text(stereo)));
   }
-  if (!faults.empty()) return {"", {}, fmt::format("{} (--for povray has it all)", fmt::join(faults, "; "))};
+  if (!faults.empty()) {
+    const char* instead = formula_fault(file).empty() ? " (--for povray has it all)" : "";
+    return {"", {}, fmt::format("{}{}", fmt::join(faults, "; "), instead)};
+  }
   const bool mono = file.eyes.size() == 1 && file.eyes[0] == kMono;
   CameraExport result;
   result.text = comment_block("//", "The POV-Ray fork's camera: " + camera_title(file) + ".", {});

@@ -31,7 +31,7 @@ Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eye
   const std::vector<GrayView> views = make_gray_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
   Search search;
   search.correlation = 0.7f;
-  search.down = 0.04f;
+  search.down = subject.format.camera.head_tilt_map ? search.around : 0.04f;
   cut.matches = match_tiles(views[0], views[1], search);
   for (const Match& match : cut.matches.found) {
     cut.lopsided += std::tanh(4.0 * static_cast<double>(match.around / cut.matches.pixel)) /

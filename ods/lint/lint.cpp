@@ -90,7 +90,7 @@ constexpr int kMinHeight = 32;
 
 static void check_pixels(const Subject& subject, LintReport& report) {
   check_seam(subject, report);
-  if (report.eye_count < 2) return;
+  if (report.eye_count < 2 || subject.format.camera.head_tilt_map) return;
   check_parallax(subject, report);
   check_poles(subject, report);
 }
@@ -122,6 +122,7 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   const bool small = around < kMinAround || report.eye.height < kMinHeight;
   std::string reason = "there is only one eye";
   if (report.eye_count > 1) skip(report, Check::kBetweenEyes, "ods lint does not measure them yet");
+  if (subject.format.camera.head_tilt_map) reason = "its head-tilt map turns the parallax";
   if (small) reason = fmt::format("an eye of {}x{} pixels is too small", report.eye.width, report.eye.height);
   if (small || check_layout(subject, report)) {
     check_metadata(subject, report);

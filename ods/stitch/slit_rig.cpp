@@ -160,6 +160,9 @@ std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions
     return fmt::format("slits make a lat-long picture, whole or a part; ods convert can turn it into {}",
                        projection_name(camera.projection));
   }
+  if (camera.head_tilt_map) {
+    return "slits are level and cannot show a tilted head: leave out --head-tilt-map, or use ods render";
+  }
   if (camera.lens_radius > 0.0f) return "the views' renderer makes the depth of field: leave out --lens";
   if (options.slits < 3 || options.slits > eye.width) {
     return fmt::format("{} slits: there must be at least 3, and at most as many as the picture has columns ({})",

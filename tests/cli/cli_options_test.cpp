@@ -5,9 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "ods/base/json_reader.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
 
@@ -179,6 +183,58 @@ TEST_F(Cli, ALensPolynomialHasItsNumbersAndIsChecked) {
   }
   EXPECT_EQ(run("camera --width 64 --projection fisheye --sensor 20,10"), 2);
   EXPECT_NE(err.find("--sensor is for fisheye-polynomial, not for --projection fisheye"), std::string::npos) << err;
+}
+
+// A picture of one value, in the code of its file.
+void write_grey(const std::string& path, int width, int height, float value) {
+  ods::FileHeader header;
+  header.format = *ods::format_of_path(path);
+  header.width = width, header.height = height;
+  const bool is_exr = header.format == ods::FileFormat::kExr;
+  for (const char* name : {"R", "G", "B"}) {
+    header.channels.push_back({name, is_exr ? ods::SampleType::kFloat : ods::SampleType::kUint8});
+  }
+  ods::AtomicFile file(path);
+  write_image(file, header, [&](int, std::span<float> row) { std::fill(row.begin(), row.end(), value); });
+  file.commit();
+}
+
+// Half is level as painted, in 8 bits as in floats; white tilts to the right, and the right eye goes down.
+TEST_F(Cli, AHeadTiltMapTiltsTheHead) {
+  const auto tilt = [&](const std::string& name, float value) {
+    write_grey(folder.path(name), 4, 2, value);
+    const std::string sidecar = folder.path("a.camera.json");
+    EXPECT_EQ(run("camera --for json --width 64 --head-tilt-map " + folder.path(name) + " -o " + sidecar), 0) << err;
+    std::vector<std::string> warnings;
+    const auto map = ods::load_sidecar(sidecar, warnings).camera.head_tilt_map;
+    EXPECT_TRUE(map && map->width == 4 && map->height == 2);
+    return map ? map->pixels[5] : NAN;
+  };
+  EXPECT_EQ(tilt("half.exr", 0.5f), 0.5f);
+  EXPECT_NEAR(tilt("grey.png", 128.0f / 255.0f), 128.0f / 255.0f, 1e-6f);
+  EXPECT_NEAR(tilt("dark.png", 51.0f / 255.0f), 0.2f, 1e-6f);
+  EXPECT_EQ(tilt("black.png", 0.0f), 0.0f);
+  EXPECT_EQ(tilt("over.exr", 7.0f), 1.0f);
+  EXPECT_EQ(tilt("nan.exr", NAN), 0.5f) << "level";
+  EXPECT_NEAR(tilt("white.png", 1.0f), 1.0f, 1e-6f);
+  ASSERT_EQ(run("project 0,0,-0.65 --json --width 64 --head-tilt-map " + folder.path("white.png")), 0) << err;
+  const ods::Json found = ods::Json::parse(out);
+  EXPECT_NEAR(found["right"]["uv"][0].get<double>(), 0.5, 1e-6);
+  EXPECT_LT(found["right"]["uv"][1].get<double>(), 0.49) << "seen from below";
+  EXPECT_GT(found["left"]["uv"][1].get<double>(), 0.51);
+}
+
+TEST_F(Cli, MapsThatCannotBeReadAreErrorsOfTheirFiles) {
+  folder.write("text.png", "no picture");
+  write_grey(folder.path("large.png"), 8192, 2049, 0.0f);
+  for (const char* option : {"--head-tilt-map ", "--merge-map "}) {
+    for (const auto& [name, said] :
+         {std::pair{"absent.png", "absent.png"}, {"text.png", "text.png"}, {"large.png", "4096x2048 are enough"}}) {
+      EXPECT_EQ(run(std::string("camera --width 64 ") + option + folder.path(name)), 3) << option << name;
+      EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+      EXPECT_NE(err.find(said), std::string::npos) << err;
+    }
+  }
 }
 
 TEST_F(Cli, CamerasBeyondTheirRangesAreUsageErrors) {

@@ -210,6 +210,27 @@ TEST_F(CliStitch, FramesAreShared) {
       << err;
 }
 
+// The command line asks for it, or the rig's file does.
+TEST_F(CliStitch, ATiltedHeadIsRefused) {
+  ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("map.png")), 0) << err;
+  for (const char* slits : {"--slits 12", "--max-error 1"}) {
+    EXPECT_EQ(run(std::string("rig --width 64 --nearest 1 -o ") + rig + " --head-tilt-map " + folder.path("map.png") +
+                  " " + slits),
+              2);
+    EXPECT_NE(err.find("slits are level and cannot show a tilted head"), std::string::npos) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_FALSE(std::filesystem::exists(rig));
+  }
+  ASSERT_EQ(plan(), 0) << err;
+  std::string text = folder.read("rig.json");
+  const std::string level = "\"head_tilt_map\": null";
+  ASSERT_NE(text.find(level), std::string::npos);
+  text.replace(text.find(level), level.size(), R"("head_tilt_map": {"width": 1, "height": 1, "values": [1]})");
+  folder.write("rig.json", text);
+  EXPECT_EQ(stitch("y.exr"), 3);
+  EXPECT_NE(err.find("slits are level and cannot show a tilted head"), std::string::npos) << err;
+}
+
 TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {
   EXPECT_EQ(run("rig --slits 12 --width 66 --projection cube-3x2"), 2);
   EXPECT_NE(err.find("lat-long"), std::string::npos) << err;

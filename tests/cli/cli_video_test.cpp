@@ -229,6 +229,7 @@ const std::set<std::string> kOthers = {"--output",
                                        "--time",
                                        "--sidecar",
                                        "--merge-map-inverted",
+                                       "--head-tilt-map",
                                        "--sensor",
                                        "--lens-polynomial"};
 
@@ -268,6 +269,8 @@ TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
   ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("map.png")), 0) << err;
   EXPECT_EQ(run(job + " --merge-map " + folder.path("map.png")), 2);
   EXPECT_NE(err.find("--merge-top was none, now map"), std::string::npos) << err;
+  EXPECT_EQ(run(job + " --head-tilt-map " + folder.path("map.png")), 2);
+  EXPECT_NE(err.find("--head-tilt-map is new"), std::string::npos) << err;
   EXPECT_EQ(run(job + " --projection fisheye --fov 100 --lens-direction 20,10"), 2);
   EXPECT_NE(err.find("; and 1 more; --restart"), std::string::npos) << err;
 }

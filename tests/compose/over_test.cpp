@@ -92,6 +92,26 @@ TEST(Over, WarnsOfOtherEyes) {
   EXPECT_EQ(over_fault(front_picture(narrow).picture, back.picture, {}), "");  // taken as it is
 }
 
+// Maps that were read from two files are one map if they are the same.
+TEST(Over, WarnsOfAnotherTilt) {
+  const auto tilted = [](float value) {
+    StereoCamera camera;
+    auto map = std::make_shared<Image>(2, 1, 1);
+    map->pixels = {value, value};
+    camera.head_tilt_map = map;
+    return camera;
+  };
+  const MadePicture back = back_picture(tilted(0.7f), false);
+  EXPECT_EQ(over_warnings(front_picture(tilted(0.7f)).picture, back.picture).size(), 0u);
+  for (const StereoCamera& other : {tilted(0.6f), StereoCamera()}) {
+    const MadePicture front = front_picture(other);
+    const std::vector<std::string> warnings = over_warnings(front.picture, back.picture);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("--head-tilt-map"), std::string::npos) << warnings[0];
+    EXPECT_EQ(over_fault(front.picture, back.picture, {}), "") << "taken as it is";
+  }
+}
+
 TEST(Over, WarnsOfWhatStandsBehindWhatItCovers) {
   const MadePicture front = front_picture(StereoCamera()), back = back_picture(StereoCamera());
   const Overlay overlay = lay_over(front.picture, back.picture, {});

@@ -130,6 +130,29 @@ TEST(Reproject, NewMerge) {
   EXPECT_LT(result.needless, 0.001);
 }
 
+std::shared_ptr<const Image> map_of(int width, std::vector<float> values) {
+  auto map = std::make_shared<Image>(width, static_cast<int>(values.size()) / width, 1);
+  map->pixels = std::move(values);
+  return map;
+}
+
+// The head is tilted after the fact, straightened, and tilted to another side.
+TEST(Reproject, NewHeadTilt) {
+  const std::shared_ptr<const Image> maps[] = {nullptr, map_of(1, {0.9f}), map_of(4, {0.2f, 0.5f, 0.6f, 0.4f})};
+  for (const auto& [convergence, from] : {std::pair{kParallel, 0}, {kParallel, 1}, {kParallel, 2}, {kToeIn, 1}}) {
+    StereoCamera stereo;
+    stereo.convergence = convergence;
+    stereo.head_tilt_map = maps[from];
+    const MadePicture made = picture_of_world(stereo, {256, 128}, kBoth);
+    ConvertTarget target = target_of(made, stereo.projection, made.picture.size);
+    target.camera.head_tilt_map = maps[(from + 1) % 3];
+    const Result result = convert_and_measure(made, target);
+    EXPECT_GT(result.psnr, 36.0) << from;
+    EXPECT_LT(result.depth_off, 0.006) << from;
+    EXPECT_LT(result.needless, 0.001) << from;
+  }
+}
+
 // Moved by nothing, everything is where it was.
 TEST(Reproject, MeetsWhatThePictureShows) {
   const MadePicture made = picture_of_world(StereoCamera(), {256, 128}, kBoth);

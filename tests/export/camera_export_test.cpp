@@ -83,12 +83,13 @@ TEST(CameraExport, WhatATargetLacksStandsInItsText) {
 
 // Each of these is something that some target lacks: every target that does not take formulas reports it.
 TEST(CameraExport, NothingIsDroppedSilently) {
-  std::vector<Sidecar> odd(5);
+  std::vector<Sidecar> odd(6);
   odd[0].camera.convergence = kShift;
   odd[1].camera.lens_radius = 0.01f;
   odd[2].camera.axis = vec3(0.0f, 0.0f, 1.0f);
   odd[3].camera.top = {kMergePower, 10.0f, 80.0f, 3.0f};
   odd[4].camera.projection = find_projection("fisheye-equisolid")->setting;
+  odd[5].camera.head_tilt_map = std::make_shared<Image>(2, 1, 1);
   for (const CameraTarget target :
        {CameraTarget::kPovrayFork, CameraTarget::kBlender, CameraTarget::kOspray, CameraTarget::kArnold,
         CameraTarget::kMtoa, CameraTarget::kUnity, CameraTarget::kUnreal}) {

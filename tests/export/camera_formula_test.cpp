@@ -246,6 +246,13 @@ TEST(CameraFormula, WhatIsNoFormulaIsRefused) {
   file.camera.top.mode = kMergeMap;
   EXPECT_NE(export_camera(file, CameraTarget::kPovray).refusal, "");
   file.camera.top.mode = kMergeNone;
+  file.camera.head_tilt_map = std::make_shared<Image>(2, 1, 1);
+  for (const CameraTarget target :
+       {CameraTarget::kPovray, CameraTarget::kOsl, CameraTarget::kGlsl, CameraTarget::kHlsl, CameraTarget::kPython}) {
+    EXPECT_NE(export_camera(file, target).refusal.find("a head-tilt map is no formula"), std::string::npos);
+  }
+  EXPECT_EQ(export_camera(file, CameraTarget::kPovrayFork).refusal, "the fork has no head-tilt map");
+  file.camera.head_tilt_map = nullptr;
   for (const Layout layout : kLayouts) {
     const EyeArrangement eyes = arrangement_of(layout);
     file.layout = layout;

@@ -13,11 +13,14 @@ precision highp int;
 
 uniform Camera camera;
 uniform sampler2D merge_map;
+uniform sampler2D head_tilt_map;
 in vec2 uv;
 out vec4 color;
 
-float merge_map_texel(Camera a_camera, int i) {
-  return texelFetch(merge_map, ivec2(i % a_camera.map_width, i / a_camera.map_width), 0).x;
+float camera_map_texel(Camera a_camera, int which, int i) {
+  int width = which == kMapOfMerge ? a_camera.merge_map.width : a_camera.head_tilt_map.width;
+  ivec2 at = ivec2(i % width, i / width);
+  return which == kMapOfMerge ? texelFetch(merge_map, at, 0).x : texelFetch(head_tilt_map, at, 0).x;
 }
 
 void main() {

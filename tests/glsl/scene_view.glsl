@@ -40,9 +40,12 @@ struct View {
   EnvironmentRows environment_rows;
   Tables tables;
 };
-// The map of a camera that has one.
+// The maps of a camera that has them.
 layout(binding = 3, scalar) readonly buffer MergeMap { float merge_map[]; };
-float merge_map_texel(Camera camera, int i) { return merge_map[i]; }
+layout(binding = 4, scalar) readonly buffer HeadTiltMap { float head_tilt_map[]; };
+float camera_map_texel(Camera camera, int which, int i) {
+  return which == kMapOfMerge ? merge_map[i] : head_tilt_map[i];
+}
 
 layout(binding = 2, scalar) uniform ViewBuffer { View view; };
 

@@ -194,6 +194,28 @@ TEST_P(LintScene, FindsWhatIsWrongWithTheEyes) {
   expect_only(Fault::kTwoCameras, save(Pair{left, right}, "two_cameras.png"));
 }
 
+// A head on its side has no parallax along the horizon, and no fault: what lint cannot judge it leaves out.
+TEST_P(LintScene, AHeadTiltMapIsNoFault) {
+  Studio studio(GetParam());
+  auto map = std::make_shared<Image>(2, 1, 1);
+  map->pixels = {1.0f, 1.0f};
+  studio.camera.head_tilt_map = map;
+  SaveOptions options;
+  options.tone = ToneCurve::kLinear, options.sidecar = true;
+  const std::string path = folder.path("tilted_360_TB.png");
+  save_picture(picture_of(studio.both()), studio.camera, options, path);
+  const LintReport report = lint(path, {});
+  EXPECT_TRUE(told(report).faults.empty()) << told(report).text;
+  for (const Check check : {Check::kTwoEyes, Check::kEyeOrder, Check::kCircle, Check::kTopPole, Check::kBottomPole}) {
+    EXPECT_TRUE(std::any_of(report.not_judged.begin(), report.not_judged.end(), [&](const NotJudged& each) {
+      return each.check == check && each.reason == "its head-tilt map turns the parallax";
+    })) << static_cast<int>(check);
+  }
+  for (const Check check : {Check::kLayout, Check::kSeam}) {
+    EXPECT_TRUE(std::count(report.judged.begin(), report.judged.end(), check) > 0) << static_cast<int>(check);
+  }
+}
+
 TEST_P(LintScene, FindsOneEyeThatWasRenderedTwice) {
   Studio studio(GetParam());
   studio.options.width = 2 * kWidth;

@@ -50,4 +50,16 @@ inline double angle_between(glm::dvec3 a, glm::dvec3 b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
+// A lat-long map between the centres of its texels, in a direction of the camera's frame.
+inline double exact_map_at(const Image& map, glm::dvec3 d) {
+  const double x = (std::atan2(d.x, -d.z) / kExactPi + 1.0) / 2.0 * map.width - 0.5;
+  const double y = (0.5 - std::atan2(d.y, std::hypot(d.x, d.z)) / kExactPi) * map.height - 0.5;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const auto texel = [&](int i, int j) {
+    return double{*map.at((i + map.width) % map.width, std::clamp(j, 0, map.height - 1))};
+  };
+  const auto row = [&](int j) { return glm::mix(texel(x0, j), texel(x0 + 1, j), x - x0); };
+  return glm::mix(row(y0), row(y0 + 1), y - y0);
+}
+
 }  // namespace ods

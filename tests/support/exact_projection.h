@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every projection by its definition, in double precision.
+// Every projection by its definition, and the camera through it, in double precision.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -132,6 +132,53 @@ inline bool in_circle(const ProjectionSetting& setting, dvec2 uv) {
   if (setting.kind != kFisheyePolynomial) return length(uv - dvec2(0.5)) < 0.4999;
   const dvec3 ahead(0.0, 0.0, -1.0);
   return angle_between(exact_polynomial(setting, uv), ahead) < 0.4999 * glm::radians(double{setting.fov});
+}
+
+// --- the camera through them -----------------------------------------------------------------------------------------
+
+// Everything that a camera with this projection and convergence can be asked for but a lens, a map and an eye distance.
+inline StereoCamera odd_rig(Dice& dice, const ProjectionSetting& setting, int convergence) {
+  StereoCamera stereo;
+  stereo.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
+  stereo.yaw = dice.between(-180, 180), stereo.pitch = dice.between(-40, 40), stereo.roll = dice.between(-40, 40);
+  stereo.projection = setting;
+  stereo.convergence = convergence;
+  stereo.convergence_distance = dice.between(0.5f, 5.0f);
+  if (dice.next() < 0.5f) stereo.neck = dice.between(0.0f, 0.1f);
+  if (dice.next() < 0.5f) stereo.axis = vec3(0.0f, 2.0f, 0.0f);
+  stereo.mirrored = dice.next() < 0.3f;
+  stereo.top.mode = any_closed_merge(dice);
+  stereo.bottom.mode = any_closed_merge(dice);
+  stereo.top.start = 20.0f, stereo.bottom.start = 0.0f;
+  if (dice.next() < 0.5f) stereo.bottom.exponent = 2.0f;
+  return stereo;
+}
+
+// As ods/kernel/camera/camera.h says it, in world coordinates.
+inline ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, double side, dvec2 uv) {
+  const dvec3 d = normalize(exact_direction(stereo.projection, uv));
+  const dvec3 right(camera.right), up(camera.up), back(camera.back);
+  const dvec3 axis = stereo.axis ? normalize(dvec3(*stereo.axis)) : up;
+  dvec3 direction = right * d.x + up * d.y + back * d.z;
+  const dvec3 a(dot(axis, right), dot(axis, up), dot(axis, back));
+  const double half = double{stereo.ipd} / 2.0;
+  dvec3 look = d;
+  if (stereo.convergence == kShift) {
+    const double turn = side * std::asin(half / double{stereo.convergence_distance});
+    look = d * std::cos(turn) + cross(a, d) * std::sin(turn) + a * dot(a, d) * (1.0 - std::cos(turn));
+  }
+  const double phi = std::asin(std::clamp(dot(look, a), -1.0, 1.0));
+  const double left = exact_factor(phi < 0.0 ? stereo.bottom : stereo.top, phi);
+  const dvec3 heading = normalize(look - a * dot(look, a));
+  dvec3 sideways = cross(heading, a) * (side * half * left);
+  if (stereo.head_tilt_map) {
+    const double tilt = (exact_map_at(*stereo.head_tilt_map, look) - 0.5) * kExactPi;
+    sideways = sideways * std::cos(tilt) + cross(look, sideways) * std::sin(tilt);  // look is square to it
+  }
+  const dvec3 origin = sideways + heading * (double{stereo.neck} * left);
+  if (stereo.convergence == kToeIn) look = normalize(look * double{stereo.convergence_distance} - sideways);
+  direction = right * look.x + up * look.y + back * look.z;
+  return {dvec3(stereo.position) + right * origin.x + up * origin.y + back * origin.z, direction};
 }
 
 }  // namespace ods

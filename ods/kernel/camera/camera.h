@@ -8,6 +8,10 @@
 //   a ray of heading F, with R to its right, starts at   E + merge * neck * F   with E = merge * side * ipd/2 * R
 //   and has the projection's direction d, or, with toe-in at a distance C, the direction   C * d - E.
 //
+// A head-tilt map turns E about d, clockwise as the viewer sees it, by (map - 1/2) pi: at 1 the head lies on its right
+// side and the right eye is below the left one. The neck's part of the origin stays. Source: Domemaster3D,
+// LatLongStereo (mental ray). kShift turns the pictures about the circle's axis, whatever the tilt.
+//
 // Image positions may be outside 0..1 (ods/kernel/camera/projection.h): lat-long wraps, and continues over the pole,
 // where the formula itself continues into the other eye's picture half a turn away, as a wide pixel filter needs.
 #ifdef __cplusplus
@@ -25,6 +29,18 @@ const int kToeIn = 1;  // the rays of both eyes in one direction meet at the dis
 const int kShift = 2;  // the eyes' pictures are rotated against each other: no parallax at the distance
 const int kConvergenceCount = 3;
 
+// A lat-long picture of values 0..1 in the camera's frame, rows from the top.
+struct CameraMap {
+  int width;  // 0: there is no map
+  int height;
+#ifdef __cplusplus
+  const float* texels = nullptr;  // a shader reads them from a buffer or a texture
+#endif
+};
+
+const int kMapOfMerge = 0;
+const int kMapOfHeadTilt = 1;
+
 struct Camera {
   vec3 center;  // of the viewing circle
   vec3 right;   // an orthonormal frame, right-handed unless the picture is mirrored
@@ -40,11 +56,8 @@ struct Camera {
   PoleMerge top;
   PoleMerge bottom;
   Projection projection;
-  int map_width;  // for kMergeMap: width of a lat-long picture of values 0..1, rows from the top; 0: none
-  int map_height;
-#ifdef __cplusplus
-  const float* map = nullptr;  // a shader reads it from a buffer
-#endif
+  CameraMap merge_map;      // for kMergeMap
+  CameraMap head_tilt_map;  // 0.5 is level
 };
 
 struct Ray {
@@ -53,26 +66,29 @@ struct Ray {
 };
 
 #ifdef __cplusplus
-inline float merge_map_texel(const Camera& camera, int i) {
-  return camera.map[i];
+inline float camera_map_texel(const Camera& camera, int which, int i) {
+  return (which == kMapOfMerge ? camera.merge_map : camera.head_tilt_map).texels[i];
 }
 #else
-float merge_map_texel(Camera camera, int i);
+float camera_map_texel(Camera camera, int which, int i);
 #endif
 
-inline float merge_map_at(Camera camera, vec3 direction) {
+inline float camera_map_at(Camera camera, int which, vec3 direction) {
+  CameraMap map = camera.merge_map;
+  if (which == kMapOfHeadTilt) map = camera.head_tilt_map;
   vec2 uv = direction_to_lat_long(direction);
-  float x = uv.x * float(camera.map_width) - 0.5f;
-  float y = uv.y * float(camera.map_height) - 0.5f;
+  float x = uv.x * float(map.width) - 0.5f;
+  float y = uv.y * float(map.height) - 0.5f;
   int x0 = int(floor(x));
   int y0 = int(floor(y));
-  int left = x0 < 0 ? camera.map_width - 1 : x0;
-  int right = x0 + 1 >= camera.map_width ? 0 : x0 + 1;
-  int top = clamp(y0, 0, camera.map_height - 1) * camera.map_width;
-  int bottom = clamp(y0 + 1, 0, camera.map_height - 1) * camera.map_width;
+  int left = x0 < 0 ? map.width - 1 : x0;
+  int right = x0 + 1 >= map.width ? 0 : x0 + 1;
+  int top = clamp(y0, 0, map.height - 1) * map.width;
+  int bottom = clamp(y0 + 1, 0, map.height - 1) * map.width;
   float fx = x - float(x0);
-  return mix(mix(merge_map_texel(camera, top + left), merge_map_texel(camera, top + right), fx),
-             mix(merge_map_texel(camera, bottom + left), merge_map_texel(camera, bottom + right), fx), y - float(y0));
+  return mix(mix(camera_map_texel(camera, which, top + left), camera_map_texel(camera, which, top + right), fx),
+             mix(camera_map_texel(camera, which, bottom + left), camera_map_texel(camera, which, bottom + right), fx),
+             y - float(y0));
 }
 
 // The fraction of the viewing circle's radius that remains after the merge, for a direction (camera's frame) with the
@@ -80,7 +96,7 @@ inline float merge_map_at(Camera camera, vec3 direction) {
 inline float merge_at(Camera camera, vec3 direction, float phi) {
   PoleMerge merge = camera.top;
   if (phi < 0.0f) merge = camera.bottom;
-  if (merge.mode == kMergeMap) return merge_map_at(camera, direction);
+  if (merge.mode == kMergeMap) return camera_map_at(camera, kMapOfMerge, direction);
   float elevation = abs(phi);
   if (elevation > 0.5f * kPi) elevation = abs(kPi - elevation);
   return merge_factor(merge, elevation);
@@ -110,6 +126,28 @@ inline ViewDirection look_about_axis(Camera camera, ViewDirection look) {
   return look;
 }
 
+inline bool has_head_tilt(Camera camera) {
+  return camera.head_tilt_map.width > 0;
+}
+
+// Where the eye stands for a ray that looks along `look`, from the circle's centre, in the camera's frame: the sum.
+struct EyeOffset {
+  vec3 stereo;
+  vec3 neck;
+};
+
+inline EyeOffset eye_offset(Camera camera, int eye, ViewDirection look) {
+  float left = merge_at(camera, look.direction, look.elevation);
+  EyeOffset offset;
+  offset.stereo = cross(look.heading, camera.axis) * (0.5f * camera.ipd * eye_side(eye) * left);
+  offset.neck = look.heading * (camera.neck * left);
+  if (has_head_tilt(camera)) {
+    float tilt = (camera_map_at(camera, kMapOfHeadTilt, look.direction) - 0.5f) * kPi;
+    offset.stereo = turn_about(offset.stereo, look.direction, tilt);
+  }
+  return offset;
+}
+
 // home: the centre of the pixel to which the position uv belongs. lens: uniform in the unit square, chooses the ray's
 // point on the lens; x = 0 is the lens's centre.
 inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
@@ -124,11 +162,10 @@ inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
     look.direction = turn_about(look.direction, camera.axis, angle);
     look.heading = turn_about(look.heading, camera.axis, angle);
   }
-  float left = merge_at(camera, look.direction, look.elevation);
-  vec3 stereo = cross(look.heading, camera.axis) * (0.5f * camera.ipd * eye_side(eye) * left);
-  vec3 origin = stereo + look.heading * (camera.neck * left);
+  EyeOffset offset = eye_offset(camera, eye, look);
+  vec3 origin = offset.stereo + offset.neck;
   vec3 direction = look.direction;
-  if (camera.convergence == kToeIn) direction = normalize(direction * camera.convergence_distance - stereo);
+  if (camera.convergence == kToeIn) direction = normalize(direction * camera.convergence_distance - offset.stereo);
   if (camera.lens_radius > 0.0f) {
     // A disc about the eye, perpendicular to the ray; all its rays meet at the focus distance.
     vec3 side = normalize(cross(direction, abs(direction.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f)));

@@ -54,6 +54,7 @@ static void add_extras(std::vector<Attribute>& attributes, const StereoCamera& c
     attributes.push_back({"ods:lens", std::vector<float>{camera.lens_radius, camera.focus_distance}});
   }
   if (camera.mirrored) attributes.push_back({"ods:mirrored", 1});
+  if (camera.head_tilt_map) attributes.push_back({"ods:headTilt", std::string("map")});
 }
 
 void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera) {
@@ -144,7 +145,7 @@ static void read_projection(AttributeReader& in, const std::string& name, Projec
   if (!projection_fault(setting).empty()) in.refuse("ods:projection");
 }
 
-static void read_extras(AttributeReader& in, StereoCamera& camera) {
+static void read_extras(AttributeReader& in, StereoCamera& camera, std::vector<std::string>& warnings) {
   if (const auto word = in.word("ods:convergence")) {
     const std::optional<int> convergence = find_in(kConvergenceTable, *word);
     if (convergence) camera.convergence = *convergence;
@@ -162,6 +163,9 @@ static void read_extras(AttributeReader& in, StereoCamera& camera) {
   in.numbers("ods:lens",
              {{&camera.lens_radius, CameraField::kLensRadius}, {&camera.focus_distance, CameraField::kFocusDistance}});
   camera.mirrored = in.has("ods:mirrored");
+  const std::optional<std::string> tilt = in.word("ods:headTilt");
+  if (tilt && *tilt != "map") return in.refuse("ods:headTilt");
+  if (tilt) warnings.push_back("its head-tilt map is in a sidecar that is missing: using a level head");
 }
 
 std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings) {
@@ -179,7 +183,7 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
   in.number("ods:roll", camera.roll, CameraField::kRoll);
   read_merge(in, "ods:poleMergeTop", camera.top, warnings);
   read_merge(in, "ods:poleMergeBottom", camera.bottom, warnings);
-  read_extras(in, camera);
+  read_extras(in, camera, warnings);
   if (in.bad().empty()) return camera;
   warnings.push_back(fmt::format("its {} is invalid: ignoring its camera metadata", in.bad()));
   return std::nullopt;

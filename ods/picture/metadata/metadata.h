@@ -7,8 +7,8 @@
 // Always present: ods:projection, ods:ipd, ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom
 // (with Start, End, Exponent). Present if they differ from the default camera: ods:longitude and ods:latitude of a part
 // of the sphere, ods:fov and ods:look (pan, tilt) of a lens, ods:aspect of a window, ods:convergence (with Distance),
-// ods:neck, ods:axis, ods:lens (radius, focus), ods:mirrored. All round-trip bit for bit, except merge maps, which only
-// a sidecar holds.
+// ods:neck, ods:axis, ods:lens (radius, focus), ods:mirrored, ods:headTilt. All round-trip bit for bit, except merge
+// maps and head-tilt maps: the file says "map", and only a sidecar holds them.
 #pragma once
 #include <optional>
 #include <string>

@@ -19,8 +19,7 @@
 namespace ods {
 namespace {
 
-constexpr int64_t kLargestMap = 1 << 24;      // texels
-constexpr size_t kLargestFile = 512u << 20u;  // bytes; room for the largest map
+constexpr size_t kLargestFile = 1u << 30u;  // bytes; room for two of the largest maps
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
@@ -126,7 +125,7 @@ void read_convergence(JsonReader& in, StereoCamera& camera) {
   read_number(in, "distance", camera.convergence_distance, CameraField::kConvergenceDistance);
 }
 
-void read_map(JsonReader& in, StereoCamera& camera) {
+std::shared_ptr<const Image> read_map(JsonReader& in) {
   int width = 0, height = 0;
   in.integer("width", width, 1, 1 << 15);
   in.integer("height", height, 1, 1 << 15);
@@ -137,7 +136,7 @@ void read_map(JsonReader& in, StereoCamera& camera) {
   }
   auto map = std::make_shared<Image>(width, height, 1);
   map->pixels = std::move(values);
-  camera.merge_map = map;
+  return map;
 }
 
 void read_picture(JsonReader& in, Sidecar& file) {
@@ -206,6 +205,7 @@ std::string write_sidecar(const Sidecar& file) {
       {"merge_top", to_json(camera.top)},
       {"merge_bottom", to_json(camera.bottom)},
       {"merge_map", camera.merge_map ? to_json(*camera.merge_map) : Json(nullptr)},
+      {"head_tilt_map", camera.head_tilt_map ? to_json(*camera.head_tilt_map) : Json(nullptr)},
       {"convergence",
        {{"mode", convergence_name(camera.convergence)}, {"distance", decimal(camera.convergence_distance)}}},
       {"axis", camera.axis ? to_json(*camera.axis) : Json(nullptr)},
@@ -228,7 +228,10 @@ Sidecar read_sidecar(std::string_view text, const std::string& name, std::vector
   in.part("picture", [&](JsonReader& reader) { read_picture(reader, file); });
   in.part("merge_top", [&](JsonReader& reader) { read_merge(reader, camera.top); });
   in.part("merge_bottom", [&](JsonReader& reader) { read_merge(reader, camera.bottom); });
-  if (!in.is_null("merge_map")) in.part("merge_map", [&](JsonReader& reader) { read_map(reader, camera); });
+  for (const auto& [key, map] :
+       {std::pair{"merge_map", &camera.merge_map}, std::pair{"head_tilt_map", &camera.head_tilt_map}}) {
+    if (!in.is_null(key)) in.part(key, [&map = map](JsonReader& reader) { *map = read_map(reader); });
+  }
   in.part("convergence", [&](JsonReader& reader) { read_convergence(reader, camera); });
   in.part("lens", [&](JsonReader& reader) { read_lens(reader, camera); });
   in.finish();

@@ -4,6 +4,7 @@
 // The camera sidecar: all about a picture's camera as JSON, beside the picture. docs/camera-sidecar.md has the schema.
 // Values round-trip bit for bit.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ namespace ods {
 
 // The number in "omnistereo_camera". It increases when older readers would misunderstand newer files.
 inline constexpr int kSidecarVersion = 1;
+
+// Texels of a merge map or a head-tilt map, at most.
+inline constexpr int64_t kLargestMap = 1 << 24;
 
 struct Sidecar {
   StereoCamera camera;

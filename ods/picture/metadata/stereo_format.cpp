@@ -232,13 +232,14 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, s
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
-// The file's own metadata takes precedence over its sidecar, which may be older. A merge map comes from the sidecar,
-// which alone holds it.
+// The file's own metadata takes precedence over its sidecar, which may be older. Maps come from the sidecar, which
+// alone holds them.
 static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
                                                const std::optional<Sidecar>& sidecar,
                                                std::vector<std::string>& guesses) {
   if (known.camera) return known.camera;
-  if (sidecar && (sidecar->camera.merge_map || !info.text.contains("ods:projection"))) return sidecar->camera;
+  const bool has_maps = sidecar && (sidecar->camera.merge_map || sidecar->camera.head_tilt_map);
+  if (sidecar && (has_maps || !info.text.contains("ods:projection"))) return sidecar->camera;
   if (std::optional<StereoCamera> own = camera_in_file(info, path, guesses)) return own;
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }

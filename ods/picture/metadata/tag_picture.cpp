@@ -141,7 +141,8 @@ static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, co
 
 // For other programs' pictures the eye distance and depth type are unknown, so these are not written.
 static bool needs_said_camera(const std::string& name) {
-  return name == "ods:depthType" || name == "ods:ipd" || name == "ods:position" || name.starts_with("ods:poleMerge");
+  return name == "ods:depthType" || name == "ods:ipd" || name == "ods:position" || name == "ods:headTilt" ||
+         name.starts_with("ods:poleMerge");
 }
 
 static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
@@ -161,18 +162,19 @@ static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
   return attributes;
 }
 
-// Attributes outside the tag's scope stay: the default view, the writer, a merge map (which only a sidecar holds), and,
-// if the camera is unknown, all but projection and orientation.
+// Attributes outside the tag's scope stay: the default view, the writer, maps (which only a sidecar holds), and, if
+// the camera is unknown, all but projection and orientation.
 static bool stays(const ExrAttribute& there, const PictureTag& tag) {
   if (there.name == "multiView" || there.name == "ods:version") return true;
-  if (there.name.starts_with("ods:poleMerge") && there.value == "map") return true;
+  const bool may_be_map = there.name.starts_with("ods:poleMerge") || there.name == "ods:headTilt";
+  if (may_be_map && there.value == "map") return true;
   return !tag.has_camera && needs_said_camera(there.name);
 }
 
 // Attributes that a tag sets or omits; without a tag, all attributes that we ever write.
 static bool is_ours(const std::string& name, bool has_tag) {
-  constexpr std::string_view kOptional[] = {"longitude", "latitude",  "fov",  "look", "aspect",  "convergence",
-                                            "neck",      "poleMerge", "axis", "lens", "mirrored"};
+  constexpr std::string_view kOptional[] = {"longitude", "latitude",  "fov",  "look", "aspect",   "convergence",
+                                            "neck",      "poleMerge", "axis", "lens", "mirrored", "headTilt"};
   if (name == "envmap" || name == "view") return true;
   if (!name.starts_with("ods:")) return false;
   const std::string_view word = std::string_view(name).substr(4);

@@ -87,6 +87,7 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
     StereoCamera camera;
     camera.ipd = 0.07f, camera.position = vec3(1.0f, 2.0f, 3.0f), camera.pitch = 5.0f, camera.neck = 0.1f;
     camera.top.mode = kMergeCosine;
+    camera.head_tilt_map = std::make_shared<Image>(2, 1, 1);
     SaveOptions options;
     options.layout = layout;
     save_picture(gradient({kLeft, kRight}), camera, options, path);

@@ -36,6 +36,19 @@ PoleMergeSetting random_merge(Dice& dice) {
   return merge;
 }
 
+std::shared_ptr<const Image> random_map(Dice& dice, int width, int height) {
+  auto map = std::make_shared<Image>(width, height, 1);
+  for (float& texel : map->pixels) texel = dice.next();
+  return map;
+}
+
+void expect_same(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b) {
+  ASSERT_EQ(a != nullptr, b != nullptr);
+  if (!a) return;
+  EXPECT_EQ(a->width, b->width);
+  EXPECT_EQ(a->pixels, b->pixels);
+}
+
 Sidecar random_file(Dice& dice, size_t i) {
   Sidecar file;
   StereoCamera& camera = file.camera;
@@ -44,10 +57,9 @@ Sidecar random_file(Dice& dice, size_t i) {
   camera.ipd = dice.between(0, 1), camera.neck = dice.between(-1, 1);
   camera.top = random_merge(dice), camera.bottom = random_merge(dice);
   if (camera.top.mode == kMergeMap || camera.bottom.mode == kMergeMap) {
-    auto map = std::make_shared<Image>(3, 2, 1);
-    for (float& texel : map->pixels) texel = dice.next();
-    camera.merge_map = map;
+    camera.merge_map = random_map(dice, 3, 2);
   }
+  if (i % 2 == 0) camera.head_tilt_map = random_map(dice, 2, 4);
   camera.projection = named_projections()[i % named_projections().size()].setting;
   camera.projection.longitude = vec2(dice.between(-180, 0), dice.between(1, 180));
   camera.projection.latitude = vec2(dice.between(-80, 0), dice.between(1, 80));
@@ -85,10 +97,8 @@ TEST(Sidecar, ComesBackBitForBit) {
     EXPECT_EQ(vec2(same.ipd, same.neck), vec2(camera.ipd, camera.neck));
     expect_same(same.top, camera.top);
     expect_same(same.bottom, camera.bottom);
-    ASSERT_EQ(same.merge_map != nullptr, camera.merge_map != nullptr);
-    if (camera.merge_map) {
-      EXPECT_EQ(same.merge_map->pixels, camera.merge_map->pixels);
-    }
+    expect_same(same.merge_map, camera.merge_map);
+    expect_same(same.head_tilt_map, camera.head_tilt_map);
     EXPECT_EQ(same.projection.kind, camera.projection.kind);
     EXPECT_EQ(same.projection.longitude, camera.projection.longitude);
     EXPECT_EQ(same.projection.latitude, camera.projection.latitude);
@@ -146,6 +156,8 @@ TEST(Sidecar, NonsenseIsAnErrorOfOneLine) {
                           R"("merge_top": [])",
                           R"("merge_map": {"width": 30000, "height": 30000, "values": []})",
                           R"("merge_map": {"width": 1, "height": 1, "values": [2]})",
+                          R"("head_tilt_map": {"width": 1, "height": 1, "values": [-1]})",
+                          R"("head_tilt_map": {"width": 2, "height": 1, "values": [0.5]})",
                           R"("projection": {"name": "mercator"})",
                           R"("projection": {"longitude": [10, -10]})",
                           R"("convergence": {"mode": "cross"})",
@@ -166,7 +178,7 @@ TEST(Sidecar, NonsenseIsAnErrorOfOneLine) {
   }
 }
 
-// Every value of a whole file in turn. Of all keys only these two have null as a value.
+// Every value of a whole file in turn. Of all keys only these three have null as a value.
 TEST(Sidecar, NullAndWrongTypesAreNoDefaults) {
   Dice dice(4);
   const Json good = Json::parse(write_sidecar(random_file(dice, 0)));
@@ -176,7 +188,8 @@ TEST(Sidecar, NullAndWrongTypesAreNoDefaults) {
   for (const auto& [path, value] : values.items()) {
     if (path.starts_with("/conventions") || path == "/made_by") continue;
     for (Json::json_pointer at(path); !at.empty(); at = at.parent_pointer()) {
-      const bool is_optional = at.to_string() == "/axis" || at.to_string() == "/merge_map";
+      const std::string key = at.to_string();
+      const bool is_optional = key == "/axis" || key == "/merge_map" || key == "/head_tilt_map";
       for (const Json& wrong :
            {Json(nullptr), Json(""), Json("x"), Json(true), Json::array(), Json::object({{"x", 1}})}) {
         if ((wrong.type() == good[at].type() && wrong != "") || (wrong.is_null() && is_optional)) continue;
@@ -186,7 +199,7 @@ TEST(Sidecar, NullAndWrongTypesAreNoDefaults) {
       }
     }
   }
-  EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "axis": null, "merge_map": null})"), "");
+  EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "axis": null, "merge_map": null, "head_tilt_map": null})"), "");
   EXPECT_EQ(error_of(R"({"omnistereo_camera": 1, "ipd": null})"),
             "'x.camera.json' is not a valid camera: ipd must be a number from 0 to 10000, not null");
 }

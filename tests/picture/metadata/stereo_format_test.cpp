@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "ods/base/error.h"
 #include "ods/picture/metadata/metadata.h"
@@ -101,6 +103,28 @@ TEST(Metadata, EveryMergeAndConvergenceComesBack) {
   }
 }
 
+// An EXR says that there is a map; the sidecar has it.
+TEST(Metadata, AHeadTiltMapComesBackFromTheSidecar) {
+  const TemporaryFolder folder;
+  StereoCamera stereo;
+  auto map = std::make_shared<Image>(2, 1, 1);
+  map->pixels = {0.25f, 0.7f};
+  stereo.head_tilt_map = map;
+  for (const char* name : {"a.exr", "a.png"}) {
+    SaveOptions options;
+    options.sidecar = true;
+    save_picture(grey({kLeft, kRight}, {16, 8}), &stereo, options, folder.path(name));
+    EXPECT_EQ(text_of(open_picture(folder.path(name)).camera), text_of(stereo)) << name;
+    std::filesystem::remove(folder.path("a.camera.json"));
+    const StoredPicture alone = open_picture(folder.path(name));
+    EXPECT_EQ(alone.camera.head_tilt_map, nullptr);
+    const bool is_said = std::any_of(alone.guesses.begin(), alone.guesses.end(), [](const std::string& guess) {
+      return guess == "its head-tilt map is in a sidecar that is missing: using a level head";
+    });
+    EXPECT_EQ(is_said, name == std::string("a.exr")) << ::testing::PrintToString(alone.guesses);
+  }
+}
+
 TEST(Metadata, InvalidAttributesAreIgnoredAndReported) {
   FileInfo info;
   info.text["ods:projection"] = "lat-long";
@@ -121,6 +145,9 @@ TEST(Metadata, InvalidAttributesAreIgnoredAndReported) {
   }
   EXPECT_EQ(warnings.size(), std::size(bad));
   EXPECT_EQ(warnings[0], "its ods:ipd is invalid: ignoring its camera metadata");
+  FileInfo tilted = info;
+  tilted.text["ods:headTilt"] = "steep";
+  EXPECT_FALSE(camera_of(tilted, warnings));
   info.text["ods:projection"] = "mercator";
   EXPECT_FALSE(camera_of(info, warnings));
   EXPECT_FALSE(camera_of(FileInfo(), warnings));
