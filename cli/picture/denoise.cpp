@@ -10,6 +10,7 @@
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/picture/denoise_job.h"
+#include "ods/denoise/oidn.h"
 
 namespace {
 
@@ -34,7 +35,11 @@ void denoise_file(DenoiseJob& job, ProgressLines& lines) {
   ods::StoredNoise noise = read_input(job, picture);
   ods::Progress progress;
   progress.report = [&](double done) { lines.report(0.9 * done, seconds_since(start), {"denoise", 0, 0, job.output}); };
-  ods::denoise(noise.picture, picture.camera, job.options, progress);
+  if (job.oidn) {
+    ods::denoise_with_oidn(noise.picture, picture.camera, job.options.threads, progress);
+  } else {
+    ods::denoise(noise.picture, picture.camera, job.options, progress);
+  }
   const ods::PictureRows rows = ods::denoised_rows(picture, noise.picture);
   const auto files = ods::save_picture(rows, &picture.camera, job.save, job.output);
   lines.report(1.0, seconds_since(start), {"denoise", 0, 0, job.output});

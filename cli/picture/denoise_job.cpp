@@ -7,6 +7,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 #include "ods/convert/convert.h"
+#include "ods/denoise/oidn.h"
 
 namespace {
 
@@ -42,6 +43,7 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
       "output file: .exr keeps all layers, and the noisy colour as layer raw; also .png .jpg .tif .webp .hdr; %V "
       "in the name writes one file per eye");
   options.flag("--each-eye", alone, "denoise each eye alone");
+  options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, where it is installed; needs no statistics");
   add_layout_option(options, layout, "how both eyes share the file; by default the input's");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
@@ -65,6 +67,8 @@ bool read_denoise_job(DenoiseJob& job, int argc, char** argv) {
   if (!job.layers.half_a.empty() && !job.layers.variance.empty()) {
     throw UsageError("--variance or --half-a with --half-b, not both");
   }
+  if (job.oidn) ods::check_oidn();
+  job.layers.needed = !job.oidn;
   refuse_overwriting(job.output, job.input);
   job.options.both_eyes = !alone;
   ods::OpenOptions open;

@@ -19,6 +19,7 @@ struct DenoiseJob {
   std::optional<ods::PictureReader> reader;
   ods::NoiseLayers layers;
   ods::DenoiseOptions options;
+  bool oidn = false;  // instead of ours
   ods::SaveOptions save;
   ProgressMode progress = ProgressMode::kAuto;
 };

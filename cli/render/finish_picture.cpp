@@ -6,11 +6,13 @@
 
 #include "cli/options/picture_options.h"
 #include "ods/denoise/denoise.h"
+#include "ods/denoise/oidn.h"
 
 // A video's frames are .exr, but what is looked at is the video. One sample has no variance.
-bool denoises(const RenderJob& job) {
+ods::Denoiser denoiser_of(const RenderJob& job) {
   const bool looked_at = job.time.is_video || !keeps_light(job.output);
-  return job.denoise.value_or(looked_at ? Denoiser::kOwn : Denoiser::kNone) == Denoiser::kOwn && job.render.samples > 1;
+  const auto denoiser = job.denoise.value_or(looked_at ? ods::Denoiser::kOwn : ods::Denoiser::kNone);
+  return denoiser == ods::Denoiser::kOwn && job.render.samples == 1 ? ods::Denoiser::kNone : denoiser;
 }
 
 // An interrupted picture may have too few samples.
@@ -22,20 +24,24 @@ static bool has_variance(const ods::Picture& picture) {
 
 ods::RenderOptions options_to_finish(const RenderJob& job) {
   ods::RenderOptions options = job.render;
+  const ods::Denoiser denoiser = denoiser_of(job);
   const bool for_merge = job.part.has_value();
-  options.layers |= denoises(job) || for_merge;
-  options.statistics |= denoises(job) || for_merge || job.save_unfinished;
+  options.layers |= denoiser != ods::Denoiser::kNone || for_merge;
+  options.statistics |= denoiser == ods::Denoiser::kOwn || for_merge || job.save_unfinished;
   return options;
 }
 
 std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture picture,
                                         const std::string& path) {
-  const bool cleans = denoises(job) && has_variance(picture);
-  if (cleans && job.render.layers) {
-    for (ods::EyeImage& eye : picture.eyes) eye.raw = eye.radiance;
+  ods::Denoiser denoiser = denoiser_of(job);
+  if (denoiser == ods::Denoiser::kOwn && !has_variance(picture)) denoiser = ods::Denoiser::kNone;
+  const bool keeps_raw = denoiser != ods::Denoiser::kNone && job.render.layers;
+  for (ods::EyeImage& eye : picture.eyes) {
+    if (keeps_raw) eye.raw = eye.radiance;
   }
-  if (cleans) ods::denoise(picture, camera, {true, job.render.threads});
-  const bool keeps_statistics = job.render.statistics || (cleans && job.render.layers);
+  if (denoiser == ods::Denoiser::kOwn) ods::denoise(picture, camera, {true, job.render.threads});
+  if (denoiser == ods::Denoiser::kOidn) ods::denoise_with_oidn(picture, camera, job.render.threads);
+  const bool keeps_statistics = job.render.statistics || (keeps_raw && denoiser == ods::Denoiser::kOwn);
   for (ods::EyeImage& eye : picture.eyes) {
     if (!job.render.layers) eye.depth = eye.normal = eye.albedo = ods::Image();
     if (!keeps_statistics) eye.variance = eye.samples = ods::Image();

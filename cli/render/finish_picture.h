@@ -9,8 +9,8 @@
 #include "cli/render/render_job.h"
 #include "ods/picture/picture.h"
 
-// Whether the job's pictures are denoised: by its options, or by what they are for.
-bool denoises(const RenderJob& job);
+// How the job's pictures are denoised: by its options, or by what they are for.
+ods::Denoiser denoiser_of(const RenderJob& job);
 
 // The options with the layers that saving the job's pictures needs, and denoising them.
 ods::RenderOptions options_to_finish(const RenderJob& job);

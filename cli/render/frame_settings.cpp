@@ -145,8 +145,8 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, noise, time_limit, part, even_noise, bounces, eyes, share_paths, filter, layers,
-               transparent, statistics, seed, threads, light_sampling, last_tile_first] = options;
+  const auto& [width, height, samples, noise, time_limit, part, even_noise, bounces, clamp, eyes, share_paths, filter,
+               layers, transparent, statistics, seed, threads, light_sampling, last_tile_first] = options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
   add_number(settings, "--samples", samples);
@@ -155,6 +155,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add_flag(settings, "even noise", even_noise);
   add_flag(settings, "shared paths", share_paths);
   add_number(settings, "--bounces", bounces);
+  add_float(settings, "--clamp", clamp);
   add(settings, "--eyes", std::string(ods::eyes_name(eyes)));
   add(settings, "--filter", std::string(ods::pixel_filter_name(filter)));
   add_flag(settings, "layers", layers);
@@ -190,7 +191,7 @@ std::vector<Setting> frame_settings(const RenderJob& job) {
   add_time(settings, job.time);
   add_render(settings, job.render);
   add_save(settings, job.save);
-  add(settings, "--denoise", job.denoise ? std::string(ods::name_in(kDenoiserTable, *job.denoise)) : "by default");
+  add(settings, "--denoise", job.denoise ? std::string(ods::name_in(ods::kDenoiserTable, *job.denoise)) : "by default");
   return settings;
 }
 

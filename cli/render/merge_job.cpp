@@ -11,6 +11,7 @@
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/frame_settings.h"
+#include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/render/part_file.h"
@@ -123,7 +124,7 @@ void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& la
   options.flag("--sidecar", render.save.sidecar, "also write the camera as JSON beside the picture");
   options.flag("--statistics", render.render.statistics,
                "also write each pixel's variance and number of samples (.exr)");
-  options.choice("--denoise", render.denoise, kDenoiserTable, "as in ods render");
+  options.choice("--denoise", render.denoise, ods::kDenoiserTable, "as in ods render");
   options.number("--exposure", render.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", render.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
@@ -137,16 +138,17 @@ void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   RenderJob& render = job.render;
   const ods::RenderOptions wished = render.render;
   if (wished.statistics && !ods::keeps_layers(render.output)) throw UsageError("--statistics needs an .exr");
+  if (render.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   render.render = job.picture.options;
   render.render.layers = ods::keeps_layers(render.output) && job.picture.options.layers;
   render.render.statistics = wished.statistics;
   render.render.threads = wished.threads;
   render.save.layout = layout.value_or(ods::default_layout(job.camera.projection));
   if (job.picture.options.statistics) return;
-  if (wished.statistics || render.denoise == Denoiser::kOwn) {
-    throw UsageError("the samples have no statistics: neither --statistics nor --denoise is possible");
+  if (wished.statistics || render.denoise == ods::Denoiser::kOwn) {
+    throw UsageError("the samples have no statistics: neither --statistics nor --denoise own is possible");
   }
-  render.denoise = Denoiser::kNone;
+  if (!render.denoise) render.denoise = ods::Denoiser::kNone;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "cli/console/console.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/render_job.h"
+#include "ods/denoise/oidn.h"
 #include "ods/render/picture_samples.h"
 
 namespace {
@@ -61,10 +62,12 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
   options.custom(
       "--time-limit", "TIME", "", [&](const std::string& word) { job.render.time_limit = parse_time_limit(word); },
       "the best picture that takes no longer, for each frame of a video: 90s, 10m, 1.5h. It depends on the machine");
-  options.choice("--denoise", job.denoise, kDenoiserTable,
+  options.choice("--denoise", job.denoise, ods::kDenoiserTable,
                  "remove the noise that is left, both eyes as one; by default for all but .exr and .hdr. An .exr keeps "
-                 "the noisy picture as the layer raw, and the statistics");
+                 "the noisy picture as the layer raw. oidn: Intel Open Image Denoise, where it is installed");
   options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
+  options.number("--clamp", job.render.clamp, 0.0f, 1e6f,
+                 "the most that one sample of indirect light brings, against bright specks: loses light; 0: no limit");
   options.choice("--filter", job.render.filter, ods::kPixelFilterTable, "pixel filter");
   options.number("--seed", job.render.seed, "random seed; the same seed gives the same picture");
   options.number("--threads", job.render.threads, 0, 1024, "number of threads; 0: all processors");
@@ -72,6 +75,7 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
 
 void finish_quality(const Options& options, const Quality& quality, RenderJob& job) {
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
+  if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   if (!options.given("--samples")) job.render.samples = quality.samples;
   if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : quality.noise;
 }

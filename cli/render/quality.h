@@ -6,16 +6,8 @@
 #include <string_view>
 
 #include "cli/console/options.h"
-#include "ods/base/names.h"
 
 struct RenderJob;
-
-enum class Denoiser { kNone, kOwn };
-inline constexpr ods::NameRow<Denoiser> kDenoiserTable[] = {
-    {Denoiser::kNone, "none"},
-    {Denoiser::kOwn, "own"},
-};
-static_assert(ods::has_every_member(kDenoiserTable));
 
 // A preset of --quality; --width, --samples and --noise take precedence.
 struct Quality {

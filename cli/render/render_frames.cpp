@@ -126,7 +126,7 @@ class FrameRenderer {
     ods::RenderOptions options = ods::with_height(options_to_finish(job_), camera);
     options.seed = frame.seed;
     ods::Progress progress;
-    const double share = denoises(job_) ? kShareOfRendering : 1.0;
+    const double share = denoiser_of(job_) == ods::Denoiser::kNone ? 1.0 : kShareOfRendering;
     if (report) progress.report = [&, share](double done) { report(share * done); };
     if (!asks_for_video(time_)) return render_still(job_, *renderer_, shot.cameras, options, progress);
     ods::Picture picture = renderer_->render(shot.cameras, options, progress);

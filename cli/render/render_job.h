@@ -11,6 +11,7 @@
 #include "cli/options/scene_source.h"
 #include "cli/options/time_options.h"
 #include "cli/render/quality.h"
+#include "ods/denoise/denoise.h"
 #include "ods/picture/save.h"
 #include "ods/render/render_options.h"
 
@@ -20,8 +21,8 @@ struct RenderJob {
   TimeOptions time;
   ods::RenderOptions render;
   ods::SaveOptions save;
-  std::optional<Denoiser> denoise;  // none: for all files but those that keep the scene's light
-  bool has_layout = false;          // given by an option
+  std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
+  bool has_layout = false;               // given by an option
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
   std::optional<ods::Part> part;  // of the samples

@@ -12,11 +12,25 @@
 // The picture converges to the truth: with more samples the variance falls and fewer pixels agree. A pixel whose
 // variance is 0, as its neighbours', keeps its bits, and so does the bare sky (no hit, no normal).
 #pragma once
+#include "ods/base/names.h"
 #include "ods/base/progress.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
+
+// How a rendered picture is denoised.
+enum class Denoiser {
+  kNone,
+  kOwn,   // denoise()
+  kOidn,  // denoise_with_oidn() (ods/denoise/oidn.h)
+};
+inline constexpr NameRow<Denoiser> kDenoiserTable[] = {
+    {Denoiser::kNone, "none"},
+    {Denoiser::kOwn, "own"},
+    {Denoiser::kOidn, "oidn"},
+};
+static_assert(has_every_member(kDenoiserTable));
 
 struct DenoiseOptions {
   bool both_eyes = true;  // false: each eye alone

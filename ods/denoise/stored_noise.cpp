@@ -104,6 +104,10 @@ Image variance_of_halves(const Image& a, const Image& b) {
   return variance;
 }
 
+// What other programs call two such pictures.
+constexpr const char* kHalves[][2] = {
+    {"halfA", "halfB"}, {"half_a", "half_b"}, {"half1", "half2"}, {"bufferA", "bufferB"}, {"buffer_a", "buffer_b"}};
+
 // Where a picture's statistics and features are.
 struct Found {
   Channels radiance;
@@ -121,8 +125,13 @@ Found find_all(const StoredPicture& stored, const NoiseLayers& layers, const std
   } else {
     found.variance = find_layer(stored, "variance");
     if (found.variance) found.samples = find_layer(stored, "samples");
+    for (const auto& [a, b] : kHalves) {
+      if (found.variance || found.half_a) break;
+      found.half_a = find_layer(stored, a), found.half_b = find_layer(stored, b);
+      if (!found.half_b) found.half_a.reset();
+    }
   }
-  if (!found.variance && !found.half_a) {
+  if (!found.variance && !found.half_a && layers.needed) {
     throw Error(ErrorKind::kInput,
                 fmt::format("'{}' does not say how noisy it is: render it with --statistics, or name a layer with "
                             "--variance, or two with --half-a and --half-b; {}",
@@ -175,7 +184,7 @@ StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, c
     eye.depth = read(found.depth);
     eye.normal = read(found.normal);
     eye.albedo = read(found.albedo);
-    noise.unusable += count_unusable(eye);
+    if (layers.needed) noise.unusable += count_unusable(eye);
   }
   if (noise.unusable == static_cast<int64_t>(pixels * stored.eyes.size())) {
     throw Error(ErrorKind::kInput,

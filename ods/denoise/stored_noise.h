@@ -16,8 +16,9 @@ namespace ods {
 // finds a layer whose name ends in it: ViewLayer.halfA.
 struct NoiseLayers {
   std::string variance;  // of the pixel's mean; empty: `variance`, as ods render writes it
-  std::string half_a;    // pictures of half of the samples each; empty: none
-  std::string half_b;
+  std::string half_a;    // pictures of half of the samples each; empty: halfA and halfB, or other usual names, if there
+  std::string half_b;    // is no variance
+  bool needed = true;    // false: a picture without any of these is fine (ods/denoise/oidn.h)
 };
 
 struct StoredNoise {

@@ -44,6 +44,7 @@ const int kLightSamplingBsdfOnly = 2;
 struct PathSettings {
   int bounces;  // a path has at most bounces + 1 segments
   int light_sampling;
+  float clamp;  // the most that light brings which has met two surfaces or more: mean of R, G and B; 0: any
 };
 
 struct PathState {
@@ -163,6 +164,13 @@ struct PathTracer : MediumReader {
     path.other_density = density;
   }
 
+  // What PathSettings::clamp leaves of light that comes by way of so many surfaces.
+  inline float clamped(PathSettings settings, vec3 light, int surfaces) {
+    float mean = (light.x + light.y + light.z) * (1.0f / 3.0f);
+    if (settings.clamp <= 0.0f || surfaces < 2 || mean <= settings.clamp) return 1.0f;
+    return settings.clamp / mean;
+  }
+
   inline void add_light(vec3 light, vec3 light_for_other) {
     path.radiance += light;
     path.alone_radiance += light * path.alone_ratio;
@@ -202,6 +210,7 @@ struct PathTracer : MediumReader {
 
   inline void meet_light(PathSettings settings, vec3 light, float light_pdf) {
     vec3 arriving = path.throughput * light;
+    arriving = arriving * clamped(settings, arriving * path.alone_ratio, path.bounce);
     float weight = scattered_weight(settings, path.pdf, light_pdf);
     float other_weight = weight;
     if (path.other_pdf != path.pdf) other_weight = scattered_weight(settings, path.other_pdf, light_pdf);
@@ -282,6 +291,7 @@ struct PathTracer : MediumReader {
     }
     if (!(total > 0.0f)) return;
     vec3 scale = path.throughput * (total / (float(candidates) * chosen_brightness));
+    scale = scale * clamped(settings, chosen_light * scale * path.alone_ratio, path.bounce + 1);
     path.shadow_light = chosen_light * scale;
     path.shadow_alone = path.shadow_light * path.alone_ratio;
     path.shadow_other = path.shadow_light * path.other_ratio;

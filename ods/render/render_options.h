@@ -57,6 +57,7 @@ struct RenderOptions {
   Part part;                // of the samples; needs noise 0 and no time limit
   bool even_noise = true;   // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
   int bounces = 8;          // a path has up to bounces + 1 segments
+  float clamp = 0.0f;       // the most that a path's light brings which has met two surfaces or more; 0: any
   Eyes eyes = Eyes::kBothEyes;
   bool share_paths = true;  // light that a path of one eye finds goes to both, where both see the first surface
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods denoise as its user meets it.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include "ods/image/compare.h"
@@ -70,6 +71,16 @@ TEST_F(CliDenoise, PixelsOfNaNAreCounted) {
   EXPECT_EQ(run("denoise " + noisy + " -o " + folder.path("clean.exr")), 0) << err;
   EXPECT_NE(err.find("1 pixels"), std::string::npos) << err;
   EXPECT_NE(err.find("no albedo"), std::string::npos) << err;
+}
+
+// Before anything is rendered or read.
+TEST_F(CliDenoise, OpenImageDenoiseMustBeInstalled) {
+  if (dlopen("libOpenImageDenoise.so.2", RTLD_LAZY) != nullptr) GTEST_SKIP() << "skipped: it is installed";
+  for (const std::string words : {"render toys --width 16384 --denoise oidn", "denoise absent.exr --oidn"}) {
+    EXPECT_EQ(run(words + " -o " + folder.path("a.png")), 3) << words;
+    EXPECT_NE(err.find("Open Image Denoise is not installed"), std::string::npos) << err;
+  }
+  EXPECT_EQ(files(), 0u);
 }
 
 }  // namespace

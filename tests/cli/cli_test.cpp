@@ -23,12 +23,6 @@
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help",         "-h",
                             "help",           "render --help",

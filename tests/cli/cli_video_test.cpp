@@ -214,6 +214,7 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--time-limit", "1h"},
     {"--denoise", "none"},
     {"--bounces", "2"},
+    {"--clamp", "3"},
     {"--filter", "box"},
     {"--seed", "7"},
 };

@@ -130,7 +130,7 @@ class Pages : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directory(folder.path("home"));
-    setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // as in cli_runner.h
+    setenv("ASAN_OPTIONS", "detect_leaks=0", 0);               // as in cli_runner.h
     setenv("XDG_CACHE_HOME", folder.path("home").c_str(), 1);  // a program that a test runs has no business elsewhere
   }
 

@@ -105,6 +105,7 @@ TEST_F(VideoCommand, AFullDiskLeavesTheOldVideo) {
 }
 
 TEST_F(VideoCommand, HugeVideosNeedLittleMemory) {
+  if (kSanitized) GTEST_SKIP() << "skipped: a sanitizer takes all the address space";
   const std::string path = make("video_360_TB.mp4");
   // A hole of 1 GiB behind the samples, as a box of its own.
   std::ofstream(path, std::ios::app | std::ios::binary) << ods::made::number((1 << 30) + 8, 4) << "free";
@@ -164,6 +165,7 @@ TEST_F(VideoCommand, APictureWhoseNameContradictsItNeedsAWord) {
 
 // Beyond what the libraries take, there is room for the tables of millions of samples once, not twice.
 TEST_F(VideoCommand, InjectNeedsLittleMemory) {
+  if (kSanitized) GTEST_SKIP() << "skipped: a sanitizer takes all the address space";
   ods::made::Mp4Options options;
   options.table_boxes = ods::made::box("ctts", std::string(size_t{64} << 20, 'c'));
   const std::string path = make("video_360_TB.mp4", options);

@@ -115,7 +115,7 @@ TEST_F(StoredNoiseOf, LayersOfAnotherRenderer) {
        {rgb("ViewLayer.Odd"), [](int i, int x, int y, size_t c) { return kColour.value(i, x, y, c) - 0.5f; }},
        {{"ViewLayer.Denoising Normal.X", "ViewLayer.Denoising Normal.Y", "ViewLayer.Denoising Normal.Z"}, all(0.1f)},
        {rgb("ViewLayer.Denoising Albedo"), all(0.75f)}},
-      {"", "even", "ViewLayer.odd"});
+      {.half_a = "even", .half_b = "ViewLayer.odd"});
   const EyeImage& eye = noise.picture.eyes[1];
   EXPECT_FLOAT_EQ(eye.variance.at(5, 1)[1], 0.25f);
   EXPECT_EQ(eye.albedo.at(5, 1)[2], 0.75f);
@@ -123,8 +123,28 @@ TEST_F(StoredNoiseOf, LayersOfAnotherRenderer) {
   EXPECT_TRUE(eye.samples.pixels.empty());
 }
 
+TEST_F(StoredNoiseOf, HalvesByTheirUsualNames) {
+  for (const auto& [a, b] : {std::pair{"halfA", "halfB"}, {"View.half1", "View.half2"}, {"Buffer_A", "buffer_b"}}) {
+    const StoredNoise noise = read({kColour, {rgb(a), all(2.0f)}, {rgb(b), all(1.0f)}});
+    EXPECT_EQ(noise.picture.eyes[0].variance.at(1, 1)[0], 0.25f) << a;
+  }
+  EXPECT_EQ(kind_of_error({kColour, {rgb("halfA"), all(2.0f)}}, {}, "--half-a"), ErrorKind::kInput);
+  const StoredNoise both =
+      read({kColour, {rgb("halfA"), all(2.0f)}, {rgb("halfB"), all(1.0f)}, {rgb("variance"), all(7.0f)}});
+  EXPECT_EQ(both.picture.eyes[0].variance.at(1, 1)[0], 7.0f);
+}
+
+TEST_F(StoredNoiseOf, NothingIsNeededForOtherDenoisers) {
+  NoiseLayers names;
+  names.needed = false;
+  const StoredNoise noise = read({kColour, {rgb("albedo"), all(0.5f)}}, names);
+  EXPECT_TRUE(noise.picture.eyes[0].variance.pixels.empty());
+  EXPECT_EQ(noise.picture.eyes[0].albedo.at(1, 1)[0], 0.5f);
+  EXPECT_EQ(noise.unusable, 0);
+}
+
 TEST_F(StoredNoiseOf, AVarianceOfOneChannel) {
-  const StoredNoise noise = read({kColour, {{"noise"}, all(3.0f)}}, {"noise", "", ""});
+  const StoredNoise noise = read({kColour, {{"noise"}, all(3.0f)}}, {.variance = "noise"});
   for (int c = 0; c < 3; c++) EXPECT_EQ(noise.picture.eyes[0].variance.at(1, 1)[c], 3.0f);
   EXPECT_FALSE(noise.has_features);
 }
@@ -140,8 +160,9 @@ TEST_F(StoredNoiseOf, WhatIsMissingIsSaid) {
   EXPECT_EQ(kind_of_error({kColour, {rgb("variance"), all(0.0f)}, {{"samples"}, all(1.0f)}}, {}, "2 samples"),
             ErrorKind::kInput);
   EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {}, "--half-a"), ErrorKind::kInput);
-  EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {"mse", "", ""}, "no layer 'mse'"), ErrorKind::kUsage);
-  EXPECT_EQ(kind_of_error({kColour, {{"a.X", "a.Q"}, all(1.0f)}}, {"", "a", "a"}, "no layer 'a'"), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {.variance = "mse"}, "no layer 'mse'"), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of_error({kColour, {{"a.X", "a.Q"}, all(1.0f)}}, {.half_a = "a", .half_b = "a"}, "no layer 'a'"),
+            ErrorKind::kUsage);
   save_picture({{{kLeft, Image(8, 4, 3), {}, {}, {}}}}, SaveOptions(), folder_.path("p.png"));
   const StoredPicture png = open_picture(folder_.path("p.png"));
   EXPECT_THROW(read_noise(png, {}, "p.png"), Error);

@@ -20,6 +20,13 @@
 
 #include "tests/support/temporary_folder.h"
 
+// Sanitizers take all the address space.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 // For the processes that tests start: GCC 12's search for leaks crashes now and then beside TBB's threads.
 inline const int kNoSearchForLeaks = setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
 

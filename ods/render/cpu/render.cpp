@@ -438,7 +438,7 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
                   media_at(tracer, stereo.position,
                            [&](const Ray& ray) { return parts_->embree->closest_hit(tracer, ray, kHalfAlphaRay); }),
                   options,
-                  {options.bounces, static_cast<int>(options.light_sampling)},
+                  {options.bounces, static_cast<int>(options.light_sampling), options.clamp},
                   options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
                   layer_unit(options),
                   can_share(stereo, parts_->scene, options)};
