@@ -52,13 +52,18 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
     names.emplace_back(q.name);
   }
   options.choice(
-      "--quality", names, std::string(quality.name), [&](size_t i) { quality = kQualities[i]; },
+      "--quality", names, std::string(quality.name),
+      [&](size_t i) {
+        const auto own_samples = quality.own_samples;
+        quality = kQualities[i];
+        quality.own_samples = own_samples;
+      },
       "set width, --samples and --noise together" + sizes);
   options.custom(
       "--noise", "LEVEL|none", "", [&](const std::string& word) { job.render.noise = parse_noise(word); },
       "parts of the picture that are as clean as this get no more samples; in Cycles' measure, where 0.01 is its "
       "default. none: every pixel gets all samples");
-  options.number("--samples", job.render.samples, 1, ods::kMaxSamples, "the most samples that a pixel gets");
+  options.number("--samples", quality.own_samples, 1, ods::kMaxSamples, "the most samples that a pixel gets");
   options.custom(
       "--time-limit", "TIME", "", [&](const std::string& word) { job.render.time_limit = parse_time_limit(word); },
       "the best picture that takes no longer, for each frame of a video: 90s, 10m, 1.5h. It depends on the machine");
@@ -76,6 +81,6 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
 void finish_quality(const Options& options, const Quality& quality, RenderJob& job) {
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
-  if (!options.given("--samples")) job.render.samples = quality.samples;
+  job.render.samples = quality.own_samples.value_or(quality.samples);
   if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : quality.noise;
 }

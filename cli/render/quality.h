@@ -3,6 +3,7 @@
 //
 // How clean a picture becomes, and at what price: the options that ods render and ods video share.
 #pragma once
+#include <optional>
 #include <string_view>
 
 #include "cli/console/options.h"
@@ -15,6 +16,7 @@ struct Quality {
   int width;
   int samples;
   float noise;
+  std::optional<int> own_samples = {};  // those of --samples
 };
 
 // Options in a group of their own, and what remains to be done after parsing.

@@ -53,14 +53,13 @@ ods::Part parse_part(const std::string& word) {
 }
 
 void add_long_options(Options& options, RenderJob& job) {
-  options.group("Long renderings of one picture");
+  options.group("Long renders of one picture");
   options.flag("--resume", job.resume,
-               "go on where an interrupted run was: it keeps what it has in PICTURE.unfinished, every 30 s");
-  options.flag("--save-unfinished", job.save_unfinished,
-               "when interrupted (Ctrl-C, kill), save the picture as it is, and then end");
+               "go on where an interrupted run stopped; it leaves what it has in PICTURE.unfinished");
+  options.flag("--save-unfinished", job.save_unfinished, "when interrupted (Ctrl-C, kill), save the picture as it is");
   options.custom(
       "--part", "I/N", "", [&](const std::string& word) { job.render.part = job.part.emplace(parse_part(word)); },
-      "render the I-th of N parts of the samples, as an .exr for ods merge: 3/8");
+      "render one of N parts of the samples as an .exr, for ods merge: 3/8");
 }
 
 // Parts are exact shares of a fixed number of samples.
