@@ -2,16 +2,26 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Makes docs/images/projections.jpg, layouts.jpg, merges.jpg, eyes.jpg and testcard.jpg. Needs build/release/ods and oiiotool.
+# Makes docs/images/projections.jpg, layouts.jpg, merges.jpg, eyes.jpg and testcard.jpg, or one of them:
+#   docs/camera_sheet.sh projections
+# Needs build/release/ods and oiiotool.
 set -eu
 cd "$(dirname "$0")/.."
 ods=build/release/ods
 count=10
+only=${1:-}
 parts=$(mktemp -d)
 trap 'rm -rf "$parts"' EXIT
 
+# The sheet that follows is wanted.
+begin() {
+  wanted=no
+  if [ -z "$only" ] || [ "$only" = "$1" ]; then wanted=yes; fi
+}
+
 # tile NAME OPTION...: the axis scene seen so, fitted into a box with its name below.
 tile() {
+  [ $wanted = yes ] || return 0
   name=$1
   shift
   count=$((count + 1))
@@ -22,10 +32,12 @@ tile() {
 
 # sheet COLUMNSxROWS FILE
 sheet() {
+  [ $wanted = yes ] || return 0
   oiiotool "$parts"/tile-*.png --mosaic:pad=8 "$1" --compression jpeg:90 -d uint8 -o "docs/images/$2"
   rm "$parts"/tile-*.png
 }
 
+begin projections
 for name in lat-long vr180 cylinder fisheye fisheye-equisolid fisheye-polynomial mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac eac-face; do
   width=480
   [ $name = cube-1x6 ] && width=120
@@ -34,6 +46,7 @@ done
 tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
 sheet 5x3 projections.jpg
 
+begin layouts
 for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved \
   column-interleaved checkerboard anaglyph anaglyph-half anaglyph-dubois; do
   tile $name --layout $name --width 480
@@ -42,6 +55,7 @@ tile "--eyes left" --eyes left --width 480
 tile "--eyes mono" --eyes mono --width 480
 sheet 5x3 layouts.jpg
 
+begin merges
 # Straight down at the floor's grid, where a merge shows most: red-cyan, with eyes far apart.
 for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 smootherstep,30,90 gaussian,0,90 power,0,90,10 \
   tilt-brush,0,72; do
@@ -49,6 +63,7 @@ for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 smo
 done
 sheet 3x3 merges.jpg
 
+begin eyes
 # Ahead and a little down, red-cyan, eyes 20 cm apart where nothing else is said.
 window="--layout anaglyph --projection perspective --fov 80 --lens-direction 0,-15 --width 320"
 tile "--ipd 0.2" $window --ipd 0.2
@@ -66,9 +81,11 @@ tile "--camera-preset ospray" $down --camera-preset ospray:interpupillaryDistanc
 tile "--camera-preset cycles:use_pole_merge=1" $down --camera-preset cycles:interocular_distance=0.4,convergence_mode=PARALLEL,use_pole_merge=1
 sheet 4x3 eyes.jpg
 
+begin testcard
 # What one sees ahead and straight up, of each eye.
 for look in 0,0 0,90; do
   for eye in left right; do
+    [ $wanted = yes ] || continue
     "$ods" testcard --quiet -o "$parts/tile-$look-$eye.png" --eyes $eye --projection perspective --fov 84 --lens-direction $look --width 560 > /dev/null
   done
 done

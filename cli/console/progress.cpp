@@ -51,7 +51,8 @@ double seconds_left(double done, double seconds) {
 }
 
 std::string time_left(double done, double seconds) {
-  return done > 0.0 && done < 1.0 ? ", " + duration_text(seconds_left(done, seconds)) + " left" : "";
+  const bool can_tell = done >= 0.01 || seconds >= 20.0;  // the first steps are the slowest
+  return can_tell && done > 0.0 && done < 1.0 ? ", " + duration_text(seconds_left(done, seconds)) + " left" : "";
 }
 
 std::string frame_text(const ProgressStep& step) {

@@ -79,7 +79,9 @@ Scene open_scene(const SceneSource& source) {
 static void add_environment(Scene& scene, const SceneSource& source) {
   if (source.environment.empty()) {
     if (ods::has_light(scene)) return;
-    note("the scene has no lamps; a white sky lights it (--env sets another, --env 0 none)");
+    note(
+        "the scene has no lamps: an even white sky lights it (--env sky.hdr is another one, --env 0 none, --exposure 1 "
+        "doubles the light)");
     scene.environment.radiance = vec3(1.0f);
     return;
   }

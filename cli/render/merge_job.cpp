@@ -110,7 +110,9 @@ void open_pictures(MergeJob& job, bool incomplete) {
     ods::check_picture_memory(job.picture.options);
     job.samples = ods::no_samples(job.picture.options);
   }
-  job.camera = ods::read_sidecar(job.picture.camera, first, ignored).camera;
+  const ods::Sidecar sidecar = ods::read_sidecar(job.picture.camera, first, ignored);
+  job.camera = sidecar.camera;
+  job.layout = sidecar.layout;
 }
 
 void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& layout, bool& incomplete) {
@@ -120,14 +122,15 @@ void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& la
   options.text("-o,--output", "FILE", render.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   options.flag("--incomplete", incomplete, "make the picture even if parts are missing; it is noisier");
-  add_layout_option(options, layout, "how both eyes share the file", "--layout");
+  add_layout_option(options, layout, "how both eyes share the file; by default as rendered", "--layout");
   options.flag("--sidecar", render.save.sidecar, "also write the camera as JSON beside the picture");
   options.flag("--statistics", render.render.statistics,
                "also write each pixel's variance and number of samples (.exr)");
   options.choice("--denoise", render.denoise, ods::kDenoiserTable, "as in ods render");
   options.number("--exposure", render.save.exposure, -30.0f, 30.0f,
-                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", render.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
+                 "exposure in stops, by default as rendered; .hdr and .exr stay scene-linear and ignore it");
+  options.choice("--tone", render.save.tone, ods::kToneCurveTable,
+                 "tone curve, by default as rendered; .hdr and .exr ignore it");
   options.group("Console");
   options.number("--threads", render.render.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, render.progress);
@@ -143,7 +146,7 @@ void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   render.render.layers = ods::keeps_layers(render.output) && job.picture.options.layers;
   render.render.statistics = wished.statistics;
   render.render.threads = wished.threads;
-  render.save.layout = layout.value_or(ods::default_layout(job.camera.projection));
+  render.save.layout = layout.value_or(job.layout);
   if (job.picture.options.statistics) return;
   if (wished.statistics || render.denoise == ods::Denoiser::kOwn) {
     throw UsageError("the samples have no statistics: neither --statistics nor --denoise own is possible");
@@ -166,6 +169,8 @@ bool read_merge_job(MergeJob& job, int argc, char** argv) {
   for (const std::string& part : job.parts) refuse_overwriting(output, part);
   open_pictures(job, incomplete);
   finish_options(job, layout);
+  if (!options.given("--exposure")) job.render.save.exposure = job.picture.exposure;
+  if (!options.given("--tone")) job.render.save.tone = job.picture.tone;
   const ods::RenderOptions& picture = job.picture.options;
   const std::vector<int> eyes = ods::eye_list(picture.eyes);
   ods::check_output(output, job.render.save, eyes, {picture.width, picture.height}, &job.camera.projection);

@@ -14,7 +14,8 @@ struct MergeJob {
   ods::SampledPicture picture;     // whole
   ods::PictureSamples samples;     // to which the parts are added: none, or what an interrupted run has kept
   ods::StereoCamera camera;
-  RenderJob render;  // how the picture is finished
+  ods::Layout layout = ods::Layout::kTopBottom;  // as rendered
+  RenderJob render;                              // how the picture is finished
 };
 
 // False if help was requested. Opens the files. Throws UsageError and ods::Error, if the parts do not make a picture.

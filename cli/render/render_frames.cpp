@@ -71,6 +71,8 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
   const std::string what = frames == 1 ? file : fmt::format("{} frames", frames);
   note(fmt::format("{} in {}, {:.0f} samples per pixel, {:.3g} million per second", what, duration_text(seconds),
                    samples / pixels, samples / seconds * 1e-6));
+  if (job.render.time_limit > 0.0 && samples / pixels < 8.0)
+    warn("few samples fit into --time-limit: expect specks; more time or a smaller --width makes a cleaner picture");
 }
 
 // The scene at a frame's time, and the camera's motion during the shutter.

@@ -17,7 +17,7 @@ std::string unfinished_path(const std::string& picture) {
 ods::SampledPicture sampled_picture(const RenderJob& job, const ods::RenderOptions& options,
                                     const ods::StereoCamera& camera) {
   const ods::Sidecar sidecar{camera, {options.width, options.height}, job.save.layout, ods::eye_list(options.eyes)};
-  return {settings_text(sample_settings(job)), ods::write_sidecar(sidecar), options};
+  return {settings_text(sample_settings(job)), ods::write_sidecar(sidecar), job.save.exposure, job.save.tone, options};
 }
 
 UnfinishedPicture::UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options,

@@ -189,7 +189,7 @@ class Writer {
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
-    assert(is_fisheye(setting_.kind));
+    assert(setting_.kind == kFisheye || setting_.kind == kFisheyeEquisolid);
     const Formula angle = step(
         "from_axis", setting_.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));

@@ -185,7 +185,8 @@ SampledPicture read_part_header(const std::string& path) {
     return found == info.text.end() ? "" : found->second;
   };
   const auto samples = info.numbers.find(kSamples);
-  SampledPicture picture{text(kSettings), text(kSidecar), {}};
+  SampledPicture picture;
+  picture.settings = text(kSettings), picture.camera = text(kSidecar);
   RenderOptions& options = picture.options;
   options.part = parse_part(text(kPart));
   options.samples = samples == info.numbers.end() ? 0 : static_cast<int>(samples->second.front());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <span>
 
@@ -104,6 +105,7 @@ class Reader {
 template <typename Stream, typename About, typename Samples>
 void each_field(Stream& stream, About& picture, Samples& samples) {
   stream.list(picture.settings), stream.list(picture.camera);
+  stream.number(picture.exposure), stream.number(picture.tone);
   auto& o = picture.options;
   stream.number(o.width), stream.number(o.height), stream.number(o.samples), stream.number(o.noise);
   stream.number(o.part.number), stream.number(o.part.count), stream.number(o.eyes), stream.number(o.share_paths);
@@ -116,8 +118,10 @@ void each_field(Stream& stream, About& picture, Samples& samples) {
   }
 }
 
-bool is_sensible(const RenderOptions& o) {
-  return o.width > 0 && o.height > 0 && o.samples > 0 && o.samples <= kMaxSamples && o.part.number > 0 &&
+bool is_sensible(const SampledPicture& picture) {
+  const RenderOptions& o = picture.options;
+  return std::isfinite(picture.exposure) && !name_in(kToneCurveTable, picture.tone).empty() && o.width > 0 &&
+         o.height > 0 && o.samples > 0 && o.samples <= kMaxSamples && o.part.number > 0 &&
          o.part.number <= o.part.count;
 }
 
@@ -155,7 +159,7 @@ SampledPicture read_unfinished(const std::string& path, PictureSamples& samples)
   SampledPicture picture;
   each_field(reader, picture, samples);
   reader.checksum();
-  if (!is_sensible(picture.options) || !fit(samples, picture.options)) reader.fail();
+  if (!is_sensible(picture) || !fit(samples, picture.options)) reader.fail();
   return picture;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 #include <string>
 
+#include "ods/image/tone.h"
 #include "ods/render/picture_samples.h"
 
 namespace ods {
@@ -16,6 +17,8 @@ namespace ods {
 struct SampledPicture {
   std::string settings;   // everything that the picture depends on, in the caller's words
   std::string camera;     // as a sidecar (ods/picture/metadata/sidecar.h)
+  float exposure = 0.0f;  // how a file for the screen is to be made of it
+  ToneCurve tone = ToneCurve::kNeutral;
   RenderOptions options;  // those that no_samples() and develop() read; the others have their defaults
 };
 

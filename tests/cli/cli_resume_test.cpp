@@ -68,7 +68,9 @@ TEST_F(Resume, WithoutAFileItBegins) {
 }
 
 TEST_F(Resume, WhatThereIsCanBeSaved) {
-  ASSERT_EQ(interrupted(words("a.png", {"--save-unfinished"}), SIGTERM), 128 + SIGTERM) << err;
+  ASSERT_EQ(interrupted(words("a.png", {"--save-unfinished", "--exposure", "1.5", "--layout", "sbs"}), SIGTERM),
+            128 + SIGTERM)
+      << err;
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "a.png.unfinished"}));
   EXPECT_EQ(out, folder.path("a.png") + "\n");
   ASSERT_EQ(run("merge " + folder.path("a.png.unfinished") + " -o " + folder.path("b.png")), 0) << err;

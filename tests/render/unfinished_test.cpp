@@ -32,7 +32,8 @@ PictureSamples samples_with(const RenderOptions& options) {
 }
 
 SampledPicture about(const RenderOptions& options) {
-  return {"--seed\t7\n", write_sidecar({StereoCamera(), {options.width, options.height}}), options};
+  return {"--seed\t7\n", write_sidecar({StereoCamera(), {options.width, options.height}}), 1.5f, ToneCurve::kLinear,
+          options};
 }
 
 void expect_same(const PictureSamples& a, const PictureSamples& b) {
@@ -68,6 +69,8 @@ TEST(Unfinished, ComesBackBitForBit) {
     expect_same(again, samples);
     EXPECT_EQ(picture.settings, about(options).settings);
     EXPECT_EQ(picture.camera, about(options).camera);
+    EXPECT_EQ(picture.exposure, 1.5f);
+    EXPECT_EQ(picture.tone, ToneCurve::kLinear);
     EXPECT_EQ(samples_bytes(picture.options), samples_bytes(options));
   }
 }

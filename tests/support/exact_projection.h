@@ -91,8 +91,14 @@ inline dvec3 exact_direction(const ProjectionSetting& setting, dvec2 uv) {
     case kEacFace:
       return turned({std::tan(kExactPi / 2.0 * (uv.x - 0.5)), std::tan(kExactPi / 2.0 * (0.5 - uv.y)), -1.0}, pan,
                     tilt);
-    default:
+    case kCube3x2:
+    case kCube6x1:
+    case kCube1x6:
+    case kEac:
       return exact_cube(setting.kind, uv);
+    default:
+      ADD_FAILURE() << "exact_direction() lacks " << projection_name(setting);
+      return {};
   }
 }
 

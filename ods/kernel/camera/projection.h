@@ -49,7 +49,7 @@ inline bool has_fov(int kind) {
 
 // Users can point the lens.
 inline bool has_lens(int kind) {
-  return has_fov(kind) || kind == kEacFace;
+  return has_image_circle(kind) || kind == kPerspective || kind == kEacFace;
 }
 
 // Six faces, each in its own cell.
@@ -443,7 +443,8 @@ inline float relative_solid_angle(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kEacFace) return eac_solid_angle(p);
   if (projection.kind == kEac) return eac_solid_angle(place_in_cell(projection.kind, home, uv));
   if (is_cube(projection.kind)) return plane_solid_angle(place_in_cell(projection.kind, home, uv));
-  return 1.0f;  // kFisheyeEquisolid
+  if (projection.kind == kFisheyeEquisolid) return 1.0f;
+  return 0.0f;  // there is no such projection
 }
 
 #ifdef __cplusplus

@@ -68,7 +68,8 @@ TEST(Projections, SolidAnglesAreThoseOfTheirDirections) {
       if (is_cube(setting.kind) && max(abs(place.x), abs(place.y)) > 0.99f) continue;  // no difference over an edge
       const double ratio = exact(uv) / double{relative_solid_angle(projection, uv, uv)};
       if (first == 0.0) first = ratio;
-      ASSERT_NEAR(ratio / first, 1.0, 2e-2) << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
+      ASSERT_NEAR(ratio / first, 1.0, 2e-2)
+          << "relative_solid_angle(): " << projection_name(setting) << ' ' << uv.x << ' ' << uv.y;
     }
   }
 }
@@ -226,6 +227,16 @@ TEST(Projections, StraightBehindIsOnTheRim) {
     const ImagePoint outside = place_of(make_projection(setting), vec3(0.0f, 0.0f, 1.0f));
     EXPECT_FALSE(outside.seen) << kind;
     EXPECT_GT(length(outside.uv - 0.5f), 0.6f) << kind;
+  }
+}
+
+// Where formulas of lenses are most likely to go wrong.
+TEST(Projections, StraightBehindIsSeenByWholePicturesOnly) {
+  for (const NamedProjection& named : named_projections()) {
+    const Projection projection = make_projection(named.setting);
+    if (!has_lens(projection.kind)) continue;
+    const bool is_whole = has_image_circle(projection.kind) && named.setting.fov > 359.0f;
+    EXPECT_EQ(place_of(projection, projection.lens_back).seen, is_whole) << named.name;
   }
 }
 
