@@ -15,10 +15,10 @@ namespace ods {
 // Names of layers, in upper or lower case: `halfA` for channels halfA.R, halfA.G, halfA.B. A name without a point also
 // finds a layer whose name ends in it: ViewLayer.halfA.
 struct NoiseLayers {
-  std::string variance;  // of the pixel's mean; empty: `variance`, as ods render writes it
-  std::string half_a;    // pictures of half of the samples each; empty: halfA and halfB, or other usual names, if there
-  std::string half_b;    // is no variance
-  bool needed = true;    // false: a picture without any of these is fine (ods/denoise/oidn.h)
+  std::string variance{};  // of the pixel's mean; empty: `variance`, as ods render writes it
+  std::string half_a{};    // pictures of half of the samples each; empty, and there is no variance: halfA and halfB, or
+  std::string half_b{};    // other usual names
+  bool needed = true;      // false: a picture without any of these is fine (ods/denoise/oidn.h)
 };
 
 struct StoredNoise {
