@@ -24,7 +24,8 @@ TEST(Render, ClampLimitsIndirectLight) {
   options.light_sampling = LightSampling::kBsdfOnly;
   for (const auto& [clamp, light] : {std::pair{0.0f, 5 * 0.7f}, {0.8f, 5 * 0.7f}, {0.2f, 2 * 0.7f + 3 * 0.2f}}) {
     options.clamp = clamp;
-    for (const float value : render_cpu(scene, StereoCamera{}, options).eyes[0].radiance.pixels) {
+    const Picture picture = render_cpu(scene, StereoCamera{}, options);
+    for (const float value : picture.eyes[0].radiance.pixels) {
       ASSERT_NEAR(value, light, 1e-4f) << clamp;
     }
   }
