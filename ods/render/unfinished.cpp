@@ -30,6 +30,7 @@ class Writer {
   explicit Writer(std::FILE* stream) : stream_(stream) {}
 
   void bytes(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;  // fwrite() wants an address even then
     checksum_ = crc32(bytes, checksum_);
     std::fwrite(bytes.data(), 1, bytes.size(), stream_);  // AtomicFile notices errors
   }
