@@ -8,12 +8,12 @@
 // (d - A)(d - B) is the squared error of d, and half of that of (A - B)^2 the squared error of 8 N samples. Errors are
 // taken of linear light, which one bright lamp's edge may rule, and of what a screen shows (clipped to 0..1, sRGB).
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <filesystem>
 #include <functional>
 
+#include "bench/measure.h"
 #include "ods/denoise/denoise.h"
 #include "ods/image/tone.h"
 #include "ods/kernel/camera/project.h"
@@ -23,19 +23,6 @@
 namespace {
 
 using namespace ods;
-
-double cpu_seconds() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double peak_megabytes() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 // The atrium, the shared scene, has no light of its own: a white sky of 1.
 struct Subject {

@@ -7,12 +7,12 @@
 // The scenes are the shared atrium and helmet, under a white sky of 1, box filter, 8 bounces; without them the built-in
 // fractal stands in.
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 
+#include "bench/measure.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/lights.h"
@@ -32,19 +32,6 @@ struct Subject {
 
 constexpr Subject kSubjects[] = {{"atrium", "atrium.glb", {0.0f, 1.6f, 0.0f}, 0.005},
                                  {"helmet", "DamagedHelmet.glb", {0.0f, 0.0f, 1.5f}, 0.002}};
-
-double cpu_seconds() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double peak_megabytes() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 Scene load(const Subject& subject) {
   const std::string path = std::string(SHARED_SCENES "/") + subject.file;

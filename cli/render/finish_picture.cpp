@@ -36,8 +36,8 @@ std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoC
   ods::Denoiser denoiser = denoiser_of(job);
   if (denoiser == ods::Denoiser::kOwn && !has_variance(picture)) denoiser = ods::Denoiser::kNone;
   const bool keeps_raw = denoiser != ods::Denoiser::kNone && job.render.layers;
-  for (ods::EyeImage& eye : picture.eyes) {
-    if (keeps_raw) eye.raw = eye.radiance;
+  if (keeps_raw) {
+    for (ods::EyeImage& eye : picture.eyes) eye.raw = eye.radiance;
   }
   if (denoiser == ods::Denoiser::kOwn) ods::denoise(picture, camera, {true, job.render.threads});
   if (denoiser == ods::Denoiser::kOidn) ods::denoise_with_oidn(picture, camera, job.render.threads);

@@ -198,7 +198,7 @@ std::vector<Setting> frame_settings(const RenderJob& job) {
 std::vector<Setting> sample_settings(const RenderJob& job) {
   Settings settings = frame_settings(job);
   std::erase_if(settings, [](const Setting& s) { return s.option == "--time-limit" || s.option == "--layout"; });
-  add(settings, kPartSetting, fmt::format("{}/{}", job.render.part.number, job.render.part.count));
+  add(settings, kPartSetting, ods::part_text(job.render.part));
   return settings;
 }
 

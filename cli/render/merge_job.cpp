@@ -81,8 +81,8 @@ void open_parts(MergeJob& job, bool incomplete) {
     }
     const auto [other, is_new] = parts.emplace(part.options.part.number, path);
     if (!is_new) {
-      throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' and '{}' are the same part, {}/{}", other->second,
-                                                           path, part.options.part.number, part.options.part.count));
+      throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' and '{}' are the same part, {}", other->second, path,
+                                                           ods::part_text(part.options.part)));
     }
   }
   const int count = job.picture.options.part.count;

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
@@ -41,15 +39,10 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
 }
 
-// "3/8"
-ods::Part parse_part(const std::string& word) {
-  ods::Part part;
-  char end = 0;
-  if (std::sscanf(word.c_str(), "%d/%d%c", &part.number, &part.count, &end) == 2 && part.number >= 1 &&
-      part.number <= part.count && part.count <= ods::kMaxSamples) {
-    return part;
-  }
-  throw UsageError(fmt::format("--part is a part and their number, such as 3/8, not '{}'", word));
+void read_part(const std::string& word, RenderJob& job) {
+  job.part = ods::parse_part(word);
+  if (!job.part) throw UsageError(fmt::format("--part is a part and their number, such as 3/8, not '{}'", word));
+  job.render.part = *job.part;
 }
 
 void add_long_options(Options& options, RenderJob& job) {
@@ -58,7 +51,7 @@ void add_long_options(Options& options, RenderJob& job) {
                "go on where an interrupted run stopped; it leaves what it has in PICTURE.unfinished");
   options.flag("--save-unfinished", job.save_unfinished, "when interrupted (Ctrl-C, kill), save the picture as it is");
   options.custom(
-      "--part", "I/N", "", [&](const std::string& word) { job.render.part = job.part.emplace(parse_part(word)); },
+      "--part", "I/N", "", [&](const std::string& word) { read_part(word, job); },
       "render one of N parts of the samples as an .exr, for ods merge: 3/8");
 }
 
@@ -72,15 +65,16 @@ void check_long_job(const Options& options, const RenderJob& job) {
     }
     if (!job.rig.empty()) throw UsageError(fmt::format("{} cannot be used with --rig", own));
   }
-  for (const char* other : {"--noise", "--time-limit", "--denoise", "--layout", "--save-unfinished"}) {
-    if (is_part && options.given(other)) {
-      throw UsageError(
-          fmt::format("{} cannot be used with --part{}", other,
-                      options.given("--denoise") || options.given("--layout") ? ": it is for ods merge" : ""));
-    }
+  if (!is_part) return;
+  for (const char* other : {"--noise", "--time-limit", "--save-unfinished"}) {
+    if (options.given(other)) throw UsageError(fmt::format("{} cannot be used with --part", other));
   }
-  if (is_part && !ods::keeps_layers(job.output)) throw UsageError("--part needs an .exr, which ods merge reads");
-  if (is_part && job.render.part.count > job.render.samples) {
+  for (const char* other : {"--denoise", "--layout"}) {
+    if (options.given(other))
+      throw UsageError(fmt::format("{} cannot be used with --part: it is for ods merge", other));
+  }
+  if (!ods::keeps_layers(job.output)) throw UsageError("--part needs an .exr, which ods merge reads");
+  if (job.render.part.count > job.render.samples) {
     throw UsageError(fmt::format("{} samples cannot be {} parts", job.render.samples, job.render.part.count));
   }
 }

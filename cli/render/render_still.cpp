@@ -21,10 +21,7 @@ const char* stopping_words() {
 
 Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
                 ods::PictureSamples samples) {
-  double taken = 0.0;
-  for (const ods::EyeSamples& eye : samples.eyes) {
-    for (const uint32_t count : eye.count) taken += count;
-  }
+  const auto taken = static_cast<double>(ods::count_samples(samples));
   if (job.part) return {{ods::save_part(job.output, sampled_picture(job, options, camera), samples)}, taken};
   return {finish_picture(job, camera, ods::develop(std::move(samples), options), job.output), taken};
 }
@@ -32,7 +29,7 @@ Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods
 [[noreturn]] void end_early(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
                             ods::PictureSamples& samples, const UnfinishedPicture& unfinished, const GentleStop& stop) {
   if (unfinished.is_kept()) {
-    const std::string path = unfinished_path(job.output);
+    const std::string& path = unfinished.path();
     note(fmt::format("what is rendered is kept in '{}': the same command with --resume goes on{}", path,
                      job.save_unfinished ? "" : fmt::format(", ods merge '{}' -o FILE saves it as it is", path)));
   }

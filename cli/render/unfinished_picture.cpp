@@ -10,10 +10,6 @@
 #include "cli/render/frame_settings.h"
 #include "ods/picture/metadata/sidecar.h"
 
-std::string unfinished_path(const std::string& picture) {
-  return picture + ".unfinished";
-}
-
 ods::SampledPicture sampled_picture(const RenderJob& job, const ods::RenderOptions& options,
                                     const ods::StereoCamera& camera) {
   const ods::Sidecar sidecar{camera, {options.width, options.height}, job.save.layout, ods::eye_list(options.eyes)};
@@ -22,7 +18,7 @@ ods::SampledPicture sampled_picture(const RenderJob& job, const ods::RenderOptio
 
 UnfinishedPicture::UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options,
                                      const ods::StereoCamera& camera)
-    : job_(job), options_(options), camera_(camera), path_(unfinished_path(job.output)) {}
+    : job_(job), options_(options), camera_(camera), path_(job.output + ".unfinished") {}
 
 const ods::SampledPicture& UnfinishedPicture::about() {
   if (!about_) about_ = sampled_picture(job_, options_, camera_);

@@ -9,8 +9,6 @@
 #include "cli/render/render_job.h"
 #include "ods/render/unfinished.h"
 
-std::string unfinished_path(const std::string& picture);
-
 class UnfinishedPicture {
  public:
   // options, camera: with which the picture is rendered. The job must outlive this object.
@@ -25,6 +23,8 @@ class UnfinishedPicture {
 
   // Whether there is a file that has the samples of the last keep().
   bool is_kept() const { return kept_; }
+
+  const std::string& path() const { return path_; }
 
   // The picture is finished.
   void remove() const;

@@ -48,8 +48,12 @@ std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell
   return texel;
 }
 
-// --- a pixel
-// -----------------------------------------------------------------------------------------------------------
+std::optional<Texel> texel_at(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y) {
+  const bool is_own = x >= cell.left && x < cell.right && y >= cell.top && y < cell.bottom;
+  return is_own ? Texel{eye, x, y} : neighbour_of(noisy, eye, cell, x, y);
+}
+
+// --- a pixel ---------------------------------------------------------------------------------------------------------
 
 static vec3 finite_at(const Image& image, size_t pixel) {
   if (image.pixels.empty()) return vec3(0.0f);
@@ -128,15 +132,14 @@ static void put_pixel(const NoisyPicture& noisy, const std::vector<Level>& level
 }
 
 void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block) {
-  const Cell &cell = block.cell, &inside = block.inside;
+  const Cell& inside = block.inside;
   const size_t count =
       static_cast<size_t>(block.stride()) * static_cast<size_t>(inside.bottom - inside.top + 2 * block.down);
   for (std::vector<float>& plane : block.planes) plane.resize(count);
   size_t to = 0;
   for (int y = inside.top - block.down; y < inside.bottom + block.down; y++) {
     for (int x = inside.left - block.across; x < inside.right + block.across; x++, to++) {
-      const bool is_own = x >= cell.left && x < cell.right && y >= cell.top && y < cell.bottom;
-      put_pixel(noisy, levels, is_own ? Texel{block.eye, x, y} : neighbour_of(noisy, block.eye, cell, x, y), block, to);
+      put_pixel(noisy, levels, texel_at(noisy, block.eye, block.cell, x, y), block, to);
     }
   }
 }

@@ -52,6 +52,9 @@ void open_noisy(NoisyPicture& noisy, const Picture& picture, const StereoCamera&
 // The texel next to a cell, across its edge; nothing where the picture ends.
 std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y);
 
+// As above, and a cell's own texels, whatever they show.
+std::optional<Texel> texel_at(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y);
+
 // By what the radiance is divided: the albedo, and a little for light that the albedo does not colour.
 vec3 divisor(const EyeImage& eye, size_t pixel);
 

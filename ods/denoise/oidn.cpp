@@ -125,10 +125,9 @@ std::vector<float> pad(const NoisyPicture& noisy, int eye, Image EyeImage::*laye
     float* to = &pixels[3 * p.width * static_cast<size_t>(row)];
     const int y = p.cell.top - p.down + row;
     for (int x = p.cell.left - p.across; x < p.cell.right + p.across; x++, to += 3) {
-      const bool is_own = x >= p.cell.left && x < p.cell.right && y >= p.cell.top && y < p.cell.bottom;
       const Texel nearest{eye, std::clamp(x, p.cell.left, p.cell.right - 1),
                           std::clamp(y, p.cell.top, p.cell.bottom - 1)};
-      const Texel from = is_own ? nearest : neighbour_of(noisy, eye, p.cell, x, y).value_or(nearest);
+      const Texel from = texel_at(noisy, eye, p.cell, x, y).value_or(nearest);
       const float* value = (noisy.eye(from.source_eye).*layer).at(from.x, from.y);
       for (int c = 0; c < 3; c++) to[c] = std::isfinite(value[c]) ? value[c] : 0.0f;
     }

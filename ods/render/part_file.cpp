@@ -101,14 +101,6 @@ const LayerPixels* find_plane(const StoredEye& eye, const char* plane) {
   throw Error(ErrorKind::kInput, fmt::format("'{}' {}", path, what));
 }
 
-// "3/8"
-Part parse_part(const std::string& text) {
-  Part part;
-  char end = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &part.number, &part.count, &end) != 2) part = {0, 0};
-  return part;
-}
-
 // Depth is the same in every part; everything else adds up.
 template <typename Number>
 void add_number(const char* plane, Number number, Number& sum) {
@@ -170,8 +162,7 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
   };
   SaveOptions options;
   if (samples.eyes.size() == 2) options.layout = Layout::kMultiview;
-  const Part part = picture.options.part;
-  options.attributes = {{kPart, fmt::format("{}/{}", part.number, part.count)},
+  options.attributes = {{kPart, part_text(picture.options.part)},
                         {kSamples, picture.options.samples},
                         {kSettings, picture.settings},
                         {kSidecar, picture.camera}};
@@ -188,12 +179,12 @@ SampledPicture read_part_header(const std::string& path) {
   SampledPicture picture;
   picture.settings = text(kSettings), picture.camera = text(kSidecar);
   RenderOptions& options = picture.options;
-  options.part = parse_part(text(kPart));
+  const std::optional<Part> part = parse_part(text(kPart));
   options.samples = samples == info.numbers.end() ? 0 : static_cast<int>(samples->second.front());
-  if (options.part.number < 1 || options.part.number > options.part.count || options.samples < 1 ||
-      options.samples > kMaxSamples || picture.camera.empty()) {
+  if (!part || options.samples < 1 || options.samples > kMaxSamples || picture.camera.empty()) {
     fail(path, "is no part of a picture: ods render --part makes those");
   }
+  options.part = *part;
   const StoredPicture header = PictureReader(path).header();
   options.width = header.size.width, options.height = header.size.height;
   const int eye = header.eyes[0].eye;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "ods/render/render_target.h"
 #include "ods/render/sampling_plan.h"
@@ -76,20 +77,10 @@ bool fit(const PictureSamples& samples, const RenderOptions& options) {
   return fits;
 }
 
-template <typename Number>
-static void add_plane(std::vector<Number>& sum, const std::vector<Number>& part) {
-  for (size_t i = 0; i < sum.size(); i++) sum[i] = static_cast<Number>(sum[i] + part[i]);
-}
-
-void add_samples(PictureSamples& sum, const PictureSamples& part) {
-  for (size_t i = 0; i < sum.eyes.size(); i++) {
-    EyeSamples& a = sum.eyes[i];  // its depth is that of all parts
-    const EyeSamples& b = part.eyes[i];
-    add_plane(a.count, b.count), add_plane(a.light, b.light), add_plane(a.squares, b.squares);
-    add_plane(a.alone, b.alone), add_plane(a.weights, b.weights), add_plane(a.normal, b.normal);
-    add_plane(a.albedo, b.albedo), add_plane(a.hits, b.hits), add_plane(a.caught, b.caught);
-    add_plane(a.light_with, b.light_with), add_plane(a.light_without, b.light_without);
-  }
+uint64_t count_samples(const PictureSamples& samples) {
+  uint64_t sum = 0;
+  for (const EyeSamples& eye : samples.eyes) sum = std::accumulate(eye.count.begin(), eye.count.end(), sum);
+  return sum;
 }
 
 size_t samples_bytes(const RenderOptions& options) {
@@ -158,6 +149,7 @@ static void develop_pixel(const EyeSamples& eye, const std::vector<int64_t>& lig
 
 Picture develop(PictureSamples samples, const RenderOptions& options) {
   Picture picture;
+  picture.samples_taken = static_cast<double>(count_samples(samples));
   const double unit = layer_unit(options);
   const size_t width = static_cast<size_t>(samples.width);
   for (EyeSamples& eye : samples.eyes) {
@@ -168,7 +160,6 @@ Picture develop(PictureSamples samples, const RenderOptions& options) {
       const size_t row = static_cast<size_t>(y) * width;
       for (size_t x = 0; x < width; x++) develop_pixel(eye, light, row + x, unit, image);
     });
-    for (const uint32_t count : eye.count) picture.samples_taken += count;
     eye = {};  // a large picture has no room for both
   }
   return picture;

@@ -66,9 +66,6 @@ inline constexpr float kWeightUnit = 1 << 10;
 // A brighter sample counts as this.
 inline constexpr float kBrightestSample = 1 << 19;
 
-// The largest number of samples that a pixel can have.
-inline constexpr int kMaxSamples = 1 << 20;
-
 // Components of normals and albedo are at most 1 in size; as many samples as wanted fit into 31 bits.
 double layer_unit(const RenderOptions& options);
 
@@ -81,8 +78,8 @@ PictureSamples no_samples(const RenderOptions& options);
 // Whether these can be the samples of a picture with these options: for what comes from a file.
 bool fit(const PictureSamples& samples, const RenderOptions& options);
 
-// Adds the samples of another part. Precondition: both fit the same options.
-void add_samples(PictureSamples& sum, const PictureSamples& part);
+// Those of all pixels of all eyes.
+uint64_t count_samples(const PictureSamples& samples);
 
 // The memory that no_samples() takes.
 size_t samples_bytes(const RenderOptions& options);

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/render/render_options.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -18,6 +22,18 @@ std::vector<int> eye_list(Eyes eyes) {
       return {kMono};
   }
   return {};
+}
+
+std::optional<Part> parse_part(const std::string& text) {
+  Part part;
+  char end = 0;
+  const bool is_part = std::sscanf(text.c_str(), "%d/%d%c", &part.number, &part.count, &end) == 2 && part.number >= 1 &&
+                       part.number <= part.count && part.count <= kMaxSamples;
+  return is_part ? std::optional(part) : std::nullopt;
+}
+
+std::string part_text(const Part& part) {
+  return fmt::format("{}/{}", part.number, part.count);
 }
 
 SampleRange samples_of_part(const RenderOptions& options) {

@@ -5,6 +5,8 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +43,9 @@ constexpr std::string_view pixel_filter_name(PixelFilter filter) {
 // How paths find light. Use kBoth; the others exist for tests.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
+// The largest number of samples that a pixel can have.
+inline constexpr int kMaxSamples = 1 << 20;
+
 // One of several parts of a picture that are rendered apart, each with other samples: a sixth of them is {2, 6}, if it
 // is the second.
 struct Part {
@@ -48,10 +53,14 @@ struct Part {
   int count = 1;
 };
 
+// A part as users write it: 3/8. Nothing if the text is none, or of more parts than a picture can have samples.
+std::optional<Part> parse_part(const std::string& text);
+std::string part_text(const Part& part);
+
 struct RenderOptions {
   int width = 2048;         // of one eye
   int height = 0;           // 0: natural_height() of the camera's projection
-  int samples = 64;         // the most that a pixel gets, 1 .. kMaxSamples (ods/render/picture_samples.h)
+  int samples = 64;         // the most that a pixel gets, 1 .. kMaxSamples
   float noise = 0.0f;       // blocks of pixels stop when they are as clean as this, in Cycles' measure; 0: none stops
   double time_limit = 0.0;  // seconds after which no further samples begin; 0: no limit
   Part part;                // of the samples; needs noise 0 and no time limit

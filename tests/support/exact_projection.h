@@ -187,4 +187,23 @@ inline ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, doub
   return {dvec3(stereo.position) + right * origin.x + up * origin.y + back * origin.z, direction};
 }
 
+// Rays of all eyes through random places of the picture; origins within `origin_tolerance` metres.
+inline void expect_exact_rays(const StereoCamera& stereo, int count, double origin_tolerance, Dice& dice) {
+  const ProjectionSetting& setting = stereo.projection;
+  const Camera camera = make_camera(stereo);
+  for (int i = 0; i < count; i++) {
+    const vec2 uv = dice.pair();
+    if (has_image_circle(setting.kind) && !in_circle(setting, uv)) continue;
+    const int eye = i % 3;
+    const Ray ray = camera_ray(camera, eye, uv);
+    const ExactRay exact = exact_ray(stereo, camera, double{eye_side(eye)}, uv);
+    ASSERT_LT(angle_between(ray.direction, exact.direction), 1.5e-6 + rounding(setting, uv))
+        << projection_name(setting);
+    // The heading of a ray that all but points at the pole is as uncertain as its direction is small there.
+    const dvec3 a = stereo.axis ? dvec3(0, 1, 0) : dvec3(camera.up);
+    const double level = std::max(length(cross(exact.direction, a)), 1e-6);
+    ASSERT_LT(length(dvec3(ray.origin) - exact.origin), origin_tolerance + 1e-7 / level) << projection_name(setting);
+  }
+}
+
 }  // namespace ods

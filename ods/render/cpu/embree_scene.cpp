@@ -368,6 +368,11 @@ static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, ui
   return make_context(tracer, kPathRay, still);
 }
 
+static void start_ray(PathTracer& tracer, const RayPacket& packet, int i) {
+  tracer.ray_time = packet.times[i];
+  tracer.start_path(packet.rays[i], no_media(), packet.seed, packet.index + static_cast<uint>(i));
+}
+
 // Few rays are faster one by one. To the tracer they are the rays of a packet, all the same.
 static bool is_small(const RayPacket& packet) {
   return packet.count <= 4;
@@ -376,9 +381,7 @@ static bool is_small(const RayPacket& packet) {
 void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit* hits) const {
   if (is_small(packet)) {
     for (int i = 0; i < packet.count; i++) {
-      const uint index = packet.index + static_cast<uint>(i);
-      tracer.ray_time = packet.times[i];
-      tracer.start_path(packet.rays[i], no_media(), packet.seed, index);
+      start_ray(tracer, packet, i);
       hits[i] = closest_hit(tracer, packet.rays[i], kPathRay);
     }
     return;
@@ -406,9 +409,7 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
 void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hidden) const {
   if (is_small(packet)) {
     for (int i = 0; i < packet.count; i++) {
-      const uint index = packet.index + static_cast<uint>(i);
-      tracer.ray_time = packet.times[i];
-      tracer.start_path(packet.rays[i], no_media(), packet.seed, index);
+      start_ray(tracer, packet, i);
       hidden[i] = packet.lengths[i] <= 0.0f || occluded(tracer, packet.rays[i], packet.lengths[i], kPathRay);
     }
     return;

@@ -293,20 +293,7 @@ TEST(Cameras, AgreeWithTheirTwinThroughEveryProjection) {
   for (int round = 0; round < 6; round++) {
     for (const ProjectionSetting& setting : many_settings(dice)) {
       const StereoCamera stereo = odd_rig(dice, setting, kConvergences[round % 3]);
-      const Camera camera = make_camera(stereo);
-      for (int i = 0; i < 500; i++) {
-        const vec2 uv = dice.pair();
-        if (has_image_circle(setting.kind) && !in_circle(setting, uv)) continue;
-        const int eye = i % 3;
-        const Ray ray = camera_ray(camera, eye, uv);
-        const ExactRay exact = exact_ray(stereo, camera, double{eye_side(eye)}, uv);
-        ASSERT_LT(angle_between(ray.direction, exact.direction), 1.5e-6 + rounding(setting, uv))
-            << projection_name(setting);
-        // The heading of a ray that all but points at the pole is as uncertain as its direction is small there.
-        const dvec3 a = stereo.axis ? dvec3(0, 1, 0) : dvec3(camera.up);
-        const double level = std::max(length(cross(exact.direction, a)), 1e-6);
-        ASSERT_LT(length(dvec3(ray.origin) - exact.origin), 6e-7 + 1e-7 / level) << projection_name(setting);
-      }
+      ASSERT_NO_FATAL_FAILURE(expect_exact_rays(stereo, 500, 6e-7, dice));
     }
   }
 }

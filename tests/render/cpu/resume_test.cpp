@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "ods/base/error.h"
+#include "ods/picture/metadata/sidecar.h"
 #include "ods/render/cpu/render.h"
+#include "ods/render/part_file.h"
 #include "ods/scene/load/load.h"
 #include "tests/support/pictures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ods {
 namespace {
@@ -59,14 +62,15 @@ TEST(Parts, AddUpToTheBitsOfOneRun) {
   const uint64_t whole = digest(render_cpu(scene, StereoCamera{}, options));
   const CpuRenderer renderer(scene);
   const StereoCamera camera;
-  PictureSamples sum;
+  const TemporaryFolder folder;
+  PictureSamples sum = no_samples(options);
   for (const int number : {3, 1, 2}) {
     RenderOptions part = options;
     part.part = {number, 3};
     PictureSamples samples = no_samples(part);
     renderer.sample({&camera, 1}, part, samples);
-    if (number == 3) sum = samples;
-    if (number != 3) add_samples(sum, samples);
+    const SampledPicture about{"", write_sidecar({camera, {part.width, part.height}}), 0.0f, ToneCurve::kNeutral, part};
+    add_part(save_part(folder.path("part.exr"), about, samples), options, sum);
   }
   EXPECT_EQ(digest(develop(sum, options)), whole);
 }
