@@ -88,10 +88,15 @@ double error(const Picture& d, const Picture& a, const Picture& b, View view) {
   return std::sqrt(std::max(square, 0.0));
 }
 
-// RMS of the difference between a pixel of the left eye and the right eye's picture where it shows the same point.
-double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, View view) {
-  const Camera camera = make_camera(stereo);
-  const EyeImage &left = picture.eyes[0], &right = picture.eyes[1];
+struct Seen {
+  const EyeImage& image;
+  Camera camera;
+};
+
+// RMS of the difference between a pixel of one picture and another picture where it shows the same point. Nothing but
+// the camera moves.
+double difference_of(const Seen& one, const Seen& other, View view) {
+  const EyeImage &left = one.image, &right = other.image;
   const int width = left.depth.width, height = left.depth.height;
   const vec2 size(static_cast<float>(width), static_cast<float>(height));
   double sum = 0.0;
@@ -101,8 +106,8 @@ double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, Vi
     const float depth = *left.depth.at(x, y);
     if (depth >= kFarDepth) continue;
     const vec2 uv = (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / size;
-    const Ray ray = camera_ray(camera, kLeft, uv);
-    const ImagePosition place = project_point(camera, kRight, ray.origin + ray.direction * depth);
+    const Ray ray = camera_ray(one.camera, left.eye, uv);
+    const ImagePosition place = project_point(other.camera, right.eye, ray.origin + ray.direction * depth);
     const vec2 at = place.uv * size - 0.5f, corner = floor(at), share = at - corner;
     if (!place.seen || corner.y < 0.0f || corner.y + 1.0f >= size.y) continue;
     vec3 there(0.0f);
@@ -119,6 +124,11 @@ double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, Vi
     }
   }
   return std::sqrt(sum / static_cast<double>(count));
+}
+
+double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, View view) {
+  const Camera camera = make_camera(stereo);
+  return difference_of({picture.eyes[0], camera}, {picture.eyes[1], camera}, view);
 }
 
 // Ratios to the error of the raw picture of as many samples.
@@ -144,6 +154,43 @@ void error_against_eight_times_the_samples(benchmark::State& state, const std::s
     }
     const double energy = mean_of({&both}, linear, [](const auto& v) { return v[0]; });
     state.counters["energy"] = energy / mean_of({&raw}, linear, [](const auto& v) { return v[0]; });
+  }
+}
+
+// How much successive frames of a turntable differ after exact motion, as screens show them: over the same of raw
+// frames with eight times the samples. The room turns in 20 seconds.
+void flicker(benchmark::State& state, const std::string& name, int width, int samples) {
+  Subject subject = load_subject(name);
+  std::vector<StereoCamera> cameras;
+  std::vector<Picture> changing, fixed, many;
+  for (int frame = 0; frame < 4; frame++) {
+    subject.camera.yaw = 0.6f * static_cast<float>(frame);
+    cameras.push_back(subject.camera);
+    changing.push_back(render(subject, width, samples, 10 + static_cast<uint32_t>(frame)));
+    fixed.push_back(render(subject, width, samples, 10));
+    if (frame == 1 || frame == 2)
+      many.push_back(render(subject, width, 8 * samples, 20 + static_cast<uint32_t>(frame)));
+  }
+  const auto between = [&](const Picture& a, const Picture& b) {
+    return difference_of({a.eyes[0], make_camera(cameras[1])}, {b.eyes[0], make_camera(cameras[2])}, shown);
+  };
+  const auto denoised = [&](const std::vector<Picture>& frames, size_t i, bool beside) {
+    Picture picture = frames[i];
+    const std::vector<FrameBeside> both{{frames[i - 1], cameras[i - 1], {}}, {frames[i + 1], cameras[i + 1], {}}};
+    DenoiseOptions options;
+    if (beside) options.beside = both;
+    denoise(picture, cameras[i], options);
+    return picture;
+  };
+  for (auto _ : state) {
+    const double yardstick = between(many[0], many[1]);
+    state.counters["raw_of_8N"] = yardstick;
+    for (const bool beside : {false, true}) {
+      const std::string how = beside ? "_with_neighbours" : "_alone";
+      state.counters["changing" + how] =
+          between(denoised(changing, 1, beside), denoised(changing, 2, beside)) / yardstick;
+      state.counters["fixed" + how] = between(denoised(fixed, 1, beside), denoised(fixed, 2, beside)) / yardstick;
+    }
   }
 }
 
@@ -174,6 +221,12 @@ int main(int argc, char** argv) {
           ->Iterations(1)
           ->Unit(benchmark::kSecond);
     }
+  }
+  for (const char* name : {"atrium", "room"}) {
+    const auto run = [=](benchmark::State& state) { flicker(state, name, 512, 16); };
+    benchmark::RegisterBenchmark(("flicker/" + std::string(name)).c_str(), run)
+        ->Iterations(1)
+        ->Unit(benchmark::kSecond);
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

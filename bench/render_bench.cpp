@@ -64,11 +64,15 @@ double million_samples(const RenderOptions& options) {
 // Cycles 5.2 reaches 0.37 and 2.4, OSPRay 0.3 and 9.5 (2 cores of an EPYC).
 void samples_per_second(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
-  const RenderOptions options = options_of(1024, 16);
+  RenderOptions options = options_of(1024, 16);
   for (auto _ : state) {
-    const double start = cpu_seconds();
-    benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options));
-    state.counters["Msamples_per_cpu_s"] = million_samples(options) / (cpu_seconds() - start);
+    for (const bool share : {false, true}) {
+      options.share_paths = share;
+      const double start = cpu_seconds();
+      benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options));
+      state.counters[share ? "Msamples_per_cpu_s" : "Msamples_unshared_per_cpu_s"] =
+          million_samples(options) / (cpu_seconds() - start);
+    }
   }
 }
 

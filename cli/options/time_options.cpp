@@ -63,13 +63,19 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 is none");
-  options.choice("--grain", time.grain, kGrainTable, "noise pattern: the same in every frame, or different in each");
+  options.choice("--grain", time.grain, kGrainTable,
+                 "noise pattern: the same in every frame, or different in each; by default changing where --turntable "
+                 "or --fly-to moves the camera, else fixed");
   options.flag("--skip-existing", time.skip_existing,
                "do not render frames whose files exist; several processes with this option share the rest");
 }
 
 bool asks_for_video(const TimeOptions& time) {
   return time.is_video || !time.frames.empty() || time.duration || ods::moves(time.move);
+}
+
+Grain grain_of(const TimeOptions& time) {
+  return time.grain.value_or(ods::moves(time.move) ? Grain::kChanging : Grain::kFixed);
 }
 
 void check_time_options(const TimeOptions& time) {

@@ -32,8 +32,8 @@ struct TimeOptions {
   float fps = 30.0f;
   std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
-  float shutter = 0.0f;  // shutter angle, degrees: 360 is the time between two frames
-  Grain grain = Grain::kFixed;
+  float shutter = 0.0f;        // shutter angle, degrees: 360 is the time between two frames
+  std::optional<Grain> grain;  // empty: grain_of() chooses
   bool skip_existing = false;
   bool is_video = false;  // true: the command makes a video, whatever other options say
 };
@@ -42,6 +42,9 @@ void add_time_options(Options& options, TimeOptions& time);
 
 // Whether the options ask for a video, frame by frame.
 bool asks_for_video(const TimeOptions& time);
+
+// What time.grain says; by default kChanging if the options move the camera.
+Grain grain_of(const TimeOptions& time);
 
 // Checks the options as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);

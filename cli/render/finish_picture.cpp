@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "cli/options/picture_options.h"
-#include "ods/denoise/denoise.h"
 #include "ods/denoise/oidn.h"
 
 // A video's frames are .exr, but what is looked at is the video. One sample has no variance.
@@ -32,14 +31,14 @@ ods::RenderOptions options_to_finish(const RenderJob& job) {
 }
 
 std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture picture,
-                                        const std::string& path) {
+                                        const std::string& path, std::span<const ods::FrameBeside> beside) {
   ods::Denoiser denoiser = denoiser_of(job);
   if (denoiser == ods::Denoiser::kOwn && !has_variance(picture)) denoiser = ods::Denoiser::kNone;
   const bool keeps_raw = denoiser != ods::Denoiser::kNone && job.render.layers;
   if (keeps_raw) {
     for (ods::EyeImage& eye : picture.eyes) eye.raw = eye.radiance;
   }
-  if (denoiser == ods::Denoiser::kOwn) ods::denoise(picture, camera, {true, job.render.threads});
+  if (denoiser == ods::Denoiser::kOwn) ods::denoise(picture, camera, {true, job.render.threads, beside});
   if (denoiser == ods::Denoiser::kOidn) ods::denoise_with_oidn(picture, camera, job.render.threads);
   const bool keeps_statistics = job.render.statistics || (keeps_raw && denoiser == ods::Denoiser::kOwn);
   for (ods::EyeImage& eye : picture.eyes) {

@@ -129,13 +129,13 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
 }
 
 void add_time(Settings& settings, const TimeOptions& options) {
-  const auto& [time, animation, frames, fps, duration, move, shutter, grain, skip_existing, is_video] = options;
+  const auto& [time, animation, frames, fps, duration, move, shutter, own_grain, skip_existing, is_video] = options;
   const auto& [seconds, turns, pivot, fly_to] = move;
   add(settings, "--time", time ? fmt::format("{}", *time) : "0");
   add(settings, "--animation", animation.empty() ? "all" : animation);
   add_float(settings, "--fps", fps);
   add_float(settings, "--shutter", shutter);
-  add(settings, "--grain", std::string(grain_name(grain)));
+  add(settings, "--grain", std::string(grain_name(grain_of(options))));
   add(settings, "--turntable", fmt::format("{}{}", turns, pivot ? "," + text_of(*pivot) : ""));
   std::vector<std::string> places;
   for (const ods::vec3& place : fly_to) places.push_back(text_of(place));

@@ -6,39 +6,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
+#include <set>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/frames/disk_room.h"
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/finish_picture.h"
-#include "cli/render/render_still.h"
+#include "cli/render/denoised_frames.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
-#include "ods/kernel/random.h"
-#include "ods/render/cpu/render.h"
-#include "ods/render/render_target.h"
-#include "ods/scene/shutter.h"
 
 using ods::FrameNames;
 
 namespace {
-
-struct Frame {
-  int number;
-  double time;  // seconds
-  std::string path;
-  uint32_t seed;
-};
-
-Frame make_frame(const RenderJob& job, const FrameNames& names, int number) {
-  const auto bits = static_cast<ods::uint>(number);
-  const bool changing = job.time.grain == Grain::kChanging;
-  return {number, number / static_cast<double>(job.time.fps), names.path(number),
-          changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
-}
 
 std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) {
   if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
@@ -75,73 +56,7 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
     warn("few samples fit into --time-limit: expect specks; more time or a smaller --width makes a cleaner picture");
 }
 
-// The scene at a frame's time, and the camera's motion during the shutter.
-struct Shot {
-  ods::SceneChange change;
-  std::vector<ods::StereoCamera> cameras;
-};
-
-Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const Frame& frame) {
-  Shot shot;
-  const auto camera_at = [&](double seconds) {
-    return ods::moved(place_camera_again(job.camera, scene), time.move, seconds);
-  };
-  const double open = static_cast<double>(time.shutter) / 360.0 / static_cast<double>(time.fps);
-  if (open == 0.0 || !(asks_for_video(time) || time.time)) {
-    shot.change = ods::set_time(scene, frame.time);
-    shot.cameras = {camera_at(frame.time)};
-    return shot;
-  }
-  for (int key = 0; key < ods::kShutterKeys; key++) {
-    const double seconds = frame.time + open * (static_cast<double>(key) / (ods::kShutterKeys - 1) - 0.5);
-    if (!scene.animation.views.empty()) ods::set_time(scene, seconds);
-    shot.cameras.push_back(camera_at(seconds));
-  }
-  const auto same = [&](const ods::StereoCamera& a) {
-    const ods::StereoCamera& b = shot.cameras.front();
-    return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
-  };
-  if (std::all_of(shot.cameras.begin(), shot.cameras.end(), same)) shot.cameras.resize(1);
-  shot.change = ods::open_shutter(scene, frame.time - 0.5 * open, frame.time + 0.5 * open);
-  return shot;
-}
-
 using Saved = std::function<void(const Rendered& frame)>;
-
-constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
-
-// Renders frames one after the other. Acceleration structures of static meshes are kept between frames.
-class FrameRenderer {
- public:
-  FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
-      : job_(job), time_(time), scene_(scene) {}
-
-  Rendered render(const Frame& frame, const std::function<void(double done)>& report) {
-    const Shot shot = make_shot(job_, time_, scene_, frame);
-    if (renderer_) {
-      renderer_->update(shot.change);
-    } else {
-      place_camera(job_.camera, scene_);  // prints a note with the position
-      renderer_.emplace(scene_, job_.render.threads);
-    }
-    const ods::StereoCamera& camera = shot.cameras[shot.cameras.size() / 2];
-    ods::RenderOptions options = ods::with_height(options_to_finish(job_), camera);
-    options.seed = frame.seed;
-    ods::Progress progress;
-    const double share = denoiser_of(job_) == ods::Denoiser::kNone ? 1.0 : kShareOfRendering;
-    if (report) progress.report = [&, share](double done) { report(share * done); };
-    if (!asks_for_video(time_)) return render_still(job_, *renderer_, shot.cameras, options, progress);
-    ods::Picture picture = renderer_->render(shot.cameras, options, progress);
-    const double samples = picture.samples_taken;
-    return {finish_picture(job_, camera, std::move(picture), frame.path), samples};
-  }
-
- private:
-  const RenderJob& job_;
-  const TimeOptions& time_;
-  ods::Scene& scene_;
-  std::optional<ods::CpuRenderer> renderer_;
-};
 
 // Renders and saves the frames; `shared`: except those claimed by other processes. Returns how many it rendered.
 size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
@@ -162,6 +77,26 @@ size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& ti
   for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
   make_shared_frames(files, "frame", render);
   return rendered;
+}
+
+// Renders and saves those of a video's frames that are missing, each denoised together with those beside it.
+void render_denoised(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<int>& numbers,
+                     const std::vector<Frame>& missing, const StepReport& report) {
+  const FrameNames names = video_names(job.output);
+  std::vector<Frame> all;
+  std::set<size_t> wanted;
+  for (const int number : numbers) {
+    const bool is_missing = std::ranges::any_of(missing, [&](const Frame& frame) { return frame.number == number; });
+    if (is_missing) wanted.insert(all.size());
+    all.push_back(make_frame(job, names, number));
+  }
+  FrameRenderer renderer(job, time, scene);
+  DenoisedFrames frames(job, renderer, all, wanted);
+  int made = 0;
+  for (const size_t index : wanted) {
+    const ProgressStep step{"render", ++made, static_cast<int>(wanted.size()), all[index].path};
+    frames.make(index, [&](double done) { report(done, step); });
+  }
 }
 
 void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
@@ -212,7 +147,11 @@ std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     say_room(job, frames);
-    render_all(job, scene, time, frames, false, report, [](const Rendered&) {});
+    if (draws_on_neighbours(job)) {
+      render_denoised(job, scene, time, numbers, frames, report);
+    } else {
+      render_all(job, scene, time, frames, false, report, [](const Rendered&) {});
+    }
   }
   return numbers;
 }

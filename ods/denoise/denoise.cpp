@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
@@ -17,7 +18,7 @@
 namespace ods {
 namespace {
 
-constexpr FilterPass kPasses[] = {{1, 2.0f}, {2}, {4}, {8}, {16, 1.0f}};
+constexpr FilterPass kPasses[] = {{1, 2.0f, 2.0f}, {2}, {4}, {8}, {16, 1.0f}};
 
 // Counts blocks of all passes; the thread that finishes one reports.
 class Steps {
@@ -69,6 +70,19 @@ void put_back(const NoisyPicture& noisy, const std::vector<Level>& levels, Pictu
   }
 }
 
+bool has_depth(const Picture& picture) {
+  return std::ranges::none_of(picture.eyes, [](const EyeImage& eye) { return eye.depth.pixels.empty(); });
+}
+
+void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
+  open_noisy(frame.noisy, beside.picture, beside.camera);
+  for (int eye = 0; eye < static_cast<int>(beside.picture.eyes.size()); eye++) {
+    frame.levels.push_back(first_level(frame.noisy, eye));
+  }
+  smooth_variance(frame.noisy, frame.levels);
+  frame.beside = &beside;
+}
+
 void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options,
                   const Progress& progress) {
   NoisyPicture noisy;
@@ -78,14 +92,17 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
   check_statistics(levels);
   smooth_variance(noisy, levels);
   next = levels;
-  const bool both = options.both_eyes && picture.eyes.size() == 2 && !picture.eyes[0].depth.pixels.empty() &&
-                    !picture.eyes[1].depth.pixels.empty();
+  const bool both = options.both_eyes && picture.eyes.size() == 2 && has_depth(picture);
+  std::deque<NoisyFrame> beside;
+  for (const FrameBeside& frame : options.beside) {
+    if (has_depth(picture)) open_frame(beside.emplace_back(), frame);
+  }
   Steps steps(progress, std::size(kPasses) * count_blocks(noisy));
   for (FilterPass pass : kPasses) {
     if (!both) pass.other_eye = 0.0f;
     for_each_block(noisy, [&](Block& block) {
       if (steps.stopped()) return;
-      filter_block(noisy, levels, next, pass, block);
+      filter_block(noisy, levels, next, pass, beside, block);
       steps.done();
     });
     if (steps.stopped()) throw Error(ErrorKind::kCancelled, "denoising was stopped");
@@ -101,7 +118,8 @@ void denoise(Picture& picture, const StereoCamera& camera, const DenoiseOptions&
   assert(!picture.eyes.empty() && picture.eyes.size() <= 2);
   assert(!picture.eyes.front().variance.pixels.empty() && !picture.eyes.back().variance.pixels.empty());
   const Image& first = picture.eyes[0].radiance;
-  check_memory(28 * static_cast<size_t>(first.width) * static_cast<size_t>(first.height) * picture.eyes.size(),
+  const size_t pixel = 28 + 14 * options.beside.size();
+  check_memory(pixel * static_cast<size_t>(first.width) * static_cast<size_t>(first.height) * picture.eyes.size(),
                "denoising", "a smaller picture or a single eye needs less");
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] { denoise_here(picture, camera, options, progress); });

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "ods/denoise/membership.h"
-#include "ods/denoise/other_eye.h"
 
 namespace ods {
 namespace {
@@ -92,37 +91,67 @@ void add_beside(const Block& block, int y, Sums& sums) {
   }
 }
 
-// The nine pixels around the place where the other eye sees the same.
-void add_other_eye(const NoisyPicture& noisy, const std::vector<Level>& from, const Block& block, float share, int x,
-                   int y, Sums& sums) {
+// The nine pixels around the place where another view shows the same.
+void add_view(const NoisyPicture& noisy, const Block& block, const NoisyView& view, const ViewPlace& place, float share,
+              int x, int y, Sums& sums) {
   const int at = x - block.inside.left;
   const float own = block.row(kVariance, y)[at];
-  if (own == 0.0f) return;
-  const auto place = place_in_other_eye(noisy, block.eye, x, y);
-  if (!place) return;
   const EyeImage& eye = noisy.eye(block.eye);
   const vec3 normal = normal_at(eye, noisy.index(x, y)), albedo = albedo_at(eye, noisy.index(x, y));
   const auto plane = [&](int p) { return block.row(static_cast<Plane>(p), y)[at]; };
   const vec3 light(plane(kRed), plane(kGreen), plane(kBlue));
-  const vec2 middle = floor(place->at) + 0.5f;
+  const vec2 middle = floor(place.at) + 0.5f;
   for (int i = 0; i < 9; i++) {
     const vec2 there = middle + vec2(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 - 1));
-    const auto texel = neighbour_of(noisy, place->eye, place->cell, static_cast<int>(std::floor(there.x)),
+    const auto texel = neighbour_of(view.noisy, view.eye, place.cell, static_cast<int>(std::floor(there.x)),
                                     static_cast<int>(std::floor(there.y)));
     if (!texel) continue;
-    const Level& level = from[static_cast<size_t>(texel->source_eye)];
-    const size_t pixel = noisy.index(texel->x, texel->y);
+    const Level& level = view.levels[static_cast<size_t>(texel->source_eye)];
+    const EyeImage& shown = view.noisy.eye(texel->source_eye);
+    const size_t pixel = view.noisy.index(texel->x, texel->y);
     const float theirs = unpack_variance(level.variance[pixel]);
     const vec3 seen(level.light[3 * pixel], level.light[3 * pixel + 1], level.light[3 * pixel + 2]);
     if (theirs < 0.0f || !std::isfinite(seen.x + seen.y + seen.z)) continue;
-    const vec3 dn = normal_at(noisy.eye(texel->source_eye), pixel) - normal;
-    const vec3 da = albedo_at(noisy.eye(texel->source_eye), pixel) - albedo;
-    const vec2 off = there - place->at;
+    const vec3 dn = normal_at(shown, pixel) - normal, da = albedo_at(shown, pixel) - albedo;
+    const vec2 off = there - place.at;
     const float weight = share * taper(dot(off, off) / 6.0f) * feature_weight(dot(dn, dn), dot(da, da)) *
                          light_weight(dot(seen - light, seen - light), (own >= 0.0f ? own : 1e30f) + theirs);
     sums.weight[at] += weight;
     for (int c = 0; c < 3; c++) sums.light[c][at] += weight * seen[c];
     sums.variance[at] += weight * weight * theirs;
+  }
+}
+
+// Whether a place in another frame is so near to the same pixel that a candidate would be that pixel.
+bool stays(vec2 place, int x, int y) {
+  const vec2 moved = abs(place - (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f));
+  return std::max(moved.x, moved.y) < 2.0f;
+}
+
+void add_frame(const NoisyPicture& noisy, const NoisyFrame& frame, const Block& block, float share, vec3 surface, int x,
+               int y, Sums& sums) {
+  const FrameBeside& beside = *frame.beside;
+  if (!beside.places.empty()) surface = beside.places[static_cast<size_t>(block.eye)][noisy.index(x, y)];
+  const NoisyView view{frame.noisy, frame.levels, block.eye};
+  const auto place = place_in_view(view, surface);
+  if (place && !(beside.same_noise && stays(place->at, x, y))) add_view(noisy, block, view, *place, share, x, y, sums);
+}
+
+// The other eye, and the frames beside this one.
+void add_views(const NoisyPicture& noisy, const std::vector<Level>& from, const Block& block, FilterPass pass,
+               const std::deque<NoisyFrame>& beside, int y, Sums& sums) {
+  if (pass.other_eye == 0.0f && (pass.other_frame == 0.0f || beside.empty())) return;
+  for (int x = block.inside.left; x < block.inside.right; x++) {
+    if (block.row(kVariance, y)[x - block.inside.left] == 0.0f) continue;
+    const auto surface = surface_at(noisy, block.eye, x, y);
+    if (!surface) continue;
+    if (pass.other_eye > 0.0f) {
+      const NoisyView view{noisy, from, 1 - block.eye};
+      const auto place = place_in_view(view, *surface);
+      if (place) add_view(noisy, block, view, *place, pass.other_eye, x, y, sums);
+    }
+    if (pass.other_frame == 0.0f) continue;
+    for (const NoisyFrame& frame : beside) add_frame(noisy, frame, block, pass.other_frame, *surface, x, y, sums);
   }
 }
 
@@ -192,7 +221,7 @@ void for_each_block(const NoisyPicture& noisy, const std::function<void(Block& b
 }
 
 void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to, FilterPass pass,
-                  Block& block) {
+                  const std::deque<NoisyFrame>& beside, Block& block) {
   int widest = 1;
   for (int y = block.inside.top; y < block.inside.bottom; y++) widest = std::max(widest, stretch_of(noisy, pass, y));
   block.across = kRadius * pass.stride * widest;
@@ -211,10 +240,7 @@ void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std
       }
     }
     if (pass.stride == 1) add_beside(block, y, sums);
-    if (pass.other_eye > 0.0f) {
-      for (int x = block.inside.left; x < block.inside.right; x++)
-        add_other_eye(noisy, from, block, pass.other_eye, x, y, sums);
-    }
+    add_views(noisy, from, block, pass, beside, y, sums);
     store_row(noisy, block, from, y, sums, to);
   }
 }

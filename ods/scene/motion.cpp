@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "ods/kernel/surface.h"
 #include "ods/scene/placement.h"
 
 namespace ods {
@@ -215,6 +216,23 @@ SceneChange set_time(Scene& scene, double seconds) {
   write_views(scene, pose, change);
   write_materials(scene, pose, change);
   return change;
+}
+
+void add_change(SceneChange& sum, const SceneChange& change) {
+  sum.instances.insert(sum.instances.end(), change.instances.begin(), change.instances.end());
+  sum.meshes.insert(sum.meshes.end(), change.meshes.begin(), change.meshes.end());
+  sum.lights |= change.lights;
+  sum.materials |= change.materials;
+  sum.view_points |= change.view_points;
+}
+
+vec3 point_of(const Scene& scene, const Hit& hit) {
+  const Instance& instance = scene.instances[static_cast<size_t>(hit.instance)];
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+  const uvec3 corners = scene.triangles[mesh.first_triangle + static_cast<size_t>(hit.triangle)];
+  const auto at = [&](uint corner) { return scene.vertices[mesh.first_vertex + size_t{corner}].position; };
+  const vec3 a = at(corners.x);
+  return to_world(instance, a + (at(corners.y) - a) * hit.u + (at(corners.z) - a) * hit.v);
 }
 
 }  // namespace ods

@@ -18,11 +18,18 @@ struct SceneChange {
   bool view_points = false;
 };
 
+// Another change after this one, before anybody has applied it.
+void add_change(SceneChange& sum, const SceneChange& change);
+
 // Evaluates the playing clips of scene.animation at a time and updates the scene. What they do not animate, and
 // everything if no clip plays, is at rest. The result depends on the time alone, not on earlier calls. All guarantees
 // of ods/scene/gltf/gltf.h hold at every time, except that triangles of a deformed mesh may temporarily have no area;
 // no ray hits those. Instances that are scaled to zero or further than 1e9 m from the
 // origin are hidden (Scene::hidden).
 SceneChange set_time(Scene& scene, double seconds);
+
+// Where a point of a surface is at the time to which the scene is set, in world coordinates. hit: of a ray, at any
+// time.
+vec3 point_of(const Scene& scene, const Hit& hit);
 
 }  // namespace ods

@@ -86,6 +86,28 @@ TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
   EXPECT_EQ(folder.read("b.mp4"), video);
 }
 
+// Those beside a missing frame are rendered anew, for its sake.
+TEST_F(Video, DenoisedFramesDrawOnEachOtherAndNotOnInterruptions) {
+  const auto path = [&](int number) { return folder.path(fmt::format("a.mp4.frames/frame.{:06}.exr", number)); };
+  const auto read = [&](int number) { return folder.read(fmt::format("a.mp4.frames/frame.{:06}.exr", number)); };
+  for (const std::string grain : {"fixed", "changing"}) {
+    const auto job = [&](const std::string& more) {
+      return "video toys --width 32 --samples 4 --turntable 30 --keep-frames -o " + folder.path("a.mp4") + " --grain " +
+             grain + " " + more;
+    };
+    ASSERT_EQ(run(job("--frames 1-4 --restart")), 0) << err;
+    std::vector<std::string> frames;
+    for (int number = 1; number <= 4; number++) frames.push_back(read(number));
+    std::filesystem::remove(path(1));
+    std::filesystem::remove(path(3));
+    ASSERT_EQ(run(job("--frames 1-4")), 0) << err;
+    EXPECT_NE(err.find("2 of 4 frames exist already"), std::string::npos) << err;
+    for (int number = 1; number <= 4; number++) EXPECT_TRUE(read(number) == frames[static_cast<size_t>(number - 1)]);
+    ASSERT_EQ(run(job("--frames 2 --restart")), 0) << err;
+    EXPECT_FALSE(read(2) == frames[1]) << "on its own";
+  }
+}
+
 TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
   ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
   const std::string video = folder.read("a.mp4");

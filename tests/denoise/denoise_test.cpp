@@ -11,6 +11,8 @@
 #include <random>
 
 #include "ods/base/error.h"
+#include "ods/kernel/camera/camera.h"
+#include "ods/kernel/random.h"
 #include "tests/support/pictures.h"
 
 namespace ods {
@@ -22,8 +24,8 @@ constexpr int kWidth = 128;
 using Truth = std::function<float(int x, int y)>;
 
 // Two eyes, lat-long: `truth` with normal noise of this standard deviation, and its variance.
-Picture noisy_picture(float deviation, const Truth& truth, int width = kWidth) {
-  std::mt19937 engine(7);
+Picture noisy_picture(float deviation, const Truth& truth, int width = kWidth, unsigned seed = 7) {
+  std::mt19937 engine(seed);
   std::normal_distribution<float> noise(0.0f, 1.0f);
   Picture picture;
   for (const int which : {kLeft, kRight}) {
@@ -255,6 +257,75 @@ TEST(Denoise, TheEyesGetTheSameLight) {
     difference[both] = std::sqrt(sum);
   }
   EXPECT_LT(difference[1], 0.7 * difference[0]);
+}
+
+// --- frames of a video -----------------------------------------------------------------------------------------------
+
+// Light that no pixel shares with those beside it.
+float speckle(int x, int y) {
+  return 1.0f + 8.0f *
+                    static_cast<float>(hash_pair(static_cast<uint>((x + kWidth) % kWidth), static_cast<uint>(y)) >> 8) *
+                    0x1p-24f;
+}
+
+// Speckles on a far sphere, turned to the right by some columns; each frame with other noise.
+Picture speckled_frame(int columns, unsigned seed) {
+  Picture frame = noisy_picture(
+      0.05f, [=](int x, int y) { return speckle(x - columns, y); }, kWidth, seed);
+  for (EyeImage& eye : frame.eyes) {
+    eye.depth = Image(kWidth, kWidth / 2, 1);
+    std::fill(eye.depth.pixels.begin(), eye.depth.pixels.end(), 1000.0f);
+  }
+  return frame;
+}
+
+StereoCamera turned_left(int columns) {
+  StereoCamera camera;
+  camera.yaw = 360.0f * static_cast<float>(-columns) / kWidth;
+  return camera;
+}
+
+double error_with(std::span<const FrameBeside> beside) {
+  Picture frame = speckled_frame(0, 1);
+  denoise(frame, {}, {false, 0, beside});
+  return rmse(frame, speckle, everywhere);
+}
+
+// Three pictures of the same light have 0.6 of the noise, with weights of 1, 2 and 2.
+TEST(Denoise, FramesDrawOnThoseBesideThem) {
+  const double alone = error_with({});
+  EXPECT_NEAR(alone, 0.05, 0.005);
+  const Picture before = speckled_frame(3, 2), after = speckled_frame(-5, 3);
+  EXPECT_NEAR(error_with(std::vector<FrameBeside>{{before, turned_left(3), {}}, {after, turned_left(-5), {}}}),
+              0.6 * alone, 0.05 * alone);
+  // Frames of the same random numbers are of use where the picture moves.
+  EXPECT_LT(error_with(std::vector<FrameBeside>{{before, turned_left(3), {}, true}}), 0.8 * alone);
+  const Picture still = speckled_frame(0, 1);
+  EXPECT_EQ(error_with(std::vector<FrameBeside>{{still, {}, {}, true}}), alone);
+  // What does not fit is left out.
+  EXPECT_NEAR(error_with(std::vector<FrameBeside>{{before, {}, {}}, {after, {}, {}}}), alone, 0.05 * alone);
+}
+
+// The sphere turns instead of the camera.
+TEST(Denoise, FramesFollowWhatMoves) {
+  const Picture before = speckled_frame(3, 2), after = speckled_frame(-5, 3);
+  std::vector<FrameBeside> beside{{before, {}, {}}, {after, {}, {}}};
+  std::vector<std::vector<vec3>> all[2];
+  const Camera camera = make_camera(StereoCamera());
+  for (size_t i = 0; i < 2; i++) {
+    const int columns = i == 0 ? 3 : -5;
+    for (const int eye : {kLeft, kRight}) {
+      std::vector<vec3>& places = all[i].emplace_back();
+      for (int pixel = 0; pixel < kWidth * kWidth / 2; pixel++) {
+        const vec2 uv((static_cast<float>(pixel % kWidth + columns) + 0.5f) / kWidth,
+                      (static_cast<float>(pixel / kWidth) + 0.5f) / (kWidth / 2));
+        const Ray ray = camera_ray(camera, eye, vec2(uv.x - std::floor(uv.x), uv.y));
+        places.push_back(ray.origin + 1000.0f * ray.direction);
+      }
+    }
+  }
+  for (size_t i = 0; i < 2; i++) beside[i].places = all[i];
+  EXPECT_NEAR(error_with(beside), 0.6 * error_with({}), 0.0025);
 }
 
 TEST(Denoise, TheNumberOfThreadsChangesNoBit) {

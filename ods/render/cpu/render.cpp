@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "ods/kernel/counterpart.h"
 #include "ods/kernel/path.h"
 #include "ods/render/cpu/embree_scene.h"
+#include "ods/render/keeper.h"
 #include "ods/render/lights.h"
 #include "ods/render/media_at.h"
 #include "ods/render/moving_camera.h"
@@ -73,20 +73,28 @@ uint pixel_seed(const Job& job, int eye, int x, int y) {
   return hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), pixel);
 }
 
-// Depths are not averaged: a depth belongs to the ray through the pixel's centre.
-float center_depth(Job& job, int eye, int x, int y) {
+// What the ray through the pixel's centre hits, with its depth as t; negative: nothing.
+Hit center_hit(Job& job, int eye, int x, int y) {
+  Hit hit{-1.0f, 0.0f, 0.0f, -1, -1};
   const Ray ray = camera_ray(job.camera, eye, pixel_center(job, x, y));
-  if (ray.direction == vec3(0.0f)) return kFarDepth;
+  if (ray.direction == vec3(0.0f)) return hit;
   PathSettings first_hit_only = job.settings;
   first_hit_only.bounces = 0;
   PathTracer& tracer = job.tracer;
   tracer.ray_time = 0.5f;
   tracer.start_path(ray, job.media, pixel_seed(job, eye, x, y), 0u);
   while (tracer.path.alive && !tracer.path.caught) {
-    tracer.shade(job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay), first_hit_only);
+    hit = job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay);
+    tracer.shade(hit, first_hit_only);
   }
-  const float depth = tracer.path.depth;
-  return depth < 0.0f ? kFarDepth : tracer.path.caught ? -depth : depth;
+  hit.t = tracer.path.depth;
+  return hit;
+}
+
+// Depths are not averaged: a depth belongs to the ray through the pixel's centre.
+float center_depth(Job& job, int eye, int x, int y) {
+  const float depth = center_hit(job, eye, x, y).t;
+  return depth < 0.0f ? kFarDepth : job.tracer.path.caught ? -depth : depth;
 }
 
 // The samples from..to - 1 of all noisy pixels, or the share of them that each block gets.
@@ -125,12 +133,25 @@ uint32_t fixed_square(float weight) {
   return static_cast<uint32_t>(std::lrint(weight * weight * kWeightUnit));
 }
 
+// What the paths of a packet found for their own pixel, to which paths of the other eye may be adding, too.
+struct OwnLight {
+  int64_t light[3] = {};
+  uint32_t weights = 0;
+};
+
+void add_own(const OwnLight& own, size_t pixel, EyeSamples& eye) {
+  for (size_t c = 0; c < 3; c++) {
+    if (own.light[c] != 0) add(eye.light, 3 * pixel + c, own.light[c]);
+  }
+  if (!eye.weights.empty()) add(eye.weights, pixel, own.weights);
+}
+
 // What a path found for its own pixel.
-void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye) {
+void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye, OwnLight& own) {
   const bool alone = !eye.alone.empty();
   for (size_t c = 0; c < 3; c++) {
     const int i = static_cast<int>(c);
-    add(eye.light, 3 * pixel + c, fixed(path.radiance[i]));
+    own.light[c] += fixed(path.radiance[i]);
     if (!eye.squares.empty()) {
       const double light = static_cast<double>(fixed(alone ? path.alone_radiance[i] : path.radiance[i])) / kLightUnit;
       eye.squares[3 * pixel + c] += light * light;
@@ -143,7 +164,7 @@ void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye
   if (!alone) return;
   const float whole = luminance(path.alone_radiance);
   const float weight = whole > 0.0f ? std::min(luminance(path.radiance) / whole, 1.0f) : path.own_share;
-  add(eye.weights, pixel, fixed_square(weight));
+  own.weights += fixed_square(weight);
 }
 
 // What a path of the other eye found for this pixel.
@@ -215,7 +236,7 @@ struct FirstHits {
 }
 
 // A path has ended that began in this pixel.
-void add_path(const Job& job, size_t pixel, EyeSamples& eye) {
+void add_path(const Job& job, size_t pixel, EyeSamples& eye, OwnLight& own) {
   const PathState& path = job.tracer.path;
   if (job.options.transparent && path.depth < 0.0f) return;  // it hit nothing
   if (path.caught) {
@@ -225,7 +246,7 @@ void add_path(const Job& job, size_t pixel, EyeSamples& eye) {
     return;
   }
   if (!eye.hits.empty()) eye.hits[pixel]++;
-  add_light(path, job.unit, pixel, eye);
+  add_light(path, job.unit, pixel, eye, own);
 }
 
 // Traces those of a packet's samples that are within first .. last - 1. False if the picture is empty there. What a ray
@@ -237,6 +258,7 @@ bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRa
   if (!trace_first_rays(job, target.eye.eye, x, y, packet * RayPacket::kMost, start)) return false;
   if (job.shares) find_counterparts(job, target.eye.eye, x, y, start);
   const float ours = weight_in(pass, x, y);
+  OwnLight own;
   for (int i = 0; i < start.packet.count; i++) {
     const int index = packet * RayPacket::kMost + i;
     if (index < range.begin || index >= range.end) continue;
@@ -249,8 +271,9 @@ bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRa
     if (theirs > 0.0f) {
       add_shared(job.tracer.path, static_cast<size_t>(other.y) * width + static_cast<size_t>(other.x), *target.other);
     }
-    add_path(job, pixel, target.eye);
+    add_path(job, pixel, target.eye, own);
   }
+  add_own(own, pixel, target.eye);
   return true;
 }
 
@@ -273,32 +296,7 @@ void render_block(Job job, const Pass& pass, int block, Target target) {
   }
 }
 
-// Seconds after which the samples are kept again, and of the slices of work between which they can be.
-constexpr double kKeepSeconds = 25.0;
-constexpr double kSliceSeconds = 2.0;
-
-// Keeps the samples every now and then, if the caller wants them.
-class Keeper {
- public:
-  explicit Keeper(const KeepSamples& keep) : keep_(keep) {}
-  bool wanted() const { return static_cast<bool>(keep_); }
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  void keep(const PictureSamples& samples) {
-    const double began = seconds();
-    if (keep_) keep_(samples);
-    kept_ = seconds();
-    took_ = kept_ - began;
-  }
-  void keep_if_due(const PictureSamples& samples) {
-    if (seconds() - kept_ > std::max(kKeepSeconds, 10.0 * took_)) keep(samples);
-  }
-
- private:
-  const KeepSamples& keep_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double kept_ = 0.0;
-  double took_ = 0.0;
-};
+constexpr double kSliceSeconds = 2.0;  // of work between which the samples can be kept
 
 // Renders the blocks begin .. end - 1 of a pass, of both eyes. The thread that finishes a block reports what is done of
 // the pass. If a caller keeps the samples, only whole slices are of use.
@@ -387,6 +385,25 @@ struct CpuRenderer::Parts {
     });
   }
 
+  // Precondition: the cameras outlive the job.
+  Job make_job(const StereoCamera& stereo, std::span<const Camera> cameras, const RenderOptions& options) const {
+    PathTracer here = tracer;
+    here.ray_time = 0.5f;
+    const Media media =
+        media_at(here, stereo.position, [&](const Ray& ray) { return embree->closest_hit(here, ray, kHalfAlphaRay); });
+    return {*embree,
+            here,
+            cameras,
+            cameras[cameras.size() / 2],
+            cameras.size() > 1 || scene.motion_keys > 1,
+            media,
+            options,
+            {options.bounces, static_cast<int>(options.light_sampling), options.clamp},
+            options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
+            layer_unit(options),
+            can_share(stereo, scene, options)};
+  }
+
   const Scene& scene;
   mutable tbb::task_arena arena;
   LightTable lights;
@@ -428,22 +445,27 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
   std::vector<Camera> cameras;
   for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
   parts_->arena.execute([&] {
-    PathTracer tracer = parts_->tracer;
-    tracer.ray_time = 0.5f;
-    const Job job{*parts_->embree,
-                  tracer,
-                  cameras,
-                  cameras[cameras.size() / 2],
-                  path.size() > 1 || parts_->scene.motion_keys > 1,
-                  media_at(tracer, stereo.position,
-                           [&](const Ray& ray) { return parts_->embree->closest_hit(tracer, ray, kHalfAlphaRay); }),
-                  options,
-                  {options.bounces, static_cast<int>(options.light_sampling), options.clamp},
-                  options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
-                  layer_unit(options),
-                  can_share(stereo, parts_->scene, options)};
+    const Job job = parts_->make_job(stereo, cameras, options);
     render_passes(job, make_plan(stereo, options), samples, progress, keep);
   });
+}
+
+std::vector<std::vector<Hit>> CpuRenderer::center_hits(const StereoCamera& stereo, const RenderOptions& options) const {
+  const Camera camera = make_camera(stereo);
+  std::vector<std::vector<Hit>> hits;
+  parts_->arena.execute([&] {
+    const Job job = parts_->make_job(stereo, {&camera, 1}, options);
+    for (const int eye : eye_list(options.eyes)) {
+      const size_t width = static_cast<size_t>(options.width);
+      std::vector<Hit>& own = hits.emplace_back(width * static_cast<size_t>(options.height));
+      tbb::parallel_for(0, options.height, [&](int y) {
+        Job row = job;
+        Hit* to = &own[static_cast<size_t>(y) * width];
+        for (int x = 0; x < options.width; x++) to[x] = center_hit(row, eye, x, y);
+      });
+    }
+  });
+  return hits;
 }
 
 Picture render_cpu(const Scene& scene, const StereoCamera& stereo, const RenderOptions& options,

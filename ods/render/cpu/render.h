@@ -3,20 +3,19 @@
 //
 // The path tracer on the CPU: the kernel on Embree.
 #pragma once
-#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "ods/base/progress.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/picture/picture.h"
+#include "ods/render/keeper.h"
 #include "ods/render/picture_samples.h"
 #include "ods/render/render_options.h"
 #include "ods/scene/motion.h"
 
 namespace ods {
-
-using KeepSamples = std::function<void(const PictureSamples& samples)>;
 
 // A scene ready to be rendered, for videos: from one frame to the next only what moves is rebuilt.
 class CpuRenderer {
@@ -44,6 +43,10 @@ class CpuRenderer {
   // times as much has passed; and before kCancelled is thrown. Precondition: options.height > 0, fit(samples, options).
   void sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
               const Progress& progress = {}, const KeepSamples& keep = {}) const;
+
+  // What the depth layer shows: for each of eye_list(options.eyes) and each pixel, row by row, what the ray through its
+  // centre hits; t is the depth, negative if there is nothing. Precondition: options.height > 0.
+  std::vector<std::vector<Hit>> center_hits(const StereoCamera& camera, const RenderOptions& options) const;
 
  private:
   struct Parts;

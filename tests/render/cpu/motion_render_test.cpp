@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/camera/stereo_camera.h"
 #include "ods/render/cpu/render.h"
+#include "ods/render/render_target.h"
 #include "ods/scene/shutter.h"
 #include "tests/support/moving_files.h"
 #include "tests/support/scenes.h"
@@ -263,6 +265,51 @@ TEST(MotionBlur, FramesOfARunAreThoseAlone) {
     open_shutter(other, time - 0.1, time + 0.1);
     EXPECT_TRUE(same_pixels(renderer.render(StereoCamera(), small()), render_cpu(other, {}, small()))) << time;
   }
+}
+
+// What the depth layer shows, and where it is at another time: the ball's points move by its motion, the floor's stay.
+TEST(MotionRender, CenterHitsFollowWhatMoves) {
+  Scene scene = make_ball();
+  set_time(scene, 0.4);
+  const StereoCamera stereo;
+  const RenderOptions options = with_height(small(), stereo);
+  const CpuRenderer renderer(scene);
+  const Picture picture = renderer.render(stereo, options);
+  const std::vector<std::vector<Hit>> hits = renderer.center_hits(stereo, options);
+  const auto ball_at = [](double t) { return glm::dvec3(2.0 * t - 1.0, 0.0, -2.0); };
+  ASSERT_EQ(hits.size(), 2u);
+  std::vector<vec3> places;
+  int moved = 0;
+  for (const double time : {0.4, 0.6}) {
+    set_time(scene, time);
+    for (size_t eye = 0; eye < 2; eye++) {
+      for (size_t i = 0; i < hits[eye].size(); i++) {
+        const Hit& hit = hits[eye][i];
+        const int x = static_cast<int>(i) % options.width, y = static_cast<int>(i) / options.width;
+        ASSERT_EQ(hit.t < 0.0f ? kFarDepth : hit.t, *picture.eyes[eye].depth.at(x, y));
+        if (hit.t < 0.0f) continue;
+        const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(options.width),
+                      (static_cast<float>(y) + 0.5f) / static_cast<float>(options.height));
+        const Ray ray = camera_ray(make_camera(stereo), picture.eyes[eye].eye, uv);
+        glm::dvec3 expected(ray.origin + ray.direction * hit.t);
+        if (hit.instance == 1 && time == 0.6)
+          expected = ball_at(0.6) + (expected - ball_at(0.4)) * (0.6 / 0.4), moved++;
+        ASSERT_LT(length(glm::dvec3(point_of(scene, hit)) - expected), 2e-6) << time;
+      }
+    }
+  }
+  EXPECT_GT(moved, 5);
+}
+
+// Changes that add up while nobody applies them.
+TEST(MotionRender, TimeMayPassUnseenBetweenFrames) {
+  Scene scene = make_ball();
+  set_time(scene, 0.2);
+  CpuRenderer renderer(scene);
+  SceneChange change = set_time(scene, 0.9);
+  add_change(change, set_time(scene, 0.5));
+  renderer.update(change);
+  EXPECT_TRUE(same_pixels(renderer.render(StereoCamera(), small()), alone(make_ball(), 0.5)));
 }
 
 }  // namespace

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/frame_renderer.h"
+
+#include <algorithm>
+
+#include "cli/options/camera_options.h"
+#include "cli/render/finish_picture.h"
+#include "ods/kernel/random.h"
+#include "ods/render/render_target.h"
+#include "ods/scene/shutter.h"
+
+namespace {
+
+// The scene at a frame's time, and the camera's motion during the shutter.
+struct Shot {
+  ods::SceneChange change;
+  std::vector<ods::StereoCamera> cameras;
+};
+
+Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const Frame& frame) {
+  Shot shot;
+  const auto camera_at = [&](double seconds) {
+    return ods::moved(place_camera_again(job.camera, scene), time.move, seconds);
+  };
+  const double open = static_cast<double>(time.shutter) / 360.0 / static_cast<double>(time.fps);
+  if (open == 0.0 || !(asks_for_video(time) || time.time)) {
+    shot.change = ods::set_time(scene, frame.time);
+    shot.cameras = {camera_at(frame.time)};
+    return shot;
+  }
+  for (int key = 0; key < ods::kShutterKeys; key++) {
+    const double seconds = frame.time + open * (static_cast<double>(key) / (ods::kShutterKeys - 1) - 0.5);
+    if (!scene.animation.views.empty()) ods::set_time(scene, seconds);
+    shot.cameras.push_back(camera_at(seconds));
+  }
+  const auto same = [&](const ods::StereoCamera& a) {
+    const ods::StereoCamera& b = shot.cameras.front();
+    return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch && a.roll == b.roll;
+  };
+  if (std::all_of(shot.cameras.begin(), shot.cameras.end(), same)) shot.cameras.resize(1);
+  shot.change = ods::open_shutter(scene, frame.time - 0.5 * open, frame.time + 0.5 * open);
+  return shot;
+}
+
+constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
+
+}  // namespace
+
+Frame make_frame(const RenderJob& job, const ods::FrameNames& names, int number) {
+  const auto bits = static_cast<ods::uint>(number);
+  const bool changing = grain_of(job.time) == Grain::kChanging;
+  return {number, number / static_cast<double>(job.time.fps), names.path(number),
+          changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
+}
+
+FrameRenderer::FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
+    : job_(job), time_(time), scene_(scene) {}
+
+// Returns the cameras during the shutter.
+std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
+  Shot shot = make_shot(job_, time_, scene_, frame);
+  add_change(change_, shot.change);
+  if (renderer_) {
+    renderer_->update(change_);
+  } else {
+    place_camera(job_.camera, scene_);  // prints a note with the position
+    renderer_.emplace(scene_, job_.render.threads);
+  }
+  change_ = {};
+  return std::move(shot.cameras);
+}
+
+ods::RenderOptions FrameRenderer::options_for(const Frame& frame, const ods::StereoCamera& camera) const {
+  ods::RenderOptions options = ods::with_height(options_to_finish(job_), camera);
+  options.seed = frame.seed;
+  return options;
+}
+
+Rendered FrameRenderer::render(const Frame& frame, const std::function<void(double done)>& report) {
+  const double share = denoiser_of(job_) == ods::Denoiser::kNone ? 1.0 : kShareOfRendering;
+  const auto part = [&](double done) {
+    if (report) report(share * done);
+  };
+  if (!asks_for_video(time_)) {
+    const std::vector<ods::StereoCamera> cameras = set_time(frame);
+    ods::Progress progress;
+    progress.report = part;
+    return render_still(job_, *renderer_, cameras, options_for(frame, cameras[cameras.size() / 2]), progress);
+  }
+  RawFrame raw = render_raw(frame, part);
+  const double samples = raw.picture.samples_taken;
+  return {finish_picture(job_, raw.camera, std::move(raw.picture), frame.path), samples};
+}
+
+RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  const ods::StereoCamera& camera = cameras[cameras.size() / 2];
+  const ods::RenderOptions options = options_for(frame, camera);
+  ods::Progress progress;
+  progress.report = report;
+  RawFrame raw{frame.time, camera, renderer_->render(cameras, options, progress), {}};
+  if (!scene_.animation.playing.empty()) raw.hits = renderer_->center_hits(camera, options);
+  return raw;
+}
+
+std::vector<std::vector<ods::vec3>> FrameRenderer::places(const RawFrame& frame, double seconds) {
+  std::vector<std::vector<ods::vec3>> places;
+  if (frame.hits.empty()) return places;
+  add_change(change_, ods::set_time(scene_, seconds));
+  for (const std::vector<ods::Hit>& hits : frame.hits) {
+    std::vector<ods::vec3>& eye = places.emplace_back();
+    for (const ods::Hit& hit : hits) eye.push_back(hit.t < 0.0f ? ods::vec3(0.0f) : ods::point_of(scene_, hit));
+  }
+  return places;
+}

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders the frames of a job one after the other. Acceleration structures of static meshes are kept between frames.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/render/render_job.h"
+#include "cli/render/render_still.h"
+#include "ods/files/frames.h"
+#include "ods/render/cpu/render.h"
+
+struct Frame {
+  int number;
+  double time;       // seconds
+  std::string path;  // of its file
+  uint32_t seed;
+};
+
+// Frame `number` of a video. names: of the frames' files.
+Frame make_frame(const RenderJob& job, const ods::FrameNames& names, int number);
+
+// A frame as rendered, before it is denoised and saved.
+struct RawFrame {
+  double time;
+  ods::StereoCamera camera;  // in the middle of the shutter
+  ods::Picture picture;
+  std::vector<std::vector<ods::Hit>> hits;  // CpuRenderer::center_hits(); empty if nothing but the camera moves
+};
+
+class FrameRenderer {
+ public:
+  // The arguments must outlive this object.
+  FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene);
+
+  // Renders, denoises and saves. report: gets the fraction done, if it is set.
+  Rendered render(const Frame& frame, const std::function<void(double done)>& report);
+
+  RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
+
+  // As FrameBeside::places: where the surfaces of a frame are at another time.
+  std::vector<std::vector<ods::vec3>> places(const RawFrame& frame, double seconds);
+
+ private:
+  std::vector<ods::StereoCamera> set_time(const Frame& frame);
+  ods::RenderOptions options_for(const Frame& frame, const ods::StereoCamera& camera) const;
+
+  const RenderJob& job_;
+  const TimeOptions& time_;
+  ods::Scene& scene_;
+  ods::SceneChange change_;  // since renderer_ was updated
+  std::optional<ods::CpuRenderer> renderer_;
+};
