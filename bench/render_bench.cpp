@@ -4,8 +4,8 @@
 // How fast the path tracer is, in the measures of its peers: samples per CPU second, the share of the time that is
 // Embree's, CPU seconds to a given noise, loading, threads. Seconds are CPU seconds of the whole process.
 //
-// The scenes are the shared atrium and helmet, under a white sky of 1, box filter, 8 bounces; without them the built-in
-// fractal stands in.
+// The scenes are the shared atrium and helmet, under a white sky of 1, and the built-in room; box filter, 8 bounces.
+// Without the shared scenes the built-in fractal stands in.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "bench/measure.h"
+#include "ods/image/tone.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/lights.h"
@@ -31,9 +32,11 @@ struct Subject {
 };
 
 constexpr Subject kSubjects[] = {{"atrium", "atrium.glb", {0.0f, 1.6f, 0.0f}, 0.005},
-                                 {"helmet", "DamagedHelmet.glb", {0.0f, 0.0f, 1.5f}, 0.002}};
+                                 {"helmet", "DamagedHelmet.glb", {0.0f, 0.0f, 1.5f}, 0.002},
+                                 {"room", "", {}, 0.02}};  // with its own light and place
 
 Scene load(const Subject& subject) {
+  if (!*subject.file) return load_scene(subject.name, {});
   const std::string path = std::string(SHARED_SCENES "/") + subject.file;
   Scene scene = load_scene(std::filesystem::exists(path) ? path : "fractal", {});
   scene.environment = Environment();
@@ -41,9 +44,9 @@ Scene load(const Subject& subject) {
   return scene;
 }
 
-StereoCamera camera_of(const Subject& subject) {
+StereoCamera camera_of(const Subject& subject, const Scene& scene) {
   StereoCamera stereo;
-  stereo.position = subject.position;
+  stereo.position = *subject.file ? subject.position : default_view(scene).position;
   return stereo;
 }
 
@@ -69,7 +72,7 @@ void samples_per_second(benchmark::State& state, const Subject& subject) {
     for (const bool share : {false, true}) {
       options.share_paths = share;
       const double start = cpu_seconds();
-      benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options));
+      benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject, scene), options));
       state.counters[share ? "Msamples_per_cpu_s" : "Msamples_unshared_per_cpu_s"] =
           million_samples(options) / (cpu_seconds() - start);
     }
@@ -111,7 +114,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
   const EmbreeScene embree(scene);
   PathTracer tracer;
   set_scene(tracer, scene, lights);
-  const Camera camera = make_camera(camera_of(subject));
+  const Camera camera = make_camera(camera_of(subject, scene));
   const std::vector<TracedRay> rays = record_rays(embree, tracer, camera, 512);
   for (auto _ : state) {
     const double start = cpu_seconds();
@@ -131,7 +134,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
     progress.report = [&](double) {
       if (first_tile == 0.0) first_tile = cpu_seconds();
     };
-    benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options, progress));
+    benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject, scene), options, progress));
     const double whole = (cpu_seconds() - std::max(before, first_tile)) / options.samples;
     state.counters["share_percent"] = 100.0 * bare / whole;
     state.counters["Mrays_per_s"] = 1e-6 * static_cast<double>(rays.size()) / bare;
@@ -139,59 +142,88 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
   }
 }
 
-double difference(const Picture& a, const Picture& b) {
+// As a screen shows it.
+float shown(float light) {
+  return srgb_encode(std::clamp(light, 0.0f, 1.0f));
+}
+
+float linear(float light) {
+  return light;
+}
+
+double difference(const Picture& a, const Picture& b, float (*view)(float light) = linear) {
   double sum = 0.0;
   size_t count = 0;
   for (size_t eye = 0; eye < a.eyes.size(); eye++) {
     const std::vector<float>&p = a.eyes[eye].radiance.pixels, &q = b.eyes[eye].radiance.pixels;
-    for (size_t i = 0; i < p.size(); i++) sum += (p[i] - q[i]) * (p[i] - q[i]);
+    for (size_t i = 0; i < p.size(); i++) sum += std::pow(double{view(p[i])} - double{view(q[i])}, 2.0);
     count += p.size();
   }
   return std::sqrt(sum / static_cast<double>(count));
 }
 
+// CPU time and variance of a picture: two of other seeds differ by twice the variance.
+struct Price {
+  double seconds = 0.0;
+  double variance = 0.0;
+  double shown_variance = 0.0;
+  double samples = 0.0;  // mean of all pixels
+};
+
+Price price_of(const CpuRenderer& renderer, const StereoCamera& camera, RenderOptions options) {
+  std::vector<Picture> pictures;
+  const double start = cpu_seconds();
+  for (const uint32_t seed : {1u, 2u}) {
+    options.seed = seed;
+    pictures.push_back(renderer.render(camera, options));
+  }
+  return {0.5 * (cpu_seconds() - start), 0.5 * std::pow(difference(pictures[0], pictures[1]), 2.0),
+          0.5 * std::pow(difference(pictures[0], pictures[1], shown), 2.0),
+          pictures[0].samples_taken / (1.0 * options.width * options.width)};
+}
+
 // What it is worth that the eyes share paths: variance times CPU time without, over that with.
 void gain_of_shared_paths(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
-  RenderOptions reference = options_of(192, 512);
-  reference.seed = 1;
-  reference.share_paths = false;
-  const Picture truth = render_cpu(scene, camera_of(subject), reference);
   const CpuRenderer renderer(scene);
   for (auto _ : state) {
     double cost[2];
     for (const bool share : {false, true}) {
-      RenderOptions options = options_of(192, 16);
+      RenderOptions options = options_of(256, 16);
       options.share_paths = share;
-      const double start = cpu_seconds();
-      const double error = difference(renderer.render(camera_of(subject), options), truth);
-      cost[share] = (cpu_seconds() - start) * error * error;
+      const Price price = price_of(renderer, camera_of(subject, scene), options);
+      cost[share] = price.seconds * price.variance;
     }
     state.counters["gain"] = cost[0] / cost[1];
   }
 }
 
-// 256x128 for each eye, RMSE against 1024 samples of our own; Cycles 5.2 takes 17 and 1.5 seconds.
+// What it is worth to stop where it is clean: variance times CPU time over that of as many samples everywhere.
+void adaptive_over_uniform(benchmark::State& state, const Subject& subject) {
+  const Scene scene = load(subject);
+  const StereoCamera camera = camera_of(subject, scene);
+  const CpuRenderer renderer(scene);
+  for (auto _ : state) {
+    RenderOptions options = options_of(256, 1024);
+    options.noise = 0.02f;
+    const Price adaptive = price_of(renderer, camera, options);
+    const Price uniform = price_of(renderer, camera, options_of(256, static_cast<int>(adaptive.samples)));
+    state.counters["mean_samples"] = adaptive.samples;
+    state.counters["rmse"] = std::sqrt(adaptive.variance);
+    state.counters["shown_ratio"] =
+        adaptive.seconds * adaptive.shown_variance / (uniform.seconds * uniform.shown_variance);
+    state.counters["ratio"] = adaptive.seconds * adaptive.variance / (uniform.seconds * uniform.variance);
+  }
+}
+
+// 256x128 for each eye. Variance falls as one over the samples.
 void seconds_to_equal_noise(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
-  RenderOptions reference = options_of(256, 1024);
-  reference.seed = 1;
-  const Picture truth = render_cpu(scene, camera_of(subject), reference);
+  const CpuRenderer renderer(scene);
   for (auto _ : state) {
-    double error = 0.0, seconds = 0.0;
-    int samples = 8;
-    do {
-      samples *= 2;
-      const double start = cpu_seconds();
-      error = difference(render_cpu(scene, camera_of(subject), options_of(256, samples)), truth);
-      seconds = cpu_seconds() - start;
-      if (samples == 16) state.counters["rmse_at_16"] = error;
-    } while (error > subject.noise && samples < 1024);
-    state.counters["rmse"] = error;
-    state.counters["samples"] = samples;
-    state.counters["cpu_s"] = seconds;
-    // Variance falls as one over the samples: what the target itself would have taken.
-    state.counters["cpu_s_to_target"] = seconds * std::pow(error / subject.noise, 2.0);
+    const Price price = price_of(renderer, camera_of(subject, scene), options_of(256, 64));
+    state.counters["rmse_at_64"] = std::sqrt(price.variance);
+    state.counters["cpu_s_to_target"] = price.seconds * price.variance / std::pow(subject.noise, 2.0);
   }
 }
 
@@ -203,7 +235,7 @@ void load_to_first_ray(benchmark::State& state, const Subject& subject) {
     const EmbreeScene embree(scene);
     PathTracer tracer;
     set_scene(tracer, scene, lights);
-    const Ray ray = camera_ray(make_camera(camera_of(subject)), kLeft, vec2(0.5f));
+    const Ray ray = camera_ray(make_camera(camera_of(subject, scene)), kLeft, vec2(0.5f));
     benchmark::DoNotOptimize(embree.closest_hit(tracer, ray, kPathRay));
     state.counters["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     state.counters["peak_MB"] = peak_megabytes();
@@ -218,7 +250,7 @@ void two_threads_against_one(benchmark::State& state, const Subject& subject) {
       RenderOptions options = options_of(512, 16);
       options.threads = threads;
       const auto start = std::chrono::steady_clock::now();
-      benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject), options));
+      benchmark::DoNotOptimize(render_cpu(scene, camera_of(subject, scene), options));
       wall[threads - 1] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     state.counters["speedup"] = wall[0] / wall[1];
@@ -228,8 +260,7 @@ void two_threads_against_one(benchmark::State& state, const Subject& subject) {
 // What a frame of a video costs beside tracing it: the scene at another time, its trees and lights, against making them
 // all as for a first frame. The built-in toys, or a scene that stands still.
 void frame_overhead(benchmark::State& state, const Subject& subject) {
-  const bool moves = std::string_view(subject.name) == "toys";
-  Scene scene = moves ? load_scene("toys", {}) : load(subject);
+  Scene scene = load(subject);
   play(scene.animation, "");
   const auto start = std::chrono::steady_clock::now();
   const auto milliseconds = [](auto since) {
@@ -259,10 +290,13 @@ void frame_overhead(benchmark::State& state, const Subject& subject) {
 
 int main(int argc, char** argv) {
   using Figure = void (*)(benchmark::State&, const Subject&);
-  const std::pair<const char*, Figure> figures[] = {
-      {"load_to_first_ray", load_to_first_ray},       {"samples_per_second", samples_per_second},
-      {"share_of_embree", share_of_embree},           {"two_threads_against_one", two_threads_against_one},
-      {"gain_of_shared_paths", gain_of_shared_paths}, {"seconds_to_equal_noise", seconds_to_equal_noise}};
+  const std::pair<const char*, Figure> figures[] = {{"load_to_first_ray", load_to_first_ray},
+                                                    {"samples_per_second", samples_per_second},
+                                                    {"share_of_embree", share_of_embree},
+                                                    {"two_threads_against_one", two_threads_against_one},
+                                                    {"gain_of_shared_paths", gain_of_shared_paths},
+                                                    {"adaptive_over_uniform", adaptive_over_uniform},
+                                                    {"seconds_to_equal_noise", seconds_to_equal_noise}};
   for (const auto& [name, figure] : figures) {
     for (const Subject& subject : kSubjects) {
       const auto run = [figure = figure, &subject](benchmark::State& state) { figure(state, subject); };

@@ -8,6 +8,7 @@
 
 #include "cli/console/console.h"
 #include "ods/base/memory.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/file_format.h"
 
 namespace fs = std::filesystem;
@@ -32,14 +33,6 @@ double pixel_bytes(ods::FileFormat format, const ods::RenderOptions& options) {
   return 0.0;
 }
 
-// The nearest existing folder.
-fs::path folder_of(const std::string& path) {
-  std::error_code ignored;
-  fs::path folder = fs::absolute(path, ignored).parent_path();
-  while (!fs::is_directory(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
-  return folder;
-}
-
 }  // namespace
 
 double largest_frame(const std::string& path, const ods::RenderOptions& options, const ods::SaveOptions& save) {
@@ -52,7 +45,7 @@ double largest_frame(const std::string& path, const ods::RenderOptions& options,
 
 void say_disk_room(const std::string& path, size_t frames, double bytes_of_frame) {
   std::error_code error;
-  const fs::space_info space = fs::space(folder_of(path), error);
+  const fs::space_info space = fs::space(ods::existing_folder_of(path), error);
   if (error || frames == 0) return;
   const double needed = static_cast<double>(frames) * bytes_of_frame;
   const bool fits = needed <= static_cast<double>(space.available);

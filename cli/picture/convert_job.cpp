@@ -4,14 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/field_option.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
+#include "ods/files/atomic_file.h"
 #include "ods/picture/metadata/sidecar.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout;
@@ -113,14 +112,6 @@ std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool g
   return same_format(job.picture).eyes;
 }
 
-// The folder of the output, or the nearest parent that exists.
-std::string folder_of(const std::string& output) {
-  std::filesystem::path folder = std::filesystem::path(output).parent_path();
-  std::error_code ignored;
-  while (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) folder = folder.parent_path();
-  return folder.empty() ? "." : folder.string();
-}
-
 void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
   finish_eye_options(wishes.camera);
   StereoCamera& stereo = job.target.camera = wishes.camera.stereo;
@@ -172,7 +163,7 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
 }
 
 void open_input(ConvertJob& job) {
-  job.picture = job.reader->read(folder_of(job.output));
+  job.picture = job.reader->read(ods::existing_folder_of(job.output));
   job.reader.reset();  // it may hold a decoder's memory
   note_guesses(job.input, job.picture);
   refuse_impossible(job);

@@ -6,11 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/picture/denoise_job.h"
 #include "ods/denoise/oidn.h"
+#include "ods/files/atomic_file.h"
 
 namespace {
 
@@ -30,7 +33,7 @@ ods::StoredNoise read_input(const DenoiseJob& job, const ods::StoredPicture& pic
 
 void denoise_file(DenoiseJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  const ods::StoredPicture picture = job.reader->read("");
+  const ods::StoredPicture picture = job.reader->read(ods::existing_folder_of(job.output));
   job.reader.reset();
   ods::StoredNoise noise = read_input(job, picture);
   ods::Progress progress;
@@ -38,8 +41,11 @@ void denoise_file(DenoiseJob& job, ProgressLines& lines) {
   if (job.oidn) {
     ods::denoise_with_oidn(noise.picture, picture.camera, job.options.threads, progress);
   } else {
+    job.options.keep_statistics = false;
     ods::denoise(noise.picture, picture.camera, job.options, progress);
   }
+  // The file has the other layers.
+  for (ods::EyeImage& eye : noise.picture.eyes) eye = {eye.eye, std::move(eye.radiance), {}, {}, {}};
   const ods::PictureRows rows = ods::denoised_rows(picture, noise.picture);
   const auto files = ods::save_picture(rows, &picture.camera, job.save, job.output);
   lines.report(1.0, seconds_since(start), {"denoise", 0, 0, job.output});

@@ -38,9 +38,11 @@ std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoC
   if (keeps_raw) {
     for (ods::EyeImage& eye : picture.eyes) eye.raw = eye.radiance;
   }
-  if (denoiser == ods::Denoiser::kOwn) ods::denoise(picture, camera, {true, job.render.threads, beside});
-  if (denoiser == ods::Denoiser::kOidn) ods::denoise_with_oidn(picture, camera, job.render.threads);
   const bool keeps_statistics = job.render.statistics || (keeps_raw && denoiser == ods::Denoiser::kOwn);
+  if (denoiser == ods::Denoiser::kOwn) {
+    ods::denoise(picture, camera, {true, job.render.threads, beside, keeps_statistics});
+  }
+  if (denoiser == ods::Denoiser::kOidn) ods::denoise_with_oidn(picture, camera, job.render.threads);
   for (ods::EyeImage& eye : picture.eyes) {
     if (!job.render.layers) eye.depth = eye.normal = eye.albedo = ods::Image();
     if (!keeps_statistics) eye.variance = eye.samples = ods::Image();

@@ -90,6 +90,9 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
   std::vector<Level> levels, next;
   for (int eye = 0; eye < static_cast<int>(picture.eyes.size()); eye++) levels.push_back(first_level(noisy, eye));
   check_statistics(levels);
+  if (!options.keep_statistics) {
+    for (EyeImage& eye : picture.eyes) eye.variance = eye.samples = Image();
+  }
   smooth_variance(noisy, levels);
   next = levels;
   const bool both = options.both_eyes && picture.eyes.size() == 2 && has_depth(picture);

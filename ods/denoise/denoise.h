@@ -55,6 +55,7 @@ struct DenoiseOptions {
   bool both_eyes = true;                  // false: each eye alone
   int threads = 0;                        // 0: all processors
   std::span<const FrameBeside> beside{};  // of a video's frame
+  bool keep_statistics = true;            // false: variance and samples are gone afterwards, and need no memory
 };
 
 // Replaces the radiance by the denoised one; the same bits for any number of threads. Needs the layer `variance`; uses

@@ -10,6 +10,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/files/scratch.h"
 #include "ods/base/text.h"
 #include "ods/convert/convert.h"
 #include "ods/convert/reproject.h"
@@ -185,6 +186,7 @@ StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, c
     eye.normal = read(found.normal);
     eye.albedo = read(found.albedo);
     if (layers.needed) noise.unusable += count_unusable(eye);
+    stored.memory->release();  // it is not needed again before the result is saved
   }
   if (noise.unusable == static_cast<int64_t>(pixels * stored.eyes.size())) {
     throw Error(ErrorKind::kInput,

@@ -119,6 +119,13 @@ static void remove_leftovers(const fs::path& folder, const std::string& path) {
   }
 }
 
+std::string existing_folder_of(const std::string& path) {
+  std::error_code ignored;
+  fs::path folder = fs::absolute(path, ignored).parent_path();
+  while (!fs::is_directory(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder.native();
+}
+
 void check_writable(const std::string& path) {
   std::error_code error, ignored;
   const fs::file_status status = fs::status(path, error);

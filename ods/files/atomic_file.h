@@ -15,6 +15,9 @@ namespace ods {
 // (or its nearest existing ancestor) is not writable. Leaves nothing on the disk.
 void check_writable(const std::string& path);
 
+// Of a file that need not exist: its folder, or the nearest ancestor of it that exists. Absolute.
+std::string existing_folder_of(const std::string& path);
+
 // Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and a file with the final name is untouched. Destruction
 // without commit() removes it. The next AtomicFile with that name removes what a killed process left. Paths are bytes.
 class AtomicFile {
