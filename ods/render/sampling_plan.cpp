@@ -69,19 +69,21 @@ static double pixel_noise(const EyeSamples& eye, size_t pixel) {
 }
 
 // The mean square of the noise of one class of a block's pixels, in both eyes, as if all pixels had the same size on
-// the sphere.
+// the sphere. A class that has stopped counts as if it had gone on: its own noise stays, and the other class would take
+// samples for ever.
 static double block_noise(const PictureSamples& samples, const SamplingPlan& plan, size_t block, int wanted) {
   const int x0 = static_cast<int>(block) % plan.columns * kBlockSize;
   const int y0 = static_cast<int>(block) / plan.columns * kBlockSize;
+  const double now = samples_of(plan, block, samples.done);
   double sum = 0.0;
   int pixels = 0;
   for (const EyeSamples& eye : samples.eyes) {
     for (int y = y0; y < std::min(y0 + kBlockSize, samples.height); y++) {
       for (int x = x0; x < std::min(x0 + kBlockSize, samples.width); x++) {
         if (class_of(x, y) != wanted) continue;
-        const double noise =
-            pixel_noise(eye, static_cast<size_t>(y) * static_cast<size_t>(samples.width) + static_cast<size_t>(x));
-        sum += noise * noise;
+        const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(samples.width) + static_cast<size_t>(x);
+        const double noise = pixel_noise(eye, pixel);
+        sum += noise * noise * eye.count[pixel] / now;
         pixels++;
       }
     }

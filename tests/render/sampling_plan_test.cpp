@@ -99,5 +99,32 @@ TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
   EXPECT_NEAR(more, std::min(0.5 * excess, 3.0) / 2.0, 1e-3);
 }
 
+// One class has stopped with 16 samples of variance 1/4. Nothing makes it cleaner, but with 64 it would be clean
+// enough: so the other class, which has 64, stops as well.
+TEST(SamplingPlan, AStoppedClassIsJudgedAsIfItHadGoneOn) {
+  RenderOptions options = options_of(StereoCamera{}, 8, 1024);
+  options.height = 8;
+  options.even_noise = false;
+  options.eyes = Eyes::kMonoEye;
+  const double deviation = std::sqrt(1.0 / 60.0);  // of the mean of 16
+  for (const auto& [wanted, noisy] : {std::pair{0.6, 0}, std::pair{0.4, 2}}) {
+    options.noise = static_cast<float>(wanted * 3.0 * deviation / 1.5 / 5.0);
+    PictureSamples samples = no_samples(options);
+    samples.done = 64;
+    samples.noisy[0] = 2;
+    EyeSamples& eye = samples.eyes[0];
+    for (size_t pixel = 0; pixel < 64; pixel++) {
+      const uint32_t count = class_of(static_cast<int>(pixel % 8), static_cast<int>(pixel / 8)) == 0 ? 16 : 64;
+      eye.count[pixel] = count;
+      for (size_t c = 0; c < 3; c++) {
+        eye.light[3 * pixel + c] = static_cast<int64_t>(count / 2 * kLightUnit);
+        eye.squares[3 * pixel + c] = count / 2;
+      }
+    }
+    judge_noise(make_plan(StereoCamera{}, options), options, samples);
+    EXPECT_EQ(samples.noisy[0], noisy) << wanted;
+  }
+}
+
 }  // namespace
 }  // namespace ods
