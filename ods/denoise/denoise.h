@@ -61,10 +61,9 @@ struct DenoiseOptions {
 // Replaces the radiance by the denoised one; the same bits for any number of threads. Needs the layer `variance`; uses
 // `samples`, `normal`, `albedo` and `depth` if they are present. Variance that is NaN, infinite, negative, or of fewer
 // than 2 samples counts as unknown and is taken from the neighbours. Radiance that is not finite becomes the mean of
-// the neighbours, if there are any. Needs 28 bytes for each pixel beside the picture,
-// and 14 for each of a frame beside it. Throws Error(kInput) if no pixel
-// has a usable variance, Error(kMemory), Error(kCancelled). Precondition: one or two eyes of equal size with radiance
-// and variance.
+// the neighbours, if there are any. Needs 28 bytes for each pixel beside the picture, and 14 for each of a frame beside
+// it. Throws Error(kInput) if no pixel has a usable variance, Error(kMemory), Error(kCancelled). Precondition: one or
+// two eyes of equal size with radiance and variance.
 void denoise(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options = {},
              const Progress& progress = {});
 
