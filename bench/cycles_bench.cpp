@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // CPU seconds to equal noise over those of Blender's Cycles in the same run, where Blender and the shared scenes are
-// there: both eyes, white sky of 1, box filter, 8 bounces, no denoising.
-//
-// Two pictures of other seeds differ by twice the noise of either, so each renderer is measured against itself.
-// Variance falls as one over the time: their product is the price.
+// there: both eyes, white sky of 1, box filter, 8 bounces, no denoising. Each renderer is measured against itself.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -15,23 +12,15 @@
 #include <fstream>
 
 #include "bench/measure.h"
+#include "bench/subjects.h"
 #include "ods/export/camera_export.h"
 #include "ods/image/image_file.h"
 #include "ods/render/cpu/render.h"
-#include "ods/scene/load/load.h"
 
 namespace {
 
 using namespace ods;
 
-struct Subject {
-  const char* name;
-  const char* file;  // below SHARED_SCENES
-  vec3 position;
-};
-
-constexpr Subject kSubjects[] = {{"atrium", "atrium.glb", {0.0f, 1.6f, 0.0f}},
-                                 {"helmet", "DamagedHelmet.glb", {0.0f, 0.0f, 1.5f}}};
 constexpr int kWidth = 256;
 constexpr int kSamples = 64;
 
@@ -66,71 +55,39 @@ for seed in (1, 2):
     open('{}/seconds', 'a').write(str(seconds() - before) + '\n')
 )";
 
-double square_difference(const Image& a, const Image& b) {
-  double sum = 0.0;
-  for (int y = 0; y < a.height; y++) {
-    for (int x = 0; x < a.width; x++) {
-      for (int c = 0; c < 3; c++) sum += std::pow(double{a.at(x, y)[c]} - double{b.at(x, y)[c]}, 2.0);
-    }
-  }
-  return sum / (3.0 * a.width * a.height);
-}
-
-struct Price {
-  double seconds = 0.0;   // of a picture
-  double variance = 0.0;  // of its pixels
-  double product() const { return seconds * variance; }
-};
-
 Price price_of_cycles(const Subject& subject, const Folder& folder) {
   Sidecar file;
   file.eye = {kWidth, kWidth / 2};
   file.layout = Layout::kSeparate;
   file.camera.position = subject.position;
   const std::string here = std::filesystem::absolute(folder.path());
-  std::ofstream(folder.path("render.py"))
-      << fmt::format(kScript, std::string(SHARED_SCENES "/") + subject.file,
-                     export_camera(file, CameraTarget::kBlender).text, kSamples, 8, here, here);
+  std::ofstream(folder.path("render.py")) << fmt::format(
+      kScript, subject.path(), export_camera(file, CameraTarget::kBlender).text, kSamples, 8, here, here);
   const std::string command = fmt::format("blender -b --factory-startup --python-exit-code 1 -P {} > {} 2>&1",
                                           folder.path("render.py"), folder.path("log"));
   if (std::system(command.c_str()) != 0) return {};
-  std::ifstream seconds(folder.path("seconds"));
-  Price price;
-  for (double each = 0.0; seconds >> each;) price.seconds += 0.5 * each;
-  for (const char* eye : {"L", "R"}) {
-    const Image a = read_image(fmt::format("{}/1_{}.exr", folder.path(), eye));
-    const Image b = read_image(fmt::format("{}/2_{}.exr", folder.path(), eye));
-    price.variance += 0.25 * square_difference(a, b);
-  }
-  return price;
+  std::ifstream times(folder.path("seconds"));
+  double seconds = 0.0;
+  for (double each = 0.0; times >> each;) seconds += each;
+  const auto picture = [&](int seed) {
+    Picture picture;
+    for (const char* eye : {"L", "R"}) {
+      picture.eyes.emplace_back().radiance = read_image(fmt::format("{}/{}_{}.exr", folder.path(), seed, eye));
+    }
+    return picture;
+  };
+  return price_of(picture(1), picture(2), seconds);
 }
 
 Price price_of_ours(const Subject& subject) {
-  Scene scene = load_scene(std::string(SHARED_SCENES "/") + subject.file, {});
-  scene.environment = Environment();
-  scene.environment.radiance = vec3(1.0f);
-  StereoCamera camera;
-  camera.position = subject.position;
-  RenderOptions options;
-  options.width = kWidth;
-  options.samples = kSamples;
-  options.filter = PixelFilter::kBox;
-  options.even_noise = options.layers = false;
-  Price price;
-  std::vector<Picture> pictures;
-  for (const uint32_t seed : {1u, 2u}) {
-    options.seed = seed;
-    price.seconds += 0.5 * seconds_of([&] { pictures.push_back(render_cpu(scene, camera, options)); }).cpu;
-  }
-  for (size_t eye = 0; eye < 2; eye++) {
-    price.variance += 0.25 * square_difference(pictures[0].eyes[eye].radiance, pictures[1].eyes[eye].radiance);
-  }
-  return price;
+  const Scene scene = load(subject);
+  return price_of(options_of(kWidth, kSamples),
+                  [&](const RenderOptions& options) { return render_cpu(scene, camera_of(subject, scene), options); });
 }
 
 void equal_noise_over_cycles(benchmark::State& state, const Subject& subject) {
-  const bool can_run = std::filesystem::exists(std::string(SHARED_SCENES "/") + subject.file) &&
-                       std::system("blender --version > /dev/null 2>&1") == 0;
+  const bool can_run =
+      std::filesystem::exists(subject.path()) && std::system("blender --version > /dev/null 2>&1") == 0;
   if (!can_run) return state.SkipWithError("needs Blender and the shared scenes");
   const Folder folder;
   for (auto _ : state) {
@@ -147,8 +104,8 @@ void equal_noise_over_cycles(benchmark::State& state, const Subject& subject) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const Subject& subject : kSubjects) {
-    const auto run = [&](benchmark::State& state) { equal_noise_over_cycles(state, subject); };
+  for (const Subject& subject : {kAtrium, kHelmet}) {
+    const auto run = [subject](benchmark::State& state) { equal_noise_over_cycles(state, subject); };
     benchmark::RegisterBenchmark(fmt::format("equal_noise_over_cycles/{}", subject.name).c_str(), run)
         ->Iterations(1)
         ->Unit(benchmark::kSecond);

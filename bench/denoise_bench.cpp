@@ -10,60 +10,41 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
 
 #include "bench/measure.h"
+#include "bench/subjects.h"
 #include "ods/denoise/denoise.h"
-#include "ods/image/tone.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/render/cpu/render.h"
-#include "ods/scene/load/load.h"
 
 namespace {
 
 using namespace ods;
 
-// The atrium, the shared scene, has no light of its own: a white sky of 1.
-struct Subject {
+struct Stage {
   Scene scene;
   StereoCamera camera;
 };
 
-Subject load_subject(const std::string& name) {
-  Subject subject;
-  if (name == "atrium") {
-    const std::string path = SHARED_SCENES "/atrium.glb";
-    subject.scene = load_scene(std::filesystem::exists(path) ? path : "fractal", {});
-    subject.scene.environment = Environment();
-    subject.scene.environment.radiance = vec3(1.0f);
-    subject.camera.position = vec3(0.0f, 1.6f, 0.0f);
-  } else {
-    subject.scene = load_scene(name, {});
-    subject.camera.position = default_view(subject.scene).position;
-  }
-  return subject;
+Stage load_stage(const std::string& name) {
+  const Subject subject = name == kAtrium.name ? kAtrium : Subject{name.c_str()};
+  Stage stage{load(subject), {}};
+  stage.camera = camera_of(subject, stage.scene);
+  return stage;
 }
 
-Picture render(const Subject& subject, int width, int samples, uint32_t seed) {
+Picture render(const Stage& stage, int width, int samples, uint32_t seed) {
   RenderOptions options;
   options.width = width;
   options.samples = samples;
   options.seed = seed;
   options.statistics = true;
-  return render_cpu(subject.scene, subject.camera, options, {});
-}
-
-using View = float (*)(float value);
-float linear(float value) {
-  return value;
-}
-float shown(float value) {
-  return srgb_encode(std::clamp(value, 0.0f, 1.0f));
+  return render_cpu(stage.scene, stage.camera, options, {});
 }
 
 // The mean over all values of all eyes; those that are not finite are left out.
-double mean_of(std::initializer_list<const Picture*> pictures, View view,
+double mean_of(std::initializer_list<const Picture*> pictures, LightView view,
                const std::function<double(const std::vector<double>&)>& of) {
   double sum = 0.0;
   size_t count = 0;
@@ -83,7 +64,7 @@ double mean_of(std::initializer_list<const Picture*> pictures, View view,
   return sum / static_cast<double>(count);
 }
 
-double error(const Picture& d, const Picture& a, const Picture& b, View view) {
+double error(const Picture& d, const Picture& a, const Picture& b, LightView view) {
   const double square = mean_of({&d, &a, &b}, view, [](const auto& v) { return (v[0] - v[1]) * (v[0] - v[2]); });
   return std::sqrt(std::max(square, 0.0));
 }
@@ -95,7 +76,7 @@ struct Seen {
 
 // RMS of the difference between a pixel of one picture and another picture where it shows the same point. Nothing but
 // the camera moves.
-double difference_of(const Seen& one, const Seen& other, View view) {
+double difference_of(const Seen& one, const Seen& other, LightView view) {
   const EyeImage &left = one.image, &right = other.image;
   const int width = left.depth.width, height = left.depth.height;
   const vec2 size(static_cast<float>(width), static_cast<float>(height));
@@ -126,23 +107,23 @@ double difference_of(const Seen& one, const Seen& other, View view) {
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, View view) {
+double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, LightView view) {
   const Camera camera = make_camera(stereo);
   return difference_of({picture.eyes[0], camera}, {picture.eyes[1], camera}, view);
 }
 
 // Ratios to the error of the raw picture of as many samples.
 void error_against_eight_times_the_samples(benchmark::State& state, const std::string& name, int width, int samples) {
-  const Subject subject = load_subject(name);
-  const Picture raw = render(subject, width, samples, 1);
-  const Picture a = render(subject, width, 8 * samples, 2), b = render(subject, width, 8 * samples, 3);
+  const Stage stage = load_stage(name);
+  const Picture raw = render(stage, width, samples, 1);
+  const Picture a = render(stage, width, 8 * samples, 2), b = render(stage, width, 8 * samples, 3);
   for (auto _ : state) {
     Picture both = raw, alone = raw;
-    denoise(both, subject.camera);
+    denoise(both, stage.camera);
     DenoiseOptions options;
     options.both_eyes = false;
-    denoise(alone, subject.camera, options);
-    for (const View view : {&linear, &shown}) {
+    denoise(alone, stage.camera, options);
+    for (const LightView view : {&linear, &shown}) {
       const std::string of = view == &linear ? "_linear" : "";
       const double before = error(raw, a, b, view);
       const double eight = mean_of({&a, &b}, view, [](const auto& v) { return 0.5 * (v[0] - v[1]) * (v[0] - v[1]); });
@@ -150,7 +131,7 @@ void error_against_eight_times_the_samples(benchmark::State& state, const std::s
       state.counters["denoised_over_raw" + of] = error(both, a, b, view) / before;
       state.counters["raw_of_8N_over_raw" + of] = std::sqrt(eight) / before;
       state.counters["eyes_difference_over_alone" + of] =
-          difference_of_eyes(both, subject.camera, view) / difference_of_eyes(alone, subject.camera, view);
+          difference_of_eyes(both, stage.camera, view) / difference_of_eyes(alone, stage.camera, view);
     }
     const double energy = mean_of({&both}, linear, [](const auto& v) { return v[0]; });
     state.counters["energy"] = energy / mean_of({&raw}, linear, [](const auto& v) { return v[0]; });
@@ -160,16 +141,15 @@ void error_against_eight_times_the_samples(benchmark::State& state, const std::s
 // How much successive frames of a turntable differ after exact motion, as screens show them: over the same of raw
 // frames with eight times the samples. The room turns in 20 seconds.
 void flicker(benchmark::State& state, const std::string& name, int width, int samples) {
-  Subject subject = load_subject(name);
+  Stage stage = load_stage(name);
   std::vector<StereoCamera> cameras;
   std::vector<Picture> changing, fixed, many;
   for (int frame = 0; frame < 4; frame++) {
-    subject.camera.yaw = 0.6f * static_cast<float>(frame);
-    cameras.push_back(subject.camera);
-    changing.push_back(render(subject, width, samples, 10 + static_cast<uint32_t>(frame)));
-    fixed.push_back(render(subject, width, samples, 10));
-    if (frame == 1 || frame == 2)
-      many.push_back(render(subject, width, 8 * samples, 20 + static_cast<uint32_t>(frame)));
+    stage.camera.yaw = 0.6f * static_cast<float>(frame);
+    cameras.push_back(stage.camera);
+    changing.push_back(render(stage, width, samples, 10 + static_cast<uint32_t>(frame)));
+    fixed.push_back(render(stage, width, samples, 10));
+    if (frame == 1 || frame == 2) many.push_back(render(stage, width, 8 * samples, 20 + static_cast<uint32_t>(frame)));
   }
   const auto between = [&](const Picture& a, const Picture& b) {
     return difference_of({a.eyes[0], make_camera(cameras[1])}, {b.eyes[0], make_camera(cameras[2])}, shown);
@@ -196,12 +176,12 @@ void flicker(benchmark::State& state, const std::string& name, int width, int sa
 
 // Both eyes 4096x2048. Peak memory is that of the process: the picture with its statistics needs 940 MB.
 void large_picture(benchmark::State& state) {
-  const Subject subject = load_subject("toys");
-  Picture picture = render(subject, 4096, 2, 1);
+  const Stage stage = load_stage("toys");
+  Picture picture = render(stage, 4096, 2, 1);
   const double pixels = 2.0 * 4096 * 2048;
   for (auto _ : state) {
     const double start = cpu_seconds();
-    denoise(picture, subject.camera);
+    denoise(picture, stage.camera);
     state.counters["cpu_s"] = cpu_seconds() - start;
     state.counters["us_per_pixel"] = 1e6 * (cpu_seconds() - start) / pixels;
     state.counters["peak_MB"] = peak_megabytes();

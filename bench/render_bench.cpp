@@ -4,60 +4,27 @@
 // How fast the path tracer is, in the measures of its peers: samples per CPU second, the share of the time that is
 // Embree's, CPU seconds to a given noise, loading, threads. Seconds are CPU seconds of the whole process.
 //
-// The scenes are the shared atrium and helmet, under a white sky of 1, and the built-in room; box filter, 8 bounces.
-// Without the shared scenes the built-in fractal stands in.
+// The scenes are the shared atrium and helmet, and the built-in room; box filter, 8 bounces.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 
 #include "bench/measure.h"
-#include "ods/image/tone.h"
+#include "bench/subjects.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/lights.h"
-#include "ods/scene/load/load.h"
 #include "ods/scene/shutter.h"
 
 namespace {
 
 using namespace ods;
 
-struct Subject {
-  const char* name;
-  const char* file;  // below SHARED_SCENES
-  vec3 position;
-  double noise;  // RMSE that the equal-noise figure aims at
-};
+constexpr Subject kRoom{"room", "", {}, 0.02};
 
-constexpr Subject kSubjects[] = {{"atrium", "atrium.glb", {0.0f, 1.6f, 0.0f}, 0.005},
-                                 {"helmet", "DamagedHelmet.glb", {0.0f, 0.0f, 1.5f}, 0.002},
-                                 {"room", "", {}, 0.02}};  // with its own light and place
-
-Scene load(const Subject& subject) {
-  if (!*subject.file) return load_scene(subject.name, {});
-  const std::string path = std::string(SHARED_SCENES "/") + subject.file;
-  Scene scene = load_scene(std::filesystem::exists(path) ? path : "fractal", {});
-  scene.environment = Environment();
-  scene.environment.radiance = vec3(1.0f);
-  return scene;
-}
-
-StereoCamera camera_of(const Subject& subject, const Scene& scene) {
-  StereoCamera stereo;
-  stereo.position = *subject.file ? subject.position : default_view(scene).position;
-  return stereo;
-}
-
-RenderOptions options_of(int width, int samples) {
-  RenderOptions options;
-  options.width = width;
-  options.samples = samples;
-  options.filter = PixelFilter::kBox;
-  options.even_noise = false;  // every pixel counts the same
-  options.layers = false;
-  return options;
+Price price_with(const CpuRenderer& renderer, const StereoCamera& camera, const RenderOptions& options) {
+  return price_of(options, [&](const RenderOptions& seeded) { return renderer.render(camera, seeded); });
 }
 
 double million_samples(const RenderOptions& options) {
@@ -142,46 +109,6 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
   }
 }
 
-// As a screen shows it.
-float shown(float light) {
-  return srgb_encode(std::clamp(light, 0.0f, 1.0f));
-}
-
-float linear(float light) {
-  return light;
-}
-
-double difference(const Picture& a, const Picture& b, float (*view)(float light) = linear) {
-  double sum = 0.0;
-  size_t count = 0;
-  for (size_t eye = 0; eye < a.eyes.size(); eye++) {
-    const std::vector<float>&p = a.eyes[eye].radiance.pixels, &q = b.eyes[eye].radiance.pixels;
-    for (size_t i = 0; i < p.size(); i++) sum += std::pow(double{view(p[i])} - double{view(q[i])}, 2.0);
-    count += p.size();
-  }
-  return std::sqrt(sum / static_cast<double>(count));
-}
-
-// CPU time and variance of a picture: two of other seeds differ by twice the variance.
-struct Price {
-  double seconds = 0.0;
-  double variance = 0.0;
-  double shown_variance = 0.0;
-  double samples = 0.0;  // mean of all pixels
-};
-
-Price price_of(const CpuRenderer& renderer, const StereoCamera& camera, RenderOptions options) {
-  std::vector<Picture> pictures;
-  const double start = cpu_seconds();
-  for (const uint32_t seed : {1u, 2u}) {
-    options.seed = seed;
-    pictures.push_back(renderer.render(camera, options));
-  }
-  return {0.5 * (cpu_seconds() - start), 0.5 * std::pow(difference(pictures[0], pictures[1]), 2.0),
-          0.5 * std::pow(difference(pictures[0], pictures[1], shown), 2.0),
-          pictures[0].samples_taken / (1.0 * options.width * options.width)};
-}
-
 // What it is worth that the eyes share paths: variance times CPU time without, over that with.
 void gain_of_shared_paths(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
@@ -191,8 +118,7 @@ void gain_of_shared_paths(benchmark::State& state, const Subject& subject) {
     for (const bool share : {false, true}) {
       RenderOptions options = options_of(256, 16);
       options.share_paths = share;
-      const Price price = price_of(renderer, camera_of(subject, scene), options);
-      cost[share] = price.seconds * price.variance;
+      cost[share] = price_with(renderer, camera_of(subject, scene), options).product();
     }
     state.counters["gain"] = cost[0] / cost[1];
   }
@@ -206,13 +132,13 @@ void adaptive_over_uniform(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) {
     RenderOptions options = options_of(256, 1024);
     options.noise = 0.02f;
-    const Price adaptive = price_of(renderer, camera, options);
-    const Price uniform = price_of(renderer, camera, options_of(256, static_cast<int>(adaptive.samples)));
+    const Price adaptive = price_with(renderer, camera, options);
+    const Price uniform = price_with(renderer, camera, options_of(256, static_cast<int>(adaptive.samples)));
     state.counters["mean_samples"] = adaptive.samples;
     state.counters["rmse"] = std::sqrt(adaptive.variance);
     state.counters["shown_ratio"] =
         adaptive.seconds * adaptive.shown_variance / (uniform.seconds * uniform.shown_variance);
-    state.counters["ratio"] = adaptive.seconds * adaptive.variance / (uniform.seconds * uniform.variance);
+    state.counters["ratio"] = adaptive.product() / uniform.product();
   }
 }
 
@@ -221,9 +147,9 @@ void seconds_to_equal_noise(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
   const CpuRenderer renderer(scene);
   for (auto _ : state) {
-    const Price price = price_of(renderer, camera_of(subject, scene), options_of(256, 64));
+    const Price price = price_with(renderer, camera_of(subject, scene), options_of(256, 64));
     state.counters["rmse_at_64"] = std::sqrt(price.variance);
-    state.counters["cpu_s_to_target"] = price.seconds * price.variance / std::pow(subject.noise, 2.0);
+    state.counters["cpu_s_to_target"] = price.product() / std::pow(subject.noise, 2.0);
   }
 }
 
@@ -298,17 +224,16 @@ int main(int argc, char** argv) {
                                                     {"adaptive_over_uniform", adaptive_over_uniform},
                                                     {"seconds_to_equal_noise", seconds_to_equal_noise}};
   for (const auto& [name, figure] : figures) {
-    for (const Subject& subject : kSubjects) {
-      const auto run = [figure = figure, &subject](benchmark::State& state) { figure(state, subject); };
+    for (const Subject& subject : {kAtrium, kHelmet, kRoom}) {
+      const auto run = [figure = figure, subject](benchmark::State& state) { figure(state, subject); };
       benchmark::RegisterBenchmark((std::string(name) + "/" + subject.name).c_str(), run)
           ->Iterations(1)
           ->Unit(benchmark::kSecond);
     }
   }
-  static constexpr Subject kToys{"toys", "", {}, 0.0};
-  for (const Subject* subject : {&kToys, &kSubjects[0]}) {
-    const auto run = [subject](benchmark::State& state) { frame_overhead(state, *subject); };
-    benchmark::RegisterBenchmark((std::string("frame_overhead/") + subject->name).c_str(), run)
+  for (const Subject& subject : {Subject{"toys"}, kAtrium}) {
+    const auto run = [subject](benchmark::State& state) { frame_overhead(state, subject); };
+    benchmark::RegisterBenchmark((std::string("frame_overhead/") + subject.name).c_str(), run)
         ->Iterations(1)
         ->Unit(benchmark::kSecond);
   }

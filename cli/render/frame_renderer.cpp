@@ -82,15 +82,15 @@ Rendered FrameRenderer::render(const Frame& frame, const std::function<void(doub
   const auto part = [&](double done) {
     if (report) report(share * done);
   };
-  if (!asks_for_video(time_)) {
-    const std::vector<ods::StereoCamera> cameras = set_time(frame);
-    ods::Progress progress;
-    progress.report = part;
-    return render_still(job_, *renderer_, cameras, options_for(frame, cameras[cameras.size() / 2]), progress);
-  }
-  RawFrame raw = render_raw(frame, part);
-  const double samples = raw.picture.samples_taken;
-  return {finish_picture(job_, raw.camera, std::move(raw.picture), frame.path), samples};
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  const ods::StereoCamera& camera = cameras[cameras.size() / 2];
+  const ods::RenderOptions options = options_for(frame, camera);
+  ods::Progress progress;
+  progress.report = part;
+  if (!asks_for_video(time_)) return render_still(job_, *renderer_, cameras, options, progress);
+  ods::Picture picture = renderer_->render(cameras, options, progress);
+  const double samples = picture.samples_taken;
+  return {finish_picture(job_, camera, std::move(picture), frame.path), samples};
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {

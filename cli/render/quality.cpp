@@ -11,7 +11,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/render/render_job.h"
 #include "ods/denoise/oidn.h"
-#include "ods/render/picture_samples.h"
+#include "ods/render/render_options.h"
 
 namespace {
 

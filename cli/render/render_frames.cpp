@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <set>
 
@@ -84,10 +83,11 @@ void render_denoised(const RenderJob& job, ods::Scene& scene, const TimeOptions&
                      const std::vector<Frame>& missing, const StepReport& report) {
   const FrameNames names = video_names(job.output);
   std::vector<Frame> all;
+  std::set<int> missing_numbers;
+  for (const Frame& frame : missing) missing_numbers.insert(frame.number);
   std::set<size_t> wanted;
   for (const int number : numbers) {
-    const bool is_missing = std::ranges::any_of(missing, [&](const Frame& frame) { return frame.number == number; });
-    if (is_missing) wanted.insert(all.size());
+    if (missing_numbers.contains(number)) wanted.insert(all.size());
     all.push_back(make_frame(job, names, number));
   }
   FrameRenderer renderer(job, time, scene);

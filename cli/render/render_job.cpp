@@ -7,7 +7,6 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "ods/render/picture_samples.h"
 
 namespace {
 

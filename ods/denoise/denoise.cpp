@@ -74,11 +74,16 @@ bool has_depth(const Picture& picture) {
   return std::ranges::none_of(picture.eyes, [](const EyeImage& eye) { return eye.depth.pixels.empty(); });
 }
 
+std::vector<Level> first_levels(const NoisyPicture& noisy) {
+  std::vector<Level> levels;
+  for (int eye = 0; eye < static_cast<int>(noisy.picture->eyes.size()); eye++)
+    levels.push_back(first_level(noisy, eye));
+  return levels;
+}
+
 void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
   open_noisy(frame.noisy, beside.picture, beside.camera);
-  for (int eye = 0; eye < static_cast<int>(beside.picture.eyes.size()); eye++) {
-    frame.levels.push_back(first_level(frame.noisy, eye));
-  }
+  frame.levels = first_levels(frame.noisy);
   smooth_variance(frame.noisy, frame.levels);
   frame.beside = &beside;
 }
@@ -87,18 +92,18 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
                   const Progress& progress) {
   NoisyPicture noisy;
   open_noisy(noisy, picture, camera);
-  std::vector<Level> levels, next;
-  for (int eye = 0; eye < static_cast<int>(picture.eyes.size()); eye++) levels.push_back(first_level(noisy, eye));
+  std::vector<Level> levels = first_levels(noisy);
   check_statistics(levels);
   if (!options.keep_statistics) {
     for (EyeImage& eye : picture.eyes) eye.variance = eye.samples = Image();
   }
   smooth_variance(noisy, levels);
-  next = levels;
-  const bool both = options.both_eyes && picture.eyes.size() == 2 && has_depth(picture);
+  std::vector<Level> next = levels;
+  const bool knows_surfaces = has_depth(picture);
+  const bool both = options.both_eyes && picture.eyes.size() == 2 && knows_surfaces;
   std::deque<NoisyFrame> beside;
-  for (const FrameBeside& frame : options.beside) {
-    if (has_depth(picture)) open_frame(beside.emplace_back(), frame);
+  if (knows_surfaces) {
+    for (const FrameBeside& frame : options.beside) open_frame(beside.emplace_back(), frame);
   }
   Steps steps(progress, std::size(kPasses) * count_blocks(noisy));
   for (FilterPass pass : kPasses) {

@@ -10,10 +10,10 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
-#include "ods/files/scratch.h"
 #include "ods/base/text.h"
 #include "ods/convert/convert.h"
 #include "ods/convert/reproject.h"
+#include "ods/files/scratch.h"
 #include "ods/picture/channel_layers.h"
 
 namespace ods {

@@ -278,7 +278,6 @@ TEST(MotionRender, CenterHitsFollowWhatMoves) {
   const std::vector<std::vector<Hit>> hits = renderer.center_hits(stereo, options);
   const auto ball_at = [](double t) { return glm::dvec3(2.0 * t - 1.0, 0.0, -2.0); };
   ASSERT_EQ(hits.size(), 2u);
-  std::vector<vec3> places;
   int moved = 0;
   for (const double time : {0.4, 0.6}) {
     set_time(scene, time);
