@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command: a table. Each command is a file of its own in a folder beside this one.
-//
-// What reads and writes image files is in ods_images.so, which is opened when a command meets its first image
-// (ods/image/image_codec.h says why).
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -15,10 +11,8 @@
 
 #include "cli/console/exit_code.h"
 #include "cli/console/manual.h"
-#include "ods/base/error.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
-#include "ods/image/image_codec.h"
 
 // One a file, in the folders beside this one.
 int ods_camera(int argc, char** argv);
@@ -106,17 +100,6 @@ int unknown_command(const char* name) {
 }
 
 }  // namespace
-
-// Found beside ods, or where `make install` puts it.
-const ods::ImageCodec& ods::image_codec() {
-  static const ImageCodec* const codec = [] {
-    void* library = dlopen("ods_images.so", RTLD_NOW | RTLD_LOCAL);
-    void* symbol = library ? dlsym(library, "ods_image_codec") : nullptr;
-    if (!symbol) throw Error(ErrorKind::kInput, std::string("the image library cannot be loaded: ") + dlerror());
-    return reinterpret_cast<const ImageCodec* (*)()>(symbol)();
-  }();
-  return *codec;
-}
 
 int main(int argc, char** argv) {
   open_closed_streams();

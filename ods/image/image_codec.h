@@ -20,7 +20,7 @@ struct ImageCodec {
 };
 
 // The codec of this program: ods/image/codec's, unless the program defines this function itself. The command `ods`
-// does, in cli/main.cpp.
+// and the tests do, in cli/load_images.cpp.
 const ImageCodec& image_codec();
 
 }  // namespace ods
