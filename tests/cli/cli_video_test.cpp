@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods video as its users meet it: one command, and what becomes of it when it is killed.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <map>
 #include <set>
