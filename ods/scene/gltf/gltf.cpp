@@ -5,11 +5,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/scene/gltf/extensions.h"
 #include "ods/scene/gltf/parts.h"
 #include "ods/scene/motion.h"
 
@@ -41,24 +41,6 @@ void spend(GltfFile& file, size_t count) {
   file.budget -= count;
 }
 
-// Supported, or understood enough to use the fallback beside it.
-static constexpr std::array kRendered = {
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_animation_pointer",           "KHR_lights_punctual",
-    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_materials_volume",    "KHR_mesh_quantization", "KHR_materials_transmission",
-};
-
-static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                            "KHR_meshopt_compression"};
-
-static bool contains(std::span<const char* const> names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool is_read(std::string_view extension) {
-  return contains(kRendered, extension) || extension == "KHR_materials_specular";
-}
-
 // The strings in a root list of the file.
 static std::set<std::string> names_in(const GltfFile& file, const char* key) {
   std::set<std::string> names;
@@ -66,22 +48,26 @@ static std::set<std::string> names_in(const GltfFile& file, const char* key) {
   return names;
 }
 
+// Lists in the scene what the file's extensions became.
 static void check_extensions(const GltfFile& file, Scene& scene) {
-  for (const std::string& name : names_in(file, "extensionsRequired")) {
-    if (contains(kRendered, name)) continue;
-    if (contains(kCompression, name)) {
-      fail(file, fmt::format("its geometry is compressed with {}, which ods does not read; export it again without "
-                             "compression",
-                             name));
-    }
-    fail(file, fmt::format("needs the extension {}, which ods does not support; export it again without it",
-                           printable(name)));
+  const std::set<std::string> required = names_in(file, "extensionsRequired");
+  std::set<std::string> used = names_in(file, "extensionsUsed");
+  used.insert(required.begin(), required.end());
+  for (const std::string& name : required) {
+    const Extension row = find_extension(name);
+    if (is_supported(row.state)) continue;
+    fail(file, fmt::format("needs the extension {} ({}), which ods does not read; export it again without it",
+                           printable(name), row.how));
   }
-  constexpr size_t kMax = 50;
-  for (const std::string& name : names_in(file, "extensionsUsed")) {
-    if (contains(kRendered, name)) continue;
-    if (scene.warnings.size() == kMax) break;
-    warn(scene, fmt::format("extension {} is ignored", printable(name)));
+  constexpr size_t kMax = 100;
+  for (const std::string& name : used) {
+    if (scene.extensions.size() == kMax) break;
+    const Extension row = find_extension(name);
+    const std::string_view state = name_in(kExtensionStateTable, row.state);
+    scene.extensions.push_back(
+        {printable(name), std::string(state), std::string(row.how), required.contains(name)});
+    if (row.state != ExtensionState::kNotRendered) continue;
+    warn(scene, fmt::format("extension {} is not rendered ({})", printable(name), row.how));
   }
 }
 

@@ -79,9 +79,6 @@ inline const JsonValue& record(const GltfFile& file, const Records& list, int in
   return *element(file, list, index, what);
 }
 
-// Whether the reader supports an extension.
-bool is_read(std::string_view extension);
-
 // Text from the file, made safe for a message: one line, of limited length.
 std::string printable(const std::string& text);
 

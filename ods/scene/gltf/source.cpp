@@ -15,6 +15,7 @@
 #include "ods/files/confined_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
+#include "ods/scene/gltf/extensions.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
