@@ -47,6 +47,7 @@ void print_text(const SceneInfo& info, vec3 position) {
   if (info.nearest_surface >= 0.0f) {
     row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
   }
+  for (const std::string& variant : info.variants) row("variant", fmt::format("'{}'", variant));
   for (const ods::UsedExtension& extension : info.extensions) {
     row("extension", fmt::format("{}: {} ({})", extension.name, extension.state, extension.how));
   }
@@ -77,6 +78,7 @@ void print_json(const SceneInfo& info, vec3 position) {
       {"nearest_surface", nullptr},
       {"cameras", nlohmann::ordered_json::array()},
       {"animations", nlohmann::ordered_json::array()},
+      {"variants", info.variants},
       {"extensions", nlohmann::ordered_json::array()},
       {"warnings", info.warnings},
   };

@@ -89,6 +89,7 @@ struct Scene {
   std::vector<MotionPose> motion_poses;
   std::vector<MotionVertex> motion_vertices;
 
+  std::vector<std::string> variants;      // sets of materials that the file offers, by name
   std::vector<UsedExtension> extensions;  // sorted by name
 
   std::vector<std::string> warnings;  // features of the file that are not rendered, or only approximated; one line each

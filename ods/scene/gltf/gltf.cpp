@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/gltf/gltf.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/base/suggest.h"
 #include "ods/scene/gltf/extensions.h"
 #include "ods/scene/gltf/parts.h"
 #include "ods/scene/motion.h"
@@ -64,11 +65,39 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
     if (scene.extensions.size() == kMax) break;
     const Extension row = find_extension(name);
     const std::string_view state = name_in(kExtensionStateTable, row.state);
-    scene.extensions.push_back(
-        {printable(name), std::string(state), std::string(row.how), required.contains(name)});
+    scene.extensions.push_back({printable(name), std::string(state), std::string(row.how), required.contains(name)});
     if (row.state != ExtensionState::kNotRendered) continue;
     warn(scene, fmt::format("extension {} is not rendered ({})", printable(name), row.how));
   }
+}
+
+// KHR_materials_variants: lists the variants, and notes which one the caller chose.
+static void choose_variant(GltfFile& file, Scene& scene, const std::string& chosen) {
+  for (const JsonValue& variant : extension(file.json.root(), "KHR_materials_variants")["variants"]) {
+    scene.variants.push_back(printable(*variant["name"].text));
+  }
+  if (chosen.empty()) return;
+  const auto found = std::find(scene.variants.begin(), scene.variants.end(), chosen);
+  if (found == scene.variants.end()) {
+    const std::string near = did_you_mean(chosen, scene.variants);
+    const std::string others = scene.variants.empty() ? "; it has no variants"
+                               : !near.empty()        ? near
+                                                      : fmt::format("; it has {}", fmt::join(scene.variants, ", "));
+    throw Error(ErrorKind::kUsage, fmt::format("--variant: '{}' has no variant '{}'{}", file.path, chosen, others));
+  }
+  file.variant = static_cast<int>(found - scene.variants.begin());
+}
+
+static std::string counted(size_t count, const char* what) {
+  return count == 0 ? "" : fmt::format("{} {}", count, what);
+}
+
+static void warn_of_undrawn(const GltfFile& file, Scene& scene) {
+  const size_t lines = file.lines.size(), points = file.points.size(), all = lines + points;
+  if (all == 0) return;
+  const char* between = lines > 0 && points > 0 ? " and " : "";
+  warn(scene, fmt::format("{}{}{} primitive{} not rendered: ods renders triangles", counted(lines, "line"), between,
+                          counted(points, "point"), all == 1 ? " is" : "s are"));
 }
 
 static void check_reach(Scene& scene) {
@@ -85,9 +114,12 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
+  choose_variant(file, scene, options.variant);
   read_materials(file, scene);
-  const Places places = read_nodes(file, scene, options.scene, named_nodes(file));
+  const Places places = read_nodes(file, scene, options.scene, find_animated_nodes(file));
+  read_image_light(file, scene, options.scene);
   read_clips(file, scene, places);
+  warn_of_undrawn(file, scene);
   set_time(scene, 0.0);  // poses skins and morph targets at rest
   check_reach(scene);
   return scene;
