@@ -52,7 +52,6 @@ struct TextureReader : FilterSampler {
   inline vec4 texel_at(Texture texture, bool reduced, int x, int y) {
     uint at = texture.first_texel + uint(y) * uint(texture.width) + uint(x);
     uint bits = reduced ? scene_reduced_texel(at) : scene_texel(at);
-    if (texture.packing == kTexelNormal) return unpack_normal(bits);
     int r = int(bits & 255u);
     int g = int((bits >> 8u) & 255u);
     int b = int((bits >> 16u) & 255u);
@@ -60,6 +59,7 @@ struct TextureReader : FilterSampler {
     if (texture.srgb == 1) {
       return vec4(scene_table(kSrgbTable + r), scene_table(kSrgbTable + g), scene_table(kSrgbTable + b), a);
     }
+    if (texture.packing == kTexelNormal) return unpack_normal(bits);
     return vec4(vec3(float(r), float(g), float(b)) * (1.0f / 255.0f), a);
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ods/scene/scene.h"
+#include "ods/scene/sheet_glass.h"
 
 namespace ods {
 
@@ -31,6 +32,7 @@ struct SceneInfo {
   std::vector<ViewPoint> view_points;
   std::vector<std::pair<std::string, double>> animations;  // with their length in seconds
   std::vector<std::string> variants;
+  std::vector<SheetGlass> sheet_glass;
   std::vector<UsedExtension> extensions;
   std::vector<std::string> warnings;
 };

@@ -234,6 +234,43 @@ void add_change(SceneChange& sum, const SceneChange& change) {
   sum.view_points |= change.view_points;
 }
 
+// The times of the keys of what plays, and those half way between: at most some hundreds, evenly chosen.
+static std::vector<double> telling_times(const Animation& animation) {
+  std::vector<double> keys;
+  for (const int clip : animation.playing) {
+    for (const Track& track : animation.clips[static_cast<size_t>(clip)].tracks) {
+      keys.insert(keys.end(), track.keys.times.begin(), track.keys.times.end());
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::vector<double> times;
+  const size_t step = keys.size() / 200 + 1;
+  for (size_t i = 0; i < keys.size(); i += step) {
+    times.push_back(keys[i]);
+    if (i + 1 < keys.size()) times.push_back(0.5 * (keys[i] + keys[i + 1]));
+  }
+  return times;
+}
+
+bool is_ever_visible(const Scene& scene) {
+  if (is_anything_visible(scene)) return true;
+  Scene moving = scene;
+  const auto appears = [&] {
+    for (const double time : telling_times(moving.animation)) {
+      set_time(moving, time);
+      if (is_anything_visible(moving)) return true;
+    }
+    return false;
+  };
+  if (play(moving.animation, "") && appears()) return true;
+  for (size_t i = 0; i < scene.animation.clips.size(); i++) {
+    moving.animation.playing = {static_cast<int>(i)};
+    if (appears()) return true;
+  }
+  return false;
+}
+
 vec3 point_of(const Scene& scene, const Hit& hit) {
   const Instance& instance = scene.instances[static_cast<size_t>(hit.instance)];
   const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];

@@ -28,6 +28,9 @@ void add_change(SceneChange& sum, const SceneChange& change);
 // origin are hidden (Scene::hidden), as are those of a node that is not visible; such a node's lights are dark.
 SceneChange set_time(Scene& scene, double seconds);
 
+// Whether an instance is visible as the scene stands, or at any key of any of its animations.
+bool is_ever_visible(const Scene& scene);
+
 // Where a point of a surface is at the time to which the scene is set, in world coordinates. hit: of a ray, at any
 // time.
 vec3 point_of(const Scene& scene, const Hit& hit);

@@ -76,6 +76,13 @@ bool is_hidden(const Scene& scene, size_t instance) {
   return !scene.hidden.empty() && scene.hidden[instance] != 0;
 }
 
+bool is_anything_visible(const Scene& scene) {
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    if (!is_hidden(scene, i)) return true;
+  }
+  return false;
+}
+
 Bounds scene_bounds(const Scene& scene) {
   Bounds bounds;
   bool empty = true;

@@ -103,6 +103,7 @@ TextureSlot no_texture();
 
 // Whether an instance is hidden at this time.
 bool is_hidden(const Scene& scene, size_t instance);
+bool is_anything_visible(const Scene& scene);
 
 // Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
 int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material);

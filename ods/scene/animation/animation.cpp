@@ -37,6 +37,33 @@ size_t property_width(Property property) {
   return 0;
 }
 
+int targets_per_material(Property property) {
+  switch (property) {
+    case Property::kBaseColor:
+    case Property::kEmission:
+    case Property::kEmissionStrength:
+    case Property::kMetallic:
+    case Property::kRoughness:
+      return 1;
+    case Property::kUvOffset:
+    case Property::kUvRotation:
+    case Property::kUvScale:
+      return kSlotCount;
+    case Property::kTranslation:
+    case Property::kRotation:
+    case Property::kScale:
+    case Property::kVisible:
+    case Property::kWeights:
+    case Property::kLampColor:
+    case Property::kLampIntensity:
+    case Property::kLampRange:
+    case Property::kLampInnerCone:
+    case Property::kLampOuterCone:
+      return 0;
+  }
+  return 0;
+}
+
 double length_of(const Animation& animation) {
   double length = 0.0;
   for (const int clip : animation.playing) {

@@ -52,6 +52,9 @@ static_assert(std::size(kProperties) == enumerator_count<Property>());
 // The number of values that change together; 0: one per morph target.
 size_t property_width(Property property);
 
+// How many consecutive targets of this property belong to one of Animation::materials; 0: it is not a material's.
+int targets_per_material(Property property);
+
 struct Track {
   Property property = Property::kTranslation;
   int target = 0;

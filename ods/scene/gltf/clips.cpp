@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "ods/scene/gltf/parts.h"
+#include "ods/scene/gltf/nodes.h"
 
 namespace ods {
 

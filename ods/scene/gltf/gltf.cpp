@@ -11,7 +11,7 @@
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/scene/gltf/extensions.h"
-#include "ods/scene/gltf/parts.h"
+#include "ods/scene/gltf/nodes.h"
 #include "ods/scene/motion.h"
 
 namespace ods {
@@ -54,6 +54,7 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
   const std::set<std::string> required = names_in(file, "extensionsRequired");
   std::set<std::string> used = names_in(file, "extensionsUsed");
   used.insert(required.begin(), required.end());
+  used.insert(file.json.extensions.begin(), file.json.extensions.end());  // some files do not list what they use
   for (const std::string& name : required) {
     const Extension row = find_extension(name);
     if (is_supported(row.state)) continue;

@@ -13,7 +13,7 @@
 
 #include "ods/image/tone.h"
 #include "ods/kernel/camera/projection.h"
-#include "ods/scene/gltf/parts.h"
+#include "ods/scene/gltf/nodes.h"
 #include "ods/scene/gltf/textures.h"
 
 namespace ods {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/gltf/nodes.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
-#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 

@@ -8,8 +8,8 @@
 //   material  materials; textures makes what they read
 //   mesh      primitives -> meshes
 //   bend      morph targets and skins of primitives -> deformations
-//   nodes     the hierarchy -> instances, lights, view points
-//   clips     animations -> clips and their targets
+//   nodes     the hierarchy -> instances, lights, view points (nodes.h)
+//   clips     animations -> clips and their targets (nodes.h)
 // Every function here throws Error(kInput), naming the file, if the file is inconsistent.
 #pragma once
 #include <cstddef>
@@ -164,38 +164,5 @@ void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primi
 
 // Appends to Animation::skins. rows: for each of the file's nodes its index in Animation::nodes.
 int read_skin(GltfFile& file, Scene& scene, int skin, const std::vector<int>& rows);
-
-// --- nodes.cpp
-// Where the file's objects are in the Scene, for animation. -1: nowhere.
-struct Places {
-  struct PlacedLight {
-    int light;  // index in the Scene
-    int source;
-    int node;
-  };
-  std::vector<int> nodes;    // per node: its index in Animation::nodes
-  std::vector<int> weights;  // per node: its mesh's index in Animation::weights
-  std::vector<PlacedLight> lights;
-};
-
-// Per node: whether an animation or a skin refers to it, and whether an animation shows and hides it.
-struct AnimatedNodes {
-  std::vector<char> moves;
-  std::vector<char> blinks;
-};
-
-// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. Meshes and lights of
-// nodes that are always hidden are left out.
-Places read_nodes(GltfFile& file, Scene& scene, int chosen, const AnimatedNodes& animated);
-
-Lamp read_lamp(const GltfFile& file, int light);
-
-// --- image_light.cpp
-// Sets the environment to the image-based light of the chosen scene, if it has one. Precondition: the scene exists.
-void read_image_light(const GltfFile& file, Scene& scene, int chosen);
-
-// --- clips.cpp
-AnimatedNodes find_animated_nodes(const GltfFile& file);
-void read_clips(GltfFile& file, Scene& scene, const Places& places);
 
 }  // namespace ods

@@ -76,6 +76,17 @@ TEST(Extensions, AnUnknownOneIsNotRendered) {
   EXPECT_TRUE(is_read("KHR_lights_punctual"));
 }
 
+// Some exporters do not list an extension that they use.
+TEST(Extensions, ObjectsOfAnExtensionAreAUse) {
+  GltfBuilder file = make_triangle();
+  file.primitive()["extensions"] = {{"VENDOR_thing", Json::object()}, {"KHR_xmp_json_ld", Json::object()}};
+  const Scene scene = file.load();
+  ASSERT_EQ(scene.extensions.size(), 2u);
+  EXPECT_EQ(scene.extensions[0].name, "KHR_xmp_json_ld");
+  EXPECT_EQ(scene.extensions[1].name, "VENDOR_thing");
+  EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
 // A required extension need not be listed as used, though the specification asks for it.
 TEST(Extensions, RequiredOnesAreUsed) {
   GltfBuilder file = make_triangle();
