@@ -43,9 +43,24 @@ void spend(GltfFile& file, size_t count) {
 
 // Supported, or understood enough to use the fallback beside it.
 static constexpr std::array kRendered = {
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_animation_pointer",           "KHR_lights_punctual",
-    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_materials_volume",    "KHR_mesh_quantization", "KHR_materials_transmission",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_lights_punctual",
+    "KHR_materials_ior",
+    "KHR_materials_unlit",
+    "KHR_materials_emissive_strength",
+    "KHR_texture_transform",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_materials_transmission",
+    "KHR_materials_specular",
+    "KHR_materials_clearcoat",
+    "KHR_materials_sheen",
+    "KHR_materials_anisotropy",
+    "KHR_materials_iridescence",
+    "KHR_materials_dispersion",
+    "KHR_materials_diffuse_transmission",
 };
 
 static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
@@ -56,7 +71,7 @@ static bool contains(std::span<const char* const> names, std::string_view name) 
 }
 
 bool is_read(std::string_view extension) {
-  return contains(kRendered, extension) || extension == "KHR_materials_specular";
+  return contains(kRendered, extension);
 }
 
 // The strings in a root list of the file.
