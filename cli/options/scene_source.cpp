@@ -30,6 +30,8 @@ void add_scene_argument(Options& options, SceneSource& source) {
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
                  "number of the scene in the file, counted from 0; by default the file's default scene");
+  options.text("--variant", "NAME", source.variant,
+               "which of the file's material variants to show (ods info lists them); by default its first choice");
   add_confine_option(options, source);
 }
 
@@ -66,7 +68,9 @@ std::string confining_folder(const SceneSource& source) {
 }
 
 Scene open_scene(const SceneSource& source) {
-  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1), .confine = confining_folder(source)});
+  Scene scene = ods::load_scene(
+      source.name,
+      {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
   for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;

@@ -16,6 +16,7 @@ struct SceneSource {
   std::string environment;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
+  std::string variant;  // of the file's materials; empty: its default
 };
 
 void add_scene_argument(Options& options, SceneSource& source);

@@ -47,6 +47,10 @@ void print_text(const SceneInfo& info, vec3 position) {
   if (info.nearest_surface >= 0.0f) {
     row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
   }
+  for (const std::string& variant : info.variants) row("variant", fmt::format("'{}'", variant));
+  for (const ods::UsedExtension& extension : info.extensions) {
+    row("extension", fmt::format("{}: {} ({})", extension.name, extension.state, extension.how));
+  }
   for (const std::string& warning : info.warnings) row("warning", warning);
 }
 
@@ -74,6 +78,8 @@ void print_json(const SceneInfo& info, vec3 position) {
       {"nearest_surface", nullptr},
       {"cameras", nlohmann::ordered_json::array()},
       {"animations", nlohmann::ordered_json::array()},
+      {"variants", info.variants},
+      {"extensions", nlohmann::ordered_json::array()},
       {"warnings", info.warnings},
   };
   if (info.nearest_surface >= 0.0f) json["nearest_surface"] = info.nearest_surface;
@@ -86,6 +92,10 @@ void print_json(const SceneInfo& info, vec3 position) {
   }
   for (const auto& [name, seconds] : info.animations) {
     json["animations"].push_back({{"name", name}, {"seconds", seconds}});
+  }
+  for (const ods::UsedExtension& each : info.extensions) {
+    json["extensions"].push_back(
+        {{"name", each.name}, {"state", each.state}, {"how", each.how}, {"required", each.required}});
   }
   // Names in files need not be valid UTF-8.
   std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());

@@ -58,7 +58,11 @@ const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
 const int kWrapClamp = 2;
 
-// An image with its sampler. Texels are rows from the top, 8 bits each of R, G, B, A with R in the low byte.
+const int kTexelBytes = 0;   // 8 bits each of R, G, B, A with R in the low byte
+const int kTexelNormal = 1;  // a unit vector of a normal map: x in the low 16 bits and y in the high ones, 0..65535 for
+                             // -1..1; z >= 0 follows from them
+
+// An image with its sampler. Texels are rows from the top.
 struct Texture {
   uint first_texel;
   int width;
@@ -67,6 +71,7 @@ struct Texture {
   int wrap_v;
   int srgb;     // 1: R, G, B are stored with the sRGB curve
   int nearest;  // 1: no interpolation
+  int packing;  // kTexelBytes or kTexelNormal
 };
 
 // The texture that a material reads, and the transform of its coordinates (KHR_texture_transform):
@@ -199,7 +204,7 @@ struct Hit {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 28);
+static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 32);
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 64);
 static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);

@@ -30,6 +30,8 @@ struct SceneInfo {
   float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1: none
   std::vector<ViewPoint> view_points;
   std::vector<std::pair<std::string, double>> animations;  // with their length in seconds
+  std::vector<std::string> variants;
+  std::vector<UsedExtension> extensions;
   std::vector<std::string> warnings;
 };
 

@@ -54,6 +54,14 @@ struct NamedObject {
   size_t count = 0;
 };
 
+// An extension that the file uses, and what became of it.
+struct UsedExtension {
+  std::string name;
+  std::string state;  // a name in kExtensionStateTable (ods/scene/gltf/extensions.h)
+  std::string how;
+  bool required = false;  // by the file
+};
+
 struct Scene {
   std::string name;
 
@@ -81,6 +89,9 @@ struct Scene {
   int motion_keys = 0;       // keys within an open shutter, made by open_shutter() (ods/scene/shutter.h); 0: none
   std::vector<MotionPose> motion_poses;
   std::vector<MotionVertex> motion_vertices;
+
+  std::vector<std::string> variants;      // sets of materials that the file offers, by name
+  std::vector<UsedExtension> extensions;  // sorted by name
 
   std::vector<std::string> warnings;  // features of the file that are not rendered, or only approximated; one line each
 };

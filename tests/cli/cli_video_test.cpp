@@ -201,6 +201,7 @@ const std::map<std::string, std::string> kVideoAlone = {
 };
 const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
+    {"--variant", "red"},
     {"--env", "0.5"},
     {"--width", "32"},
     {"--height", "10"},

@@ -12,6 +12,7 @@ size_t property_width(Property property) {
   switch (property) {
     case Property::kWeights:
       return 0;
+    case Property::kVisible:
     case Property::kLampIntensity:
     case Property::kLampRange:
     case Property::kLampInnerCone:

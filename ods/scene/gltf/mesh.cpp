@@ -208,12 +208,25 @@ static const TextureSlot* slot_of_tangents(const Scene& scene, int index) {
   return layers.anisotropy > 0.0f ? &layers.anisotropy_slot : nullptr;
 }
 
+// The file's index of a primitive's material, -1: none. The first mapping that names the chosen variant counts.
+static int material_of(const GltfFile& file, const JsonValue& primitive) {
+  if (file.variant != -1) {
+    for (const JsonValue& mapping : extension(primitive, "KHR_materials_variants")["mappings"]) {
+      const std::vector<int> variants = indices(file, mapping, "variants");
+      if (std::find(variants.begin(), variants.end(), file.variant) != variants.end()) {
+        return index_in(file, mapping, "material");
+      }
+    }
+  }
+  return index_in(file, primitive, "material");
+}
+
 // Appends the Scene mesh of one primitive and returns it, or -1 if none of it is visible.
 static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Deformers& bending) {
   const int mode = integer(file, primitive, "mode", kTriangles);
   if (mode < kPoints || mode > kFan) fail(file, fmt::format("primitive mode {} does not exist", mode));
   if (mode < kTriangles) {
-    warn(scene, "points and lines are ignored");
+    (mode == kPoints ? file.points : file.lines).insert(&primitive);
     return -1;
   }
   const JsonValue& listed = primitive["attributes"];
@@ -222,7 +235,7 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
     return -1;
   }
   const int none = static_cast<int>(file.materials.size());
-  const int named = index_in(file, primitive, "material"), material = named == -1 ? none : named;
+  const int named = material_of(file, primitive), material = named == -1 ? none : named;
   if (material < 0 || material > none)
     fail(file, fmt::format("material {} does not exist; the file is damaged", material));
 

@@ -5,7 +5,7 @@
 //   json      the text -> JsonValues; values reads their members
 //   source    the file's bytes, its buffers and pictures -> GltfFile
 //   accessor  numbers from buffers
-//   material  materials, samplers, textures
+//   material  materials; textures makes what they read
 //   mesh      primitives -> meshes
 //   bend      morph targets and skins of primitives -> deformations
 //   nodes     the hierarchy -> instances, lights, view points
@@ -14,6 +14,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,13 +55,16 @@ struct GltfFile {
   std::string path;
   std::string confine;  // as in SceneOptions
   JsonDocument json;
-  Records accessors, buffer_views, cameras, lights, materials, meshes, nodes, samplers, scenes, skins, textures;
+  Records accessors, buffer_views, cameras, image_lights, lights, materials, meshes, nodes, samplers, scenes, skins,
+      textures;
   std::vector<Bytes> buffers;
   std::vector<ImageSource> images;
   std::vector<ClipSource> clips;
   std::vector<std::shared_ptr<const std::vector<unsigned char>>> storage;  // owns what `buffers` point into
   size_t size = 0;                                                         // bytes of the file and its buffers
-  size_t budget = 0;  // remaining corners and instances, in proportion to the file's size
+  size_t budget = 0;                         // remaining corners and instances, in proportion to the file's size
+  int variant = -1;                          // the chosen one of KHR_materials_variants; -1: none
+  std::set<const JsonValue*> points, lines;  // primitives that were met and not read
 };
 
 [[noreturn]] void fail(const GltfFile& file, const std::string& what);
@@ -78,9 +82,6 @@ auto& element(const GltfFile& file, List& list, int index, const char* what) {
 inline const JsonValue& record(const GltfFile& file, const Records& list, int index, const char* what) {
   return *element(file, list, index, what);
 }
-
-// Whether the reader supports an extension.
-bool is_read(std::string_view extension);
 
 // Text from the file, made safe for a message: one line, of limited length.
 std::string printable(const std::string& text);
@@ -177,14 +178,24 @@ struct Places {
   std::vector<PlacedLight> lights;
 };
 
-// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. moves: per node,
-// whether an animation or a skin refers to it.
-Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<char>& moves);
+// Per node: whether an animation or a skin refers to it, and whether an animation shows and hides it.
+struct AnimatedNodes {
+  std::vector<char> moves;
+  std::vector<char> blinks;
+};
+
+// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. Meshes and lights of
+// nodes that are always hidden are left out.
+Places read_nodes(GltfFile& file, Scene& scene, int chosen, const AnimatedNodes& animated);
 
 Lamp read_lamp(const GltfFile& file, int light);
 
+// --- image_light.cpp
+// Sets the environment to the image-based light of the chosen scene, if it has one. Precondition: the scene exists.
+void read_image_light(const GltfFile& file, Scene& scene, int chosen);
+
 // --- clips.cpp
-std::vector<char> named_nodes(const GltfFile& file);
+AnimatedNodes find_animated_nodes(const GltfFile& file);
 void read_clips(GltfFile& file, Scene& scene, const Places& places);
 
 }  // namespace ods

@@ -15,6 +15,7 @@
 #include "ods/files/confined_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
+#include "ods/scene/gltf/extensions.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
@@ -262,6 +263,7 @@ static void parse(GltfFile& file, Bytes bytes) {
   file.accessors = records(file, root, "accessors");
   file.buffer_views = records(file, root, "bufferViews");
   file.cameras = records(file, root, "cameras");
+  file.image_lights = records(file, extension(root, "EXT_lights_image_based"), "lights");
   file.lights = records(file, extension(root, "KHR_lights_punctual"), "lights");
   file.materials = records(file, root, "materials");
   file.meshes = records(file, root, "meshes");
