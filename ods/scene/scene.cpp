@@ -35,12 +35,41 @@ Material default_material() {
   material.alpha_cutoff = 0.5f;
   material.double_sided = 1;
   material.unlit = 0;
+  material.layers = -1;
   material.base_color_slot = no_texture();
   material.metallic_roughness_slot = no_texture();
   material.normal_slot = no_texture();
   material.emission_slot = no_texture();
   material.transmission_slot = no_texture();
   return material;
+}
+
+MaterialLayers default_layers() {
+  MaterialLayers layers;
+  layers.specular_color = vec3(1.0f);
+  layers.specular = 1.0f;
+  layers.clearcoat = 0.0f;
+  layers.clearcoat_roughness = 0.0f;
+  layers.clearcoat_normal_scale = 1.0f;
+  layers.sheen_color = vec3(0.0f);
+  layers.sheen_roughness = 0.0f;
+  layers.anisotropy = 0.0f;
+  layers.anisotropy_rotation = 0.0f;
+  layers.iridescence = 0.0f;
+  layers.iridescence_ior = 1.3f;
+  layers.iridescence_thinnest = 100.0f;
+  layers.iridescence_thickest = 400.0f;
+  layers.dispersion = 0.0f;
+  layers.diffuse_transmission = 0.0f;
+  layers.diffuse_transmission_color = vec3(1.0f);
+  for (TextureSlot* slot :
+       {&layers.specular_slot, &layers.specular_color_slot, &layers.clearcoat_slot, &layers.clearcoat_roughness_slot,
+        &layers.clearcoat_normal_slot, &layers.sheen_color_slot, &layers.sheen_roughness_slot, &layers.anisotropy_slot,
+        &layers.iridescence_slot, &layers.iridescence_thickness_slot, &layers.diffuse_transmission_slot,
+        &layers.diffuse_transmission_color_slot}) {
+    *slot = no_texture();
+  }
+  return layers;
 }
 
 int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material) {

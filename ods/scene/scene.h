@@ -69,7 +69,8 @@ struct Scene {
   std::vector<uvec3> triangles;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Material> materials;  // never empty once a mesh exists
+  std::vector<Material> materials;              // never empty once a mesh exists
+  std::vector<MaterialLayers> material_layers;  // of the materials that have some (Material::layers)
   std::vector<Texture> textures;
   std::vector<uint> texels;
   std::vector<Texture> reduced_textures;  // made by reduce_textures(); empty: the full textures are used
@@ -97,6 +98,9 @@ struct Scene {
 
 // A white, rough, opaque dielectric without textures: glTF's default and every material's starting point.
 Material default_material();
+
+// Layers that change nothing: every extension's default.
+MaterialLayers default_layers();
 
 // A slot without a texture.
 TextureSlot no_texture();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "ods/base/memory.h"
 #include "ods/scene/gltf/parts.h"
@@ -20,9 +21,77 @@ static vec3 color(const std::vector<double>& values, double high) {
 }
 
 // The extension's index 0 requests a Fresnel term of 1, which this index gives: it is so large that a float does not
-// resolve the 1 beside it. (The tints of KHR_materials_specular are lost with it; without them such a material would be
-// a mirror.)
+// resolve the 1 beside it. Together with the colour of KHR_materials_specular it makes what other programs call
+// specular and glossiness.
 static constexpr float kMirrorIor = 1e8f;
+
+static float factor(const JsonValue& parent, const char* key, double high, double fallback) {
+  return clamped(number(parent, key, fallback), 0.0, high, fallback);
+}
+
+static void read_clearcoat_and_sheen(const JsonValue& source, TextureTable& textures, MaterialLayers& layers) {
+  const JsonValue& coat = extension(source, "KHR_materials_clearcoat");
+  layers.clearcoat = factor(coat, "clearcoatFactor", 1.0, 0.0);
+  if (layers.clearcoat > 0.0f) {
+    layers.clearcoat_slot = textures.slot(coat, "clearcoatTexture", false);
+    layers.clearcoat_roughness = factor(coat, "clearcoatRoughnessFactor", 1.0, 0.0);
+    layers.clearcoat_roughness_slot = textures.slot(coat, "clearcoatRoughnessTexture", false);
+    layers.clearcoat_normal_slot = textures.normal_slot(coat, "clearcoatNormalTexture");
+    layers.clearcoat_normal_scale = clamped(number(coat["clearcoatNormalTexture"], "scale", 1.0), -1e3, 1e3, 1.0);
+  }
+  const JsonValue& sheen = extension(source, "KHR_materials_sheen");
+  layers.sheen_color = color(numbers(sheen, "sheenColorFactor", {0.0, 0.0, 0.0}), 1.0);
+  if (layers.sheen_color != vec3(0.0f)) {
+    layers.sheen_color_slot = textures.slot(sheen, "sheenColorTexture", true);
+    layers.sheen_roughness = factor(sheen, "sheenRoughnessFactor", 1.0, 0.0);
+    layers.sheen_roughness_slot = textures.slot(sheen, "sheenRoughnessTexture", false);
+  }
+}
+
+static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTable& textures, MaterialLayers& layers) {
+  const JsonValue& anisotropy = extension(source, "KHR_materials_anisotropy");
+  layers.anisotropy = factor(anisotropy, "anisotropyStrength", 1.0, 0.0);
+  if (layers.anisotropy > 0.0f) {
+    layers.anisotropy_rotation = clamped(number(anisotropy, "anisotropyRotation", 0.0), -1e3, 1e3, 0.0);
+    layers.anisotropy_slot = textures.slot(anisotropy, "anisotropyTexture", false);
+  }
+  const JsonValue& film = extension(source, "KHR_materials_iridescence");
+  layers.iridescence = factor(film, "iridescenceFactor", 1.0, 0.0);
+  if (layers.iridescence > 0.0f) {
+    constexpr double kThickest = 1e5;  // nanometres; interference is long gone
+    layers.iridescence_slot = textures.slot(film, "iridescenceTexture", false);
+    layers.iridescence_ior = clamped(number(film, "iridescenceIor", 1.3), 1.0, 100.0, 1.3);
+    layers.iridescence_thinnest = factor(film, "iridescenceThicknessMinimum", kThickest, 100.0);
+    layers.iridescence_thickest = factor(film, "iridescenceThicknessMaximum", kThickest, 400.0);
+    layers.iridescence_thickness_slot = textures.slot(film, "iridescenceThicknessTexture", false);
+  }
+}
+
+// What most materials lack. Extensions whose values change nothing leave the material as it is.
+static void read_layers(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
+  const MaterialLayers plain = default_layers();
+  MaterialLayers layers = plain;
+  const JsonValue& specular = extension(source, "KHR_materials_specular");
+  layers.specular = factor(specular, "specularFactor", 1.0, 1.0);
+  layers.specular_slot = textures.slot(specular, "specularTexture", false);
+  layers.specular_color = color(numbers(specular, "specularColorFactor", {1.0, 1.0, 1.0}), 1e9);
+  layers.specular_color_slot = textures.slot(specular, "specularColorTexture", true);
+  read_clearcoat_and_sheen(source, textures, layers);
+  read_anisotropy_and_iridescence(source, textures, layers);
+  if (material.transmission > 0.0f && material.thickness > 0.0f) {
+    layers.dispersion = factor(extension(source, "KHR_materials_dispersion"), "dispersion", 100.0, 0.0);
+  }
+  const JsonValue& through = extension(source, "KHR_materials_diffuse_transmission");
+  layers.diffuse_transmission = factor(through, "diffuseTransmissionFactor", 1.0, 0.0);
+  if (layers.diffuse_transmission > 0.0f) {
+    layers.diffuse_transmission_slot = textures.slot(through, "diffuseTransmissionTexture", false);
+    layers.diffuse_transmission_color = color(numbers(through, "diffuseTransmissionColorFactor", {1.0, 1.0, 1.0}), 1.0);
+    layers.diffuse_transmission_color_slot = textures.slot(through, "diffuseTransmissionColorTexture", true);
+  }
+  if (std::memcmp(&layers, &plain, sizeof plain) == 0) return;
+  material.layers = static_cast<int>(scene.material_layers.size());
+  scene.material_layers.push_back(layers);
+}
 
 static void read_extensions(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
   const double strength = number(extension(source, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
@@ -30,8 +99,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
   const JsonValue& ior = extension(source, "KHR_materials_ior");
   if (!ior.is_null()) {
     const double value = number(ior, "ior", 1.5);
-    const bool tinted = !extension(source, "KHR_materials_specular").is_null();
-    if (value == 0.0 && !tinted) {
+    if (value == 0.0) {
       material.ior = kMirrorIor;
     } else if (value < 1.0) {
       warn(scene, "a material has an index of refraction below 1; using 1.5");
@@ -52,6 +120,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
     material.attenuation_color = color(numbers(volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
   }
   material.unlit = !extension(source, "KHR_materials_unlit").is_null();
+  if (material.unlit == 0) read_layers(source, scene, textures, material);
 }
 
 static Material read_material(const JsonValue& source, Scene& scene, TextureTable& textures) {

@@ -197,6 +197,17 @@ static void repair_normals(Geometry& geometry) {
 
 // --- meshes
 
+// The texture coordinates that a material's tangents follow: those of its normal map, or of its clearcoat's, or of its
+// anisotropy. Null: it needs no tangents.
+static const TextureSlot* slot_of_tangents(const Scene& scene, int index) {
+  const Material& material = scene.materials[static_cast<size_t>(index)];
+  if (material.normal_slot.texture != -1) return &material.normal_slot;
+  if (material.layers < 0) return nullptr;
+  const MaterialLayers& layers = scene.material_layers[static_cast<size_t>(material.layers)];
+  if (layers.clearcoat_normal_slot.texture != -1) return &layers.clearcoat_normal_slot;
+  return layers.anisotropy > 0.0f ? &layers.anisotropy_slot : nullptr;
+}
+
 // The file's index of a primitive's material, -1: none. The first mapping that names the chosen variant counts.
 static int material_of(const GltfFile& file, const JsonValue& primitive) {
   if (file.variant != -1) {
@@ -245,8 +256,8 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
   Geometry geometry = gather(attributes, triangles);
   if (attributes.normal.count == 0) make_flat(geometry);
   repair_normals(geometry);
-  const TextureSlot& normal_slot = scene.materials[static_cast<size_t>(material)].normal_slot;
-  if (normal_slot.texture != -1) make_tangents(geometry.vertices, geometry.triangles, normal_slot);
+  const TextureSlot* const tangent_slot = slot_of_tangents(scene, material);
+  if (tangent_slot) make_tangents(geometry.vertices, geometry.triangles, *tangent_slot);
   const int index = add_mesh(scene, geometry.vertices, geometry.triangles, material);
   const PrimitiveSource source{listed, primitive["targets"], count, geometry.order};
   if (bends(source, bending)) read_deformation(file, scene, source, bending, index, attributes.normal.count == 0);
