@@ -52,7 +52,7 @@ static constexpr Extension kExtensions[] = {
     {"KHR_materials_emissive_strength", kRendered, "brightness of glowing surfaces"},
     {"KHR_materials_ior", kRendered, "index of refraction"},
     {"KHR_materials_iridescence", kRendered, "colours of thin films"},
-    {"KHR_materials_pbrSpecularGlossiness", kNotRendered, "the older way to describe materials"},
+    {"KHR_materials_pbrSpecularGlossiness", kRendered, "materials of older files, read as KHR_materials_specular"},
     {"KHR_materials_sheen", kRendered, "the soft edge of cloth"},
     {"KHR_materials_specular", kRendered, "strength and colour of reflections"},
     {"KHR_materials_subsurface", kNotRendered, "light scattered below a surface"},
@@ -108,8 +108,7 @@ bool is_supported(ExtensionState state) {
 
 bool is_read(std::string_view name) {
   const ExtensionState state = find_extension(name).state;
-  // Beside KHR_materials_specular, the index of refraction 0 has another meaning.
-  return state == kRendered || state == kApproximated || name == "KHR_materials_specular";
+  return state == kRendered || state == kApproximated;
 }
 
 }  // namespace ods

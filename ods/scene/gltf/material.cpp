@@ -72,10 +72,16 @@ static void read_layers(const JsonValue& source, Scene& scene, TextureTable& tex
   const MaterialLayers plain = default_layers();
   MaterialLayers layers = plain;
   const JsonValue& specular = extension(source, "KHR_materials_specular");
-  layers.specular = factor(specular, "specularFactor", 1.0, 1.0);
-  layers.specular_slot = textures.slot(specular, "specularTexture", false);
-  layers.specular_color = color(numbers(specular, "specularColorFactor", {1.0, 1.0, 1.0}), 1e9);
-  layers.specular_color_slot = textures.slot(specular, "specularColorTexture", true);
+  const JsonValue& older = extension(source, "KHR_materials_pbrSpecularGlossiness");
+  if (older.is_null()) {
+    layers.specular = factor(specular, "specularFactor", 1.0, 1.0);
+    layers.specular_slot = textures.slot(specular, "specularTexture", false);
+    layers.specular_color = color(numbers(specular, "specularColorFactor", {1.0, 1.0, 1.0}), 1e9);
+    layers.specular_color_slot = textures.slot(specular, "specularColorTexture", true);
+  } else {
+    layers.specular_color = color(numbers(older, "specularFactor", {1.0, 1.0, 1.0}), 1.0);
+    layers.specular_color_slot = textures.slot(older, "specularGlossinessTexture", true);
+  }
   read_clearcoat_and_sheen(source, textures, layers);
   read_anisotropy_and_iridescence(source, textures, layers);
   if (material.transmission > 0.0f && material.thickness > 0.0f) {
@@ -123,6 +129,19 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
   if (material.unlit == 0) read_layers(source, scene, textures, material);
 }
 
+// KHR_materials_pbrSpecularGlossiness, which KHR_materials_specular replaced: with an index of refraction of 0, a
+// dielectric reflects just its specular colour and scatters the rest. read_layers() takes that colour.
+static void read_specular_glossiness(const JsonValue& older, TextureTable& textures, Material& material) {
+  const std::vector<double> diffuse = numbers(older, "diffuseFactor", {1.0, 1.0, 1.0, 1.0});
+  material.base_color = vec4(color(diffuse, 1.0), clamped(diffuse[3], 0.0, 1.0, 1.0));
+  material.base_color_slot = textures.slot(older, "diffuseTexture", true);
+  const float glossiness = factor(older, "glossinessFactor", 1.0, 1.0);
+  material.metallic = 0.0f;
+  material.metallic_roughness_slot = textures.glossiness_slot(older, "specularGlossinessTexture", glossiness);
+  material.roughness = material.metallic_roughness_slot.texture == -1 ? 1.0f - glossiness : 1.0f;
+  material.ior = kMirrorIor;
+}
+
 static Material read_material(const JsonValue& source, Scene& scene, TextureTable& textures) {
   const JsonValue &pbr = source["pbrMetallicRoughness"], &normal = source["normalTexture"];
   Material material = default_material();
@@ -141,6 +160,8 @@ static Material read_material(const JsonValue& source, Scene& scene, TextureTabl
   material.alpha_cutoff = clamped(number(source, "alphaCutoff", 0.5), 0.0, 2.0, 0.5);
   material.double_sided = source["doubleSided"].is_true();
   read_extensions(source, scene, textures, material);
+  const JsonValue& older = extension(source, "KHR_materials_pbrSpecularGlossiness");
+  if (!older.is_null()) read_specular_glossiness(older, textures, material);
   return material;
 }
 

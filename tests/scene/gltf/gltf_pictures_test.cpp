@@ -102,6 +102,69 @@ TEST(NormalMaps, PackingKeepsDirections) {
   EXPECT_EQ(unpack_normal(pack_normal(vec3(0.0f))).z, 1.0f);
 }
 
+// --- KHR_materials_pbrSpecularGlossiness
+
+GltfBuilder make_older(const char* material) {
+  GltfBuilder file = make_triangle();
+  file.json["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness"};
+  file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = Json::parse(material);
+  file.primitive()["material"] = 0;
+  return file;
+}
+
+TEST(SpecularGlossiness, Factors) {
+  const Scene scene = make_older(R"({"diffuseFactor": [0.1, 0.2, 0.3, 0.4], "specularFactor": [0.9, 0.8, 0.7],
+                                     "glossinessFactor": 0.75})")
+                          .load();
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(material.base_color, vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(material.metallic, 0.0f);
+  EXPECT_EQ(material.roughness, 0.25f);
+  ASSERT_NE(material.layers, -1);
+  EXPECT_EQ(scene.material_layers[size_t(material.layers)].specular_color, vec3(0.9f, 0.8f, 0.7f));
+  const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
+  EXPECT_EQ(root * root, 1.0f) << "the specular colour alone decides on the reflectance";
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+// A material of both kinds is of this one.
+TEST(SpecularGlossiness, ItsDefaultsAreAMirror) {
+  GltfBuilder file = make_older("{}");
+  file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 1}};
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.materials[0].base_color, vec4(1.0f));
+  EXPECT_EQ(scene.materials[0].metallic, 0.0f);
+  EXPECT_EQ(scene.materials[0].roughness, 0.0f);
+}
+
+TEST(SpecularGlossiness, TheTextureIsSplit) {
+  GltfBuilder file = make_older(R"({"glossinessFactor": 0.5, "specularFactor": [1, 1, 0.5]})");
+  // 200 and 100 of red and green, glossiness from 0 to 1.
+  const int texture = add_texture(file, make_png(6, 1, "RGBA", SampleType::kUint8, [](int x, int, int c) {
+                                    const float codes[] = {200.0f / 255.0f, 100.0f / 255.0f, 1.0f};
+                                    return c == 3 ? static_cast<float>(x) * 0.2f : codes[c];
+                                  }));
+  const int diffuse = add_texture(file, small_png());
+  Json& older = file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  older["specularGlossinessTexture"] = {{"index", texture}};
+  older["diffuseTexture"] = {{"index", diffuse}};
+  const Scene scene = file.load();
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(material.roughness, 1.0f);
+  TextureReader reader;
+  reader.texels = scene.texels.data();
+  const Texture& rough = scene.textures.at(size_t(material.metallic_roughness_slot.texture));
+  for (int x = 0; x < 6; x++) {
+    const float glossiness = 0.5f * static_cast<float>(x) * 0.2f;
+    EXPECT_NEAR(reader.texel_at(rough, false, x, 0).y, 1.0f - glossiness, 0.5f / 255.0f + 1e-6f) << x;
+  }
+  const MaterialLayers& layers = scene.material_layers.at(size_t(material.layers));
+  const Texture& specular = scene.textures.at(size_t(layers.specular_color_slot.texture));
+  EXPECT_EQ(specular.srgb, 1);
+  EXPECT_EQ(scene.texels[specular.first_texel + 3] & 0xffffffu, 0xff64c8u);
+  EXPECT_EQ(scene.textures.at(size_t(material.base_color_slot.texture)).srgb, 1);
+}
+
 // --- EXT_lights_image_based
 
 // A cube map of 4x4 texels per face: color(face, x, y) are code values 0..1.

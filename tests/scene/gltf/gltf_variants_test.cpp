@@ -176,5 +176,19 @@ TEST(GltfVisibility, ASkinnedMeshFollowsItsOwnNode) {
   EXPECT_TRUE(is_hidden(at(morphed, 1.5), 0));
 }
 
+// A mesh counts once, however many nodes show it.
+TEST(GltfVisibility, PointsAndLinesAreCounted) {
+  GltfBuilder file = make_triangle();
+  file.json["nodes"].push_back({{"mesh", 0}});
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  auto& primitives = file.json["meshes"][0]["primitives"];
+  const auto add = [&](int mode) { primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", mode}}); };
+  add(1);
+  EXPECT_EQ(file.load().warnings.at(0), "1 line primitive is not rendered: ods renders triangles");
+  for (const int mode : {0, 2, 3}) add(mode);
+  EXPECT_EQ(file.load().warnings,
+            std::vector<std::string>{"3 line and 1 point primitives are not rendered: ods renders triangles"});
+}
+
 }  // namespace
 }  // namespace ods
