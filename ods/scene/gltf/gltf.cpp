@@ -43,20 +43,18 @@ void spend(GltfFile& file, size_t count) {
 
 // Supported, or understood enough to use the fallback beside it.
 static constexpr std::array kRendered = {
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_animation_pointer",           "KHR_lights_punctual",
-    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_materials_volume",    "KHR_mesh_quantization", "KHR_materials_transmission",
+    "EXT_meshopt_compression", "KHR_draco_mesh_compression",      "KHR_meshopt_compression", "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",        "KHR_animation_pointer",           "KHR_lights_punctual",     "KHR_materials_ior",
+    "KHR_materials_unlit",     "KHR_materials_emissive_strength", "KHR_texture_transform",   "KHR_materials_volume",
+    "KHR_mesh_quantization",   "KHR_materials_transmission",
 };
-
-static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                            "KHR_meshopt_compression"};
 
 static bool contains(std::span<const char* const> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool is_read(std::string_view extension) {
-  return contains(kRendered, extension) || extension == "KHR_materials_specular";
+  return contains(kRendered, extension) || extension == "KHR_materials_specular" || extension == kBasis;
 }
 
 // The strings in a root list of the file.
@@ -69,17 +67,17 @@ static std::set<std::string> names_in(const GltfFile& file, const char* key) {
 static void check_extensions(const GltfFile& file, Scene& scene) {
   for (const std::string& name : names_in(file, "extensionsRequired")) {
     if (contains(kRendered, name)) continue;
-    if (contains(kCompression, name)) {
-      fail(file, fmt::format("its geometry is compressed with {}, which ods does not read; export it again without "
-                             "compression",
-                             name));
+    if (name == kBasis) {
+      fail(file,
+           fmt::format("its textures are in the KTX2 format ({}), which ods does not read; convert them first: {}",
+                       kBasis, kBasisCure));
     }
     fail(file, fmt::format("needs the extension {}, which ods does not support; export it again without it",
                            printable(name)));
   }
   constexpr size_t kMax = 50;
   for (const std::string& name : names_in(file, "extensionsUsed")) {
-    if (contains(kRendered, name)) continue;
+    if (contains(kRendered, name) || name == kBasis) continue;  // a texture without a fallback warns
     if (scene.warnings.size() == kMax) break;
     warn(scene, fmt::format("extension {} is ignored", printable(name)));
   }
@@ -99,7 +97,9 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
+  warn_renamed(file, scene);
   read_materials(file, scene);
+  decode_meshes(file);
   const Places places = read_nodes(file, scene, options.scene, named_nodes(file));
   read_clips(file, scene, places);
   set_time(scene, 0.0);  // poses skins and morph targets at rest
