@@ -72,7 +72,17 @@ MaterialLayers default_layers() {
   return layers;
 }
 
-int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material) {
+// A scene's first mesh is moved, not copied: it may be all there is.
+template <class T>
+static void append(std::vector<T>& list, std::vector<T> added) {
+  if (list.empty()) {
+    list = std::move(added);
+  } else {
+    list.insert(list.end(), added.begin(), added.end());
+  }
+}
+
+int add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uvec3> triangles, int material) {
   assert(material >= 0);
   Mesh mesh;
   mesh.first_vertex = static_cast<uint>(scene.vertices.size());
@@ -81,8 +91,8 @@ int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vecto
   mesh.triangle_count = static_cast<uint>(triangles.size());
   mesh.material = material;
   mesh.motion = -1;
-  scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
-  scene.triangles.insert(scene.triangles.end(), triangles.begin(), triangles.end());
+  append(scene.vertices, std::move(vertices));
+  append(scene.triangles, std::move(triangles));
   scene.meshes.push_back(mesh);
   return static_cast<int>(scene.meshes.size()) - 1;
 }

@@ -110,7 +110,7 @@ bool is_hidden(const Scene& scene, size_t instance);
 bool is_anything_visible(const Scene& scene);
 
 // Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
-int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material);
+int add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uvec3> triangles, int material);
 
 // Adds an instance of a mesh. Precondition: the mesh exists; the matrix is finite (columns as in glTF).
 void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world);

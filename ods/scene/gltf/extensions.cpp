@@ -26,7 +26,7 @@ static constexpr Extension kExtensions[] = {
     {"EXT_mesh_gpu_instancing", kRendered, "many instances of one mesh"},
     {"EXT_mesh_manifold", kNoEffect, "a second set of indices for solid modelling"},
     {"EXT_mesh_primitive_restart", kNotRendered, "several strips in one primitive"},
-    {"EXT_meshopt_compression", kFallback, "compressed buffers"},
+    {"EXT_meshopt_compression", kRendered, "compressed buffers"},
     {"EXT_structural_metadata", kNoEffect, "metadata"},
     {"EXT_texture_avif", kFallback, "AVIF pictures"},
     {"EXT_texture_procedurals_mx_1_39", kFallback, "textures computed by MaterialX"},
@@ -38,7 +38,7 @@ static constexpr Extension kExtensions[] = {
     {"KHR_accessor_float64", kNotRendered, "numbers in double precision"},
     {"KHR_animation_pointer", kRendered, "of nodes, lights, factors and texture transforms of materials; a warning names any other"},
     {"KHR_audio_emitter", kNoEffect, "sound"},
-    {"KHR_draco_mesh_compression", kFallback, "compressed meshes"},
+    {"KHR_draco_mesh_compression", kRendered, "compressed meshes"},
     {"KHR_gaussian_splatting", kNotRendered, "clouds of Gaussian splats"},
     {"KHR_implicit_shapes", kNoEffect, "shapes for physics"},
     {"KHR_interactivity", kNoEffect, "behaviour of an interactive scene"},
@@ -62,7 +62,7 @@ static constexpr Extension kExtensions[] = {
     {"KHR_materials_volume", kRendered, "refraction and absorption in closed meshes"},
     {"KHR_materials_volume_scatter", kNotRendered, "light scattered below a surface"},
     {"KHR_mesh_quantization", kRendered, "vertices stored as integers"},
-    {"KHR_meshopt_compression", kFallback, "compressed buffers"},
+    {"KHR_meshopt_compression", kRendered, "compressed buffers"},
     {"KHR_node_hoverability", kNoEffect, "behaviour of an interactive scene"},
     {"KHR_node_selectability", kNoEffect, "behaviour of an interactive scene"},
     {"KHR_node_visibility", kRendered, "hidden nodes, also animated"},
@@ -108,7 +108,8 @@ bool is_supported(ExtensionState state) {
 
 bool is_read(std::string_view name) {
   const ExtensionState state = find_extension(name).state;
-  return state == kRendered || state == kApproximated;
+  // A texture that has nothing else is named.
+  return state == kRendered || state == kApproximated || name == "KHR_texture_basisu";
 }
 
 }  // namespace ods

@@ -58,6 +58,11 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
   for (const std::string& name : required) {
     const Extension row = find_extension(name);
     if (is_supported(row.state)) continue;
+    if (name == kBasis) {
+      fail(file,
+           fmt::format("its textures are in the KTX2 format ({}), which ods does not read; convert them first: {}",
+                       kBasis, kBasisCure));
+    }
     fail(file, fmt::format("needs the extension {} ({}), which ods does not read; export it again without it",
                            printable(name), row.how));
   }
@@ -115,8 +120,10 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
+  warn_renamed(file, scene);
   choose_variant(file, scene, options.variant);
   read_materials(file, scene);
+  decode_meshes(file);
   const Places places = read_nodes(file, scene, options.scene, find_animated_nodes(file));
   read_image_light(file, scene, options.scene);
   read_clips(file, scene, places);

@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "ods/image/tone.h"
@@ -24,7 +23,10 @@ namespace {
 
 struct CubeMap {
   int size = 0;
-  std::array<std::vector<vec3>, 6> faces;  // +X, -X, +Y, -Y, +Z, -Z; radiances, rows from the top
+  std::vector<Texels> faces;  // +X, -X, +Y, -Y, +Z, -Z
+  std::vector<float> linear;  // of each code
+
+  vec3 radiance_at(size_t face, int x, int y) const;
 };
 
 struct CubePlace {
@@ -36,7 +38,9 @@ struct CubePlace {
 
 // RGBD: light above 1 is stored divided by alpha. The extension does not say on which curve the colours are; as other
 // colours of glTF, and as Babylon.js writes and reads them, they are taken as sRGB.
-static vec3 radiance_of(uint32_t texel, const std::vector<float>& linear) {
+vec3 CubeMap::radiance_at(size_t face, int x, int y) const {
+  const uint32_t texel =
+      faces[face].values[static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)];
   const float share = static_cast<float>(std::max(texel >> 24, 1u)) / 255.0f;
   return vec3(linear[texel & 255u], linear[texel >> 8 & 255u], linear[texel >> 16 & 255u]) / share;
 }
@@ -48,16 +52,11 @@ static CubeMap read_cube(const GltfFile& file, const JsonValue& level) {
     sources.push_back({element(file, file.images, image, "image").first});
   }
   if (sources.size() != 6) fail(file, "has an image-based light without six faces; the file is damaged");
-  const std::vector<Texels> pictures = decode_pictures(file, sources);
-  const std::vector<float> linear = linear_from_encoded(255);
-  CubeMap cube;
-  cube.size = pictures[0].width;
-  for (size_t i = 0; i < 6; i++) {
-    if (pictures[i].width != cube.size || pictures[i].height != cube.size) {
-      fail(file, "has an image-based light whose faces are not squares of one size; the file is damaged");
-    }
-    cube.faces[i].reserve(pictures[i].values.size());
-    for (const uint32_t texel : pictures[i].values) cube.faces[i].push_back(radiance_of(texel, linear));
+  CubeMap cube{0, decode_pictures(file, sources), linear_from_encoded(255)};
+  cube.size = cube.faces[0].width;
+  for (const Texels& face : cube.faces) {
+    if (face.width == cube.size && face.height == cube.size) continue;
+    fail(file, "has an image-based light whose faces are not squares of one size; the file is damaged");
   }
   return cube;
 }
@@ -74,12 +73,11 @@ static CubePlace place_of(vec3 d) {
 
 static vec3 light_from(const CubeMap& cube, vec3 direction) {
   const CubePlace place = place_of(direction);
-  const std::vector<vec3>& face = cube.faces[place.face];
   const vec2 last = vec2(static_cast<float>(cube.size - 1));
   const vec2 at = clamp(place.uv * static_cast<float>(cube.size) - 0.5f, vec2(0.0f), last);
   const glm::ivec2 low(at), high = min(low + 1, glm::ivec2(last));
   const vec2 share = at - vec2(low);
-  const auto texel = [&](int x, int y) { return face[static_cast<size_t>(y * cube.size + x)]; };
+  const auto texel = [&](int x, int y) { return cube.radiance_at(place.face, x, y); };
   return mix(mix(texel(low.x, low.y), texel(high.x, low.y), share.x),
              mix(texel(low.x, high.y), texel(high.x, high.y), share.x), share.y);
 }

@@ -71,6 +71,10 @@ int TextureTable::texture(int index, const Use& use) {
   if (found != made_.end()) return found->second;
   const JsonValue& source = record(file_, file_.textures, index, "texture");
   const int image = image_of(source);
+  if (image == -1 && !extension(source, kBasis).is_null()) {
+    warn(scene_, fmt::format("textures in the KTX2 format ({}) are white; convert them first: {}", kBasis, kBasisCure));
+    return made_[{index, use}] = -1;
+  }
   if (image == -1) {
     warn(scene_, fmt::format("texture {} has no picture that ods can read; using white", index));
     return made_[{index, use}] = -1;
