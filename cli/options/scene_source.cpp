@@ -16,6 +16,8 @@
 #include "ods/scene/catchers.h"
 #include "ods/scene/load/environment.h"
 #include "ods/scene/load/load.h"
+#include "ods/scene/motion.h"
+#include "ods/scene/sheet_glass.h"
 
 using ods::Scene, ods::vec3;
 
@@ -30,6 +32,10 @@ void add_scene_argument(Options& options, SceneSource& source) {
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
                  "number of the scene in the file, counted from 0; by default the file's default scene");
+  options.text("--variant", "NAME", source.variant,
+               "which of the file's material variants to show (ods info lists them); by default its first choice");
+  options.flag("--solid-glass", source.solid_glass,
+               "make closed meshes of glass refract that have no volume in the file, as those of Blender");
   add_confine_option(options, source);
 }
 
@@ -66,12 +72,17 @@ std::string confining_folder(const SceneSource& source) {
 }
 
 Scene open_scene(const SceneSource& source) {
-  Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1), .confine = confining_folder(source)});
+  Scene scene = ods::load_scene(
+      source.name,
+      {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
   for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
     throw UsageError(
         fmt::format("--shadow-catcher: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
+  }
+  if (source.solid_glass && make_glass_solid(scene) == 0) {
+    note("--solid-glass changes nothing: no closed mesh has glass without a volume");
   }
   return scene;
 }
@@ -111,14 +122,34 @@ static void add_environment(Scene& scene, const SceneSource& source) {
   scene.environment.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
 }
 
+static void check_content(const Scene& scene, const std::string& name) {
+  const auto nothing = [&](const char* why) {
+    return ods::Error(ods::ErrorKind::kInput,
+                      fmt::format("'{}' has nothing to render: {} (ods info says what there is)", name, why));
+  };
+  if (scene.instances.empty()) throw nothing("no triangles are visible in the scene that is shown");
+  if (!is_ever_visible(scene)) throw nothing("everything in it is hidden, at every time");
+  if (!is_anything_visible(scene)) {
+    note("everything is hidden while the scene is at rest; --time or --frames shows it moving");
+  }
+}
+
+static void note_sheet_glass(const Scene& scene) {
+  std::vector<ods::SheetGlass> glass = find_sheet_glass(scene);
+  std::erase_if(glass, [](const ods::SheetGlass& each) { return each.closed_meshes == 0; });
+  if (glass.empty()) return;
+  const size_t others = glass.size() - 1;
+  note(
+      fmt::format("glass '{}'{} rendered as thin sheets, because the file gives it no volume; --solid-glass makes it "
+                  "refract",
+                  glass.front().name,
+                  others == 0 ? " is" : fmt::format(" and {} other material{} are", others, others == 1 ? "" : "s")));
+}
+
 Scene open_lit_scene(const SceneSource& source) {
   Scene scene = open_scene(source);
-  if (scene.instances.empty()) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("'{}' has nothing to render: no triangles in the scene that is shown (ods info says "
-                                 "what there is)",
-                                 source.name));
-  }
+  check_content(scene, source.name);
+  note_sheet_glass(scene);
   add_environment(scene, source);
   return scene;
 }

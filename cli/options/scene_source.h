@@ -16,6 +16,8 @@ struct SceneSource {
   std::string environment;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
+  std::string variant;  // of the file's materials; empty: its default
+  bool solid_glass = false;
 };
 
 void add_scene_argument(Options& options, SceneSource& source);
@@ -27,9 +29,10 @@ void add_light_options(Options& options, SceneSource& source);
 // such folder.
 std::string confining_folder(const SceneSource& source);
 
-// Reads the scene, turns the named objects into catchers, and notes what the renderer does not support.
+// Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
+// does not support.
 ods::Scene open_scene(const SceneSource& source);
 
-// Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Throws
-// Error(kInput) if there is nothing to render.
+// Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Notes
+// glass that would look different if it were solid. Throws Error(kInput) if there is nothing to render.
 ods::Scene open_lit_scene(const SceneSource& source);

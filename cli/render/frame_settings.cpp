@@ -51,7 +51,7 @@ void add_file(Settings& settings, const std::string& option, const std::string& 
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, environment, catchers, confine] = source;
+  const auto& [name, scene, environment, catchers, confine, variant, solid_glass] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
@@ -65,6 +65,8 @@ void add_scene(Settings& settings, const SceneSource& source) {
     add(settings, "SCENE", name);
   }
   add(settings, "--scene", scene ? fmt::format("{}", *scene) : "of the file");
+  add(settings, "--variant", variant.empty() ? "of the file" : variant);
+  add_flag(settings, "--solid-glass", solid_glass);
   if (std::filesystem::is_regular_file(environment, error)) {
     add_file(settings, "--env", environment, confined_to);
   } else {

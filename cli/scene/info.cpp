@@ -47,6 +47,15 @@ void print_text(const SceneInfo& info, vec3 position) {
   if (info.nearest_surface >= 0.0f) {
     row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
   }
+  for (const ods::SheetGlass& glass : info.sheet_glass) {
+    row("glass", fmt::format("'{}' has no volume and is rendered as thin sheets (closed meshes: {}, open: {}){}",
+                             glass.name, glass.closed_meshes, glass.open_meshes,
+                             glass.closed_meshes > 0 ? "; --solid-glass makes closed ones refract" : ""));
+  }
+  for (const std::string& variant : info.variants) row("variant", fmt::format("'{}'", variant));
+  for (const ods::UsedExtension& extension : info.extensions) {
+    row("extension", fmt::format("{}: {} ({})", extension.name, extension.state, extension.how));
+  }
   for (const std::string& warning : info.warnings) row("warning", warning);
 }
 
@@ -74,6 +83,9 @@ void print_json(const SceneInfo& info, vec3 position) {
       {"nearest_surface", nullptr},
       {"cameras", nlohmann::ordered_json::array()},
       {"animations", nlohmann::ordered_json::array()},
+      {"variants", info.variants},
+      {"sheet_glass", nlohmann::ordered_json::array()},
+      {"extensions", nlohmann::ordered_json::array()},
       {"warnings", info.warnings},
   };
   if (info.nearest_surface >= 0.0f) json["nearest_surface"] = info.nearest_surface;
@@ -86,6 +98,14 @@ void print_json(const SceneInfo& info, vec3 position) {
   }
   for (const auto& [name, seconds] : info.animations) {
     json["animations"].push_back({{"name", name}, {"seconds", seconds}});
+  }
+  for (const ods::SheetGlass& glass : info.sheet_glass) {
+    json["sheet_glass"].push_back(
+        {{"material", glass.name}, {"closed_meshes", glass.closed_meshes}, {"open_meshes", glass.open_meshes}});
+  }
+  for (const ods::UsedExtension& each : info.extensions) {
+    json["extensions"].push_back(
+        {{"name", each.name}, {"state", each.state}, {"how", each.how}, {"required", each.required}});
   }
   // Names in files need not be valid UTF-8.
   std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());

@@ -22,8 +22,8 @@ Image read_channels(const std::string& path, const std::vector<std::string>& nam
   return image_codec().read_channels(path, names);
 }
 
-CodeImage decode_image(std::span<const std::byte> file, const std::string& name) {
-  return image_codec().decode_image(file, name);
+CodeImage decode_image(std::span<const std::byte> file, const std::string& name, bool keep_depth) {
+  return image_codec().decode_image(file, name, keep_depth);
 }
 
 void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,

@@ -69,10 +69,12 @@ struct CodeImage {
   int width = 0;
   int height = 0;
   std::vector<uint32_t> pixels;
+  std::vector<uint16_t> deep;  // 16 bits each of R, G, B; pixels is empty then
 };
 
-// Decodes a file in memory. `name` identifies it in messages. Throws Error(kInput).
-CodeImage decode_image(std::span<const std::byte> file, const std::string& name);
+// Decodes a file in memory. `name` identifies it in messages. keep_depth: a file with more than 8 bits per channel
+// fills CodeImage::deep instead of pixels. Throws Error(kInput).
+CodeImage decode_image(std::span<const std::byte> file, const std::string& name, bool keep_depth = false);
 
 struct Channel {
   std::string name;  // R, G, B; others only in EXR

@@ -12,18 +12,17 @@
 // A white surface of any mixture and roughness reflects and transmits exactly the light that it receives.
 //
 // Radiance is carried divided by the square of the refractive index, so refraction does not change it.
-// A new kind of material is another lobe here; the path loop only calls make_bsdf, bsdf_value and sample_bsdf.
+// The path loop only calls make_bsdf, bsdf_value and sample_bsdf. Surfaces with layers (clearcoat, sheen and others)
+// have their own lobes in layer_lobes.h, to which these functions lead.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/ggx.h"
-#include "ods/kernel/surface.h"
+#include "ods/kernel/layered_bsdf.h"
 namespace ods {
 #endif
 
-const float kSmoothAlpha = 1e-3f;  // below this the specular and glass lobes are mirrors: one direction, no pdf
-
 struct Bsdf {
-  vec3 wo;  // towards the viewer, in the local frame of the vectors below
+  int view;  // the surface has layers: kOwnView or kOtherView, where layered[] has all that is known of it; else -1
+  vec3 wo;   // towards the viewer, in the local frame of the vectors below
   vec3 tangent;
   vec3 bitangent;
   vec3 normal;
@@ -42,18 +41,6 @@ struct Bsdf {
   float p_glass;
 };
 
-struct BsdfValue {
-  vec3 value;  // BSDF times cosine
-  float pdf;   // of sample_bsdf(), per solid angle
-};
-
-struct BsdfSample {
-  vec3 direction;  // world, unit length
-  vec3 weight;     // BSDF times cosine over pdf; 0 ends the path
-  float pdf;       // per solid angle; 0: a mirror direction, which light sampling cannot find
-  bool through;    // the direction leaves on the other side of the surface
-};
-
 inline vec3 bsdf_to_local(Bsdf bsdf, vec3 w) {
   return vec3(dot(w, bsdf.tangent), dot(w, bsdf.bitangent), dot(w, bsdf.normal));
 }
@@ -63,68 +50,24 @@ inline vec3 bsdf_to_world(Bsdf bsdf, vec3 w) {
 }
 
 #ifdef __cplusplus
-struct BsdfEvaluator : SurfaceReader {
+struct BsdfEvaluator : LayeredEvaluator {
 #endif
 
-  // Albedo of the specular lobe without compensation, in Schlick's two parts: f0 * x + f90 * y. A perfect mirror has
-  // the albedo x + y.
-  inline vec2 ggx_albedo(float roughness, float cosine) {
-    float r = clamp(roughness, 0.0f, 1.0f) * float(kGgxSize - 1);
-    float c = clamp(cosine, 0.0f, 1.0f) * float(kGgxSize - 1);
-    int r0 = min(int(r), kGgxSize - 2);
-    int c0 = min(int(c), kGgxSize - 2);
-    float fr = r - float(r0);
-    float fc = c - float(c0);
-    int at = kGgxTable + 2 * (r0 * kGgxSize + c0);
-    int next = at + 2 * kGgxSize;
-    float x = mix(mix(scene_table(at), scene_table(at + 2), fc), mix(scene_table(next), scene_table(next + 2), fc), fr);
-    float y = mix(mix(scene_table(at + 1), scene_table(at + 3), fc),
-                  mix(scene_table(next + 1), scene_table(next + 3), fc), fr);
-    return vec2(x, y);
-  }
-
-  // Albedo of the rough glass lobe: reflection and transmission together.
-  inline float glass_albedo(float eta, float roughness, float cosine) {
-    // The axes are stretched towards eta = 1, where nothing happens, and so that total reflection starts in mid-table.
-    float reflectance = sqrt(abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f);
-    float place = sqrt(cosine);
-    float critical = sqrt(max(1.0f - eta * eta, 0.0f));
-    if (eta < 1.0f && cosine < critical) place = 0.5f * sqrt(cosine / critical);
-    if (eta < 1.0f && cosine >= critical) place = 0.5f + 0.5f * sqrt((cosine - critical) / (1.0f - critical));
-    float e = clamp(reflectance, 0.0f, 1.0f) * float(kGlassSize - 1);
-    float r = clamp(roughness, 0.0f, 1.0f) * float(kGlassSize - 1);
-    float c = clamp(place, 0.0f, 1.0f) * float(kGlassSize - 1);
-    int e0 = min(int(e), kGlassSize - 2);
-    int r0 = min(int(r), kGlassSize - 2);
-    int c0 = min(int(c), kGlassSize - 2);
-    float fe = e - float(e0);
-    float fr = r - float(r0);
-    float fc = c - float(c0);
-    int side = eta >= 1.0f ? 0 : 1;
-    float sum = 0.0f;
-    for (int corner = 0; corner < 8; corner++) {
-      int de = corner & 1;
-      int dr = (corner >> 1) & 1;
-      int dc = corner >> 2;
-      float weight = (de == 1 ? fe : 1.0f - fe) * (dr == 1 ? fr : 1.0f - fr) * (dc == 1 ? fc : 1.0f - fc);
-      int row = (side * kGlassSize + e0 + de) * kGlassSize + r0 + dr;
-      sum += weight * scene_table(kGlassTable + row * kGlassSize + c0 + dc);
-    }
-    return sum;
-  }
-
-  // direction: of the incoming ray. eta: index beyond the surface over the index on the ray's side.
-  inline Bsdf make_bsdf(Surface surface, vec3 direction, float eta) {
+  // direction: of the incoming ray. eta: index beyond the surface over the index on the ray's side. view: for the
+  // layers, which are those that read_layers() saw last; a BSDF with layers lasts until the next of the same view.
+  inline Bsdf make_view_bsdf(int view, Surface surface, vec3 direction, float eta) {
     Bsdf bsdf;
+    bsdf.view = -1;
+    if (surface.layered) {
+      bsdf.view = view;
+      make_layered(view, surface, direction, eta);
+      return bsdf;
+    }
     bsdf.normal = surface.normal;
     bsdf.geometric = surface.geometric;
-    // Source of the local frame: Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
-    vec3 n = surface.normal;
-    float side = n.z < 0.0f ? -1.0f : 1.0f;
-    float a = -1.0f / (side + n.z);
-    float b = n.x * n.y * a;
-    bsdf.tangent = vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
-    bsdf.bitangent = vec3(b, side + n.y * n.y * a, -n.y);
+    Frame frame = frame_around(surface.normal);
+    bsdf.tangent = frame.tangent;
+    bsdf.bitangent = frame.bitangent;
     bsdf.wo = bsdf_to_local(bsdf, -direction);
     bsdf.wo.z = max(bsdf.wo.z, 1e-5f);
     float roughness = clamp(surface.roughness, 0.0f, 1.0f);
@@ -173,6 +116,10 @@ struct BsdfEvaluator : SurfaceReader {
     return bsdf;
   }
 
+  inline Bsdf make_bsdf(Surface surface, vec3 direction, float eta) {
+    return make_view_bsdf(kOwnView, surface, direction, eta);
+  }
+
   inline vec3 specular_fresnel(Bsdf bsdf, float cosine) {
     return bsdf.specular_f0 + (bsdf.specular_f90 - bsdf.specular_f0) * schlick(cosine);
   }
@@ -210,6 +157,7 @@ struct BsdfEvaluator : SurfaceReader {
   // BSDF times cosine towards a direction (world space), and the pdf with which sample_bsdf() samples it. Mirrors do
   // not contribute.
   inline BsdfValue bsdf_value(Bsdf bsdf, vec3 direction) {
+    if (bsdf.view >= 0) return layered_value(bsdf.view, direction);
     BsdfValue result;
     result.value = vec3(0.0f);
     result.pdf = 0.0f;
@@ -274,6 +222,7 @@ struct BsdfEvaluator : SurfaceReader {
 
   // pick chooses the lobe, uv the direction; all are uniform in [0, 1).
   inline BsdfSample sample_bsdf(Bsdf bsdf, float pick, vec2 uv) {
+    if (bsdf.view >= 0) return sample_layered(bsdf.view, pick, uv);
     bool rough = bsdf.alpha >= kSmoothAlpha;
     bool glass = false;
     vec3 wi = vec3(0.0f);

@@ -38,6 +38,29 @@ inline float ggx_visible_pdf(vec3 wo, vec3 h, float alpha) {
   return max(dot(wo, h), 0.0f) * ggx_distribution(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
 }
 
+// The same with two alphas, along x and along y, both > 0. Sources: Heitz 2014; Dupuy and Benyoub 2023.
+inline float ggx_distribution(vec3 h, vec2 alpha) {
+  float x = h.x / alpha.x;
+  float y = h.y / alpha.y;
+  float c = x * x + y * y + h.z * h.z;
+  return 1.0f / (kPi * alpha.x * alpha.y * c * c);
+}
+
+inline float ggx_lambda(vec3 w, vec2 alpha) {
+  float x = alpha.x * w.x;
+  float y = alpha.y * w.y;
+  return 0.5f * (sqrt(1.0f + (x * x + y * y) / max(w.z * w.z, 1e-12f)) - 1.0f);
+}
+
+inline vec3 ggx_sample_visible(vec3 wo, vec2 alpha, vec2 u) {
+  vec3 stretched = normalize(vec3(alpha.x * wo.x, alpha.y * wo.y, wo.z));
+  float phi = 2.0f * kPi * u.x;
+  float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
+  float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
+  vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
+  return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, 1e-9f)));
+}
+
 // The weight of the grazing reflectance in Schlick's approximation. cosine: between the ray and the microfacet normal.
 inline float schlick(float cosine) {
   float m = clamp(1.0f - cosine, 0.0f, 1.0f);

@@ -15,6 +15,11 @@ namespace ods {
 
 const int kMaxMedia = 4;  // deeper nesting is treated as if the innermost volumes were absent
 
+// The colours into which dispersion splits light.
+const int kRedWave = 0;
+const int kGreenWave = 1;
+const int kBlueWave = 2;
+
 struct Media {
   int material[kMaxMedia];
   int count;
@@ -75,8 +80,19 @@ struct MediumReader : LightSampler {
     return best;
   }
 
-  inline float medium_ior(int medium) {
-    return medium < 0 ? 1.0f : max(scene_material(medium).ior, 1.0f);
+  // KHR_materials_dispersion: 20 over the Abbe number.
+  inline float medium_dispersion(int medium) {
+    if (medium < 0 || scene_material(medium).layers < 0) return 0.0f;
+    return scene_material_layers(scene_material(medium).layers).dispersion;
+  }
+
+  // wave: 0, 1 or 2 for red, green or blue light; otherwise the index of green.
+  inline float medium_ior(int medium, int wave) {
+    if (medium < 0) return 1.0f;
+    float ior = max(scene_material(medium).ior, 1.0f);
+    if (wave != kRedWave && wave != kBlueWave) return ior;
+    float half_spread = (ior - 1.0f) * 0.025f * medium_dispersion(medium);
+    return max(wave == kRedWave ? ior - half_spread : ior + half_spread, 1.0f);
   }
 
   // Transmittance over a distance in a medium (Beer-Lambert; KHR_materials_volume).

@@ -32,96 +32,10 @@
 // path alone.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/medium.h"
+#include "ods/kernel/path_state.h"
 #include "ods/kernel/random.h"
 namespace ods {
 #endif
-
-const int kLightSamplingBoth = 0;
-const int kLightSamplingLightsOnly = 1;
-const int kLightSamplingBsdfOnly = 2;
-
-struct PathSettings {
-  int bounces;  // a path has at most bounces + 1 segments
-  int light_sampling;
-  float clamp;  // the most that light brings which has met two surfaces or more: mean of R, G and B; 0: any
-};
-
-struct PathState {
-  Ray ray;
-  vec3 throughput;
-  vec3 radiance;
-  bool alive;
-  int bounce;
-  int passed;  // surfaces passed through since the last bounce
-  float pdf;   // of the ray's direction; 0: the camera or a mirror chose it, and light sampling could not have found it
-  float travelled;  // distance from the last bounce to the ray's origin
-  Media media;
-  uint seed;   // of the pixel
-  uint index;  // of the sample
-
-  Ray shadow_ray;
-  float shadow_length;
-  vec3 shadow_light;
-  bool shadow_pending;
-
-  // Both eyes from one path. What a sample adds to the other eye's pixel is in units of this eye's samples: it needs no
-  // further weight.
-  bool both_see;         // the other eye sees the first surface, too
-  vec3 other_direction;  // from the other eye to it
-  float other_density;   // of the other eye's samples there, over this eye's
-  Bsdf other;            // of the first surface
-  float own_share;       // of the light after the first surface, this eye's
-  vec3 other_ratio;      // light for the other eye over light for this one; 0: not shared
-  float alone_ratio;     // light if it were not shared, over light for this eye
-  float other_pdf;       // like pdf, as if the other eye had chosen the ray's direction
-  vec3 other_radiance;   // for the other eye's pixel
-  vec3 alone_radiance;   // for this one if nothing were shared: tells how much a single path varies
-  vec3 shadow_other;     // like shadow_light
-  vec3 shadow_alone;
-
-  bool caught;          // the first surface is a catcher; the next three fields belong to such a path
-  bool blocked;         // an object that is neither a catcher nor an emitter is between the catcher and the light
-  float light_without;  // luminance that arrives if only catchers and emitters are present
-  float light_with;     // luminance that arrives with the whole scene present
-
-  // The first hit, for the layers beside the picture.
-  float depth;  // along the camera ray from its own origin; negative: the ray hit nothing
-  vec3 normal;
-  vec3 albedo;
-};
-
-const int kMaxPassed = 1024;
-
-// A ray scattered with a smaller pdf than this may have gone almost anywhere: the reduced copies of textures are sharp
-// enough for what it hits, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
-const float kBroadPdf = 2.0f;
-
-// Paths with a throughput below this may end at random. Lower values cost time, higher ones noise: of 1, 1/2, 1/4 and
-// none, 1/4 reaches a given noise soonest on interiors (./run bench, equal noise).
-const float kRouletteThreshold = 0.25f;
-
-// The number of lights that the first surface considers for its shadow ray; it chooses one by the light that it would
-// bring. A room with several lamps reaches equal noise in four fifths of the time that a single candidate takes; deeper
-// surfaces gain nothing.
-const int kLightCandidates = 3;
-
-// The pairs of random numbers of a path: pair 0 places the sample in its pixel, one places it on the lens, one in the
-// time that the shutter is open, then the pairs below follow for each bounce.
-const uint kPixelPair = 0u;
-const uint kLensPair = 0xffffffffu;
-const uint kTimePair = 0xfffffffeu;
-const uint kScatterPair = 1u;  // lobe, roulette
-const uint kDirectionPair = 2u;
-const uint kCandidatePair = 3u;  // which candidate; the second number is unused
-const uint kLightPair = 4u;      // from here on three per candidate: light, cell of an environment, point
-const uint kPairsPerBounce = 3u + 3u * uint(kLightCandidates);
-
-// Which ray calls alpha_draw(): the path's next ray, its shadow ray, or a ray that hits every surface of at least one
-// half alpha and no other.
-const int kPathRay = 0;
-const int kShadowRay = 1;
-const int kHalfAlphaRay = 2;
 
 #ifdef __cplusplus
 struct PathTracer : MediumReader {
@@ -140,6 +54,8 @@ struct PathTracer : MediumReader {
     path.pdf = 0.0f;
     path.travelled = 0.0f;
     path.media = media;
+    path.wave = -1;
+    path.chosen_wave = -1;
     path.seed = seed;
     path.index = index;
     path.shadow_pending = false;
@@ -305,16 +221,48 @@ struct PathTracer : MediumReader {
     shadow_towards(surface, chosen.direction, chosen.distance, chosen.end);
   }
 
+  // From here on the path has one colour, for all three.
+  inline void take_wave(int wave) {
+    path.wave = wave;
+    path.chosen_wave = -1;
+    path.throughput = path.throughput * vec3(wave == kRedWave ? 3.0f : 0.0f, wave == kGreenWave ? 3.0f : 0.0f,
+                                             wave == kBlueWave ? 3.0f : 0.0f);
+  }
+
+  // The ratio of indices at the surface of a volume. If they depend on the colour of light, the path chooses one.
+  // Smooth surfaces reflect all colours alike, so there it takes the colour only if it is refracted.
+  inline float volume_eta(Surface surface, int medium, int beyond) {
+    path.chosen_wave = -1;
+    if (path.wave < 0 && max(medium_dispersion(medium), medium_dispersion(beyond)) > 0.0f) {
+      int wave = min(int(path_random(kCandidatePair).y * 3.0f), 2);
+      bool keeps_all =
+          surface.layered && surface.roughness * surface.roughness < kSmoothAlpha && surface_layers.anisotropy <= 0.0f;
+      if (!keeps_all) take_wave(wave);
+      if (keeps_all) {
+        path.chosen_wave = wave;
+        surface_layers.wave_eta = vec3(medium_ior(beyond, kRedWave) / medium_ior(medium, kRedWave),
+                                       medium_ior(beyond, kGreenWave) / medium_ior(medium, kGreenWave),
+                                       medium_ior(beyond, kBlueWave) / medium_ior(medium, kBlueWave));
+      }
+    }
+    int wave = path.chosen_wave >= 0 ? path.chosen_wave : path.wave;
+    return medium_ior(beyond, wave) / medium_ior(medium, wave);
+  }
+
   // The first surface as the other eye sees it. Not shared: what only one eye sees, what lies almost in line with an
   // eye's ray, and shading normals that were bent towards a viewer.
   inline void share_surface(Surface surface, vec3 direction, float eta) {
     float here = -dot(direction, surface.geometric);
     float there = -dot(path.other_direction, surface.geometric);
     float facing = min(-dot(direction, surface.normal), -dot(path.other_direction, surface.normal));
+    if (surface.layered) {
+      vec3 coat = surface_layers.clearcoat_normal;
+      facing = min(facing, min(-dot(direction, coat), -dot(path.other_direction, coat)));
+    }
     path.both_see = min(here, there) > 0.02f && facing > 4e-3f && !surface.volume;
     if (!path.both_see) return;
     path.other_density = path.other_density * there / here;
-    path.other = make_bsdf(surface, path.other_direction, eta);
+    path.other = make_view_bsdf(kOtherView, surface, path.other_direction, eta);
   }
 
   // Divides the light that a scattered ray will find between the eyes.
@@ -352,7 +300,10 @@ struct PathTracer : MediumReader {
     if (path.both_see && path.bounce == 0) share_scattered(found);
     path.travelled = 0.0f;
     path.passed = 0;
-    if (found.through && surface.volume) path.media = beyond;
+    if (found.through && surface.volume) {
+      path.media = beyond;
+      if (path.chosen_wave >= 0) take_wave(path.chosen_wave);
+    }
     path.bounce += 1;
     play_roulette(pick.y);
   }
@@ -360,7 +311,7 @@ struct PathTracer : MediumReader {
   inline void note_first_hit(Surface surface, float t) {
     path.depth = path.travelled + t;
     path.normal = surface.normal;
-    path.albedo = surface.base_color;
+    path.albedo = surface.layered ? albedo_of_layers(surface, path.ray.direction) : surface.base_color;
   }
 
   // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is not in the light table.
@@ -371,6 +322,7 @@ struct PathTracer : MediumReader {
     surface.transmission = 0.0f;
     surface.ior = 1.0f;
     surface.volume = false;
+    surface.layered = false;
     Bsdf white = make_bsdf(surface, path.ray.direction, 1.0f);
     bool lamps = scene_light_pick_count() > 0;
     bool sky = scene_environment().light < 0 && luminance(scene_environment().uniform_radiance) > 0.0f;
@@ -430,7 +382,9 @@ struct PathTracer : MediumReader {
       return;
     }
     int material_index = scene_mesh(scene_instance(hit.instance).mesh).material;
-    Surface surface = surface_at(hit, path.ray.direction, path.pdf > 0.0f && path.pdf < kBroadPdf);
+    bool reduced = path.pdf > 0.0f && path.pdf < kBroadPdf;
+    Surface surface = surface_at(hit, path.ray.direction, reduced);
+    if (surface.layered) read_layers(hit, surface, path.ray.direction, reduced);
 
     // glTF culls the backs of single-sided surfaces: the camera sees through them, light does not.
     bool volume = surface.volume;
@@ -478,7 +432,7 @@ struct PathTracer : MediumReader {
       path.alive = false;
       return;
     }
-    float eta = volume ? medium_ior(beyond) / medium_ior(medium) : surface.ior;
+    float eta = volume ? volume_eta(surface, medium, beyond) : surface.ior;
     Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);
     if (path.both_see && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
     if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, medium, beyond);

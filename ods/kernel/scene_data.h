@@ -58,7 +58,11 @@ const int kWrapRepeat = 0;
 const int kWrapMirror = 1;
 const int kWrapClamp = 2;
 
-// An image with its sampler. Texels are rows from the top, 8 bits each of R, G, B, A with R in the low byte.
+const int kTexelBytes = 0;   // 8 bits each of R, G, B, A with R in the low byte
+const int kTexelNormal = 1;  // a unit vector of a normal map: x in the low 16 bits and y in the high ones, 0..65535 for
+                             // -1..1; z >= 0 follows from them
+
+// An image with its sampler. Texels are rows from the top.
 struct Texture {
   uint first_texel;
   int width;
@@ -67,6 +71,7 @@ struct Texture {
   int wrap_v;
   int srgb;     // 1: R, G, B are stored with the sRGB curve
   int nearest;  // 1: no interpolation
+  int packing;  // kTexelBytes or kTexelNormal
 };
 
 // The texture that a material reads, and the transform of its coordinates (KHR_texture_transform):
@@ -99,11 +104,46 @@ struct Material {
   float alpha_cutoff;
   int double_sided;
   int unlit;
+  int layers;                           // its MaterialLayers; -1: none
   TextureSlot base_color_slot;          // rgb: colour, a: alpha
   TextureSlot metallic_roughness_slot;  // g: roughness, b: metallic
   TextureSlot normal_slot;
   TextureSlot emission_slot;
   TextureSlot transmission_slot;  // r
+};
+
+// What the other extensions of glTF add to a Material: KHR_materials_specular, _clearcoat, _sheen, _anisotropy,
+// _iridescence, _dispersion and _diffuse_transmission. Factors as in those extensions; each slot multiplies its factor.
+// Only materials that need one have this record, so all others cost what they did without it.
+struct MaterialLayers {
+  vec3 specular_color;
+  float specular;
+  float clearcoat;
+  float clearcoat_roughness;
+  float clearcoat_normal_scale;
+  vec3 sheen_color;  // black: no sheen
+  float sheen_roughness;
+  float anisotropy;           // strength
+  float anisotropy_rotation;  // radians, counter-clockwise from the tangent
+  float iridescence;
+  float iridescence_ior;
+  float iridescence_thinnest;  // nanometres, where the slot's texture is 0
+  float iridescence_thickest;  // nanometres, where it is 1
+  float dispersion;            // 20 / Abbe number; of a volume
+  float diffuse_transmission;
+  vec3 diffuse_transmission_color;
+  TextureSlot specular_slot;             // a
+  TextureSlot specular_color_slot;       // rgb
+  TextureSlot clearcoat_slot;            // r
+  TextureSlot clearcoat_roughness_slot;  // g
+  TextureSlot clearcoat_normal_slot;
+  TextureSlot sheen_color_slot;                 // rgb
+  TextureSlot sheen_roughness_slot;             // a
+  TextureSlot anisotropy_slot;                  // rg: direction, b: strength
+  TextureSlot iridescence_slot;                 // r
+  TextureSlot iridescence_thickness_slot;       // g
+  TextureSlot diffuse_transmission_slot;        // a
+  TextureSlot diffuse_transmission_color_slot;  // rgb
 };
 
 const int kLightTriangle = 0;
@@ -164,8 +204,9 @@ struct Hit {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 28);
-static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 64);
+static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 32);
+static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 64);
+static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
 }  // namespace ods
 #endif

@@ -19,12 +19,20 @@ const int kGgxTable = kFilterTable + kFilterSize;  // [roughness][cosine][2]: se
 const int kGgxSize = 32;
 const int kGlassTable = kGgxTable + 2 * kGgxSize * kGgxSize;  // [in, out][reflectance][roughness][cosine]
 const int kGlassSize = 16;
-const int kTablesSize = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize;
+const int kSheenTable = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize;  // [roughness][cosine]
+const int kSheenSize = 32;
+// [roughness across][roughness along][turn][cosine][2]: see anisotropic_albedo() in albedo.h
+const int kAnisotropicTable = kSheenTable + kSheenSize * kSheenSize;
+const int kAnisotropicSize = 16;  // of the first and the last
+const int kAnisotropicAlong = 8;
+const int kAnisotropicTurns = 4;
+const int kAnisotropicCells = kAnisotropicSize * kAnisotropicAlong * kAnisotropicTurns * kAnisotropicSize;
+const int kTablesSize = kAnisotropicTable + 2 * kAnisotropicCells;
 
 // In GLSL all functions of the kernel are plain functions, included in order. C++ needs a `this` to find the scene, so
 // each header continues the struct of the previous one: SceneView, FilterSampler, TextureReader, SurfaceReader,
-// BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is complete.
-// The inheritance means no more than that.
+// LayerReader, AlbedoReader, LayeredEvaluator, BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is
+// complete. The inheritance means no more than that.
 #ifdef __cplusplus
 struct SceneView {
   const Vertex* vertices = nullptr;
@@ -35,6 +43,7 @@ struct SceneView {
   const MotionVertex* motion_vertices = nullptr;
   int motion_keys = 0;  // 0 or 1: the shutter opens for an instant
   const Material* materials = nullptr;
+  const MaterialLayers* material_layers = nullptr;
   const Texture* textures = nullptr;
   const uint* texels = nullptr;
   const Texture* reduced_textures = nullptr;  // reduced copies of the textures
@@ -55,6 +64,7 @@ struct SceneView {
   const MotionVertex& scene_motion_vertex(uint i) const { return motion_vertices[i]; }
   int scene_motion_keys() const { return motion_keys; }
   const Material& scene_material(int i) const { return materials[i]; }
+  const MaterialLayers& scene_material_layers(int i) const { return material_layers[i]; }
   const Texture& scene_texture(int i) const { return textures[i]; }
   uint scene_texel(uint i) const { return texels[i]; }
   const Texture& scene_reduced_texture(int i) const { return reduced_textures[i]; }

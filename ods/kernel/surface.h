@@ -4,6 +4,7 @@
 // A hit -> the point on the surface: its position, its normals, and its material there.
 #ifdef __cplusplus
 #pragma once
+#include "ods/kernel/frame.h"
 #include "ods/kernel/texture.h"
 namespace ods {
 #endif
@@ -19,7 +20,8 @@ struct Surface {
   float roughness;
   float transmission;
   float ior;
-  bool volume;  // the surface encloses a medium
+  bool volume;   // the surface encloses a medium
+  bool layered;  // it has the layers that read_layers() reads (ods/kernel/surface_layers.h)
 };
 
 inline float luminance(vec3 c) {
@@ -168,23 +170,43 @@ struct SurfaceReader : TextureReader {
     return draw >= alpha_of(material, corners_of(hit));
   }
 
-  // Normal from the normal map, on the front side. The frame follows the vertices' tangents as glTF defines it.
-  inline vec3 mapped_normal(Material material, Instance instance, Corners k, vec3 normal, float handedness,
-                            bool reduced) {
+  // The vertices' normals between them, on the front side. geometric: the triangle's normal there.
+  inline vec3 vertex_normal(Instance instance, Corners k, vec3 geometric, float handedness) {
+    vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
+    vec3 row1 = vec3(instance.row1.x, instance.row1.y, instance.row1.z);
+    vec3 row2 = vec3(instance.row2.x, instance.row2.y, instance.row2.z);
+    vec3 n = normal_now(k, k.a) * k.wa + normal_now(k, k.b) * k.wb + normal_now(k, k.c) * k.wc;
+    vec3 normal = vec3(dot(cross(row1, row2), n), dot(cross(row2, row0), n), dot(cross(row0, row1), n)) * handedness;
+    float size = length(normal);
+    return size > 1e-30f ? normal * (1.0f / size) : geometric;
+  }
+
+  // The frame of tangent space around a normal on the front side. It follows the vertices' tangents as glTF defines
+  // it; where there are none, its tangent is 0.
+  inline Frame tangent_frame(Instance instance, Corners k, vec3 normal, float handedness) {
     vec3 local = tangent_now(k, k.a) * k.wa + tangent_now(k, k.b) * k.wb + tangent_now(k, k.c) * k.wc;
     float side =
         scene_vertex(k.a).tangent.w * k.wa + scene_vertex(k.b).tangent.w * k.wb + scene_vertex(k.c).tangent.w * k.wc;
     vec3 t = turn_to_world(instance, local);
     t = t - normal * dot(normal, t);
     float size = length(t);
-    if (!(size > 1e-12f)) return normal;
-    t = t * (1.0f / size);
-    vec3 b = cross(normal, t) * (side < 0.0f ? -handedness : handedness);
-    vec4 map = slot_at(material.normal_slot, uv0_of(k), uv1_of(k), reduced);
-    float x = (map.x * 2.0f - 1.0f) * material.normal_scale;
-    float y = (map.y * 2.0f - 1.0f) * material.normal_scale;
+    Frame frame;
+    frame.normal = normal;
+    frame.tangent = size > 1e-12f ? t * (1.0f / size) : vec3(0.0f);
+    frame.bitangent = cross(normal, frame.tangent) * (side < 0.0f ? -handedness : handedness);
+    return frame;
+  }
+
+  // Normal from a normal map, on the front side.
+  inline vec3 mapped_normal(TextureSlot slot, float scale, Instance instance, Corners k, vec3 normal, float handedness,
+                            bool reduced) {
+    Frame frame = tangent_frame(instance, k, normal, handedness);
+    if (frame.tangent == vec3(0.0f)) return normal;
+    vec4 map = slot_at(slot, uv0_of(k), uv1_of(k), reduced);
+    float x = (map.x * 2.0f - 1.0f) * scale;
+    float y = (map.y * 2.0f - 1.0f) * scale;
     float z = max(map.z * 2.0f - 1.0f, 0.0f);
-    vec3 n = t * x + b * y + normal * z;
+    vec3 n = frame.tangent * x + frame.bitangent * y + normal * z;
     float n_size = length(n);
     return n_size > 1e-6f ? n * (1.0f / n_size) : normal;
   }
@@ -215,31 +237,30 @@ struct SurfaceReader : TextureReader {
     return material.emission * vec3(glow.x, glow.y, glow.z);
   }
 
+  // A shading normal that points away from the viewer is bent back to grazing incidence.
+  inline vec3 facing_normal(vec3 normal, vec3 direction) {
+    float facing = dot(normal, direction);
+    return facing > -1e-3f ? normalize(normal - direction * (facing + 2e-3f)) : normal;
+  }
+
   // reduced: use the reduced copies of textures, except for emission, which must be as light sampling finds it.
   inline Surface surface_at(Hit hit, vec3 direction, bool reduced) {
     Instance instance = instance_now(hit.instance);
     Material material = scene_material(scene_mesh(instance.mesh).material);
     Corners k = corners_of(hit);
     Triangle triangle = triangle_of(instance, k);
-    vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
-    vec3 row1 = vec3(instance.row1.x, instance.row1.y, instance.row1.z);
-    vec3 row2 = vec3(instance.row2.x, instance.row2.y, instance.row2.z);
     float handedness = handedness_of(instance);
 
     Surface surface;
     surface.position = triangle.a + triangle.ab * k.wb + triangle.ac * k.wc;
     vec3 geometric = normalize(cross(triangle.ab, triangle.ac)) * handedness;
-    vec3 n = normal_now(k, k.a) * k.wa + normal_now(k, k.b) * k.wb + normal_now(k, k.c) * k.wc;
-    vec3 normal = vec3(dot(cross(row1, row2), n), dot(cross(row2, row0), n), dot(cross(row0, row1), n)) * handedness;
-    float size = length(normal);
-    normal = size > 1e-30f ? normal * (1.0f / size) : geometric;
-    if (material.normal_slot.texture >= 0) normal = mapped_normal(material, instance, k, normal, handedness, reduced);
+    vec3 normal = vertex_normal(instance, k, geometric, handedness);
+    if (material.normal_slot.texture >= 0) {
+      normal = mapped_normal(material.normal_slot, material.normal_scale, instance, k, normal, handedness, reduced);
+    }
     surface.front = dot(geometric, direction) < 0.0f;
     surface.geometric = surface.front ? geometric : -geometric;
-    surface.normal = surface.front ? normal : -normal;
-    // If the shading normal points away from the viewer, bend it back to grazing incidence.
-    float facing = dot(surface.normal, direction);
-    if (facing > -1e-3f) surface.normal = normalize(surface.normal - direction * (facing + 2e-3f));
+    surface.normal = facing_normal(surface.front ? normal : -normal, direction);
 
     vec2 uv0 = uv0_of(k);
     vec2 uv1 = uv1_of(k);
@@ -252,7 +273,10 @@ struct SurfaceReader : TextureReader {
     surface.roughness = material.roughness * mr.y;
     surface.transmission = material.transmission * slot_at(material.transmission_slot, uv0, uv1, reduced).x;
     surface.ior = material.ior;
-    surface.volume = material.transmission > 0.0f && material.thickness > 0.0f;
+    surface.layered = material.layers >= 0;
+    bool lets_through = material.transmission > 0.0f ||
+                        (surface.layered && scene_material_layers(material.layers).diffuse_transmission > 0.0f);
+    surface.volume = lets_through && material.thickness > 0.0f;
     return surface;
   }
 

@@ -28,6 +28,22 @@ inline int wrap_texel(int i, int size, int wrap) {
   return clamp(i, 0, size - 1);
 }
 
+// A vector of a normal map, of any length above 0, as kTexelNormal; z < 0 counts as 0.
+inline uint pack_normal(vec3 n) {
+  n = vec3(n.x, n.y, max(n.z, 0.0f));
+  float size = length(n);
+  n = size > 1e-6f ? n * (1.0f / size) : vec3(0.0f, 0.0f, 1.0f);
+  return uint((n.x * 0.5f + 0.5f) * 65535.0f + 0.5f) | uint((n.y * 0.5f + 0.5f) * 65535.0f + 0.5f) << 16u;
+}
+
+// What unpack gives is as texels of bytes hold it: 0..1 for -1..1.
+inline vec4 unpack_normal(uint bits) {
+  float x = float(bits & 65535u) * (1.0f / 65535.0f);
+  float y = float(bits >> 16u) * (1.0f / 65535.0f);
+  vec2 n = vec2(x * 2.0f - 1.0f, y * 2.0f - 1.0f);
+  return vec4(x, y, sqrt(max(1.0f - dot(n, n), 0.0f)) * 0.5f + 0.5f, 1.0f);
+}
+
 #ifdef __cplusplus
 struct TextureReader : FilterSampler {
 #endif
@@ -43,6 +59,7 @@ struct TextureReader : FilterSampler {
     if (texture.srgb == 1) {
       return vec4(scene_table(kSrgbTable + r), scene_table(kSrgbTable + g), scene_table(kSrgbTable + b), a);
     }
+    if (texture.packing == kTexelNormal) return unpack_normal(bits);
     return vec4(vec3(float(r), float(g), float(b)) * (1.0f / 255.0f), a);
   }
 

@@ -176,6 +176,7 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.motion_vertices = scene.motion_vertices.data();
   view.motion_keys = scene.motion_keys;
   view.materials = scene.materials.data();
+  view.material_layers = scene.material_layers.data();
   view.textures = scene.textures.data();
   view.texels = scene.texels.data();
   const bool reduced = !scene.reduced_textures.empty();
@@ -188,8 +189,13 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.environment_texels = lights.environment_texels.data();
   view.environment_rows = lights.environment_rows.data();
   const auto refracts = [](const Material& m) { return m.transmission > 0.0f && m.thickness > 0.0f; };
-  const bool glass = std::any_of(scene.materials.begin(), scene.materials.end(), refracts);
-  view.tables = kernel_tables(glass).data();
+  TableNeeds needs;
+  needs.glass = std::any_of(scene.materials.begin(), scene.materials.end(), refracts);
+  for (const MaterialLayers& layers : scene.material_layers) {
+    needs.sheen |= layers.sheen_color != vec3(0.0f);
+    needs.anisotropy |= layers.anisotropy > 0.0f;
+  }
+  view.tables = kernel_tables(needs).data();
 }
 
 // Most triangles of a mesh with small lamps are dark: without them, the table is small enough for the cache.

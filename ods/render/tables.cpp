@@ -10,6 +10,7 @@
 
 #include "ods/kernel/ggx.h"
 #include "ods/kernel/scene_view.h"
+#include "ods/kernel/sheen.h"
 
 namespace ods {
 
@@ -50,12 +51,12 @@ static void fill_filter(float* table) {
 }
 
 // The mean of function(u) over the unit square, by a lattice of n points. Light is lost where u.y is close to 1, so the
-// points are denser there; u.x and 1 - u.x are mirror images.
+// points are denser there. width: 1/2 if u.x and 1 - u.x are mirror images, else 1.
 template <typename Function>
-static vec2 mean_over_normals(int n, Function function) {
+static vec2 mean_over_normals(int n, float width, Function function) {
   glm::dvec2 sum(0.0);
   for (int i = 0; i < n; i++) {
-    const float across = 0.5f * fract(0.618034f * (static_cast<float>(i) + 0.5f));
+    const float across = width * fract(0.618034f * (static_cast<float>(i) + 0.5f));
     const float rest = 1.0f - (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
     sum += glm::dvec2(function(vec2(across, 1.0f - rest * rest)) * (2.0f * rest));
   }
@@ -67,19 +68,25 @@ static vec3 viewer_at(float cosine) {
   return vec3(sqrt(1.0f - c * c), 0.0f, c);
 }
 
+// Alpha: float or vec2.
+template <typename Alpha>
+static vec2 microfacet_albedo(int points, float width, vec3 wo, Alpha alpha) {
+  const float lambda = ggx_lambda(wo, alpha);
+  return mean_over_normals(points, width, [&](vec2 u) {
+    const vec3 h = ggx_sample_visible(wo, alpha, u);
+    const vec3 wi = h * (2.0f * dot(wo, h)) - wo;
+    if (wi.z <= 0.0f) return vec2(0.0f);
+    const float s = schlick(dot(wo, h));
+    return vec2(1.0f - s, s) * ((1.0f + lambda) / (1.0f + lambda + ggx_lambda(wi, alpha)));
+  });
+}
+
 static void fill_ggx(float* table) {
   isolated_parallel_for(kGgxSize * kGgxSize, [&](int cell) {
     const float roughness = static_cast<float>(cell / kGgxSize) / static_cast<float>(kGgxSize - 1);
     const float alpha = max(roughness * roughness, 1e-4f);
     const vec3 wo = viewer_at(static_cast<float>(cell % kGgxSize) / static_cast<float>(kGgxSize - 1));
-    const vec2 albedo = mean_over_normals(610, [&](vec2 u) {
-      const vec3 h = ggx_sample_visible(wo, alpha, u);
-      const vec3 wi = h * (2.0f * dot(wo, h)) - wo;
-      if (wi.z <= 0.0f) return vec2(0.0f);
-      const float lambda = ggx_lambda(wo, alpha);
-      const float s = schlick(dot(wo, h));
-      return vec2(1.0f - s, s) * ((1.0f + lambda) / (1.0f + lambda + ggx_lambda(wi, alpha)));
-    });
+    const vec2 albedo = microfacet_albedo(610, 0.5f, wo, alpha);
     table[2 * cell] = albedo.x;
     table[2 * cell + 1] = albedo.y;
   });
@@ -104,7 +111,7 @@ static void fill_glass(float* table) {
     const float alpha = max(roughness * roughness, 1e-4f);
     const vec3 wo =
         viewer_at(glass_cosine(eta, static_cast<float>(cell % kGlassSize) / static_cast<float>(kGlassSize - 1)));
-    table[cell] = mean_over_normals(256, [&](vec2 u) {
+    table[cell] = mean_over_normals(256, 0.5f, [&](vec2 u) {
                     const vec3 h = ggx_sample_visible(wo, alpha, u);
                     const float fresnel = fresnel_dielectric(dot(wo, h), eta);
                     const float lambda = ggx_lambda(wo, alpha);
@@ -120,7 +127,53 @@ static void fill_glass(float* table) {
   });
 }
 
-const std::vector<float>& kernel_tables(bool glass) {
+// The place of a node on an axis, 0..1.
+static float node_at(int node, int size) {
+  return static_cast<float>(node % size) / static_cast<float>(size - 1);
+}
+
+static void fill_anisotropic(float* table) {
+  isolated_parallel_for(kAnisotropicCells, [&](int cell) {
+    const int turned = cell / kAnisotropicSize, stretched = turned / kAnisotropicTurns;
+    const float across = node_at(stretched / kAnisotropicAlong, kAnisotropicSize);
+    const float along = mix(across, 1.0f, node_at(stretched, kAnisotropicAlong));
+    const vec2 alpha = max(vec2(along * along, across * across), vec2(1e-4f));
+    const vec3 turned_up = viewer_at(node_at(cell, kAnisotropicSize));
+    const float x2 = node_at(turned, kAnisotropicTurns);
+    const vec3 wo(turned_up.x * sqrt(x2), turned_up.x * sqrt(1.0f - x2), turned_up.z);
+    const vec2 albedo = microfacet_albedo(377, 1.0f, wo, alpha);
+    table[2 * cell] = albedo.x;
+    table[2 * cell + 1] = albedo.y;
+  });
+}
+
+// The integral of sheen_value() over the hemisphere. It changes fastest where light grazes the surface, so there the
+// points are denser.
+static float sheen_integral(vec3 wo, float alpha) {
+  constexpr int kSteps = 64;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; i++) {
+    const float t = (static_cast<float>(i) + 0.5f) / kSteps, z = t * t, r = sqrt(1.0f - z * z);
+    const float masking = 1.0f + sheen_lambda(wo.z, alpha) + sheen_lambda(z, alpha);
+    double ring = 0.0;
+    for (int k = 0; k < kSteps; k++) {
+      const float turn = kPi * (static_cast<float>(k) + 0.5f) / kSteps;
+      const vec3 h = normalize(wo + vec3(r * cos(turn), r * sin(turn), z));
+      ring += double{sheen_distribution(h.z, alpha)};
+    }
+    sum += ring * double{2.0f * t / masking};
+  }
+  return static_cast<float>(sum * 2.0 * double{kPi} / (kSteps * kSteps) / (4.0 * double{wo.z}));
+}
+
+static void fill_sheen(float* table) {
+  isolated_parallel_for(kSheenSize * kSheenSize, [&](int cell) {
+    const float roughness = node_at(cell / kSheenSize, kSheenSize);
+    table[cell] = sheen_integral(viewer_at(node_at(cell, kSheenSize)), sheen_alpha(roughness));
+  });
+}
+
+const std::vector<float>& kernel_tables(const TableNeeds& needs) {
   static std::vector<float> tables = [] {
     std::vector<float> all(kTablesSize);
     fill_srgb(all.data() + kSrgbTable);
@@ -128,8 +181,10 @@ const std::vector<float>& kernel_tables(bool glass) {
     fill_ggx(all.data() + kGgxTable);
     return all;
   }();
-  static std::once_flag glass_filled;
-  if (glass) std::call_once(glass_filled, [] { fill_glass(tables.data() + kGlassTable); });
+  static std::once_flag glass, sheen, anisotropic;
+  if (needs.glass) std::call_once(glass, [] { fill_glass(tables.data() + kGlassTable); });
+  if (needs.sheen) std::call_once(sheen, [] { fill_sheen(tables.data() + kSheenTable); });
+  if (needs.anisotropy) std::call_once(anisotropic, [] { fill_anisotropic(tables.data() + kAnisotropicTable); });
   return tables;
 }
 

@@ -87,6 +87,9 @@ SceneInfo describe(const Scene& scene, vec3 camera_position) {
   info.bounds = scene_bounds(scene);
   info.view_points = scene.view_points;
   for (const Clip& clip : scene.animation.clips) info.animations.push_back({clip.name, clip.end});
+  info.variants = scene.variants;
+  info.sheet_glass = find_sheet_glass(scene);
+  info.extensions = scene.extensions;
   info.warnings = scene.warnings;
   return info;
 }

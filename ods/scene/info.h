@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ods/scene/scene.h"
+#include "ods/scene/sheet_glass.h"
 
 namespace ods {
 
@@ -30,6 +31,9 @@ struct SceneInfo {
   float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1: none
   std::vector<ViewPoint> view_points;
   std::vector<std::pair<std::string, double>> animations;  // with their length in seconds
+  std::vector<std::string> variants;
+  std::vector<SheetGlass> sheet_glass;
+  std::vector<UsedExtension> extensions;
   std::vector<std::string> warnings;
 };
 

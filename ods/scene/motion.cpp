@@ -23,6 +23,9 @@ struct Pose {
   std::vector<Lamp> lamps;
   std::vector<MovingMaterial> materials;
   std::vector<dmat4> world;  // per node
+  std::vector<char> shown;   // per node: whether it and its ancestors are visible
+
+  bool shows(int node) const { return node == -1 || shown[static_cast<size_t>(node)] != 0; }
 };
 
 dvec3 three(const std::vector<double>& v) {
@@ -33,6 +36,7 @@ void write_node(Property property, const std::vector<double>& value, MovingNode&
   if (property == Property::kTranslation) node.translation = three(value);
   if (property == Property::kRotation) node.rotation = dvec4(three(value), value[3]);
   if (property == Property::kScale) node.scale = three(value);
+  if (property == Property::kVisible) node.visible = value[0] != 0.0;
 }
 
 void write_lamp(Property property, const std::vector<double>& value, Lamp& lamp) {
@@ -65,6 +69,7 @@ void write(const Track& track, double seconds, Pose& pose) {
     case Property::kTranslation:
     case Property::kRotation:
     case Property::kScale:
+    case Property::kVisible:
       return write_node(track.property, value, pose.nodes[target]);
     case Property::kWeights:
       pose.weights[target] = value;
@@ -94,6 +99,7 @@ void place_nodes(Pose& pose) {
     assert(node.parent < static_cast<int>(pose.world.size()));
     const dmat4 own = node.before * trs_matrix(node.translation, node.rotation, node.scale);
     pose.world.push_back(node.parent == -1 ? own : pose.world[static_cast<size_t>(node.parent)] * own);
+    pose.shown.push_back(node.visible && pose.shows(node.parent) ? 1 : 0);
   }
 }
 
@@ -128,7 +134,8 @@ void place_instance(Scene& scene, const MovingInstance& moving, const Pose& pose
                     SceneChange& change) {
   const auto i = static_cast<size_t>(moving.instance);
   dmat4 matrix = moving.node == -1 ? moving.local : pose.world[static_cast<size_t>(moving.node)] * moving.local;
-  sound = sound && is_bounded(matrix) && is_invertible(matrix) && stays_near(matrix, bounds);
+  sound =
+      sound && pose.shows(moving.shown_by) && is_bounded(matrix) && is_invertible(matrix) && stays_near(matrix, bounds);
   if (!sound) matrix = dmat4(1.0);
   const Instance before = scene.instances[i];
   Instance& instance = scene.instances[i];
@@ -158,6 +165,7 @@ void write_lights(Scene& scene, const Pose& pose, SceneChange& change) {
     PunctualLight& light = scene.lights[static_cast<size_t>(moving.light)];
     const PunctualLight before = light;
     set_light(light, pose.lamps[static_cast<size_t>(moving.lamp)]);
+    if (!pose.shows(moving.node)) light.intensity = vec3(0.0f);
     if (moving.node != -1) {
       const dmat4& world = pose.world[static_cast<size_t>(moving.node)];
       place_light(light, is_bounded(world) ? world : dmat4(1.0));
@@ -205,7 +213,7 @@ void write_materials(Scene& scene, const Pose& pose, SceneChange& change) {
 
 SceneChange set_time(Scene& scene, double seconds) {
   const Animation& animation = scene.animation;
-  Pose pose{animation.nodes, animation.weights, animation.lamps, animation.materials, {}};
+  Pose pose{animation.nodes, animation.weights, animation.lamps, animation.materials, {}, {}};
   for (const int clip : animation.playing) {
     for (const Track& track : animation.clips[static_cast<size_t>(clip)].tracks) write(track, seconds, pose);
   }
@@ -224,6 +232,43 @@ void add_change(SceneChange& sum, const SceneChange& change) {
   sum.lights |= change.lights;
   sum.materials |= change.materials;
   sum.view_points |= change.view_points;
+}
+
+// The times of the keys of what plays, and those half way between: at most some hundreds, evenly chosen.
+static std::vector<double> telling_times(const Animation& animation) {
+  std::vector<double> keys;
+  for (const int clip : animation.playing) {
+    for (const Track& track : animation.clips[static_cast<size_t>(clip)].tracks) {
+      keys.insert(keys.end(), track.keys.times.begin(), track.keys.times.end());
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::vector<double> times;
+  const size_t step = keys.size() / 200 + 1;
+  for (size_t i = 0; i < keys.size(); i += step) {
+    times.push_back(keys[i]);
+    if (i + 1 < keys.size()) times.push_back(0.5 * (keys[i] + keys[i + 1]));
+  }
+  return times;
+}
+
+bool is_ever_visible(const Scene& scene) {
+  if (is_anything_visible(scene)) return true;
+  Scene moving = scene;
+  const auto appears = [&] {
+    for (const double time : telling_times(moving.animation)) {
+      set_time(moving, time);
+      if (is_anything_visible(moving)) return true;
+    }
+    return false;
+  };
+  if (play(moving.animation, "") && appears()) return true;
+  for (size_t i = 0; i < scene.animation.clips.size(); i++) {
+    moving.animation.playing = {static_cast<int>(i)};
+    if (appears()) return true;
+  }
+  return false;
 }
 
 vec3 point_of(const Scene& scene, const Hit& hit) {

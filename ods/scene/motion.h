@@ -25,8 +25,11 @@ void add_change(SceneChange& sum, const SceneChange& change);
 // everything if no clip plays, is at rest. The result depends on the time alone, not on earlier calls. All guarantees
 // of ods/scene/gltf/gltf.h hold at every time, except that triangles of a deformed mesh may temporarily have no area;
 // no ray hits those. Instances that are scaled to zero or further than 1e9 m from the
-// origin are hidden (Scene::hidden).
+// origin are hidden (Scene::hidden), as are those of a node that is not visible; such a node's lights are dark.
 SceneChange set_time(Scene& scene, double seconds);
+
+// Whether an instance is visible as the scene stands, or at any key of any of its animations.
+bool is_ever_visible(const Scene& scene);
 
 // Where a point of a surface is at the time to which the scene is set, in world coordinates. hit: of a ray, at any
 // time.

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "ods/image/tone.h"
+#include "ods/kernel/texture.h"
 
 namespace ods {
 
@@ -46,6 +47,15 @@ static uint mean_texel(const Texture& full, const uint* texels, int x0, int x1, 
   return stored(mean.x) | stored(mean.y) << 8 | stored(mean.z) << 16 | alpha << 24;
 }
 
+static uint mean_normal(const Texture& full, const uint* texels, int x0, int x1, int y0, int y1) {
+  vec3 sum(0.0f);
+  for (int y = y0; y < y1; y++) {
+    const uint* row = texels + static_cast<size_t>(y) * static_cast<size_t>(full.width);
+    for (int x = x0; x < x1; x++) sum += vec3(unpack_normal(row[x])) * 2.0f - vec3(1.0f);
+  }
+  return pack_normal(sum);
+}
+
 static Texture reduced_size(Texture texture) {
   int halvings = 0;
   while (halvings < kMaxHalvings && (texture.width >> halvings) * (texture.height >> halvings) > kEnoughTexels) {
@@ -78,7 +88,9 @@ void reduce_textures(Scene& scene) {
       const int y0 = edge(y, reduced.height, full.height), y1 = edge(y + 1, reduced.height, full.height);
       for (int x = 0; x < reduced.width; x++) {
         const int x0 = edge(x, reduced.width, full.width), x1 = edge(x + 1, reduced.width, full.width);
-        to[y * reduced.width + x] = mean_texel(full, from, x0, x1, y0, y1, full.srgb == 1 ? srgb : plain);
+        to[y * reduced.width + x] = full.packing == kTexelNormal
+                                        ? mean_normal(full, from, x0, x1, y0, y1)
+                                        : mean_texel(full, from, x0, x1, y0, y1, full.srgb == 1 ? srgb : plain);
       }
     });
   }

@@ -35,6 +35,7 @@ Material default_material() {
   material.alpha_cutoff = 0.5f;
   material.double_sided = 1;
   material.unlit = 0;
+  material.layers = -1;
   material.base_color_slot = no_texture();
   material.metallic_roughness_slot = no_texture();
   material.normal_slot = no_texture();
@@ -43,7 +44,45 @@ Material default_material() {
   return material;
 }
 
-int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material) {
+MaterialLayers default_layers() {
+  MaterialLayers layers;
+  layers.specular_color = vec3(1.0f);
+  layers.specular = 1.0f;
+  layers.clearcoat = 0.0f;
+  layers.clearcoat_roughness = 0.0f;
+  layers.clearcoat_normal_scale = 1.0f;
+  layers.sheen_color = vec3(0.0f);
+  layers.sheen_roughness = 0.0f;
+  layers.anisotropy = 0.0f;
+  layers.anisotropy_rotation = 0.0f;
+  layers.iridescence = 0.0f;
+  layers.iridescence_ior = 1.3f;
+  layers.iridescence_thinnest = 100.0f;
+  layers.iridescence_thickest = 400.0f;
+  layers.dispersion = 0.0f;
+  layers.diffuse_transmission = 0.0f;
+  layers.diffuse_transmission_color = vec3(1.0f);
+  for (TextureSlot* slot :
+       {&layers.specular_slot, &layers.specular_color_slot, &layers.clearcoat_slot, &layers.clearcoat_roughness_slot,
+        &layers.clearcoat_normal_slot, &layers.sheen_color_slot, &layers.sheen_roughness_slot, &layers.anisotropy_slot,
+        &layers.iridescence_slot, &layers.iridescence_thickness_slot, &layers.diffuse_transmission_slot,
+        &layers.diffuse_transmission_color_slot}) {
+    *slot = no_texture();
+  }
+  return layers;
+}
+
+// A scene's first mesh is moved, not copied: it may be all there is.
+template <class T>
+static void append(std::vector<T>& list, std::vector<T> added) {
+  if (list.empty()) {
+    list = std::move(added);
+  } else {
+    list.insert(list.end(), added.begin(), added.end());
+  }
+}
+
+int add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uvec3> triangles, int material) {
   assert(material >= 0);
   Mesh mesh;
   mesh.first_vertex = static_cast<uint>(scene.vertices.size());
@@ -52,8 +91,8 @@ int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vecto
   mesh.triangle_count = static_cast<uint>(triangles.size());
   mesh.material = material;
   mesh.motion = -1;
-  scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
-  scene.triangles.insert(scene.triangles.end(), triangles.begin(), triangles.end());
+  append(scene.vertices, std::move(vertices));
+  append(scene.triangles, std::move(triangles));
   scene.meshes.push_back(mesh);
   return static_cast<int>(scene.meshes.size()) - 1;
 }
@@ -74,6 +113,13 @@ void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world) {
 
 bool is_hidden(const Scene& scene, size_t instance) {
   return !scene.hidden.empty() && scene.hidden[instance] != 0;
+}
+
+bool is_anything_visible(const Scene& scene) {
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    if (!is_hidden(scene, i)) return true;
+  }
+  return false;
 }
 
 Bounds scene_bounds(const Scene& scene) {

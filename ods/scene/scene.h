@@ -54,6 +54,14 @@ struct NamedObject {
   size_t count = 0;
 };
 
+// An extension that the file uses, and what became of it.
+struct UsedExtension {
+  std::string name;
+  std::string state;  // a name in kExtensionStateTable (ods/scene/gltf/extensions.h)
+  std::string how;
+  bool required = false;  // by the file
+};
+
 struct Scene {
   std::string name;
 
@@ -61,7 +69,8 @@ struct Scene {
   std::vector<uvec3> triangles;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<Material> materials;  // never empty once a mesh exists
+  std::vector<Material> materials;              // never empty once a mesh exists
+  std::vector<MaterialLayers> material_layers;  // of the materials that have some (Material::layers)
   std::vector<Texture> textures;
   std::vector<uint> texels;
   std::vector<Texture> reduced_textures;  // made by reduce_textures(); empty: the full textures are used
@@ -81,20 +90,27 @@ struct Scene {
   std::vector<MotionPose> motion_poses;
   std::vector<MotionVertex> motion_vertices;
 
+  std::vector<std::string> variants;      // sets of materials that the file offers, by name
+  std::vector<UsedExtension> extensions;  // sorted by name
+
   std::vector<std::string> warnings;  // features of the file that are not rendered, or only approximated; one line each
 };
 
 // A white, rough, opaque dielectric without textures: glTF's default and every material's starting point.
 Material default_material();
 
+// Layers that change nothing: every extension's default.
+MaterialLayers default_layers();
+
 // A slot without a texture.
 TextureSlot no_texture();
 
 // Whether an instance is hidden at this time.
 bool is_hidden(const Scene& scene, size_t instance);
+bool is_anything_visible(const Scene& scene);
 
 // Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
-int add_mesh(Scene& scene, const std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, int material);
+int add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uvec3> triangles, int material);
 
 // Adds an instance of a mesh. Precondition: the mesh exists; the matrix is finite (columns as in glTF).
 void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world);

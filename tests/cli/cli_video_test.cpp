@@ -203,6 +203,8 @@ const std::map<std::string, std::string> kVideoAlone = {
 };
 const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
+    {"--variant", "red"},
+    {"--solid-glass", ""},
     {"--env", "0.5"},
     {"--width", "32"},
     {"--height", "10"},

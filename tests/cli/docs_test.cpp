@@ -269,6 +269,7 @@ class Pages : public ::testing::Test {
     scene.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
                                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
     scene.json["nodes"][0]["name"] = "Ground";
+    scene.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}};
     const ods::Binary glb = scene.glb();
     return {glb.begin(), glb.end()};
   }

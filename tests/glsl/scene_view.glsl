@@ -9,6 +9,7 @@ layout(buffer_reference, scalar) readonly buffer Instances { Instance at[]; };
 layout(buffer_reference, scalar) readonly buffer MotionPoses { MotionPose at[]; };
 layout(buffer_reference, scalar) readonly buffer MotionVertices { MotionVertex at[]; };
 layout(buffer_reference, scalar) readonly buffer Materials { Material at[]; };
+layout(buffer_reference, scalar) readonly buffer MaterialLayersArray { MaterialLayers at[]; };
 layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
 layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
 layout(buffer_reference, scalar) readonly buffer Lights { Light at[]; };
@@ -30,6 +31,7 @@ struct View {
   MotionPoses motion_poses;
   MotionVertices motion_vertices;
   Materials materials;
+  MaterialLayersArray material_layers;
   Textures textures;
   Texels texels;
   Textures reduced_textures;
@@ -57,6 +59,7 @@ MotionPose scene_motion_pose(int i) { return view.motion_poses.at[i]; }
 MotionVertex scene_motion_vertex(uint i) { return view.motion_vertices.at[i]; }
 int scene_motion_keys() { return view.motion_keys; }
 Material scene_material(int i) { return view.materials.at[i]; }
+MaterialLayers scene_material_layers(int i) { return view.material_layers.at[i]; }
 Texture scene_texture(int i) { return view.textures.at[i]; }
 uint scene_texel(uint i) { return view.texels.at[i]; }
 Texture scene_reduced_texture(int i) { return view.reduced_textures.at[i]; }

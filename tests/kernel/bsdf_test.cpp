@@ -15,7 +15,7 @@ namespace {
 
 BsdfEvaluator make_kernel() {
   BsdfEvaluator kernel;
-  kernel.tables = kernel_tables(true).data();
+  kernel.tables = kernel_tables({.glass = true}).data();
   return kernel;
 }
 

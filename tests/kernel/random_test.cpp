@@ -84,7 +84,7 @@ TEST(RandomPair, DimensionsOfOnePixelAreUncorrelated) {
 // for Blackman-Harris.
 TEST(PixelFilter, HasItsShape) {
   FilterSampler filter;
-  filter.tables = kernel_tables(true).data();
+  filter.tables = kernel_tables({.glass = true}).data();
   const double pi = std::acos(-1.0);
   const auto share_left = [&](double x) {
     const double t = 2.0 * pi * x / 3.0;
@@ -215,7 +215,7 @@ struct Lobe {
 
 TEST(Density, EveryLobe) {
   BsdfEvaluator kernel;
-  kernel.tables = kernel_tables(true).data();
+  kernel.tables = kernel_tables({.glass = true}).data();
   const Lobe lobes[] = {{"diffuse and gloss", 0, 0, false, 1.5f},    {"metal", 1, 0, false, 1.5f},
                         {"thin glass", 0, 1, false, 1.5f},           {"glass from outside", 0, 1, true, 1.5f},
                         {"glass from inside", 0, 1, true, 1 / 1.5f}, {"glass to water", 0, 1, true, 1.33f / 1.5f},

@@ -10,7 +10,7 @@ namespace {
 // Columns of black and white, half of them opaque.
 Scene striped_scene(int width, int height, int srgb) {
   Scene scene;
-  scene.textures.push_back({0, width, height, kWrapRepeat, kWrapClamp, srgb, 0});
+  scene.textures.push_back({0, width, height, kWrapRepeat, kWrapClamp, srgb, 0, kTexelBytes});
   for (int i = 0; i < width * height; i++) scene.texels.push_back(i % 2 == 0 ? 0xff000000u : 0x00ffffffu);
   return scene;
 }

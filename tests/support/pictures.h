@@ -70,7 +70,7 @@ inline Scene feature_scene() {
   Dice dice(1);
   scene.environment = {vec3(0.5f), 8, 4, {}};
   for (int i = 0; i < 32; i++) scene.environment.texels.push_back(vec3(dice.pair(), 0.5f));
-  scene.textures.push_back({0, 4, 4, kWrapRepeat, kWrapMirror, 1, 0});
+  scene.textures.push_back({0, 4, 4, kWrapRepeat, kWrapMirror, 1, 0, kTexelBytes});
   for (int i = 0; i < 16; i++) scene.texels.push_back(static_cast<uint>(dice.engine()) | 0x80000000u);
   Material checker = default_material();
   checker.base_color_slot.texture = 0;

@@ -58,12 +58,39 @@ static std::string check_mesh(const Scene& scene, const Mesh& mesh, bool bent) {
   return "";
 }
 
+static std::string check_slots(const Scene& scene, std::initializer_list<TextureSlot> slots) {
+  for (const TextureSlot& slot : slots) {
+    if (slot.texture < -1 || slot.texture >= static_cast<int>(scene.textures.size())) return "texture index";
+    if (slot.uv_set < 0 || slot.uv_set > 1) return "texture coordinate set";
+    if (!bounded(slot.offset) || !bounded(slot.axis_u) || !bounded(slot.axis_v)) return "texture transform";
+  }
+  return "";
+}
+
+static std::string check_layers(const Scene& scene, const MaterialLayers& m) {
+  for (const float share :
+       {m.specular, m.clearcoat, m.clearcoat_roughness, m.sheen_color.x, m.sheen_color.y, m.sheen_color.z,
+        m.sheen_roughness, m.anisotropy, m.iridescence, m.diffuse_transmission, m.diffuse_transmission_color.x,
+        m.diffuse_transmission_color.y, m.diffuse_transmission_color.z}) {
+    if (!in_unit(share)) return "layer's factor";
+  }
+  const bool film = m.iridescence_ior >= 1.0f && m.iridescence_thinnest >= 0.0f && m.iridescence_thickest >= 0.0f;
+  if (!film || !bounded(vec3(m.iridescence_ior, m.iridescence_thinnest, m.iridescence_thickest))) return "film";
+  if (!bounded(m.specular_color, 1e9f) || !bounded(vec2(m.anisotropy_rotation, m.dispersion))) return "layer's number";
+  return check_slots(scene, {m.specular_slot, m.specular_color_slot, m.clearcoat_slot, m.clearcoat_roughness_slot,
+                             m.clearcoat_normal_slot, m.sheen_color_slot, m.sheen_roughness_slot, m.anisotropy_slot,
+                             m.iridescence_slot, m.iridescence_thickness_slot, m.diffuse_transmission_slot,
+                             m.diffuse_transmission_color_slot});
+}
+
 static std::string check_material(const Scene& scene, const Material& m) {
-  for (const TextureSlot* slot :
-       {&m.base_color_slot, &m.metallic_roughness_slot, &m.normal_slot, &m.emission_slot, &m.transmission_slot}) {
-    if (slot->texture < -1 || slot->texture >= static_cast<int>(scene.textures.size())) return "texture index";
-    if (slot->uv_set < 0 || slot->uv_set > 1) return "texture coordinate set";
-    if (!bounded(slot->offset) || !bounded(slot->axis_u) || !bounded(slot->axis_v)) return "texture transform";
+  const std::string slots = check_slots(
+      scene, {m.base_color_slot, m.metallic_roughness_slot, m.normal_slot, m.emission_slot, m.transmission_slot});
+  if (!slots.empty()) return slots;
+  if (m.layers < -1 || m.layers >= static_cast<int>(scene.material_layers.size())) return "layers index";
+  if (m.layers >= 0) {
+    const std::string layers = check_layers(scene, scene.material_layers[static_cast<size_t>(m.layers)]);
+    if (!layers.empty()) return layers;
   }
   for (const float share :
        {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w, m.metallic, m.roughness, m.transmission}) {

@@ -12,6 +12,13 @@ inline int add_rectangle(Scene& scene, vec3 origin, vec3 a, vec3 b, int material
   return add(scene, make_quad(origin, a, b), material);
 }
 
+// Adds a material with layers.
+inline int add_layered(Scene& scene, Material material, const MaterialLayers& layers) {
+  material.layers = static_cast<int>(scene.material_layers.size());
+  scene.material_layers.push_back(layers);
+  return add_material(scene, material);
+}
+
 // A closed box between two corners with its faces' fronts outside; six meshes, so that each face can be told apart.
 inline void add_box(Scene& scene, vec3 low, vec3 high, int material) {
   const vec3 x(high.x - low.x, 0, 0), y(0, high.y - low.y, 0), z(0, 0, high.z - low.z);

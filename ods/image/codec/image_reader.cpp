@@ -216,15 +216,29 @@ Image read_channels(const std::string& path, const std::vector<std::string>& nam
   return image;
 }
 
-CodeImage decode_image(std::span<const std::byte> file, const std::string& name) {
-  Reader reader = open_memory(file, name);
-  const int count = std::min(reader.spec.nchannels, 4);
-  std::vector<uint8_t> values(static_cast<size_t>(reader.spec.width) * static_cast<size_t>(reader.spec.height) *
-                              static_cast<size_t>(count));
-  if (!reader.input->read_image(0, 0, 0, count, OIIO::TypeDesc::UINT8, values.data())) {
+// The first `count` channels, converted to the type of `Code`.
+template <class Code>
+static std::vector<Code> read_codes(Reader& reader, int count, const std::string& name) {
+  std::vector<Code> values(static_cast<size_t>(reader.spec.width) * static_cast<size_t>(reader.spec.height) *
+                           static_cast<size_t>(count));
+  if (!reader.input->read_image(0, 0, 0, count, OIIO::BaseTypeFromC<Code>::value, values.data())) {
     throw cannot_read(name, library_words(reader.input->geterror()));
   }
-  CodeImage image{reader.spec.width, reader.spec.height, {}};
+  return values;
+}
+
+CodeImage decode_image(std::span<const std::byte> file, const std::string& name, bool keep_depth) {
+  Reader reader = open_memory(file, name);
+  const int count = std::min(reader.spec.nchannels, 4);
+  CodeImage image{reader.spec.width, reader.spec.height, {}, {}};
+  if (keep_depth && reader.spec.format == OIIO::TypeDesc::UINT16) {
+    const std::vector<uint16_t> values = read_codes<uint16_t>(reader, count, name);
+    for (size_t i = 0; i < values.size(); i += static_cast<size_t>(count)) {
+      for (size_t c = 0; c < 3; c++) image.deep.push_back(values[i + (count < 3 ? 0 : c)]);
+    }
+    return image;
+  }
+  const std::vector<uint8_t> values = read_codes<uint8_t>(reader, count, name);
   image.pixels.resize(values.size() / static_cast<size_t>(count));
   const bool grey = count < 3, has_alpha = count == 2 || count == 4;
   for (size_t i = 0; i < image.pixels.size(); i++) {

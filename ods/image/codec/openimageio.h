@@ -16,7 +16,7 @@ Image read_image(const std::string& path, std::string* color_fault);
 FileInfo read_info(const std::string& path);
 std::unique_ptr<RowReader> open_rows(const std::string& path);
 Image read_channels(const std::string& path, const std::vector<std::string>& names);
-CodeImage decode_image(std::span<const std::byte> file, const std::string& name);
+CodeImage decode_image(std::span<const std::byte> file, const std::string& name, bool keep_depth);
 void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done);
 

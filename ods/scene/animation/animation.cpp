@@ -12,6 +12,7 @@ size_t property_width(Property property) {
   switch (property) {
     case Property::kWeights:
       return 0;
+    case Property::kVisible:
     case Property::kLampIntensity:
     case Property::kLampRange:
     case Property::kLampInnerCone:
@@ -32,6 +33,33 @@ size_t property_width(Property property) {
     case Property::kRotation:
     case Property::kBaseColor:
       return 4;
+  }
+  return 0;
+}
+
+int targets_per_material(Property property) {
+  switch (property) {
+    case Property::kBaseColor:
+    case Property::kEmission:
+    case Property::kEmissionStrength:
+    case Property::kMetallic:
+    case Property::kRoughness:
+      return 1;
+    case Property::kUvOffset:
+    case Property::kUvRotation:
+    case Property::kUvScale:
+      return kSlotCount;
+    case Property::kTranslation:
+    case Property::kRotation:
+    case Property::kScale:
+    case Property::kVisible:
+    case Property::kWeights:
+    case Property::kLampColor:
+    case Property::kLampIntensity:
+    case Property::kLampRange:
+    case Property::kLampInnerCone:
+    case Property::kLampOuterCone:
+      return 0;
   }
   return 0;
 }

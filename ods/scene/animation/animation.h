@@ -24,6 +24,7 @@ enum class Property {
   kTranslation,  // of a node: x, y, z
   kRotation,     //            quaternion x, y, z, w
   kScale,        //            x, y, z
+  kVisible,      //            0 hides it and all below it, other numbers show it
   kWeights,      // of weights: one number for each morph target
   kLampColor,    // of a lamp: r, g, b
   kLampIntensity,
@@ -40,16 +41,19 @@ enum class Property {
   kUvScale,
 };
 
-inline constexpr Property kProperties[] = {
-    Property::kTranslation,   Property::kRotation,      Property::kScale,     Property::kWeights,
-    Property::kLampColor,     Property::kLampIntensity, Property::kLampRange, Property::kLampInnerCone,
-    Property::kLampOuterCone, Property::kBaseColor,     Property::kEmission,  Property::kEmissionStrength,
-    Property::kMetallic,      Property::kRoughness,     Property::kUvOffset,  Property::kUvRotation,
-    Property::kUvScale};
+inline constexpr Property kProperties[] = {Property::kTranslation,      Property::kRotation,   Property::kScale,
+                                           Property::kVisible,          Property::kWeights,    Property::kLampColor,
+                                           Property::kLampIntensity,    Property::kLampRange,  Property::kLampInnerCone,
+                                           Property::kLampOuterCone,    Property::kBaseColor,  Property::kEmission,
+                                           Property::kEmissionStrength, Property::kMetallic,   Property::kRoughness,
+                                           Property::kUvOffset,         Property::kUvRotation, Property::kUvScale};
 static_assert(std::size(kProperties) == enumerator_count<Property>());
 
 // The number of values that change together; 0: one per morph target.
 size_t property_width(Property property);
+
+// How many consecutive targets of this property belong to one of Animation::materials; 0: it is not a material's.
+int targets_per_material(Property property);
 
 struct Track {
   Property property = Property::kTranslation;
@@ -70,6 +74,7 @@ struct MovingNode {
   glm::dvec3 translation{0.0};  // at rest
   glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};
   glm::dvec3 scale{1.0};
+  bool visible = true;
 };
 
 struct Skin {
@@ -84,6 +89,7 @@ struct MovingInstance {
   int deformation = -1;  // of its mesh; -1: none
   glm::dmat4 local{1.0};
   vec3 low{0.0f}, high{0.0f};  // the mesh's bounds, if it does not deform
+  int shown_by = -1;           // hidden with this node; -1: none
 };
 
 struct Lamp {

@@ -55,7 +55,8 @@ static uint to_srgb8(float linear) {
 }
 
 int add_texture(Scene& scene, int width, int height, const std::function<vec3(vec2)>& color) {
-  const Texture texture = {static_cast<uint>(scene.texels.size()), width, height, kWrapRepeat, kWrapRepeat, 1, 0};
+  const Texture texture = {
+      static_cast<uint>(scene.texels.size()), width, height, kWrapRepeat, kWrapRepeat, 1, 0, kTexelBytes};
   scene.textures.push_back(texture);
   for (int y = 0; y < height; y++) {
     for (int x = 0; x < width; x++) {

@@ -15,7 +15,7 @@ bool is_unsigned(int type) {
   return type == kUnsignedByte || type == kUnsignedShort || type == kUnsignedInt;
 }
 
-static size_t component_size(int type) {
+size_t component_size(int type) {
   switch (type) {
     case kByte:
     case kUnsignedByte:
@@ -128,8 +128,7 @@ static void replace_sparse(GltfFile& file, int accessor, const JsonValue& sparse
 }
 
 // Expands an accessor without a buffer view (all zeros) or with sparse elements.
-static std::shared_ptr<const std::vector<unsigned char>> expand(GltfFile& file, int index, const AccessorView& plain,
-                                                                size_t size, const JsonValue& sparse) {
+static Storage expand(GltfFile& file, int index, const AccessorView& plain, size_t size, const JsonValue& sparse) {
   // A file may declare a billion zeros, so they count against the budget.
   spend(file, plain.count);
   auto expanded = std::make_shared<std::vector<unsigned char>>(plain.count * size);

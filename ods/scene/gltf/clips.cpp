@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "ods/scene/gltf/parts.h"
+#include "ods/scene/gltf/nodes.h"
 
 namespace ods {
 
@@ -36,7 +36,8 @@ struct PointerForm {
 
 static constexpr std::array kNodeForms = {
     PointerForm{"/translation", Property::kTranslation}, PointerForm{"/rotation", Property::kRotation},
-    PointerForm{"/scale", Property::kScale}, PointerForm{"/weights", Property::kWeights}};
+    PointerForm{"/scale", Property::kScale}, PointerForm{"/weights", Property::kWeights},
+    PointerForm{"/extensions/KHR_node_visibility/visible", Property::kVisible}};
 
 static constexpr std::array kLightForms = {
     PointerForm{"/color", Property::kLampColor}, PointerForm{"/intensity", Property::kLampIntensity},
@@ -107,15 +108,16 @@ static std::optional<Target> target_of(const ChannelSource& channel) {
   return find_format(List::kNodes, channel.node, kNodeForms, "/" + channel.path);
 }
 
-std::vector<char> named_nodes(const GltfFile& file) {
+AnimatedNodes find_animated_nodes(const GltfFile& file) {
   const Records& nodes = file.nodes;
-  std::vector<char> named(nodes.size(), 0);
+  AnimatedNodes animated{std::vector<char>(nodes.size(), 0), std::vector<char>(nodes.size(), 0)};
   for (const ClipSource& clip : file.clips) {
     for (const ChannelSource& channel : clip.channels) {
       const auto target = target_of(channel);
       if (!target || target->list != List::kNodes) continue;
       element(file, nodes, target->index, "node");
-      if (target->property != Property::kWeights) named[static_cast<size_t>(target->index)] = 1;
+      if (target->property != Property::kWeights) animated.moves[static_cast<size_t>(target->index)] = 1;
+      if (target->property == Property::kVisible) animated.blinks[static_cast<size_t>(target->index)] = 1;
     }
   }
   std::vector<char> seen(file.skins.size(), 0);  // several nodes may share a skin
@@ -124,10 +126,10 @@ std::vector<char> named_nodes(const GltfFile& file) {
     if (skin == -1 || std::exchange(element(file, seen, skin, "skin"), 1) == 1) continue;
     for (const int joint : indices(file, *file.skins[static_cast<size_t>(skin)], "joints")) {
       element(file, nodes, joint, "node");
-      named[static_cast<size_t>(joint)] = 1;
+      animated.moves[static_cast<size_t>(joint)] = 1;
     }
   }
-  return named;
+  return animated;
 }
 
 // --- keys

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/gltf/gltf.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <set>
 
 #include "ods/base/error.h"
-#include "ods/scene/gltf/parts.h"
+#include "ods/base/suggest.h"
+#include "ods/scene/gltf/extensions.h"
+#include "ods/scene/gltf/nodes.h"
 #include "ods/scene/motion.h"
 
 namespace ods {
@@ -41,24 +42,6 @@ void spend(GltfFile& file, size_t count) {
   file.budget -= count;
 }
 
-// Supported, or understood enough to use the fallback beside it.
-static constexpr std::array kRendered = {
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_animation_pointer",           "KHR_lights_punctual",
-    "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_materials_volume",    "KHR_mesh_quantization", "KHR_materials_transmission",
-};
-
-static constexpr std::array kCompression = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                            "KHR_meshopt_compression"};
-
-static bool contains(std::span<const char* const> names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool is_read(std::string_view extension) {
-  return contains(kRendered, extension) || extension == "KHR_materials_specular";
-}
-
 // The strings in a root list of the file.
 static std::set<std::string> names_in(const GltfFile& file, const char* key) {
   std::set<std::string> names;
@@ -66,23 +49,61 @@ static std::set<std::string> names_in(const GltfFile& file, const char* key) {
   return names;
 }
 
+// Lists in the scene what the file's extensions became.
 static void check_extensions(const GltfFile& file, Scene& scene) {
-  for (const std::string& name : names_in(file, "extensionsRequired")) {
-    if (contains(kRendered, name)) continue;
-    if (contains(kCompression, name)) {
-      fail(file, fmt::format("its geometry is compressed with {}, which ods does not read; export it again without "
-                             "compression",
-                             name));
+  const std::set<std::string> required = names_in(file, "extensionsRequired");
+  std::set<std::string> used = names_in(file, "extensionsUsed");
+  used.insert(required.begin(), required.end());
+  used.insert(file.json.extensions.begin(), file.json.extensions.end());  // some files do not list what they use
+  for (const std::string& name : required) {
+    const Extension row = find_extension(name);
+    if (is_supported(row.state)) continue;
+    if (name == kBasis) {
+      fail(file,
+           fmt::format("its textures are in the KTX2 format ({}), which ods does not read; convert them first: {}",
+                       kBasis, kBasisCure));
     }
-    fail(file, fmt::format("needs the extension {}, which ods does not support; export it again without it",
-                           printable(name)));
+    fail(file, fmt::format("needs the extension {} ({}), which ods does not read; export it again without it",
+                           printable(name), row.how));
   }
-  constexpr size_t kMax = 50;
-  for (const std::string& name : names_in(file, "extensionsUsed")) {
-    if (contains(kRendered, name)) continue;
-    if (scene.warnings.size() == kMax) break;
-    warn(scene, fmt::format("extension {} is ignored", printable(name)));
+  constexpr size_t kMax = 100;
+  for (const std::string& name : used) {
+    if (scene.extensions.size() == kMax) break;
+    const Extension row = find_extension(name);
+    const std::string_view state = name_in(kExtensionStateTable, row.state);
+    scene.extensions.push_back({printable(name), std::string(state), std::string(row.how), required.contains(name)});
+    if (row.state != ExtensionState::kNotRendered) continue;
+    warn(scene, fmt::format("extension {} is not rendered ({})", printable(name), row.how));
   }
+}
+
+// KHR_materials_variants: lists the variants, and notes which one the caller chose.
+static void choose_variant(GltfFile& file, Scene& scene, const std::string& chosen) {
+  for (const JsonValue& variant : extension(file.json.root(), "KHR_materials_variants")["variants"]) {
+    scene.variants.push_back(printable(*variant["name"].text));
+  }
+  if (chosen.empty()) return;
+  const auto found = std::find(scene.variants.begin(), scene.variants.end(), chosen);
+  if (found == scene.variants.end()) {
+    const std::string near = did_you_mean(chosen, scene.variants);
+    const std::string others = scene.variants.empty() ? "; it has no variants"
+                               : !near.empty()        ? near
+                                                      : fmt::format("; it has {}", fmt::join(scene.variants, ", "));
+    throw Error(ErrorKind::kUsage, fmt::format("--variant: '{}' has no variant '{}'{}", file.path, chosen, others));
+  }
+  file.variant = static_cast<int>(found - scene.variants.begin());
+}
+
+static std::string counted(size_t count, const char* what) {
+  return count == 0 ? "" : fmt::format("{} {}", count, what);
+}
+
+static void warn_of_undrawn(const GltfFile& file, Scene& scene) {
+  const size_t lines = file.lines.size(), points = file.points.size(), all = lines + points;
+  if (all == 0) return;
+  const char* between = lines > 0 && points > 0 ? " and " : "";
+  warn(scene, fmt::format("{}{}{} primitive{} not rendered: ods renders triangles", counted(lines, "line"), between,
+                          counted(points, "point"), all == 1 ? " is" : "s are"));
 }
 
 static void check_reach(Scene& scene) {
@@ -99,9 +120,14 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
+  warn_renamed(file, scene);
+  choose_variant(file, scene, options.variant);
   read_materials(file, scene);
-  const Places places = read_nodes(file, scene, options.scene, named_nodes(file));
+  decode_meshes(file);
+  const Places places = read_nodes(file, scene, options.scene, find_animated_nodes(file));
+  read_image_light(file, scene, options.scene);
   read_clips(file, scene, places);
+  warn_of_undrawn(file, scene);
   set_time(scene, 0.0);  // poses skins and morph targets at rest
   check_reach(scene);
   return scene;

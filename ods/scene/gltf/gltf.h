@@ -3,19 +3,18 @@
 //
 // Reads glTF 2.0 files (.glb and .gltf) into a Scene.
 //
-// Supported: hierarchies (matrix or TRS), shared meshes as instances, EXT_mesh_gpu_instancing, triangles, strips and
-// fans, every component type, sparse accessors, KHR_mesh_quantization, two sets of texture coordinates, vertex colours,
-// metallic-roughness with KHR_materials_unlit, _emissive_strength, _ior, _transmission and _volume,
-// KHR_texture_transform, EXT_texture_webp, KHR_lights_punctual, cameras (as view points), skins (two sets of joints),
-// morph targets, animations of nodes and weights, KHR_animation_pointer to nodes, lights, and materials' factors and
-// texture transforms. Buffers and pictures may be in the file, in data URIs, or in files named by relative paths, which
-// may contain "..". Absolute paths and URLs are Errors.
+// Supported: hierarchies (matrix or TRS), shared meshes as instances, triangles, strips and
+// fans, every component type, sparse accessors, two sets of texture coordinates, vertex colours,
+// metallic-roughness materials, cameras (as view points), skins (two sets of joints), morph targets, animations of
+// nodes and weights, and the extensions that ods/scene/gltf/extensions.h lists as rendered or approximated. Buffers and
+// pictures may be in the file, in data URIs, or in files named by relative paths, which may contain "..". Absolute
+// paths and URLs are Errors.
 //
 // The Scene is at rest and no clip plays; play() (ods/scene/animation/animation.h) and set_time() (ods/scene/motion.h)
 // animate it.
 //
-// Other features in the file are listed in Scene::warnings, once each. An unsupported extension that the file requires
-// is an Error.
+// Other features in the file are listed in Scene::warnings, once each. Scene::extensions says what became of each
+// extension that the file uses. An unsupported extension that the file requires is an Error.
 //
 // Whatever the file contains, the Scene returned guarantees, at rest and at every time:
 //   - every number is finite; positions, in the mesh and in the world, lie within 1e9 m of the origin;
@@ -38,10 +37,11 @@ namespace ods {
 struct SceneOptions {
   int scene = -1;         // index of the file's scene; -1: its default, or the first
   std::string confine{};  // the only folder that files are read from (ods/files/confined_file.h); empty: no limit
+  std::string variant{};  // one of the file's material variants, by name; empty: each mesh has its default material
 };
 
 // Throws Error(kInput), naming the file: missing, damaged, or unsupported. Throws Error(kUsage):
-// no scene with that index.
+// no scene with that index, no variant of that name.
 Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 
 // The same from memory; `path` stands for it in messages, and relative paths start from its folder.

@@ -99,6 +99,7 @@ bool JsonBuilder::is_kept(const std::string& name) const {
 
 bool JsonBuilder::key(string_t& name) {
   if (skipped_ > 0) return true;
+  if (open_.back().holds_extensions && document_.extensions.size() < kMaxMembers) document_.extensions.insert(name);
   if (!is_kept(name)) {
     skip_next_ = true;
     return true;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@
 namespace ods {
 
 inline const std::string kNoText;
+
+// Lookup is linear; no valid glTF object has more members than this.
+inline constexpr size_t kMaxMembers = 256;
 
 // A value of a JsonDocument, valid while that lives. Its contents follow it in the document's list, so a copy of a list
 // or an object is useless.
@@ -61,12 +65,10 @@ struct JsonDocument {
   std::vector<JsonValue> values;
   std::unordered_set<std::string> keys;
   std::deque<std::string> texts;
+  std::set<std::string> extensions;  // names of those that have objects in it, at most kMaxMembers
 
   const JsonValue& root() const { return values.empty() ? kNoJson : values.front(); }
 };
-
-// Lookup is linear; no valid glTF object has more members than this.
-inline constexpr size_t kMaxMembers = 256;
 
 // Parses the text, skipping what glTF readers ignore: extras, unknown root members, and extensions for which `knows` is
 // false. Throws Error(kInput), naming the path, if the text is not JSON, nests more than 100 levels deep, or has an

@@ -1,17 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <cstring>
 
 #include "ods/base/memory.h"
-#include "ods/image/image_file.h"
 #include "ods/scene/gltf/parts.h"
+#include "ods/scene/gltf/textures.h"
 
 namespace ods {
 
@@ -25,136 +20,84 @@ static vec3 color(const std::vector<double>& values, double high) {
   return result;
 }
 
-// KHR_texture_transform.
-static UvPlace uv_place(const JsonValue& transform) {
-  const std::vector<double> offset = numbers(transform, "offset", {0.0, 0.0});
-  const std::vector<double> scale = numbers(transform, "scale", {1.0, 1.0});
-  return {{offset[0], offset[1]}, number(transform, "rotation", 0.0), {scale[0], scale[1]}};
-}
-
-namespace {
-
-// Textures are created when a material first uses them, because the use decides on the sRGB curve.
-class TextureTable {
- public:
-  TextureTable(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
-
-  // The texture that a member of a material or of its extensions refers to.
-  TextureSlot slot(const JsonValue& parent, const char* key, bool srgb);
-
-  void decode_images();
-
- private:
-  static int wrap(int mode) {
-    constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648;
-    if (mode == kClampToEdge) return kWrapClamp;
-    return mode == kMirroredRepeat ? kWrapMirror : kWrapRepeat;
-  }
-
-  // The image of a texture; -1: none that can be read.
-  int image_of(const JsonValue& texture) const {
-    const int plain = index_in(file_, texture, "source");
-    return integer(file_, extension(texture, "EXT_texture_webp"), "source", plain);
-  }
-
-  int texture(int index, bool srgb);
-
-  const GltfFile& file_;
-  Scene& scene_;
-  std::map<std::pair<int, bool>, int> made_;  // (the file's texture, sRGB) -> the Scene's
-  std::vector<size_t> images_;                // for each of the Scene's textures
-};
-
-}  // namespace
-
-TextureSlot TextureTable::slot(const JsonValue& parent, const char* key, bool srgb) {
-  const JsonValue& info = parent[key];
-  TextureSlot slot = no_texture();
-  const int index = index_in(file_, info, "index");
-  if (index == -1) return slot;
-  slot.texture = texture(index, srgb);
-  slot.uv_set = integer(file_, info, "texCoord", 0);
-  const JsonValue& transform = extension(info, "KHR_texture_transform");
-  if (!transform.is_null()) {
-    place_texture(slot, uv_place(transform));
-    slot.uv_set = integer(file_, transform, "texCoord", slot.uv_set);
-  }
-  if (slot.uv_set < 0 || slot.uv_set > 1) {
-    warn(scene_, "a material uses a third set of texture coordinates; using the first");
-    slot.uv_set = 0;
-  }
-  return slot;
-}
-
-int TextureTable::texture(int index, bool srgb) {
-  const auto found = made_.find({index, srgb});
-  if (found != made_.end()) return found->second;
-  const JsonValue& source = record(file_, file_.textures, index, "texture");
-  const int image = image_of(source);
-  if (image == -1) {
-    warn(scene_, fmt::format("texture {} has no picture that ods can read; using white", index));
-    return made_[{index, srgb}] = -1;
-  }
-  const size_t first_image = element(file_, file_.images, image, "image").first;
-  Texture texture{};
-  texture.srgb = srgb;
-  const int sampler_index = index_in(file_, source, "sampler");
-  if (sampler_index != -1) {
-    constexpr int kNearest = 9728;
-    const JsonValue& sampler = record(file_, file_.samplers, sampler_index, "sampler");
-    texture.wrap_u = wrap(integer(file_, sampler, "wrapS", 0));
-    texture.wrap_v = wrap(integer(file_, sampler, "wrapT", 0));
-    texture.nearest = integer(file_, sampler, "magFilter", 0) == kNearest;
-  }
-  scene_.textures.push_back(texture);
-  images_.push_back(first_image);
-  return made_[{index, srgb}] = static_cast<int>(images_.size()) - 1;
-}
-
-void TextureTable::decode_images() {
-  std::vector<size_t> used = images_;
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<CodeImage> decoded(used.size());
-  // Limits decompression: one small picture may be large, but a hundred references to it must not multiply it.
-  constexpr size_t kSmallTexels = size_t(1) << 26, kTexelsPerByte = 1024;
-  size_t allowed = kSmallTexels + kTexelsPerByte * file_.size;
-  for (const size_t i : used) {
-    allowed += kTexelsPerByte * std::min(external_bytes(file_, file_.images[i]), kMaxFileBytes);
-  }
-  std::atomic<size_t> taken = 0;
-  tbb::parallel_for(size_t(0), used.size(), [&](size_t i) {
-    const std::vector<unsigned char> bytes = image_bytes(file_, file_.images[used[i]]);
-    const std::string name = fmt::format("{}: image {}", file_.path, used[i]);
-    if (bytes.empty()) fail(file_, fmt::format("image {} is empty", used[i]));
-    decoded[i] = decode_image(std::as_bytes(Bytes(bytes)), name);
-    taken += decoded[i].pixels.size();
-    // The sum decides, whatever the order.
-    if (taken > allowed) fail(file_, "holds far more texels than a file of its size can; it looks damaged");
-  });
-  size_t total = 0;
-  for (const CodeImage& image : decoded) total += image.pixels.size();
-  if (total > std::numeric_limits<uint>::max())
-    fail(file_, "has more than four billion texels; make its images smaller");
-  scene_.texels.reserve(total);
-  std::vector<uint> first_texels;
-  for (CodeImage& image : decoded) {
-    first_texels.push_back(static_cast<uint>(scene_.texels.size()));
-    scene_.texels.insert(scene_.texels.end(), image.pixels.begin(), image.pixels.end());
-    image.pixels = {};
-  }
-  for (size_t i = 0; i < images_.size(); i++) {
-    const auto k = static_cast<size_t>(std::lower_bound(used.begin(), used.end(), images_[i]) - used.begin());
-    scene_.textures[i].first_texel = first_texels[k];
-    scene_.textures[i].width = decoded[k].width;
-    scene_.textures[i].height = decoded[k].height;
-  }
-}
-
 // The extension's index 0 requests a Fresnel term of 1, which this index gives: it is so large that a float does not
-// resolve the 1 beside it. (The tints of KHR_materials_specular are lost with it; without them such a material would be
-// a mirror.)
+// resolve the 1 beside it. Together with the colour of KHR_materials_specular it makes what other programs call
+// specular and glossiness.
 static constexpr float kMirrorIor = 1e8f;
+
+static float factor(const JsonValue& parent, const char* key, double high, double fallback) {
+  return clamped(number(parent, key, fallback), 0.0, high, fallback);
+}
+
+static void read_clearcoat_and_sheen(const JsonValue& source, TextureTable& textures, MaterialLayers& layers) {
+  const JsonValue& coat = extension(source, "KHR_materials_clearcoat");
+  layers.clearcoat = factor(coat, "clearcoatFactor", 1.0, 0.0);
+  if (layers.clearcoat > 0.0f) {
+    layers.clearcoat_slot = textures.slot(coat, "clearcoatTexture", false);
+    layers.clearcoat_roughness = factor(coat, "clearcoatRoughnessFactor", 1.0, 0.0);
+    layers.clearcoat_roughness_slot = textures.slot(coat, "clearcoatRoughnessTexture", false);
+    layers.clearcoat_normal_slot = textures.normal_slot(coat, "clearcoatNormalTexture");
+    layers.clearcoat_normal_scale = clamped(number(coat["clearcoatNormalTexture"], "scale", 1.0), -1e3, 1e3, 1.0);
+  }
+  const JsonValue& sheen = extension(source, "KHR_materials_sheen");
+  layers.sheen_color = color(numbers(sheen, "sheenColorFactor", {0.0, 0.0, 0.0}), 1.0);
+  if (layers.sheen_color != vec3(0.0f)) {
+    layers.sheen_color_slot = textures.slot(sheen, "sheenColorTexture", true);
+    layers.sheen_roughness = factor(sheen, "sheenRoughnessFactor", 1.0, 0.0);
+    layers.sheen_roughness_slot = textures.slot(sheen, "sheenRoughnessTexture", false);
+  }
+}
+
+static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTable& textures, MaterialLayers& layers) {
+  const JsonValue& anisotropy = extension(source, "KHR_materials_anisotropy");
+  layers.anisotropy = factor(anisotropy, "anisotropyStrength", 1.0, 0.0);
+  if (layers.anisotropy > 0.0f) {
+    layers.anisotropy_rotation = clamped(number(anisotropy, "anisotropyRotation", 0.0), -1e3, 1e3, 0.0);
+    layers.anisotropy_slot = textures.slot(anisotropy, "anisotropyTexture", false);
+  }
+  const JsonValue& film = extension(source, "KHR_materials_iridescence");
+  layers.iridescence = factor(film, "iridescenceFactor", 1.0, 0.0);
+  if (layers.iridescence > 0.0f) {
+    constexpr double kThickest = 1e5;  // nanometres; interference is long gone
+    layers.iridescence_slot = textures.slot(film, "iridescenceTexture", false);
+    layers.iridescence_ior = clamped(number(film, "iridescenceIor", 1.3), 1.0, 100.0, 1.3);
+    layers.iridescence_thinnest = factor(film, "iridescenceThicknessMinimum", kThickest, 100.0);
+    layers.iridescence_thickest = factor(film, "iridescenceThicknessMaximum", kThickest, 400.0);
+    layers.iridescence_thickness_slot = textures.slot(film, "iridescenceThicknessTexture", false);
+  }
+}
+
+// What most materials lack. Extensions whose values change nothing leave the material as it is.
+static void read_layers(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
+  const MaterialLayers plain = default_layers();
+  MaterialLayers layers = plain;
+  const JsonValue& specular = extension(source, "KHR_materials_specular");
+  const JsonValue& older = extension(source, "KHR_materials_pbrSpecularGlossiness");
+  if (older.is_null()) {
+    layers.specular = factor(specular, "specularFactor", 1.0, 1.0);
+    layers.specular_slot = textures.slot(specular, "specularTexture", false);
+    layers.specular_color = color(numbers(specular, "specularColorFactor", {1.0, 1.0, 1.0}), 1e9);
+    layers.specular_color_slot = textures.slot(specular, "specularColorTexture", true);
+  } else {
+    layers.specular_color = color(numbers(older, "specularFactor", {1.0, 1.0, 1.0}), 1.0);
+    layers.specular_color_slot = textures.slot(older, "specularGlossinessTexture", true);
+  }
+  read_clearcoat_and_sheen(source, textures, layers);
+  read_anisotropy_and_iridescence(source, textures, layers);
+  if (material.transmission > 0.0f && material.thickness > 0.0f) {
+    layers.dispersion = factor(extension(source, "KHR_materials_dispersion"), "dispersion", 100.0, 0.0);
+  }
+  const JsonValue& through = extension(source, "KHR_materials_diffuse_transmission");
+  layers.diffuse_transmission = factor(through, "diffuseTransmissionFactor", 1.0, 0.0);
+  if (layers.diffuse_transmission > 0.0f) {
+    layers.diffuse_transmission_slot = textures.slot(through, "diffuseTransmissionTexture", false);
+    layers.diffuse_transmission_color = color(numbers(through, "diffuseTransmissionColorFactor", {1.0, 1.0, 1.0}), 1.0);
+    layers.diffuse_transmission_color_slot = textures.slot(through, "diffuseTransmissionColorTexture", true);
+  }
+  if (std::memcmp(&layers, &plain, sizeof plain) == 0) return;
+  material.layers = static_cast<int>(scene.material_layers.size());
+  scene.material_layers.push_back(layers);
+}
 
 static void read_extensions(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
   const double strength = number(extension(source, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
@@ -162,8 +105,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
   const JsonValue& ior = extension(source, "KHR_materials_ior");
   if (!ior.is_null()) {
     const double value = number(ior, "ior", 1.5);
-    const bool tinted = !extension(source, "KHR_materials_specular").is_null();
-    if (value == 0.0 && !tinted) {
+    if (value == 0.0) {
       material.ior = kMirrorIor;
     } else if (value < 1.0) {
       warn(scene, "a material has an index of refraction below 1; using 1.5");
@@ -184,6 +126,20 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
     material.attenuation_color = color(numbers(volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
   }
   material.unlit = !extension(source, "KHR_materials_unlit").is_null();
+  if (material.unlit == 0) read_layers(source, scene, textures, material);
+}
+
+// KHR_materials_pbrSpecularGlossiness, which KHR_materials_specular replaced: with an index of refraction of 0, a
+// dielectric reflects just its specular colour and scatters the rest. read_layers() takes that colour.
+static void read_specular_glossiness(const JsonValue& older, TextureTable& textures, Material& material) {
+  const std::vector<double> diffuse = numbers(older, "diffuseFactor", {1.0, 1.0, 1.0, 1.0});
+  material.base_color = vec4(color(diffuse, 1.0), clamped(diffuse[3], 0.0, 1.0, 1.0));
+  material.base_color_slot = textures.slot(older, "diffuseTexture", true);
+  const float glossiness = factor(older, "glossinessFactor", 1.0, 1.0);
+  material.metallic = 0.0f;
+  material.metallic_roughness_slot = textures.glossiness_slot(older, "specularGlossinessTexture", glossiness);
+  material.roughness = material.metallic_roughness_slot.texture == -1 ? 1.0f - glossiness : 1.0f;
+  material.ior = kMirrorIor;
 }
 
 static Material read_material(const JsonValue& source, Scene& scene, TextureTable& textures) {
@@ -196,7 +152,7 @@ static Material read_material(const JsonValue& source, Scene& scene, TextureTabl
   material.roughness = clamped(number(pbr, "roughnessFactor", 1.0), 0.0, 1.0, 1.0);
   material.metallic_roughness_slot = textures.slot(pbr, "metallicRoughnessTexture", false);
   material.normal_scale = clamped(number(normal, "scale", 1.0), -1e3, 1e3, 1.0);
-  material.normal_slot = textures.slot(source, "normalTexture", false);
+  material.normal_slot = textures.normal_slot(source, "normalTexture");
   material.emission = color(numbers(source, "emissiveFactor", {0.0, 0.0, 0.0}), 1e9);
   material.emission_slot = textures.slot(source, "emissiveTexture", true);
   const std::string& alpha = *source["alphaMode"].text;
@@ -204,6 +160,8 @@ static Material read_material(const JsonValue& source, Scene& scene, TextureTabl
   material.alpha_cutoff = clamped(number(source, "alphaCutoff", 0.5), 0.0, 2.0, 0.5);
   material.double_sided = source["doubleSided"].is_true();
   read_extensions(source, scene, textures, material);
+  const JsonValue& older = extension(source, "KHR_materials_pbrSpecularGlossiness");
+  if (!older.is_null()) read_specular_glossiness(older, textures, material);
   return material;
 }
 

@@ -63,6 +63,15 @@ static std::vector<uint> read_corners(GltfFile& file, int accessor, size_t verte
   return corners;
 }
 
+// The same of compressed data.
+static std::vector<uint> take_corners(GltfFile& file, DracoMesh& mesh) {
+  spend(file, mesh.corners.size());
+  for (const uint corner : mesh.corners) {
+    if (corner >= mesh.vertex_count) fail(file, "has Draco data with an index out of range; the file is damaged");
+  }
+  return std::move(mesh.corners);
+}
+
 // Drops triangles that no ray can hit. Returns how many had a non-finite corner.
 static size_t drop_bad_triangles(const AccessorView& positions, std::vector<uvec3>& triangles) {
   constexpr float kSmallest = 1e-18f;  // m2; below this, squared areas underflow a float
@@ -91,7 +100,9 @@ struct Attributes {
 AccessorView read_attribute(GltfFile& file, const JsonValue& attributes, const char* name, int components,
                             size_t count) {
   const int accessor = index_in(file, attributes, name);
-  const AccessorView attribute = open_accessor(file, accessor);
+  const auto compressed = file.draco.find(&attributes);
+  const bool is_compressed = compressed != file.draco.end() && compressed->second.attributes.contains(name);
+  const AccessorView attribute = is_compressed ? compressed->second.attributes.at(name) : open_accessor(file, accessor);
   if (attribute.count == 0) return attribute;
   if (attribute.components < components || attribute.components > 4) {
     fail(file,
@@ -140,19 +151,37 @@ struct Geometry {
 }  // namespace
 
 // Keeps only vertices that triangles use: many primitives may share one long list.
-static Geometry gather(const Attributes& attributes, const std::vector<uvec3>& triangles) {
+static std::vector<uint> renumber(std::vector<uvec3>& triangles) {
   std::vector<uint> used;
   used.reserve(triangles.size() * 3);
   for (const uvec3& t : triangles) used.insert(used.end(), {t.x, t.y, t.z});
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  Geometry geometry;
-  geometry.vertices.reserve(used.size());
-  for (const uint i : used) geometry.vertices.push_back(read_vertex(attributes, i));
   auto place = [&](uint i) { return static_cast<uint>(std::lower_bound(used.begin(), used.end(), i) - used.begin()); };
-  geometry.triangles.reserve(triangles.size());
-  for (const uvec3& t : triangles) geometry.triangles.emplace_back(place(t.x), place(t.y), place(t.z));
-  geometry.order = std::move(used);
+  for (uvec3& t : triangles) t = uvec3(place(t.x), place(t.y), place(t.z));
+  return used;
+}
+
+// The same for a list of vertices that is the primitive's own, so that a table of its length costs little.
+static std::vector<uint> renumber_own(std::vector<uvec3>& triangles, size_t vertex_count) {
+  std::vector<uint> places(vertex_count, 0), used;
+  for (const uvec3& t : triangles) places[t.x] = places[t.y] = places[t.z] = 1;
+  for (size_t i = 0; i < vertex_count; i++) {
+    if (places[i] == 0) continue;
+    places[i] = static_cast<uint>(used.size());
+    used.push_back(static_cast<uint>(i));
+  }
+  for (uvec3& t : triangles) t = uvec3(places[t.x], places[t.y], places[t.z]);
+  return used;
+}
+
+static Geometry gather(const Attributes& attributes, std::vector<uvec3> triangles, bool own_vertices) {
+  Geometry geometry;
+  geometry.order = own_vertices ? renumber_own(triangles, attributes.position.count) : renumber(triangles);
+  geometry.order.shrink_to_fit();
+  geometry.triangles = std::move(triangles);
+  geometry.vertices.reserve(geometry.order.size());
+  for (const uint i : geometry.order) geometry.vertices.push_back(read_vertex(attributes, i));
   return geometry;
 }
 
@@ -195,14 +224,73 @@ static void repair_normals(Geometry& geometry) {
   }
 }
 
+// Gives vertices without a tangent one along u of the normal map's coordinates. Source: Lengyel, "Computing Tangent
+// Space Basis Vectors for an Arbitrary Mesh", with glTF's signs: the bitangent is cross(normal, tangent) * w and points
+// up in the picture, towards decreasing v. Exporters that bake with MikkTSpace store their tangents; this is for files
+// without them. (The supported systems package no MikkTSpace library.)
+static void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& slot) {
+  auto uv = [&](const Vertex& vertex) {
+    const vec2 p = slot.uv_set == 1 ? vertex.uv1 : vertex.uv0;
+    return glm::dvec2(slot.offset + p.x * slot.axis_u + p.y * slot.axis_v);
+  };
+  std::vector<glm::dvec3> along_u(vertices.size(), glm::dvec3(0.0)), up(along_u);
+  for (const uvec3& t : triangles) {
+    const Vertex &a = vertices[t.x], &b = vertices[t.y], &c = vertices[t.z];
+    const glm::dvec3 edge1(b.position - a.position), edge2(c.position - a.position);
+    const glm::dvec2 step1 = uv(b) - uv(a), step2 = uv(c) - uv(a);
+    const double area = step1.x * step2.y - step2.x * step1.y;
+    if (area == 0.0) continue;
+    const glm::dvec3 u = (edge1 * step2.y - edge2 * step1.y) * std::copysign(1.0, area);
+    const glm::dvec3 v = (edge2 * step1.x - edge1 * step2.x) * std::copysign(1.0, area);
+    for (int k = 0; k < 3; k++) {
+      along_u[t[k]] += u;
+      up[t[k]] -= v;
+    }
+  }
+  for (size_t i = 0; i < vertices.size(); i++) {
+    if (vec3(vertices[i].tangent) != vec3(0.0f)) continue;
+    const glm::dvec3 normal(vertices[i].normal);
+    const glm::dvec3 tangent = along_u[i] - normal * glm::dot(normal, along_u[i]);
+    const double size = glm::length(tangent);
+    if (!(size > 1e-30)) continue;
+    const float side = glm::dot(glm::cross(normal, tangent), up[i]) < 0.0 ? -1.0f : 1.0f;
+    vertices[i].tangent = vec4(vec3(tangent / size), side);
+  }
+}
+
 // --- meshes
+
+// The texture coordinates that a material's tangents follow: those of its normal map, or of its clearcoat's, or of its
+// anisotropy. Null: it needs no tangents.
+static const TextureSlot* slot_of_tangents(const Scene& scene, int index) {
+  const Material& material = scene.materials[static_cast<size_t>(index)];
+  if (material.normal_slot.texture != -1) return &material.normal_slot;
+  if (material.layers < 0) return nullptr;
+  const MaterialLayers& layers = scene.material_layers[static_cast<size_t>(material.layers)];
+  if (layers.clearcoat_normal_slot.texture != -1) return &layers.clearcoat_normal_slot;
+  return layers.anisotropy > 0.0f ? &layers.anisotropy_slot : nullptr;
+}
+
+// The file's index of a primitive's material, -1: none. The first mapping that names the chosen variant counts.
+static int material_of(GltfFile& file, const JsonValue& primitive) {
+  if (file.variant != -1) {
+    for (const JsonValue& mapping : extension(primitive, "KHR_materials_variants")["mappings"]) {
+      const std::vector<int> variants = indices(file, mapping, "variants");
+      spend(file, 1 + variants.size());  // many nodes may share a mesh that deforms
+      if (std::find(variants.begin(), variants.end(), file.variant) != variants.end()) {
+        return index_in(file, mapping, "material");
+      }
+    }
+  }
+  return index_in(file, primitive, "material");
+}
 
 // Appends the Scene mesh of one primitive and returns it, or -1 if none of it is visible.
 static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Deformers& bending) {
   const int mode = integer(file, primitive, "mode", kTriangles);
   if (mode < kPoints || mode > kFan) fail(file, fmt::format("primitive mode {} does not exist", mode));
   if (mode < kTriangles) {
-    warn(scene, "points and lines are ignored");
+    (mode == kPoints ? file.points : file.lines).insert(&primitive);
     return -1;
   }
   const JsonValue& listed = primitive["attributes"];
@@ -211,7 +299,7 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
     return -1;
   }
   const int none = static_cast<int>(file.materials.size());
-  const int named = index_in(file, primitive, "material"), material = named == -1 ? none : named;
+  const int named = material_of(file, primitive), material = named == -1 ? none : named;
   if (material < 0 || material > none)
     fail(file, fmt::format("material {} does not exist; the file is damaged", material));
 
@@ -224,25 +312,36 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
   attributes.uv1 = read_attribute(file, listed, "TEXCOORD_1", 2, count);
   attributes.color = read_attribute(file, listed, "COLOR_0", 3, count);
 
-  std::vector<uvec3> triangles = make_triangles(read_corners(file, index_in(file, primitive, "indices"), count), mode);
+  const auto compressed = file.draco.find(&listed);
+  std::vector<uvec3> triangles =
+      compressed != file.draco.end()
+          ? make_triangles(take_corners(file, compressed->second), kTriangles)
+          : make_triangles(read_corners(file, index_in(file, primitive, "indices"), count), mode);
   if (drop_bad_triangles(attributes.position, triangles) > 0) {
     warn(scene, "triangles with a corner that is not finite, or too far away, are left out");
   }
   if (triangles.empty()) return -1;
-  Geometry geometry = gather(attributes, triangles);
-  if (attributes.normal.count == 0) make_flat(geometry);
-  repair_normals(geometry);
-  const TextureSlot& normal_slot = scene.materials[static_cast<size_t>(material)].normal_slot;
-  if (normal_slot.texture != -1) make_tangents(geometry.vertices, geometry.triangles, normal_slot);
-  const int index = add_mesh(scene, geometry.vertices, geometry.triangles, material);
+  const bool flat = attributes.normal.count == 0;
+  Geometry geometry = gather(attributes, std::move(triangles), compressed != file.draco.end());
   const PrimitiveSource source{listed, primitive["targets"], count, geometry.order};
-  if (bends(source, bending)) read_deformation(file, scene, source, bending, index, attributes.normal.count == 0);
+  const bool deforms = bends(source, bending);
+  attributes = {};
+  if (!deforms) file.draco.erase(&listed);
+  if (flat) make_flat(geometry);
+  repair_normals(geometry);
+  const TextureSlot* const tangent_slot = slot_of_tangents(scene, material);
+  if (tangent_slot) make_tangents(geometry.vertices, geometry.triangles, *tangent_slot);
+  const int index = add_mesh(scene, std::move(geometry.vertices), std::move(geometry.triangles), material);
+  if (deforms) read_deformation(file, scene, source, bending, index, flat);
+  file.draco.erase(&listed);
   return index;
 }
 
 std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Deformers& bending) {
   std::vector<int> meshes;
-  for (const JsonValue& primitive : record(file, file.meshes, mesh, "mesh")["primitives"]) {
+  const JsonValue& source = record(file, file.meshes, mesh, "mesh");
+  decode_mesh(file, mesh);
+  for (const JsonValue& primitive : source["primitives"]) {
     const int index = read_primitive(file, scene, primitive, bending);
     if (index != -1) meshes.push_back(index);
   }

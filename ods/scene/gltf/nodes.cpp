@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/gltf/nodes.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
-#include "ods/scene/gltf/parts.h"
 
 namespace ods {
 
@@ -126,6 +127,25 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
   return nodes;
 }
 
+// --- what is hidden
+
+// KHR_node_visibility.
+static bool starts_visible(const JsonValue& node) {
+  return extension(node, "KHR_node_visibility")["visible"].kind != JsonValue::Kind::kFalse;
+}
+
+// Per node: whether it, or an ancestor, is hidden at all times.
+static std::vector<char> find_hidden(const GltfFile& file, const Hierarchy& tree, const std::vector<char>& blinks) {
+  std::vector<char> hidden(tree.order.size(), 0);
+  for (const int node : tree.order) {
+    const auto i = static_cast<size_t>(node);
+    const int parent = tree.parents[i];
+    const bool below = parent != -1 && hidden[static_cast<size_t>(parent)] != 0;
+    hidden[i] = below || (!starts_visible(*file.nodes[i]) && blinks[i] == 0) ? 1 : 0;
+  }
+  return hidden;
+}
+
 // --- what moves
 
 // Adds the file's moving nodes to Animation::nodes, including all descendants of a moving one.
@@ -139,6 +159,7 @@ static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy&
     if (!named[i] && parent_row == -1) continue;
     MovingNode moving;
     moving.parent = parent_row;
+    moving.visible = starts_visible(*file.nodes[i]);
     if (parent != -1 && parent_row == -1) moving.before = world[static_cast<size_t>(parent)];
     const JsonValue& source = *file.nodes[i];
     if (has_matrix(source)) {
@@ -252,7 +273,7 @@ void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dm
   spend(file_, 1);
   const int instance = static_cast<int>(scene_.instances.size());
   if (mesh.deformation != -1 || row != -1) {
-    MovingInstance moving{instance, row, mesh.deformation, row == -1 ? world * local : local, {}, {}};
+    MovingInstance moving{instance, row, mesh.deformation, row == -1 ? world * local : local, {}, {}, row};
     if (mesh.skinned) moving.node = -1, moving.local = dmat4(1.0);
     moving.low = mesh.bounds.low, moving.high = mesh.bounds.high;
     scene_.animation.instances.push_back(moving);
@@ -355,18 +376,20 @@ void Placer::place_camera(int index, const dmat4& world) {
   scene_.view_points.push_back(view);
 }
 
-Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<char>& moves) {
+Places read_nodes(GltfFile& file, Scene& scene, int chosen, const AnimatedNodes& animated) {
   const Hierarchy tree = read_hierarchy(file);
   const std::vector<dmat4> world = evaluate_nodes(file, tree);
+  const std::vector<char> hidden = find_hidden(file, tree, animated.blinks);
   Places places;
-  places.nodes = read_moving_nodes(file, tree, world, moves, scene);
+  places.nodes = read_moving_nodes(file, tree, world, animated.moves, scene);
   places.weights.assign(places.nodes.size(), -1);
   Placer placer(file, scene, places);
   for (const int i : nodes_of_scene(file, tree, chosen)) {
     const JsonValue& node = *file.nodes[static_cast<size_t>(i)];
     const dmat4& matrix = world[static_cast<size_t>(i)];
-    placer.place_meshes(i, matrix);
     if (index_in(file, node, "camera") != -1) placer.place_camera(i, matrix);
+    if (hidden[static_cast<size_t>(i)] != 0) continue;
+    placer.place_meshes(i, matrix);
     const JsonValue& light = extension(node, "KHR_lights_punctual");
     if (!light.is_null()) placer.place_light(i, index_in(file, light, "light"), matrix);
   }

@@ -4,30 +4,37 @@
 // The internal interface of the glTF reader; only ods/scene/gltf/gltf.cpp and its folder include this.
 //   json      the text -> JsonValues; values reads their members
 //   source    the file's bytes, its buffers and pictures -> GltfFile
+//   uri       the files that it refers to, in its folder or in its .zip archive
+//   meshopt   compressed buffer views -> bytes
 //   accessor  numbers from buffers
-//   material  materials, samplers, textures
+//   draco     compressed primitives -> numbers
+//   material  materials; textures makes what they read
 //   mesh      primitives -> meshes
 //   bend      morph targets and skins of primitives -> deformations
-//   nodes     the hierarchy -> instances, lights, view points
-//   clips     animations -> clips and their targets
+//   nodes     the hierarchy -> instances, lights, view points (nodes.h)
+//   clips     animations -> clips and their targets (nodes.h)
 // Every function here throws Error(kInput), naming the file, if the file is inconsistent.
 #pragma once
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "ods/files/zip_archive.h"
+#include "ods/scene/gltf/accessor.h"
 #include "ods/scene/gltf/json.h"
+#include "ods/scene/gltf/source.h"
 #include "ods/scene/gltf/values.h"
 #include "ods/scene/placement.h"
 
 namespace ods {
 
-using Bytes = std::span<const unsigned char>;
-
 struct ImageSource {
-  std::string uri;  // empty if the picture is in the buffer view
+  std::string uri;   // empty if the picture is in the buffer view
+  std::string name;  // the file that it means: resolve_uri()
   int view = -1;
   size_t first = 0;  // the first image with the same source, the only one read
 };
@@ -54,13 +61,22 @@ struct GltfFile {
   std::string path;
   std::string confine;  // as in SceneOptions
   JsonDocument json;
-  Records accessors, buffer_views, cameras, lights, materials, meshes, nodes, samplers, scenes, skins, textures;
-  std::vector<Bytes> buffers;
+  Records accessors, buffer_views, cameras, image_lights, lights, materials, meshes, nodes, samplers, scenes, skins,
+      textures;
+  std::shared_ptr<ZipArchive> archive;         // that the scene is in; null: it is a file on the disk
+  std::string folder;                          // of the scene in the archive
+  std::map<std::string, std::string> renamed;  // files that are not called what the scene calls them
+  std::vector<Bytes> buffers;                  // empty: without data
   std::vector<ImageSource> images;
   std::vector<ClipSource> clips;
-  std::vector<std::shared_ptr<const std::vector<unsigned char>>> storage;  // owns what `buffers` point into
-  size_t size = 0;                                                         // bytes of the file and its buffers
-  size_t budget = 0;  // remaining corners and instances, in proportion to the file's size
+  std::vector<Storage> storage;                 // owns what `buffers` point into
+  std::vector<Storage> decoded_views;           // for each buffer view its bytes, if it is compressed
+  std::map<const JsonValue*, DracoMesh> draco;  // by the attributes of their primitives
+  size_t size = 0;                              // bytes of the file and its buffers
+  size_t draco_budget = 0;                      // bytes that decoding may still use
+  size_t budget = 0;                            // remaining corners and instances, in proportion to the file's size
+  int variant = -1;                             // the chosen one of KHR_materials_variants; -1: none
+  std::set<const JsonValue*> points, lines;     // primitives that were met and not read
 };
 
 [[noreturn]] void fail(const GltfFile& file, const std::string& what);
@@ -79,9 +95,6 @@ inline const JsonValue& record(const GltfFile& file, const Records& list, int in
   return *element(file, list, index, what);
 }
 
-// Whether the reader supports an extension.
-bool is_read(std::string_view extension);
-
 // Text from the file, made safe for a message: one line, of limited length.
 std::string printable(const std::string& text);
 
@@ -91,36 +104,21 @@ void warn(Scene& scene, const std::string& what);
 // Deducts from the budget, so that a small file cannot request gigabytes by naming one accessor a million times.
 void spend(GltfFile& file, size_t count);
 
-// --- source.cpp
-GltfFile open_gltf(const std::string& path, const std::string& confine);
-GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine);
-Bytes buffer_view_bytes(const GltfFile& file, int view);
-std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image);
-// The size of the picture's own file; 0 if it is embedded in the glTF file or missing.
-size_t external_bytes(const GltfFile& file, const ImageSource& image);
-
 // --- accessor.cpp
-// One accessor, checked to lie inside its buffer. at(i) is element i as floats (normalized integers mapped as the
-// specification says); missing components are 0, w is 1.
-struct AccessorView {
-  size_t count = 0;
-  int components = 0;
-
-  vec4 at(size_t i) const;  // the first four
-  float number_at(size_t i, int component) const;
-  uint index_at(size_t i) const;
-
-  const unsigned char* data = nullptr;
-  size_t stride = 0;
-  int component_type = 0;
-  bool normalized = false;
-  std::shared_ptr<const std::vector<unsigned char>> expanded;  // backs `data` of a sparse accessor
-};
-
 // accessor -1 gives an AccessorView with count 0.
 AccessorView open_accessor(GltfFile& file, int accessor);
 
+// --- draco.cpp
+// Decode primitives with KHR_draco_mesh_compression into file.draco, in parallel: of all meshes, and of a mesh those
+// that are not there. read_mesh() takes them out again.
+void decode_meshes(GltfFile& file);
+void decode_mesh(GltfFile& file, int mesh);
+
 // --- material.cpp
+// Textures that ods does not decode, and the command that converts them.
+inline constexpr const char* kBasis = "KHR_texture_basisu";
+inline constexpr const char* kBasisCure = "gltf-transform ktxdecompress in.glb out.glb";
+
 // The scene's materials are the file's in order, then one more for primitives without a material.
 void read_materials(const GltfFile& file, Scene& scene);
 
@@ -138,13 +136,10 @@ struct Deformers {
 // deform, each gets an element in Animation::deformations.
 std::vector<int> read_mesh(GltfFile& file, Scene& scene, int mesh, const Deformers& bending);
 
-// The floats of a primitive's attribute; count 0 if it is absent. Fails unless there are `count` elements with
-// `components` up to 4 components.
+// The floats of a primitive's attribute, compressed or not; count 0 if it is absent. Fails unless there are `count`
+// elements with `components` up to 4 components.
 AccessorView read_attribute(GltfFile& file, const JsonValue& attributes, const char* name, int components,
                             size_t count);
-
-// Gives vertices without a tangent one along u of the normal map's coordinates.
-void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3>& triangles, const TextureSlot& normal_slot);
 
 // --- bend.cpp
 struct PrimitiveSource {
@@ -163,28 +158,5 @@ void read_deformation(GltfFile& file, Scene& scene, const PrimitiveSource& primi
 
 // Appends to Animation::skins. rows: for each of the file's nodes its index in Animation::nodes.
 int read_skin(GltfFile& file, Scene& scene, int skin, const std::vector<int>& rows);
-
-// --- nodes.cpp
-// Where the file's objects are in the Scene, for animation. -1: nowhere.
-struct Places {
-  struct PlacedLight {
-    int light;  // index in the Scene
-    int source;
-    int node;
-  };
-  std::vector<int> nodes;    // per node: its index in Animation::nodes
-  std::vector<int> weights;  // per node: its mesh's index in Animation::weights
-  std::vector<PlacedLight> lights;
-};
-
-// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. moves: per node,
-// whether an animation or a skin refers to it.
-Places read_nodes(GltfFile& file, Scene& scene, int chosen, const std::vector<char>& moves);
-
-Lamp read_lamp(const GltfFile& file, int light);
-
-// --- clips.cpp
-std::vector<char> named_nodes(const GltfFile& file);
-void read_clips(GltfFile& file, Scene& scene, const Places& places);
 
 }  // namespace ods

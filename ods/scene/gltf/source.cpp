@@ -3,23 +3,22 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <set>
 
-#include "ods/base/base64.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/text.h"
 #include "ods/files/confined_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
+#include "ods/scene/gltf/extensions.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
-
-using Storage = std::shared_ptr<const std::vector<unsigned char>>;
 
 static Storage share(std::vector<unsigned char> bytes) {
   return std::make_shared<const std::vector<unsigned char>>(std::move(bytes));
@@ -71,72 +70,6 @@ static Chunks split_container(const GltfFile& file, Bytes bytes) {
   return chunks;
 }
 
-// --- URIs
-
-// RFC 3986: %20 is a space.
-static std::string decode_percent(const std::string& uri) {
-  std::string text;
-  for (size_t i = 0; i < uri.size(); i++) {
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    text += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-    if (escaped) i += 2;
-  }
-  return text;
-}
-
-// The same key for all spellings of a path, so that nothing is read twice.
-static std::string uri_key(const std::string& uri) {
-  return uri.starts_with("data:") ? uri : std::filesystem::path(decode_percent(uri)).lexically_normal().string();
-}
-
-static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
-  const size_t comma = uri.find(";base64,");
-  if (comma == std::string::npos) fail(file, "has a data URI that is not base64");
-  const std::string bytes = decode_base64(std::string_view(uri).substr(comma + 8));
-  return share({bytes.begin(), bytes.end()});
-}
-
-// RFC 3986: whether it starts with a scheme, as "file:" and "https:".
-static bool has_scheme(const std::string& uri) {
-  const size_t colon = uri.find_first_of(":/?#%");
-  return colon != std::string::npos && uri[colon] == ':';
-}
-
-// The path that a URI refers to.
-static std::string uri_path(const GltfFile& file, const std::string& uri) {
-  const std::string name = decode_percent(uri);
-  if (name.empty() || name.find('\0') != std::string::npos) fail(file, "refers to a file without a name");
-  if (has_scheme(uri) || name.starts_with('/')) {
-    fail(file, fmt::format("refers to {}; ods reads only files that are named relative to the scene, and fetches "
-                           "nothing from the network: put the file beside it",
-                           printable(uri)));
-  }
-  return (std::filesystem::path(file.path).parent_path() / name).string();
-}
-
-// The first `most` bytes of a URI's file, which may be larger than needed.
-static Storage read_uri(const GltfFile& file, const std::string& uri, size_t most) {
-  if (uri.starts_with("data:")) return read_data_uri(file, uri);
-  const std::string path = uri_path(file, uri);
-  try {
-    return ConfinedFile(path, file.confine).read([&](const std::string& opened) {
-      return share(read_start(opened, most));
-    });
-  } catch (const Error& error) {
-    if (!file.confine.empty()) {  // reveals nothing about files outside the folder
-      if (error.kind() != ErrorKind::kInput) throw;
-      fail(file, fmt::format("refers to {}, which does not exist, lies outside the folder that scenes are confined "
-                             "to, or cannot be read",
-                             printable(uri)));
-    }
-    std::string_view why = error.what();
-    const std::string known = fmt::format("cannot read '{}': ", path);  // stripped below
-    if (why.starts_with(known)) why.remove_prefix(known.size());
-    throw Error(error.kind(), fmt::format("{}: refers to {}: {}", file.path, printable(uri), why));
-  }
-}
-
 // --- buffers and pictures
 
 static const JsonValue& list_in(const GltfFile& file, const JsonValue& parent, const char* key) {
@@ -155,29 +88,40 @@ static Records records(const GltfFile& file, const JsonValue& parent, const char
   return found;
 }
 
+// A buffer without data, because all its buffer views are compressed and have theirs elsewhere.
+static bool is_fallback(const JsonValue& buffer) {
+  return extension(buffer, "EXT_meshopt_compression")["fallback"].is_true() ||
+         extension(buffer, "KHR_meshopt_compression")["fallback"].is_true();
+}
+
 static void take_buffers(GltfFile& file, Bytes binary) {
   const Records sources = records(file, file.json.root(), "buffers");
+  std::vector<std::string> names(sources.size());
   std::map<std::string, size_t> lengths;  // how much of each file is needed
-  for (const JsonValue* source : sources) {
-    size_t& longest = lengths[uri_key(*(*source)["uri"].text)];
-    longest = std::max(longest, size_in(file, *source, "byteLength"));
+  for (size_t i = 0; i < sources.size(); i++) {
+    const JsonValue& uri = (*sources[i])["uri"];
+    if (!uri.is_text() || is_fallback(*sources[i])) continue;
+    names[i] = resolve_uri(file, *uri.text);
+    size_t& longest = lengths[names[i]];
+    longest = std::max(longest, size_in(file, *sources[i], "byteLength"));
   }
   std::map<std::string, Storage> loaded;
   for (size_t i = 0; i < sources.size(); i++) {
     const size_t length = size_in(file, *sources[i], "byteLength");
     const JsonValue& uri = (*sources[i])["uri"];
+    if (is_fallback(*sources[i]) || (!uri.is_text() && (i > 0 || binary.empty()))) {
+      file.buffers.emplace_back();
+      continue;
+    }
     Bytes bytes = binary;
     if (uri.is_text()) {
-      const std::string key = uri_key(*uri.text);
-      Storage& storage = loaded[key];
+      Storage& storage = loaded[names[i]];
       if (!storage) {
-        storage = read_uri(file, *uri.text, lengths[key]);
+        storage = read_uri(file, *uri.text, names[i], lengths[names[i]]);
         file.storage.push_back(storage);
         file.size += storage->size();
       }
       bytes = *storage;
-    } else if (i > 0) {
-      fail(file, fmt::format("buffer {} has no data", i));
     }
     if (length > bytes.size()) {
       fail(file,
@@ -190,8 +134,9 @@ static void take_buffers(GltfFile& file, Bytes binary) {
 static void take_images(GltfFile& file) {
   std::map<std::pair<std::string, int>, size_t> first;
   for (const JsonValue* image : records(file, file.json.root(), "images")) {
-    ImageSource source{*(*image)["uri"].text, index_in(file, *image, "bufferView"), file.images.size()};
-    source.first = first.emplace(std::pair(uri_key(source.uri), source.view), source.first).first->second;
+    ImageSource source{*(*image)["uri"].text, "", index_in(file, *image, "bufferView"), file.images.size()};
+    if (!source.uri.empty()) source.name = resolve_uri(file, source.uri);
+    source.first = first.emplace(std::pair(source.name, source.view), source.first).first->second;
     file.images.push_back(source);
   }
 }
@@ -213,24 +158,26 @@ static void take_clips(GltfFile& file) {
   }
 }
 
-Bytes buffer_view_bytes(const GltfFile& file, int index) {
-  const JsonValue& view = record(file, file.buffer_views, index, "buffer view");
-  const Bytes buffer = element(file, file.buffers, index_in(file, view, "buffer"), "buffer");
-  const size_t offset = size_in(file, view, "byteOffset"), length = size_in(file, view, "byteLength");
+Bytes bytes_in_buffer(const GltfFile& file, const JsonValue& part, const std::string& what) {
+  const int index = index_in(file, part, "buffer");
+  const Bytes buffer = element(file, file.buffers, index, "buffer");
+  const size_t offset = size_in(file, part, "byteOffset"), length = size_in(file, part, "byteLength");
+  if (buffer.empty() && length > 0) fail(file, fmt::format("{} lies in buffer {}, which has no data", what, index));
   if (offset > buffer.size() || length > buffer.size() - offset) {
-    fail(file, fmt::format("buffer view {} runs past the end of its buffer; the file is damaged", index));
+    fail(file, fmt::format("{} runs past the end of its buffer; the file is damaged", what));
   }
   return buffer.subspan(offset, length);
 }
 
-size_t external_bytes(const GltfFile& file, const ImageSource& image) {
-  if (image.uri.empty() || image.uri.starts_with("data:")) return 0;
-  const std::string path = uri_path(file, image.uri);
-  try {
-    return ConfinedFile(path, file.confine).read(file_size);
-  } catch (const Error&) {
-    return 0;  // reading it reports the fault
+Bytes buffer_view_bytes(const GltfFile& file, int index) {
+  const JsonValue& view = record(file, file.buffer_views, index, "buffer view");
+  const Storage& decoded = file.decoded_views[static_cast<size_t>(index)];
+  if (!decoded) return bytes_in_buffer(file, view, fmt::format("buffer view {}", index));
+  const size_t length = size_in(file, view, "byteLength");
+  if (length > decoded->size()) {
+    fail(file, fmt::format("buffer view {} runs past the end of its compressed data; the file is damaged", index));
   }
+  return Bytes(*decoded).first(length);
 }
 
 std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& image) {
@@ -238,7 +185,7 @@ std::vector<unsigned char> image_bytes(const GltfFile& file, const ImageSource& 
     fail(file, fmt::format("refers to {}: more than {}, the limit for a picture", printable(image.uri),
                            bytes_text(kMaxFileBytes)));
   }
-  if (!image.uri.empty()) return *read_uri(file, image.uri, kMaxFileBytes);
+  if (!image.uri.empty()) return *read_uri(file, image.uri, image.name, kMaxFileBytes);
   const Bytes bytes = buffer_view_bytes(file, image.view);
   return {bytes.begin(), bytes.end()};
 }
@@ -262,6 +209,7 @@ static void parse(GltfFile& file, Bytes bytes) {
   file.accessors = records(file, root, "accessors");
   file.buffer_views = records(file, root, "bufferViews");
   file.cameras = records(file, root, "cameras");
+  file.image_lights = records(file, extension(root, "EXT_lights_image_based"), "lights");
   file.lights = records(file, extension(root, "KHR_lights_punctual"), "lights");
   file.materials = records(file, root, "materials");
   file.meshes = records(file, root, "meshes");
@@ -274,13 +222,15 @@ static void parse(GltfFile& file, Bytes bytes) {
   take_buffers(file, chunks.binary);
   take_images(file);
   file.budget = (size_t(1) << 20) + 16 * file.size;
+  decode_views(file);
 }
 
-// A binary container states its length; anything else must look like JSON before it is read.
+// A binary container states its length; anything else must be an archive or look like JSON before it is read.
 static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   constexpr size_t kLongestText = size_t(1) << 30;
   return ConfinedFile(file.path, file.confine).read([&](const std::string& opened) {
     const std::vector<unsigned char> start = read_start(opened, 64);
+    if (is_zip(start)) return read_start(opened, SIZE_MAX);
     if (is_container(start)) return read_start(opened, start.size() < 12 ? start.size() : read_uint32(start, 8));
     const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
     const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
@@ -289,16 +239,45 @@ static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   });
 }
 
+// The one scene in an archive.
+static std::string scene_in(const GltfFile& file) {
+  std::vector<std::string> scenes;
+  for (const std::string& name : file.archive->names()) {
+    const std::filesystem::path path(name);
+    const std::string extension = small_letters(path.extension().string());
+    const bool litter = name.starts_with("__MACOSX/") || path.filename().string().starts_with('.');
+    if (!litter && (extension == ".glb" || extension == ".gltf")) scenes.push_back(name);
+  }
+  if (scenes.size() == 1) return scenes.front();
+  if (scenes.empty()) fail(file, "is an archive without a .glb or .gltf file");
+  constexpr size_t kMax = 8;
+  std::string list;
+  for (size_t i = 0; i < std::min(scenes.size(), kMax); i++) list += (i == 0 ? "" : ", ") + printable(scenes[i]);
+  fail(file, fmt::format("is an archive of {} scenes: {}{}; unpack it and name one of them", scenes.size(), list,
+                         scenes.size() > kMax ? ", ..." : ""));
+}
+
+// bytes: of the file, an archive or not; they live as long as `file`.
+static void open_bytes(GltfFile& file, Bytes bytes) {
+  if (!is_zip(bytes)) return parse(file, bytes);
+  file.archive = std::make_shared<ZipArchive>(bytes, file.path);
+  const std::string scene = scene_in(file);
+  file.folder = std::filesystem::path(scene).parent_path().generic_string();
+  file.storage.push_back(share(file.archive->read(scene)));
+  parse(file, *file.storage.back());
+}
+
 std::vector<std::string> gltf_files(const std::string& path, const std::string& confine) {
   GltfFile file;
   file.path = path, file.confine = confine;
   const std::vector<unsigned char> bytes = read_scene_file(file);
+  if (is_zip(bytes)) return {};  // it holds them all
   const JsonDocument json = parse_gltf_json(split_container(file, bytes).json, path, is_read);
   std::set<std::string> names;
   for (const char* list : {"buffers", "images"}) {
     for (const JsonValue& each : json.root()[list]) {
       const std::string& uri = *each["uri"].text;
-      if (!uri.empty() && !uri.starts_with("data:")) names.insert(uri_key(uri));
+      if (!uri.empty() && !is_data_uri(uri) && !is_fallback(each)) names.insert(resolve_uri(file, uri));
     }
   }
   return {names.begin(), names.end()};
@@ -308,14 +287,14 @@ GltfFile open_gltf(const std::string& path, const std::string& confine) {
   GltfFile file;
   file.path = path, file.confine = confine;
   file.storage.push_back(share(read_scene_file(file)));
-  parse(file, *file.storage.front());
+  open_bytes(file, *file.storage.front());
   return file;
 }
 
 GltfFile open_gltf_bytes(Bytes bytes, const std::string& path, const std::string& confine) {
   GltfFile file;
   file.path = path, file.confine = confine;
-  parse(file, bytes);
+  open_bytes(file, bytes);
   return file;
 }
 

@@ -20,6 +20,9 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
       throw Error(ErrorKind::kUsage,
                   fmt::format("--scene: '{}' has no scene {}: a built-in scene has only one", name, options.scene));
     }
+    if (!options.variant.empty()) {
+      throw Error(ErrorKind::kUsage, fmt::format("--variant: '{}' is a built-in scene, which has no variants", name));
+    }
     Scene scene = builtin->make();
     scene.name = name;
     reduce_textures(scene);

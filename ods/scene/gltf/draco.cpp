@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
+//
+// Draco allocates what its streams state. So its decoders are derived from here: before they allocate, the counts in
+// the stream are read and their memory is deducted from what a file of this size may use.
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+
+#include "ods/base/memory.h"
+#include "ods/base/text.h"
+#include "ods/scene/gltf/parts.h"
+
+namespace ods {
+
+namespace {
+
+// Bytes that decoding may still allocate, over all primitives.
+class DracoBudget {
+ public:
+  DracoBudget(size_t bytes, const std::string& path) : left_(bytes), what_(path + ": decoding its Draco data") {}
+
+  // False if that is too much for the file; throws Error(kMemory) if it is for this machine.
+  bool take(size_t bytes) {
+    size_t left = left_;
+    do {
+      if (bytes > left) {
+        exceeded_ = true;
+        return false;
+      }
+    } while (!left_.compare_exchange_weak(left, left - bytes));
+    check_memory(bytes, what_, "use a machine with more");
+    return true;
+  }
+  bool exceeded() const { return exceeded_; }
+  size_t left() const { return left_; }
+
+ private:
+  std::atomic<size_t> left_;
+  std::atomic<bool> exceeded_ = false;
+  std::string what_;
+};
+
+// What decoding allocates, roughly, in bytes.
+constexpr size_t kBytesPerFace = 64;           // corners, their opposites, the traversal's lists
+constexpr size_t kBytesPerSeparateCorner = 8;  // of attributes with seams of their own
+constexpr size_t kBytesPerPoint = 4;           // of an attribute: which value it has
+
+// A decoder of Draco's that stops before it allocates too much.
+template <class Decoder>
+class LimitedDecoder : public Decoder {
+ public:
+  explicit LimitedDecoder(DracoBudget& budget) : budget_(budget) {}
+
+ protected:
+  bool DecodeConnectivity() override {
+    draco::DecoderBuffer start = *this->buffer();  // a copy: Draco reads the same again
+    uint32_t vertices = 0, faces = 0;
+    uint8_t separate = 0;
+    if constexpr (std::is_same_v<Decoder, draco::MeshEdgebreakerDecoder>) {
+      if (!draco::DecodeVarint(&vertices, &start) || !draco::DecodeVarint(&faces, &start)) return false;
+      if (!start.Decode(&separate)) return false;
+    } else {
+      if (!draco::DecodeVarint(&faces, &start) || !draco::DecodeVarint(&vertices, &start)) return false;
+    }
+    if (size_t{vertices} > 3 * size_t{faces}) return false;
+    if (!budget_.take(faces * (kBytesPerFace + 3 * kBytesPerSeparateCorner * separate))) return false;
+    return Decoder::DecodeConnectivity();
+  }
+
+  // The attributes are declared, and none is decoded.
+  bool DecodeAllAttributes() override {
+    const draco::PointCloud& cloud = *this->point_cloud();
+    for (int i = 0; i < cloud.num_attributes(); i++) {
+      const draco::PointAttribute& attribute = *cloud.attribute(i);
+      const auto size = static_cast<size_t>(draco::DataTypeLength(attribute.data_type()));
+      // Integers, and what they stand for.
+      if (!budget_.take(cloud.num_points() * (kBytesPerPoint + attribute.num_components() * (4 + size)))) return false;
+    }
+    return Decoder::DecodeAllAttributes();
+  }
+
+ private:
+  DracoBudget& budget_;
+};
+
+struct Job {
+  size_t mesh;
+  size_t primitive;
+  const JsonValue& source;
+  Bytes bytes;
+  DracoMesh result;
+  std::string fault;
+};
+
+}  // namespace
+
+// Returns why it failed; empty if it did not.
+static std::string decode(Bytes bytes, DracoBudget& budget, draco::Mesh& mesh) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::DecoderBuffer start = buffer;
+  draco::DracoHeader header;
+  if (!draco::PointCloudDecoder::DecodeHeader(&start, &header).ok()) return "it is not Draco data";
+  if (header.encoder_type != draco::TRIANGULAR_MESH) return "it holds points, not triangles";
+  if (header.version_major != 2 || header.version_minor != 2) {
+    return fmt::format("it has version {}.{} of Draco, glTF has 2.2", header.version_major, header.version_minor);
+  }
+  const draco::DecoderOptions options;
+  draco::Status status;
+  if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+    status = LimitedDecoder<draco::MeshEdgebreakerDecoder>(budget).Decode(options, &buffer, &mesh);
+  } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    status = LimitedDecoder<draco::MeshSequentialDecoder>(budget).Decode(options, &buffer, &mesh);
+  } else {
+    return "it is encoded in an unknown way";
+  }
+  if (budget.exceeded()) return "it asks for far more than a file of its size can hold";
+  return status.ok() ? "" : one_line(status.error_msg_string());
+}
+
+// --- attributes
+
+static int component_type_of(draco::DataType type) {
+  switch (type) {
+    case draco::DT_INT8:
+      return kByte;
+    case draco::DT_UINT8:
+      return kUnsignedByte;
+    case draco::DT_INT16:
+      return kShort;
+    case draco::DT_UINT16:
+      return kUnsignedShort;
+    case draco::DT_UINT32:
+      return kUnsignedInt;
+    case draco::DT_FLOAT32:
+      return kFloat;
+    default:
+      return 0;
+  }
+}
+
+// All points' values, one after the other; false if one does not exist, or does not fit in the type.
+template <class T>
+static bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, bool as_it_is,
+                        unsigned char* to) {
+  const auto components = static_cast<int8_t>(attribute.num_components());
+  const size_t size = sizeof(T) * static_cast<size_t>(components);
+  for (draco::PointIndex i(0); i < mesh.num_points(); ++i, to += size) {
+    const draco::AttributeValueIndex value = attribute.mapped_index(i);
+    if (value.value() >= attribute.size()) return false;
+    if (as_it_is) {
+      std::memcpy(to, attribute.GetAddress(value), size);
+      continue;
+    }
+    T converted[4];
+    if (!attribute.ConvertValue<T>(value, components, converted)) return false;
+    std::memcpy(to, converted, size);
+  }
+  return true;
+}
+
+using Copy = bool (*)(const draco::Mesh&, const draco::PointAttribute&, bool, unsigned char*);
+
+static Copy copy_as(int component_type) {
+  switch (component_type) {
+    case kByte:
+      return copy_values<int8_t>;
+    case kUnsignedByte:
+      return copy_values<uint8_t>;
+    case kShort:
+      return copy_values<int16_t>;
+    case kUnsignedShort:
+      return copy_values<uint16_t>;
+    case kUnsignedInt:
+      return copy_values<uint32_t>;
+    default:
+      return copy_values<float>;
+  }
+}
+
+// An attribute in the component type of its accessor. Returns why it failed.
+static std::string unpack(const draco::Mesh& mesh, const draco::PointAttribute* attribute, AccessorView& view) {
+  if (!attribute || attribute->num_components() > 4) return "is missing";
+  const size_t points = mesh.num_points();
+  const size_t stored = static_cast<size_t>(attribute->byte_stride()) * attribute->size();
+  const bool mapped = attribute->is_mapping_identity() || attribute->indices_map_size() >= points;
+  if (!mapped || attribute->byte_offset() != 0 || attribute->buffer()->data_size() < stored) return "is damaged";
+  view.count = points;
+  view.components = attribute->num_components();
+  view.stride = component_size(view.component_type) * static_cast<size_t>(view.components);
+  auto bytes = std::make_shared<std::vector<unsigned char>>(points * view.stride);
+  const bool as_it_is = component_type_of(attribute->data_type()) == view.component_type;
+  if (!copy_as(view.component_type)(mesh, *attribute, as_it_is, bytes->data())) return "has values outside its range";
+  view.data = bytes->data();
+  view.expanded = std::move(bytes);
+  return "";
+}
+
+static void take_attributes(const GltfFile& file, draco::Mesh& mesh, Job& job) {
+  for (const JsonValue& id : extension(job.source, "KHR_draco_mesh_compression")["attributes"]) {
+    const std::string& name = *id.key;
+    const int accessor = index_in(file, job.source["attributes"], name.c_str());
+    if (accessor == -1 || name.starts_with('_')) continue;  // nobody reads it
+    const JsonValue& type = record(file, file.accessors, accessor, "accessor");
+    AccessorView view;
+    view.component_type = integer(file, type, "componentType", 0);
+    view.normalized = type["normalized"].is_true();
+    const double unique = id.is_number() && id.number >= 0.0 && id.number < 0x1p32 ? id.number : 0x1p32 - 1;
+    const int place = mesh.GetAttributeIdByUniqueId(static_cast<uint32_t>(unique));
+    const draco::PointAttribute* attribute = place == -1 ? nullptr : mesh.attribute(place);
+    if (component_size(view.component_type) == 0) attribute = nullptr;
+    const std::string fault = unpack(mesh, attribute, view);
+    if (!fault.empty()) job.fault = fmt::format("its {} {}", name, fault);
+    if (!fault.empty()) return;
+    job.result.attributes[name] = std::move(view);
+  }
+}
+
+static void take_corners(const draco::Mesh& mesh, DracoMesh& result) {
+  result.vertex_count = mesh.num_points();
+  result.corners.reserve(3 * size_t{mesh.num_faces()});
+  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
+    for (const draco::PointIndex& corner : mesh.face(i)) result.corners.push_back(corner.value());
+  }
+}
+
+// --- primitives
+
+static void run(const GltfFile& file, DracoBudget& budget, Job& job) {
+  draco::Mesh mesh;
+  try {
+    job.fault = decode(job.bytes, budget, mesh);
+    if (!job.fault.empty()) return;
+  } catch (const std::length_error& error) {  // of a vector
+    job.fault = one_line(error.what());
+    return;
+  }
+  take_corners(mesh, job.result);
+  take_attributes(file, mesh, job);
+}
+
+static void append_jobs(const GltfFile& file, size_t mesh, std::vector<Job>& jobs) {
+  size_t number = 0;
+  for (const JsonValue& primitive : (*file.meshes[mesh])["primitives"]) {
+    const JsonValue& packed = extension(primitive, "KHR_draco_mesh_compression");
+    if (!packed.is_null() && !file.draco.contains(&primitive["attributes"])) {
+      jobs.push_back({mesh, number, primitive, buffer_view_bytes(file, index_in(file, packed, "bufferView")), {}, ""});
+    }
+    number++;
+  }
+}
+
+static void decode_all(GltfFile& file, std::vector<Job>& jobs) {
+  DracoBudget budget(file.draco_budget, file.path);
+  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) { run(file, budget, jobs[i]); });
+  file.draco_budget = budget.left();
+  for (Job& job : jobs) {
+    if (!job.fault.empty()) {
+      fail(file, fmt::format("the Draco data of mesh {}, primitive {} cannot be decoded: {}; export the file again, "
+                             "or without compression",
+                             job.mesh, job.primitive, job.fault));
+    }
+    file.budget += job.result.corners.size() + 4 * job.result.vertex_count;
+    file.draco[&job.source["attributes"]] = std::move(job.result);
+  }
+}
+
+void decode_meshes(GltfFile& file) {
+  // Draco spends less than a bit on a triangle that it foresees.
+  constexpr size_t kSmall = size_t{1} << 28, kMostPerByte = 1024;
+  file.draco_budget = kSmall + kMostPerByte * file.size;
+  std::vector<Job> jobs;
+  for (size_t mesh = 0; mesh < file.meshes.size(); mesh++) append_jobs(file, mesh, jobs);
+  decode_all(file, jobs);
+}
+
+void decode_mesh(GltfFile& file, int mesh) {
+  std::vector<Job> jobs;
+  append_jobs(file, static_cast<size_t>(mesh), jobs);
+  decode_all(file, jobs);
+}
+
+}  // namespace ods

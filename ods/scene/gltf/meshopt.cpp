@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression. The Khronos extension
+// of that name holds the same streams, and newer ones (version 1) as far as the installed library decodes them.
+#include <fmt/core.h>
+#include <meshoptimizer.h>
+#include <tbb/parallel_for.h>
+
+#include "ods/base/memory.h"
+#include "ods/scene/gltf/parts.h"
+
+namespace ods {
+
+namespace {
+
+struct Stream {
+  size_t view;
+  Bytes bytes;
+  size_t count;
+  size_t stride;
+  std::string mode;
+  std::string filter;
+  bool fails = false;
+};
+
+}  // namespace
+
+// What the library would assert.
+static bool is_valid(const Stream& stream) {
+  const size_t stride = stream.stride;
+  if (stream.mode == "TRIANGLES" || stream.mode == "INDICES") {
+    const bool whole = stream.mode == "INDICES" || stream.count % 3 == 0;
+    return whole && (stride == 2 || stride == 4) && stream.filter == "NONE";
+  }
+  if (stream.mode != "ATTRIBUTES" || stride == 0 || stride > 256 || stride % 4 != 0) return false;
+  if (stream.filter == "OCTAHEDRAL") return stride == 4 || stride == 8;
+  if (stream.filter == "QUATERNION") return stride == 8;
+  return stream.filter == "NONE" || stream.filter == "EXPONENTIAL";
+}
+
+static Stream open_stream(const GltfFile& file, size_t view, const JsonValue& source) {
+  const auto text = [&](const char* key) { return source[key].is_text() ? *source[key].text : "NONE"; };
+  Stream stream{view,
+                bytes_in_buffer(file, source, fmt::format("compressed buffer view {}", view)),
+                size_in(file, source, "count"),
+                size_in(file, source, "byteStride"),
+                text("mode"),
+                text("filter")};
+  if (stream.filter == "COLOR") {
+    fail(file,
+         "its buffer views are compressed with the filter COLOR, which ods does not read; compress them with "
+         "EXT_meshopt_compression instead, or not at all");
+  }
+  if (!is_valid(stream)) {
+    fail(file,
+         fmt::format("compressed buffer view {} has an invalid mode, filter or stride; the file is damaged", view));
+  }
+  return stream;
+}
+
+static bool decode(const Stream& stream, unsigned char* to) {
+  const auto& [view, bytes, count, stride, mode, filter, fails] = stream;
+  if (mode == "TRIANGLES") return meshopt_decodeIndexBuffer(to, count, stride, bytes.data(), bytes.size()) == 0;
+  if (mode == "INDICES") return meshopt_decodeIndexSequence(to, count, stride, bytes.data(), bytes.size()) == 0;
+  if (meshopt_decodeVertexBuffer(to, count, stride, bytes.data(), bytes.size()) != 0) return false;
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(to, count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(to, count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(to, count, stride);
+  return true;
+}
+
+static std::string fault_of(const Stream& stream) {
+  constexpr unsigned char kNewVertices = 0xa1;
+  if (stream.mode == "ATTRIBUTES" && !stream.bytes.empty() && stream.bytes[0] == kNewVertices) {
+    return fmt::format(
+        "buffer view {} is compressed with version 1 of meshopt, which this build does not read; "
+        "compress it with EXT_meshopt_compression, or not at all",
+        stream.view);
+  }
+  return fmt::format("the compressed data of buffer view {} is damaged; export the file again", stream.view);
+}
+
+// The streams, checked: the library allocates nothing, so only what they decode to needs limits.
+static std::vector<Stream> open_streams(const GltfFile& file, size_t* total) {
+  // Vertices that do not change take a bit for each 32 bytes; the limit also holds for all streams together, because
+  // several buffer views may share one.
+  constexpr size_t kSmall = size_t{1} << 26, kMostPerByte = 64;
+  const size_t most = kSmall + kMostPerByte * file.size;
+  std::vector<Stream> streams;
+  for (size_t i = 0; i < file.buffer_views.size(); i++) {
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+      const JsonValue& source = extension(*file.buffer_views[i], name);
+      if (source.is_null()) continue;
+      const Stream& stream = streams.emplace_back(open_stream(file, i, source));
+      if (stream.count > (most - *total) / stream.stride) {
+        fail(file, "its compressed buffer views hold far more than a file of its size can; it looks damaged");
+      }
+      *total += stream.count * stream.stride;
+      break;
+    }
+  }
+  return streams;
+}
+
+void decode_views(GltfFile& file) {
+  size_t total = 0;
+  std::vector<Stream> streams = open_streams(file, &total);
+  file.decoded_views.resize(file.buffer_views.size());
+  check_memory(total, file.path + ": its compressed buffer views", "use a machine with more");
+  tbb::parallel_for(size_t{0}, streams.size(), [&](size_t i) {
+    Stream& stream = streams[i];
+    auto bytes = std::make_shared<std::vector<unsigned char>>(stream.count * stream.stride);
+    stream.fails = !decode(stream, bytes->data());
+    file.decoded_views[stream.view] = std::move(bytes);
+  });
+  for (const Stream& stream : streams) {
+    if (stream.fails) fail(file, fault_of(stream));
+  }
+  file.budget += total;
+}
+
+}  // namespace ods

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The glTF reader's second half, as parts.h is its first: what stands where, and how it moves.
+#pragma once
+#include <vector>
+
+#include "ods/scene/gltf/parts.h"
+
+namespace ods {
+
+// --- nodes.cpp
+// Where the file's objects are in the Scene, for animation. -1: nowhere.
+struct Places {
+  struct PlacedLight {
+    int light;  // index in the Scene
+    int source;
+    int node;
+  };
+  std::vector<int> nodes;    // per node: its index in Animation::nodes
+  std::vector<int> weights;  // per node: its mesh's index in Animation::weights
+  std::vector<PlacedLight> lights;
+};
+
+struct AnimatedNodes {
+  std::vector<char> moves;   // per node: whether an animation or a skin refers to it
+  std::vector<char> blinks;  // per node: whether an animation shows and hides it
+};
+
+// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. Meshes and lights of
+// nodes that are always hidden are left out.
+Places read_nodes(GltfFile& file, Scene& scene, int chosen, const AnimatedNodes& animated);
+
+Lamp read_lamp(const GltfFile& file, int light);
+
+// --- image_light.cpp
+// Sets the environment to the image-based light of the chosen scene, if it has one. Precondition: the scene exists.
+void read_image_light(const GltfFile& file, Scene& scene, int chosen);
+
+// --- clips.cpp
+AnimatedNodes find_animated_nodes(const GltfFile& file);
+void read_clips(GltfFile& file, Scene& scene, const Places& places);
+
+}  // namespace ods

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/sheet_glass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace ods {
+
+using glm::dvec3;
+
+static bool is_sheet_glass(const Material& material) {
+  return material.transmission > 0.0f && !(material.thickness > 0.0f) && material.unlit == 0;
+}
+
+static const Material& material_of(const Scene& scene, const Mesh& mesh) {
+  return scene.materials[static_cast<size_t>(mesh.material)];
+}
+
+// For each of a mesh's vertices a number that those at the same position share.
+static std::vector<uint> merge_positions(const Vertex* vertices, uint count) {
+  const auto before = [&](uint a, uint b) {
+    const vec3 p = vertices[a].position, q = vertices[b].position;
+    return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
+  };
+  std::vector<uint> order(count), merged(count);
+  for (uint i = 0; i < count; i++) order[i] = i;
+  std::sort(order.begin(), order.end(), before);
+  for (uint i = 0; i < count; i++) {
+    const bool same = i > 0 && vertices[order[i]].position == vertices[order[i - 1]].position;
+    merged[order[i]] = same ? merged[order[i - 1]] : order[i];
+  }
+  return merged;
+}
+
+bool is_closed(const Scene& scene, const Mesh& mesh) {
+  const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
+  const std::vector<uint> merged = merge_positions(vertices, mesh.vertex_count);
+  struct Edge {
+    uint low, high;
+    int direction;  // 1: from low to high
+    bool operator<(const Edge& other) const { return std::pair(low, high) < std::pair(other.low, other.high); }
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * size_t{mesh.triangle_count});
+  double volume = 0.0, area = 0.0;
+  const dvec3 origin(vertices[0].position);
+  for (uint i = 0; i < mesh.triangle_count; i++) {
+    const uvec3 corners = scene.triangles[mesh.first_triangle + i];
+    dvec3 p[3];
+    for (int c = 0; c < 3; c++) {
+      const uint from = merged[corners[c]], to = merged[corners[(c + 1) % 3]];
+      if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+      p[c] = dvec3(vertices[corners[c]].position) - origin;
+    }
+    volume += glm::dot(p[0], glm::cross(p[1], p[2])) / 6.0;
+    area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t i = 0; i < edges.size();) {
+    int balance = 0;
+    size_t next = i;
+    while (next < edges.size() && !(edges[i] < edges[next])) balance += edges[next++].direction;
+    if (balance != 0) return false;
+    i = next;
+  }
+  return volume > 1e-6 * std::pow(area, 1.5);  // two coincident sheets enclose nothing
+}
+
+std::vector<SheetGlass> find_sheet_glass(const Scene& scene) {
+  std::vector<char> shown(scene.meshes.size(), 0);
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    if (!is_hidden(scene, i)) shown[static_cast<size_t>(scene.instances[i].mesh)] = 1;
+  }
+  std::map<int, SheetGlass> found;
+  for (size_t i = 0; i < scene.meshes.size(); i++) {
+    const Mesh& mesh = scene.meshes[i];
+    if (shown[i] == 0 || !is_sheet_glass(material_of(scene, mesh))) continue;
+    SheetGlass& glass = found[mesh.material];
+    glass.material = mesh.material;
+    (is_closed(scene, mesh) ? glass.closed_meshes : glass.open_meshes)++;
+  }
+  std::vector<SheetGlass> list;
+  for (auto& [material, glass] : found) {
+    const auto i = static_cast<size_t>(material);
+    if (i < scene.material_names.size()) glass.name = scene.material_names[i];
+    if (glass.name.empty()) glass.name = "material " + std::to_string(material);
+    list.push_back(std::move(glass));
+  }
+  return list;
+}
+
+// Another material like this one, with the same name, animated likewise.
+static int copy_material(Scene& scene, int material) {
+  const auto from = static_cast<size_t>(material), to = scene.materials.size();
+  scene.materials.push_back(scene.materials[from]);
+  if (from < scene.material_names.size()) {
+    scene.material_names.resize(to);
+    scene.material_names.push_back(scene.material_names[from]);
+  }
+  Animation& animation = scene.animation;
+  const size_t rows = animation.materials.size();
+  for (size_t row = 0; row < rows; row++) {
+    if (animation.materials[row].material != material) continue;
+    MovingMaterial moving = animation.materials[row];
+    moving.material = static_cast<int>(to);
+    const int step = static_cast<int>(animation.materials.size() - row);
+    animation.materials.push_back(moving);
+    for (Clip& clip : animation.clips) {
+      for (size_t i = 0, count = clip.tracks.size(); i < count; i++) {
+        const int width = targets_per_material(clip.tracks[i].property);
+        if (width == 0 || clip.tracks[i].target / width != static_cast<int>(row)) continue;
+        Track track = clip.tracks[i];
+        track.target += step * width;
+        clip.tracks.push_back(std::move(track));
+      }
+    }
+  }
+  return static_cast<int>(to);
+}
+
+// The shortest side of the box around a mesh: a thickness only tells solid glass from a sheet.
+static float thickness_of(const Scene& scene, const Mesh& mesh) {
+  vec3 low = scene.vertices[mesh.first_vertex].position, high = low;
+  for (uint i = 0; i < mesh.vertex_count; i++) {
+    const vec3 p = scene.vertices[mesh.first_vertex + i].position;
+    low = min(low, p), high = max(high, p);
+  }
+  const vec3 size = high - low;
+  return std::max(std::min({size.x, size.y, size.z}), 1e-6f);
+}
+
+size_t make_glass_solid(Scene& scene) {
+  std::map<int, int> solid;  // sheet -> its solid copy
+  size_t changed = 0;
+  for (size_t i = 0; i < scene.meshes.size(); i++) {
+    Mesh& mesh = scene.meshes[i];
+    if (!is_sheet_glass(material_of(scene, mesh)) || !is_closed(scene, mesh)) continue;
+    auto found = solid.find(mesh.material);
+    if (found == solid.end()) {
+      found = solid.emplace(mesh.material, copy_material(scene, mesh.material)).first;
+      scene.materials.back().thickness = thickness_of(scene, mesh);
+    }
+    mesh.material = found->second;
+    changed++;
+  }
+  return changed;
+}
+
+}  // namespace ods

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Glass without a volume. glTF's transmission alone describes a thin sheet, which does not refract; only a volume
+// (KHR_materials_volume) makes a mesh solid. Many exporters, Blender's among them, write the first and mean the second.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ods/scene/scene.h"
+
+namespace ods {
+
+// A transmissive material without a volume, and the meshes with it.
+struct SheetGlass {
+  int material = 0;
+  std::string name;  // "material 3" if it has none
+  size_t closed_meshes = 0;
+  size_t open_meshes = 0;
+};
+
+// Those that visible instances show.
+std::vector<SheetGlass> find_sheet_glass(const Scene& scene);
+
+// Whether a mesh encloses a volume, as it stands now: at every edge, as many of its triangles run in one direction as
+// in the other, and their normals point outwards on the whole. Vertices at the same position count as one.
+bool is_closed(const Scene& scene, const Mesh& mesh);
+
+// Gives closed meshes of sheet glass a volume, so that they refract; open ones stay sheets. Returns how many changed.
+// Animations of their materials go on.
+size_t make_glass_solid(Scene& scene);
+
+}  // namespace ods
