@@ -254,6 +254,29 @@ TEST(LayerFormulas, Clearcoat) {
   }
 }
 
+TEST(LayerFormulas, ClearcoatOverEmission) {
+  Scene scene;
+  Material lamp = default_material();
+  lamp.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  lamp.emission = vec3(1.0f, 2.0f, 3.0f);
+  MaterialLayers layers = default_layers();
+  layers.clearcoat = 0.8f;
+  add_rectangle(scene, vec3(-500, -1, 500), vec3(1000, 0, 0), vec3(0, 0, -1000), add_layered(scene, lamp, layers));
+  RenderOptions options = small_render(16, 4);
+  options.height = 16;
+  StereoCamera camera;
+  camera.projection = find_projection("perspective")->setting;
+  camera.projection.fov = 0.1f;
+  for (const float pitch : {-90.0f, -30.0f, -10.0f}) {
+    camera.pitch = pitch;
+    const Picture picture = render_cpu(scene, camera, options);
+    const float* const seen = picture.eyes[0].radiance.at(8, 8);
+    const double cosine = std::sin(static_cast<double>(-pitch) * kPiExact / 180.0);
+    const double left = 1.0 - 0.8 * (0.04 + 0.96 * std::pow(1.0 - cosine, 5.0));
+    for (int c = 0; c < 3; c++) EXPECT_NEAR(double{seen[c]}, (c + 1) * left, 2e-3 * (c + 1)) << pitch;
+  }
+}
+
 TEST(LayerFormulas, Sheen) {
   MaterialLayers layers = default_layers();
   layers.sheen_color = vec3(0.9f, 0.3f, 0.5f);

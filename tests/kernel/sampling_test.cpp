@@ -148,6 +148,15 @@ TEST(SameLight, SkyOverLayers) {
   expect_same_light(scene, 128);
 }
 
+TEST(SameLight, LampUnderACoat) {
+  Scene scene = room(matte(vec3(0.6f)), glowing(vec3(3.0f)));
+  MaterialLayers layers = default_layers();
+  layers.clearcoat = 1.0f;
+  scene.materials[1].layers = 0;
+  scene.material_layers.push_back(layers);
+  expect_same_light(scene);
+}
+
 TEST(SameLight, SkyThroughFrostedGlassThatSplitsColours) {
   Scene scene = sky(rough(0.0f, 0.5f, 1.0f, true));
   MaterialLayers layers = default_layers();
