@@ -5,7 +5,8 @@
 // theirs. From the top:
 //
 //   clearcoat  GGX of index 1.5 about its own normal. It replaces the share clearcoat * F(cosine of the viewer) of all
-//              that is below it (KHR_materials_clearcoat). Inside a volume there is none: the coat is outside.
+//              that is below it, emission included (KHR_materials_clearcoat). Inside a volume there is none: the coat
+//              is outside.
 //   sheen      takes max(sheen color) * its albedo from what is below it (KHR_materials_sheen: of the two forms that it
 //              names the one with the viewer's cosine, in which a white surface stays white).
 //   specular   Schlick's term with f0 = min(f0 of the index * color, 1) * weight and f90 = weight

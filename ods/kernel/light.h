@@ -128,6 +128,10 @@ struct LightSampler : BsdfEvaluator {
     result.valid = result.pdf > 0.0f;
     Material material = scene_material(scene_mesh(instance.mesh).material);
     result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
+    if (material.layers >= 0) {
+      float cosine = abs(dot(normalize(area), result.direction));
+      result.radiance = result.radiance * emission_below_coat(material, k, cosine);
+    }
     // A ray would pass through the remaining part.
     if (material.alpha_mode != kAlphaOpaque) result.radiance = result.radiance * alpha_of(material, k);
     return result;

@@ -413,6 +413,11 @@ struct PathTracer : MediumReader {
     bool unlit = scene_material(material_index).unlit == 1;
     if (!unlit && surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
       float distance = path.travelled + hit.t;
+      if (surface.layered) {
+        float cosine = abs(dot(surface.geometric, path.ray.direction));
+        surface.emission =
+            surface.emission * emission_below_coat(scene_material(material_index), corners_of(hit), cosine);
+      }
       meet_light(settings, surface.emission, hit_light_pdf(hit, path.ray.direction, distance));
     }
     // The wall of a volume inside a denser volume.

@@ -33,6 +33,14 @@ struct LayerReader : SurfaceReader {
   // Of the surface that read_layers() saw last. Device code need not touch it.
   SurfaceLayers surface_layers;
 
+  // What a coat leaves of the surface's own light (KHR_materials_clearcoat). cosine: of the viewer to the triangle's
+  // normal, without normal maps and reduced textures, so that light sampling finds the same.
+  inline float emission_below_coat(Material material, Corners k, float cosine) {
+    MaterialLayers layers = scene_material_layers(material.layers);
+    float coat = layers.clearcoat * slot_at(layers.clearcoat_slot, uv0_of(k), uv1_of(k), false).x;
+    return 1.0f - clamp(coat, 0.0f, 1.0f) * (0.04f + 0.96f * schlick(cosine));
+  }
+
   inline vec3 slot_color(TextureSlot slot, vec2 uv0, vec2 uv1, bool reduced) {
     vec4 texel = slot_at(slot, uv0, uv1, reduced);
     return vec3(texel.x, texel.y, texel.z);

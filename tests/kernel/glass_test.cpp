@@ -59,7 +59,7 @@ Scene two_skies() {
   return scene;
 }
 
-void add_slab(Scene& scene, float top, float bottom, float ior, float absorption) {
+void add_slab(Scene& scene, float top, float bottom, float ior, float absorption, float dispersion = 0.0f) {
   Material material = default_material();
   material.transmission = 1.0f;
   material.thickness = 1.0f;
@@ -69,25 +69,37 @@ void add_slab(Scene& scene, float top, float bottom, float ior, float absorption
     material.attenuation_distance = 0.5f;
     material.attenuation_color = vec3(std::exp(-absorption * 0.5f));
   }
-  add_box(scene, vec3(-500, bottom, -500), vec3(500, top, 500), add_material(scene, material));
+  MaterialLayers layers = default_layers();
+  layers.dispersion = dispersion;
+  add_box(scene, vec3(-500, bottom, -500), vec3(500, top, 500),
+          dispersion > 0.0f ? add_layered(scene, material, layers) : add_material(scene, material));
 }
 
-// The layers are alike in every direction around, so each row of the picture has one mean.
-void expect_layers(const Scene& scene, const std::vector<Layer>& layers, const char* what) {
-  const int width = 32, samples = 512;
+// The layers are alike in every direction around, so each row of the picture has one mean. colors: what red, green and
+// blue light meet; only red if there is one.
+void expect_colors(const Scene& scene, const std::vector<std::vector<Layer>>& colors, int samples, double tolerance,
+                   const char* what) {
+  const int width = 32;
   RenderOptions options = small_render(width, samples);
   options.bounces = 24;
   const Picture picture = render_cpu(scene, StereoCamera{}, options);
-  for (int y = 10; y < width / 2; y++) {
-    double row = 0.0;
-    for (int x = 0; x < width; x++) row += double{*picture.eyes[0].radiance.at(x, y)} / width;
-    const double expected = pixel_mean(width, 0, y, [&](glm::dvec3 d) {
-      const Stack stack = stack_of(layers, std::sqrt(d.x * d.x + d.z * d.z));
-      return stack.top * 1.0 + stack.through * 3.0;
-    });
-    // A sample brings 1 or 3, so its deviation is at most 1.
-    EXPECT_NEAR(row, expected, 4.0 / std::sqrt(width * samples)) << what << " row " << y;
+  for (size_t channel = 0; channel < colors.size(); channel++) {
+    for (int y = 10; y < width / 2; y++) {
+      double row = 0.0;
+      for (int x = 0; x < width; x++) row += double{picture.eyes[0].radiance.at(x, y)[channel]} / width;
+      const double expected = pixel_mean(width, 0, y, [&](glm::dvec3 d) {
+        const Stack stack = stack_of(colors[channel], std::sqrt(d.x * d.x + d.z * d.z));
+        return stack.top * 1.0 + stack.through * 3.0;
+      });
+      EXPECT_NEAR(row, expected, tolerance) << what << " row " << y << " channel " << channel;
+    }
   }
+}
+
+void expect_layers(const Scene& scene, const std::vector<Layer>& layers, const char* what) {
+  const int samples = 512;
+  // A sample brings 1 or 3, so its deviation is at most 1.
+  expect_colors(scene, {layers}, samples, 4.0 / std::sqrt(32 * samples), what);
 }
 
 TEST(Slab, ClearGlass) {
@@ -126,6 +138,26 @@ TEST(Slab, AirInsideGlassDoesNotCount) {
   add_slab(scene, -1.0f, -2.0f, 1.5f, 1.0f);
   add_slab(scene, -1.3f, -1.5f, 1.0f, 0.0f);
   expect_layers(scene, {{1.5, 1.0, 1.0}}, "bubble");
+}
+
+// KHR_materials_dispersion: each colour has its own index, (index - 1) * dispersion / 40 from that of green. A path has
+// one colour once it is in the glass, three times as bright, so it varies more.
+TEST(Slab, GlassThatSplitsColours) {
+  Scene scene = two_skies();
+  add_slab(scene, -1.0f, -1.2f, 1.5f, 8.0f, 20.0f);
+  expect_colors(scene, {{{1.25, 0.2, 8.0}}, {{1.5, 0.2, 8.0}}, {{1.75, 0.2, 8.0}}}, 4096, 0.015, "split");
+}
+
+// Glass that splits colours around glass that does not: the inner one's walls split them, too.
+TEST(Slab, PlainGlassInsideGlassThatSplitsColours) {
+  Scene scene = two_skies();
+  add_slab(scene, -1.0f, -2.0f, 1.3f, 1.0f, 20.0f);
+  add_slab(scene, -1.3f, -1.5f, 1.6f, 2.0f);
+  std::vector<std::vector<Layer>> colors;
+  for (const double index : {1.15, 1.3, 1.45}) {
+    colors.push_back({{index, 0.3, 1.0}, {1.6, 0.2, 2.0}, {index, 0.5, 1.0}});
+  }
+  expect_colors(scene, colors, 4096, 0.02, "inside");
 }
 
 // The camera inside a volume: its first surface is an inside.

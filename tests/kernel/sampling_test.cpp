@@ -132,5 +132,52 @@ TEST(SameLight, LampsAndSkyTogether) {
   expect_same_light(scene, 128);
 }
 
+// Every lobe with width that layers add, on one floor and ball.
+TEST(SameLight, SkyOverLayers) {
+  Scene scene = sky(rough(0.0f, 0.5f, 0.0f, false));
+  MaterialLayers layers = default_layers();
+  layers.clearcoat = 0.8f;
+  layers.clearcoat_roughness = 0.3f;
+  layers.sheen_color = vec3(0.5f);
+  layers.sheen_roughness = 0.5f;
+  layers.anisotropy = 0.6f;
+  layers.iridescence = 0.5f;
+  layers.diffuse_transmission = 0.4f;
+  scene.materials[0].layers = 0;
+  scene.material_layers.push_back(layers);
+  expect_same_light(scene, 128);
+}
+
+TEST(SameLight, LampUnderACoat) {
+  Scene scene = room(matte(vec3(0.6f)), glowing(vec3(3.0f)));
+  MaterialLayers layers = default_layers();
+  layers.clearcoat = 1.0f;
+  scene.materials[1].layers = 0;
+  scene.material_layers.push_back(layers);
+  expect_same_light(scene);
+}
+
+TEST(SameLight, SkyThroughFrostedGlassThatSplitsColours) {
+  Scene scene = sky(rough(0.0f, 0.5f, 1.0f, true));
+  MaterialLayers layers = default_layers();
+  layers.dispersion = 3.0f;
+  layers.specular = 0.7f;
+  scene.materials[0].layers = 0;
+  scene.material_layers.push_back(layers);
+  expect_same_light(scene, 1024);
+}
+
+// Diffuse transmission into a volume: what is inside is lit, and seen, through its boundary.
+TEST(SameLight, SkyIntoATranslucentVolume) {
+  Scene scene = sky(rough(0.0f, 0.5f, 0.0f, true));
+  MaterialLayers layers = default_layers();
+  layers.diffuse_transmission = 0.7f;
+  scene.materials[0].layers = 0;
+  scene.materials[0].attenuation_color = vec3(0.5f);
+  scene.materials[0].attenuation_distance = 1.0f;
+  scene.material_layers.push_back(layers);
+  expect_same_light(scene, 256, 6);
+}
+
 }  // namespace
 }  // namespace ods
