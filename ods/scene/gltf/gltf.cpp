@@ -99,7 +99,7 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   check_extensions(file, scene);
   warn_renamed(file, scene);
   read_materials(file, scene);
-  decode_meshes(file);
+  decode_meshes(file, scene);
   const Places places = read_nodes(file, scene, options.scene, named_nodes(file));
   read_clips(file, scene, places);
   set_time(scene, 0.0);  // poses skins and morph targets at rest
