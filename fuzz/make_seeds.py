@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 """Writes small glTF files that between them use every feature of the reader: make_seeds.py FOLDER"""
-import base64, json, os, struct, sys, zlib
+import base64, io, json, os, struct, sys, zipfile, zlib
 
 
 def png():
@@ -13,8 +13,15 @@ def png():
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
+def buffers(document, binary, **first):
+    """The buffer with the data, and after it the one without any, if something is compressed."""
+    fallback = {"byteLength": 1 << 16, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}
+    compressed = any("extensions" in view for view in document["bufferViews"])
+    document["buffers"] = [{"byteLength": len(binary), **first}] + [fallback] * compressed
+
+
 def glb(document, binary):
-    document["buffers"] = [{"byteLength": len(binary)}]
+    buffers(document, binary)
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)
@@ -85,6 +92,100 @@ def moving():
         "samplers": [{"input": times, "output": output, "interpolation": how} for _, how, output in moves],
         "channels": [{"sampler": i, "target": target} for i, (target, _, _) in enumerate(moves)]}]
     return document, binary
+
+
+# A bumpy grid of two by two quads, compressed by libdraco (positions, normals, texture coordinates, colours) ...
+DRACO = {
+    "sequential":
+        "RFJBQ08CAgEAAAAICQEAAwEBAwQBBAICBAUDBgQEBgcEBwUFBwgBBAAJAwAAAQkDAAEDCQIAAgICBAEDAAAAAQAAAAAAAAAAAAAA"
+        "AAAAgD8AAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAAAACAPwAAgD/NzMw9AACAPwAAAEDNzEw+AACAPwAAAAAAAAAAAAAAQAAA"
+        "gD/NzEw+AAAAQAAAAEDNzMw+AAAAQAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAA"
+        "AIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAAAAPwAAAAAAAIA/"
+        "AAAAAAAAAAAAAAA/AAAAPwAAAD8AAIA/AAAAPwAAAAAAAIA/AAAAPwAAgD8AAIA/AACAPwABAQECgAKpKskB/7eRA/9bOQ7XyQEJ"
+        "mk24gIKvErWAAAAAAP8AAAA=",
+    "edgebreaker":
+        "RFJBQ08CAgEBAAAACQgDCAEAA+/TGv8BEf8CiED/AohA/wKIQAT/AAAAAAABAAACAAABAAkDAAACAQEJAwABAwEDCQIAAgIBAgIE"
+        "AQMBAQEBAAwDHQcXkSMHVRUEb2o+hP9nxv/9v4z/9x8AAAhYBgDAMgCAMwDAMgCAMgAAAAAA/wcAAAAAAAAAAAAAAAAAAAAAAEAL"
+        "AAMBAQGAAXE8//eRAwPgv4r/AAAAfwAAAAgBAQEACwOtKh9VFQMqYkz//+////0DEAAAAAAA/wMAAAAAAAAAAAAAAACAPwoBAQEB"
+        "AoACjTPJAf///xORA1UF18kBB6LGMvQQ/5MAAAAA/wAAAA==",
+    "valence":
+        "RFJBQ08CAgEBAAAACQgDCAEAA+/TGv8BEf8CiED/AohA/wKIQAT/AAEAAAABAAACAAABAAkDAAACAQEJAwABAwEDCQIAAgIBAgIE"
+        "AQMBAQEBAAwDHQcXkSMHVRUEb2o+hP9nxv/9v4z/9x8AAAhYBgDAMgCAMwDAMgCAMgAAAAAA/wcAAAAAAAAAAAAAAAAAAAAAAEAL"
+        "BgMBAAkDHQcX5TgDNcWFDOkR6QnzBfMcpDuER4RPaAP/AAAAfwAAAP8CmUAIBQEBAAsDVRUDHQdZFRM5DgRl+Mx////v//8BAz9I"
+        "AgcAAAABAnBAAAAAAP8DAAAAAAAAAAAAAAAAgD8KAQEBAQWAAo0zyQH///8TkQNVBdfJAQeixjL0EP+TAAAAAP8AAAA=",
+}
+# ... and by libmeshoptimizer: its positions and triangles, normals and rotations with their filters.
+MESHOPT = {
+    "positions": ("ATTRIBUTES", 12, 9, "NONE",
+        "oAAAATzzwAD///////8BO++AAH5/fn9+AQDPAABlZmUBAM8AAGdoZwEA/8AAZ/+XmP8BAO8AAHp7fAAAAQMMAAD//wEDCAAAfgAA"
+        "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"),
+    "triangles": ("TRIANGLES", 4, 24, "NONE",
+        "4P4fAB9fDwIf8AYCAgICAgB2h1ZneKmGZYlomAFpAAA="),
+    "sequence": ("INDICES", 4, 24, "NONE",
+        "0AAMBgAIBAoMBgAIBAYMBgAIBAoMBgAIBAAAAAA="),
+    "oct": ("ATTRIBUTES", 4, 9, "OCTAHEDRAL",
+        "oAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAH9/AA=="),
+    "quat": ("ATTRIBUTES", 8, 9, "QUATERNION",
+        "oAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAJxs/38="),
+    "exp": ("ATTRIBUTES", 12, 9, "EXPONENTIAL",
+        "oAABM8/AAIB/gH9AQAABKSAAAAEAz8AAzMvMzgEAz8AADAsMDAABKSAAAAABAzwAAIA/QAABKSAAAAAAAAAAAAAAAAAAAAAAAAAA"
+        "AAAAAAAA8QAAAPEAAADx"),
+}
+
+
+def accessor(component, count, kind, **more):
+    return {"componentType": component, "count": count, "type": kind, **more}
+
+
+def with_draco(name):
+    stream = base64.b64decode(DRACO[name])
+    document = quad()[0]
+    document["accessors"] = [accessor(5126, 9, "VEC3"), accessor(5126, 9, "VEC3"), accessor(5126, 9, "VEC2"),
+                             accessor(5121, 9, "VEC4", normalized=True), accessor(5123, 24, "SCALAR")]
+    document["bufferViews"] = [{"buffer": 0, "byteLength": len(stream)}]
+    document["meshes"][0]["primitives"][0]["extensions"] = {"KHR_draco_mesh_compression": {
+        "bufferView": 0, "attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "COLOR_0": 3}}}
+    document["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+    return document, stream
+
+
+def with_meshopt(positions, corners, extension):
+    document, binary = quad()[0], b""
+    document["bufferViews"] = []
+    for name in (positions, "oct", "quat", corners):
+        mode, stride, count, kind, text = MESHOPT[name]
+        stream = base64.b64decode(text)
+        document["bufferViews"].append({"buffer": 1, "byteLength": stride * count, "extensions": {extension: {
+            "buffer": 0, "byteOffset": len(binary), "byteLength": len(stream), "byteStride": stride, "count": count,
+            "mode": mode, "filter": kind}}})
+        if name == "oct":
+            document["bufferViews"][-1]["byteStride"] = stride
+        binary += stream
+    document["accessors"] = [accessor(5126, 9, "VEC3", bufferView=0),
+                             accessor(5120, 9, "VEC3", bufferView=1, normalized=True),
+                             accessor(5122, 9, "VEC4", bufferView=2, normalized=True),
+                             accessor(5125, 24, "SCALAR", bufferView=3)]
+    document["meshes"][0]["primitives"][0] = {"attributes": {"POSITION": 0, "NORMAL": 1, "COLOR_0": 2}, "indices": 3}
+    return document, binary
+
+
+def archives():
+    """Archives with a scene in them: alone, and with its files beside it."""
+    def archive(files):
+        whole = io.BytesIO()
+        with zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as out:
+            for name, data in files.items():
+                out.writestr(name, data)
+        return whole.getvalue()
+    document, binary = quad()
+    yield "alone", archive({"readme.txt": "hello", "a/scene.glb": glb(document, binary)})
+    document["buffers"] = [{"byteLength": len(binary), "uri": "Scene%20data.bin"}]
+    document["images"] = [{"uri": "textures\\wood.png"}]
+    document["textures"] = [{"source": 0}]
+    document["materials"] = [{"emissiveTexture": {"index": 0}}]
+    document["meshes"][0]["primitives"][0]["material"] = 0
+    yield "beside", archive({"a/scene.gltf": json.dumps(document), "a/scene data.bin": binary,
+                             "a/textures/wood.png": png(), "__MACOSX/._scene.gltf": "x"})
 
 
 def as_reals(value):
@@ -162,6 +263,10 @@ def seeds():
     document["accessors"][4] = {"componentType": 5123, "count": 6, "type": "SCALAR", "sparse": {
         "count": 4, "indices": {"bufferView": 4, "byteOffset": 2, "componentType": 5123}, "values": {"bufferView": 4}}}
     yield "zeros", (document, binary)
+    for name in DRACO:
+        yield "draco-" + name, with_draco(name)
+    yield "meshopt", with_meshopt("positions", "triangles", "EXT_meshopt_compression")
+    yield "meshopt-filters", with_meshopt("exp", "sequence", "KHR_meshopt_compression")
 
 
 os.makedirs(sys.argv[1], exist_ok=True)
@@ -172,6 +277,9 @@ for name, (document, binary) in seeds():
     with open(os.path.join(sys.argv[1], name + ".glb"), "wb") as file:
         file.write(glb(document, binary))
     data = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
-    document["buffers"] = [{"byteLength": len(binary), "uri": data}]
+    buffers(document, binary, uri=data)
     with open(os.path.join(sys.argv[1], name + ".gltf"), "w") as file:
         json.dump(document, file)
+for name, data in archives():
+    with open(os.path.join(sys.argv[1], name + ".zip"), "wb") as file:
+        file.write(data)

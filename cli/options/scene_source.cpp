@@ -27,7 +27,7 @@ static void add_confine_option(Options& options, SceneSource& source) {
 }
 
 void add_scene_argument(Options& options, SceneSource& source) {
-  options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
+  options.argument("SCENE", source.name, "a .glb or .gltf file, a .zip archive with one, or a built-in scene (ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,

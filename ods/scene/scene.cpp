@@ -72,10 +72,10 @@ MaterialLayers default_layers() {
   return layers;
 }
 
-// A scene's first mesh is moved, not copied: it may be all there is.
+// A scene's first mesh is moved, not copied, unless most of the room that is reserved is for others.
 template <class T>
 static void append(std::vector<T>& list, std::vector<T> added) {
-  if (list.empty()) {
+  if (list.empty() && list.capacity() / 2 <= added.size()) {
     list = std::move(added);
   } else {
     list.insert(list.end(), added.begin(), added.end());

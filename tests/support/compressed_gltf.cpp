@@ -108,6 +108,7 @@ Binary draco_stream(const GltfBuilder& file, const Json& primitive, const DracoC
   }
   draco::ExpertEncoder encoder(mesh);
   encoder.SetEncodingMethod(choice.edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING : draco::MESH_SEQUENTIAL_ENCODING);
+  encoder.SetSpeedOptions(choice.speed, choice.speed);
   for (int i = 0; i < mesh.num_attributes() && choice.bits > 0; i++) {
     if (mesh.attribute(i)->data_type() == draco::DT_FLOAT32) encoder.SetAttributeQuantization(i, choice.bits);
   }

@@ -17,6 +17,7 @@ GltfBuilder make_grid(int size);
 struct DracoChoice {
   bool edgebreaker = false;  // reorders vertices and triangles; else they stay as they are
   int bits = 0;              // of quantized floats; 0: exact
+  int speed = 5;             // 0: every predictor that Draco has, 10: none
 };
 
 // The Draco stream of a primitive; ids: of its attributes, numbered as they come.

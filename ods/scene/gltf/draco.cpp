@@ -5,6 +5,7 @@
 //
 // Draco allocates what its streams state. So its decoders are derived from here: before they allocate, the counts in
 // the stream are read and their memory is deducted from what a file of this size may use.
+#include <draco/compression/entropy/symbol_decoding.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
@@ -41,6 +42,7 @@ class DracoBudget {
     check_memory(bytes, what_, "use a machine with more");
     return true;
   }
+  void refuse() { exceeded_ = true; }
   bool exceeded() const { return exceeded_; }
   size_t left() const { return left_; }
 
@@ -63,7 +65,8 @@ class LimitedDecoder : public Decoder {
 
  protected:
   bool DecodeConnectivity() override {
-    draco::DecoderBuffer start = *this->buffer();  // a copy: Draco reads the same again
+    stream_ = this->buffer();
+    draco::DecoderBuffer start = *stream_;  // a copy: Draco reads the same again
     uint32_t vertices = 0, faces = 0;
     uint8_t separate = 0;
     if constexpr (std::is_same_v<Decoder, draco::MeshEdgebreakerDecoder>) {
@@ -74,6 +77,7 @@ class LimitedDecoder : public Decoder {
     }
     if (size_t{vertices} > 3 * size_t{faces}) return false;
     if (!budget_.take(faces * (kBytesPerFace + 3 * kBytesPerSeparateCorner * separate))) return false;
+    corners_ = 3 * size_t{faces};
     return Decoder::DecodeConnectivity();
   }
 
@@ -89,8 +93,40 @@ class LimitedDecoder : public Decoder {
     return Decoder::DecodeAllAttributes();
   }
 
+ public:
+  // Draco asks for this when it makes the predictor of an attribute, and has just read the predictor's number.
+  const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int id) const override {
+    const draco::MeshAttributeIndicesEncodingData* data = Decoder::GetAttributeEncodingData(id);
+    if (!data || is_sound(id, static_cast<uint32_t>(data->num_values))) return data;
+    budget_.refuse();
+    return nullptr;
+  }
+
  private:
+  // The predictor of texture coordinates allocates a bit for each of up to two billion orientations, which the stream
+  // states after the values; no mesh has more of them than corners.
+  bool is_sound(int id, uint32_t count) const {
+    const int method = stream_->data_head()[-2];
+    if (method == draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED) return false;  // which no encoder writes any more
+    if (method != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE) return true;
+    if (this->point_cloud()->attribute(id)->num_components() != 2 || count > corners_) return false;
+    draco::DecoderBuffer rest = *stream_;
+    uint8_t compressed = 0, size = 0;
+    if (!rest.Decode(&compressed)) return false;
+    if (compressed != 0) {
+      std::vector<uint32_t> values(2 * size_t{count});
+      if (!draco::DecodeSymbols(2 * count, 2, &rest, values.data())) return false;
+    } else {
+      if (!rest.Decode(&size) || rest.remaining_size() < int64_t{2} * count * size) return false;
+      rest.Advance(int64_t{2} * count * size);
+    }
+    int32_t orientations = 0;
+    return rest.Decode(&orientations) && orientations >= 0 && static_cast<size_t>(orientations) <= corners_;
+  }
+
   DracoBudget& budget_;
+  const draco::DecoderBuffer* stream_ = nullptr;
+  size_t corners_ = 0;
 };
 
 struct Job {
@@ -124,7 +160,7 @@ static std::string decode(Bytes bytes, DracoBudget& budget, draco::Mesh& mesh) {
   } else {
     return "it is encoded in an unknown way";
   }
-  if (budget.exceeded()) return "it asks for far more than a file of its size can hold";
+  if (budget.exceeded()) return "it is damaged, or asks for far more than a file of its size can hold";
   return status.ok() ? "" : one_line(status.error_msg_string());
 }
 
@@ -275,13 +311,25 @@ static void decode_all(GltfFile& file, std::vector<Job>& jobs) {
   }
 }
 
-void decode_meshes(GltfFile& file) {
+// Lists that double while they grow would take more than all that is decoded.
+static void reserve_room(const GltfFile& file, Scene& scene) {
+  size_t vertices = 0, corners = 0;
+  for (const auto& [attributes, mesh] : file.draco) {
+    vertices += mesh.attributes.contains("NORMAL") ? mesh.vertex_count : mesh.corners.size();
+    corners += mesh.corners.size();
+  }
+  scene.vertices.reserve(vertices);
+  scene.triangles.reserve(corners / 3);
+}
+
+void decode_meshes(GltfFile& file, Scene& scene) {
   // Draco spends less than a bit on a triangle that it foresees.
   constexpr size_t kSmall = size_t{1} << 28, kMostPerByte = 1024;
   file.draco_budget = kSmall + kMostPerByte * file.size;
   std::vector<Job> jobs;
   for (size_t mesh = 0; mesh < file.meshes.size(); mesh++) append_jobs(file, mesh, jobs);
   decode_all(file, jobs);
+  reserve_room(file, scene);
 }
 
 void decode_mesh(GltfFile& file, int mesh) {

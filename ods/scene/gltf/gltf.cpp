@@ -123,7 +123,7 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   warn_renamed(file, scene);
   choose_variant(file, scene, options.variant);
   read_materials(file, scene);
-  decode_meshes(file);
+  decode_meshes(file, scene);
   const Places places = read_nodes(file, scene, options.scene, find_animated_nodes(file));
   read_image_light(file, scene, options.scene);
   read_clips(file, scene, places);

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads glTF 2.0 files (.glb and .gltf) into a Scene.
+// Reads glTF 2.0 files (.glb, .gltf, or one of them in a .zip archive with the files beside it) into a Scene.
 //
 // Supported: hierarchies (matrix or TRS), shared meshes as instances, triangles, strips and
 // fans, every component type, sparse accessors, two sets of texture coordinates, vertex colours,
 // metallic-roughness materials, cameras (as view points), skins (two sets of joints), morph targets, animations of
 // nodes and weights, and the extensions that ods/scene/gltf/extensions.h lists as rendered or approximated. Buffers and
-// pictures may be in the file, in data URIs, or in files named by relative paths, which may contain "..". Absolute
-// paths and URLs are Errors.
+// pictures may be in the file, in data URIs, or in files named by relative paths, which may contain "..". If
+// there is no such file, names as other programs write them are tried: with backslashes, without or with twice as many
+// percent codes, in another letter case; a warning says so. Absolute paths and URLs are Errors.
 //
 // The Scene is at rest and no clip plays; play() (ods/scene/animation/animation.h) and set_time() (ods/scene/motion.h)
 // animate it.
@@ -47,8 +48,8 @@ Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 // The same from memory; `path` stands for it in messages, and relative paths start from its folder.
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options = {});
 
-// The files that it refers to, buffers and pictures, relative to its folder: sorted, without duplicates. They need not
-// exist. Throws Error(kInput) if its JSON cannot be read. confine: as in SceneOptions, for this file alone.
+// The files that it refers to, buffers and pictures, relative to its folder: sorted, without duplicates; none for an
+// archive. They need not exist. Throws Error(kInput) if its JSON cannot be read. confine: as in SceneOptions, for this file alone.
 std::vector<std::string> gltf_files(const std::string& path, const std::string& confine = {});
 
 }  // namespace ods

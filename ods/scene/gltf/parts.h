@@ -111,7 +111,7 @@ AccessorView open_accessor(GltfFile& file, int accessor);
 // --- draco.cpp
 // Decode primitives with KHR_draco_mesh_compression into file.draco, in parallel: of all meshes, and of a mesh those
 // that are not there. read_mesh() takes them out again.
-void decode_meshes(GltfFile& file);
+void decode_meshes(GltfFile& file, Scene& scene);
 void decode_mesh(GltfFile& file, int mesh);
 
 // --- material.cpp

@@ -194,7 +194,7 @@ void warn_renamed(const GltfFile& file, Scene& scene) {
   const auto& [uri, name] = *file.renamed.begin();
   const size_t others = file.renamed.size() - 1;
   warn(scene, fmt::format("it refers to '{}', which does not exist: read '{}' instead{}", printable(uri),
-                          printable(name), others == 0 ? "" : fmt::format(", and {} others likewise", others)));
+                          printable(name), others == 0 ? "" : fmt::format(", and {} more likewise", others)));
 }
 
 }  // namespace ods

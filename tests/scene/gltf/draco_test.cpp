@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <ctime>
 #include <random>
 #include <tuple>
 
@@ -261,6 +263,30 @@ TEST(GltfDracoDamage, CountsAreLimitedBeforeAnythingIsAllocated) {
     GltfBuilder file = compressed_grid({});
     extension_of(file)["bufferView"] = file.add_view(stream);
     EXPECT_NE(error_of(file.glb()).find("far more than a file of its size"), std::string::npos) << error_of(file.glb());
+  }
+}
+
+// Counts that the stream states later: whichever four bytes are a large number, nothing takes long or is large.
+TEST(GltfDracoDamage, LargeNumbersAnywhere) {
+  for (const int speed : {0, 5}) {
+    const GltfBuilder whole = compressed_grid({true, 10, speed});
+    for (size_t at = 11; at + 4 <= stream_size(whole); at++) {
+      GltfBuilder file = whole;
+      std::memcpy(stream_of(file) + at, "\xff\xff\xff\x7f", 4);
+      const std::clock_t start = std::clock();
+      error_of(file.glb());
+      EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC) << at;
+    }
+  }
+}
+
+TEST(GltfDraco, EverySpeedOfTheEncoder) {
+  for (int speed = 0; speed <= 10; speed++) {
+    const Scene scene = compressed_grid({true, 12, speed}).load();
+    EXPECT_EQ(scene.triangles.size(), 288u) << speed;
+    for (const Vertex& vertex : scene.vertices) {
+      EXPECT_LT(glm::length(12.0f * vertex.uv0 - vec2(vertex.position.x, vertex.position.z)), 0.02f) << speed;
+    }
   }
 }
 

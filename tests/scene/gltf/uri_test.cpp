@@ -112,7 +112,7 @@ TEST_F(GltfUri, OneWarningForAllFiles) {
   folder.write("in/scene.gltf", file.json.dump());
   const Scene loaded = load_gltf(folder.path("in/scene.gltf"));
   ASSERT_EQ(loaded.warnings.size(), 1u);
-  EXPECT_NE(loaded.warnings[0].find("and 2 others likewise"), std::string::npos) << loaded.warnings[0];
+  EXPECT_NE(loaded.warnings[0].find("and 2 more likewise"), std::string::npos) << loaded.warnings[0];
   EXPECT_EQ(loaded.texels.size(), 4u);  // one file, read once
 }
 
