@@ -16,6 +16,7 @@
 #include "ods/scene/catchers.h"
 #include "ods/scene/load/environment.h"
 #include "ods/scene/load/load.h"
+#include "ods/stage/place.h"
 
 using ods::Scene, ods::vec3;
 
@@ -24,17 +25,36 @@ static void add_confine_option(Options& options, SceneSource& source) {
                "read no file outside this folder, wherever paths and links in the scene lead: for untrusted scenes");
 }
 
+static void add_unit_option(Options& options, SceneSource& source) {
+  options.text(
+      "--unit", "auto|UNIT|METRES", source.unit,
+      "the unit of lengths in the file: m, cm, mm, in, ft, km, or how many metres it has. auto: metres, unless "
+      "nothing that people meet has that size");
+}
+
+// None: auto.
+static std::optional<float> parse_unit(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  if (const auto unit = ods::find_in(ods::kUnitTable, word)) return ods::row_in(ods::kUnitTable, *unit).metres;
+  const std::vector<float> numbers = parse_numbers(word);
+  if (numbers.size() == 1 && numbers[0] >= ods::kLeastUnit && numbers[0] <= ods::kMostUnit) return numbers[0];
+  throw UsageError(fmt::format("--unit is auto, {}, or the unit in metres (0.000001 to a million), not '{}'",
+                               fmt::join(ods::names_of(ods::kUnitTable), ", "), word));
+}
+
 void add_scene_argument(Options& options, SceneSource& source) {
   options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
                  "number of the scene in the file, counted from 0; by default the file's default scene");
+  add_unit_option(options, source);
   add_confine_option(options, source);
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
   options.text("--scene", "SCENE", source.name, help);
+  add_unit_option(options, source);
   add_confine_option(options, source);
 }
 
@@ -65,6 +85,22 @@ std::string confining_folder(const SceneSource& source) {
   return folder.native();
 }
 
+static std::string unit_word(float metres) {
+  for (const ods::UnitRow& row : ods::kUnitTable) {
+    if (row.metres == metres) return std::string(row.name);
+  }
+  return fmt::format("{:g}", metres);
+}
+
+// Built-in scenes are in metres and have a view point.
+static void settle_scene(Scene& scene, const SceneSource& source) {
+  const std::optional<float> unit = parse_unit(source.unit);
+  if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
+  const ods::Settled settled = ods::settle(scene, unit);
+  if (settled.unit_reason.empty()) return;
+  note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));
+}
+
 Scene open_scene(const SceneSource& source) {
   Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1), .confine = confining_folder(source)});
   for (const std::string& warning : scene.warnings) warn(warning);
@@ -73,6 +109,7 @@ Scene open_scene(const SceneSource& source) {
     throw UsageError(
         fmt::format("--shadow-catcher: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
   }
+  settle_scene(scene, source);
   return scene;
 }
 

@@ -16,6 +16,7 @@ struct SceneSource {
   std::string environment;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
+  std::string unit = "auto";
 };
 
 void add_scene_argument(Options& options, SceneSource& source);
@@ -27,7 +28,9 @@ void add_light_options(Options& options, SceneSource& source);
 // such folder.
 std::string confining_folder(const SceneSource& source);
 
-// Reads the scene, turns the named objects into catchers, and notes what the renderer does not support.
+// Reads the scene, turns the named objects into catchers, and notes what the renderer does not support. A file's scene
+// is measured: it gets its size in metres and a place for the viewer (ods/stage/place.h), and what was assumed is
+// noted.
 ods::Scene open_scene(const SceneSource& source);
 
 // Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Throws

@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/frame_renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "cli/render/finish_picture.h"
 #include "ods/kernel/random.h"
 #include "ods/render/render_target.h"
+#include "ods/scene/builtin/builtin.h"
 #include "ods/scene/shutter.h"
+#include "ods/stage/exposure.h"
+#include "ods/stage/place.h"
 
 namespace {
 
@@ -43,6 +49,25 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
   return shot;
 }
 
+// Warns about a camera that the user or the file has placed where there is nothing to see. Where it stands by our own
+// choice it is in free space.
+void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
+  const bool own_choice = !job.camera.position && scene.view_points.empty();
+  const bool made_for_it = !job.camera.position && ods::find_builtin(job.scene.name);
+  if (own_choice || made_for_it) return;
+  const std::string fault = ods::view_fault(ods::SceneRays(scene), eye);
+  if (fault.empty()) return;
+  std::string cure = "--position X,Y,Z moves it";
+  if (job.camera.position && scene.viewing) {
+    const ods::vec3 better = scene.viewing->view.position;
+    cure = fmt::format("without --position it would be at {:.4g},{:.4g},{:.4g}", better.x, better.y, better.z);
+  } else if (scene.viewing) {
+    const ods::vec3 better = scene.viewing->view.position;
+    cure = fmt::format("--position {:.4g},{:.4g},{:.4g} is in free space", better.x, better.y, better.z);
+  }
+  warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
+}
+
 constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
 
 }  // namespace
@@ -65,6 +90,7 @@ std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
     renderer_->update(change_);
   } else {
     place_camera(job_.camera, scene_);  // prints a note with the position
+    check_view(job_, scene_, shot.cameras.front().position);
     renderer_.emplace(scene_, job_.render.threads);
   }
   change_ = {};
@@ -91,6 +117,11 @@ Rendered FrameRenderer::render(const Frame& frame, const std::function<void(doub
   ods::Picture picture = renderer_->render(cameras, options, progress);
   const double samples = picture.samples_taken;
   return {finish_picture(job_, camera, std::move(picture), frame.path), samples};
+}
+
+ods::Picture FrameRenderer::first_look(const Frame& frame) {
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  return renderer_->render(ods::first_look_camera(cameras[cameras.size() / 2]), ods::first_look(job_.render));
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {

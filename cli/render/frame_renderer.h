@@ -39,6 +39,9 @@ class FrameRenderer {
   // Renders, denoises and saves. report: gets the fraction done, if it is set.
   Rendered render(const Frame& frame, const std::function<void(double done)>& report);
 
+  // A small picture, to judge the light (ods/stage/exposure.h).
+  ods::Picture first_look(const Frame& frame);
+
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
 
   // As FrameBeside::places: where the surfaces of a frame are at another time.

@@ -7,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/exposure.h"
 
 namespace {
 
@@ -33,8 +34,7 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.texts(
       "--shadow-catcher", "NAME", job.scene.catchers,
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
-                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  add_exposure_option(options, job);
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
 }
 

@@ -22,6 +22,7 @@ struct RenderJob {
   ods::RenderOptions render;
   ods::SaveOptions save;
   std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
+  std::optional<float> exposure;         // stops; none: what suits the light (cli/render/exposure.h)
   bool has_layout = false;               // given by an option
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture

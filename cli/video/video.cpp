@@ -11,6 +11,7 @@
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/video_options.h"
+#include "cli/render/exposure.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_journal.h"
@@ -49,7 +50,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
-  options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops");
+  add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
@@ -68,8 +69,8 @@ bool read_options(VideoJob& job, int argc, char** argv) {
 }
 
 // Stitches frames from the views of a rig.
-std::vector<int> stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
-                              const StepReport& report) {
+RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
+                            const StepReport& report) {
   StitchJob stitch;
   stitch.views.names = job.render.scene.name;
   stitch.output = job.render.output;
@@ -79,7 +80,7 @@ std::vector<int> stitch_views(const VideoJob& job, const ods::SlitRig& rig, Vide
   stitch.skip_existing = true, stitch.claims = false, stitch.says_files = false;
   if (stitch.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
   journal.plan(ods::parse_frames(stitch.frames));
-  return stitch_frames(stitch, rig, report);
+  return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
 }
 
 void make_video(VideoJob job, ProgressLines& lines) {
@@ -104,8 +105,10 @@ void make_video(VideoJob job, ProgressLines& lines) {
     lines.report(kRendering * done, seconds_since(start), step);
   };
   const auto planned = [&](const std::vector<int>& numbers) { journal.plan(numbers); };
-  const std::vector<int> frames =
+  const RenderedFrames made =
       rig ? stitch_views(job, *rig, journal, rendered) : render_frames(render, rendered, planned);
+  const std::vector<int>& frames = made.numbers;
+  job.display.exposure = made.exposure;
 
   const ods::FrameFiles files = ods::find_frames(journal.pattern(), frames);
   const ods::VideoPlan plan = ods::plan_video(files, {}, {});

@@ -4,6 +4,7 @@
 // The scene to render: the kernel's own records (ods/kernel/scene_data.h) in vectors, plus information for people.
 // Loaders and built-in scenes fill it, renderers read it.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ struct ViewPoint {
   float roll = 0.0f;
 };
 
+// How a scene is looked at where it proposes no view point itself (ods/stage/place.h).
+struct Viewing {
+  ViewPoint view;          // its name says why it is there
+  bool is_object = false;  // the scene is an object, seen from outside: a turntable turns it
+  vec3 middle{0.0f};       // of the object
+};
+
 // Rays are offset from their surface by up to this fraction of its distance from the origin, because of single
 // precision. Walls thinner than that (1 cm at 330 m, 10 cm at 3.3 km) leak a little light where they meet. So a scene
 // belongs near the origin; files that extend further than kFirmReach get a warning.
@@ -71,6 +79,7 @@ struct Scene {
   Environment environment;
 
   std::vector<ViewPoint> view_points;
+  std::optional<Viewing> viewing;  // set by settle() (ods/stage/place.h)
 
   std::vector<NamedObject> objects;         // named objects; several may share a name
   std::vector<std::string> material_names;  // by material; may be shorter than `materials`
@@ -107,7 +116,8 @@ struct Bounds {
 // The box around all visible instances' vertices.
 Bounds scene_bounds(const Scene& scene);
 
-// The default viewpoint: the scene's first; otherwise at eye height, in the scene or in front of it, looking along -Z.
+// The default viewpoint: the scene's first; otherwise that of Scene::viewing; otherwise, where nobody has looked for
+// one, at eye height in the scene's bounds or in front of them, looking along -Z.
 ViewPoint default_view(const Scene& scene);
 
 // Whether its surfaces emit light. Unlit materials do not: they show a colour but light nothing.

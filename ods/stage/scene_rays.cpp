@@ -75,6 +75,30 @@ float free_radius(const SceneRays& rays, vec3 point) {
   return nearest;
 }
 
+bool is_free(const SceneRays& rays, vec3 point, float radius) {
+  static const std::vector<vec3> kDirections = sphere_directions(kNearDirections);
+  return std::all_of(kDirections.begin(), kDirections.end(),
+                     [&](vec3 direction) { return rays.distance(point, direction) >= radius; });
+}
+
+Bounds seen_bounds(const SceneRays& rays, vec3 point) {
+  static const std::vector<vec3> kDirections = sphere_directions(kOpenDirections);
+  std::vector<float> values[3];
+  for (const vec3& direction : kDirections) {
+    const Sight sight = rays.look(point, direction);
+    if (sight.leaves()) continue;
+    for (int axis = 0; axis < 3; axis++) values[axis].push_back((point + direction * sight.distance)[axis]);
+  }
+  Bounds seen{point, point};
+  const size_t few = values[0].size() / 25;
+  for (int axis = 0; axis < 3 && !values[0].empty(); axis++) {
+    std::sort(values[axis].begin(), values[axis].end());
+    seen.low[axis] = values[axis][few];
+    seen.high[axis] = values[axis][values[axis].size() - 1 - few];
+  }
+  return seen;
+}
+
 Openness openness(const SceneRays& rays, vec3 point) {
   static const std::vector<vec3> kDirections = sphere_directions(kOpenDirections);
   int upper = 0, whole = 0;

@@ -59,6 +59,12 @@ std::vector<vec3> sphere_directions(int count);
 // may be missed. Infinite if there is none.
 float free_radius(const SceneRays& rays, vec3 point);
 
+// Whether free_radius() is at least this.
+bool is_free(const SceneRays& rays, vec3 point, float radius);
+
+// The box around what is seen from a point, without the farthest 4 percent in each direction of an axis.
+Bounds seen_bounds(const SceneRays& rays, vec3 point);
+
 // The shares of directions from a point that leave the scene, through glass too.
 struct Openness {
   float upper = 1.0f;  // of the directions above the horizon

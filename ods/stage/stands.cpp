@@ -13,11 +13,11 @@ namespace ods {
 
 namespace {
 
-constexpr int kColumns = 24;      // of the grid over the scene, each way
+constexpr int kColumns = 20;      // of the grid over the scene, each way
 constexpr int kMostStoreys = 24;  // surfaces above each other that are looked at
 constexpr int kAzimuths = 16;
-constexpr float kLevel = 0.7071f;                                     // the least upward part of a floor's normal
-constexpr float kElevations[] = {-20.0f, -7.0f, 5.0f, 20.0f, 40.0f};  // degrees, of what is seen from a stand
+constexpr float kLevel = 0.7071f;                                      // the least upward part of a floor's normal
+constexpr float kElevations[] = {-20.0f, -10.0f, 5.0f, 20.0f, 40.0f};  // degrees, of what is seen from a stand
 
 vec3 direction_at(float azimuth, float elevation) {
   const float a = glm::radians(azimuth), e = glm::radians(elevation);
@@ -26,14 +26,15 @@ vec3 direction_at(float azimuth, float elevation) {
 
 struct View {
   float worth = 0.0f;
-  float around = 0.0f;  // share of the azimuths in which there is ground or a wall near enough to see one's way
-  float above = 0.0f;   // share of the directions above the horizon with something to see
-  float backs = 0.0f;   // share of the surfaces that show their backs
+  float near = 0.0f;   // share of the azimuths in which the ground reaches 4.4 m, or ends at a wall
+  float far = 0.0f;    // the same for 9 m
+  float above = 0.0f;  // share of the directions above the horizon with something to see
+  float backs = 0.0f;  // share of the surfaces that show their backs
 };
 
 View look_around(const SceneRays& rays, vec3 eye, float unit) {
   View view;
-  int hits = 0, backs = 0, above = 0, around = 0;
+  int hits = 0, backs = 0, above = 0, near = 0, far = 0;
   float sum = 0.0f;
   std::set<std::pair<int, int>> seen;
   for (int i = 0; i < kAzimuths; i++) {
@@ -41,7 +42,8 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
       const Sight sight = rays.look(eye, direction_at(360.0f / kAzimuths * static_cast<float>(i), elevation));
       if (sight.leaves()) continue;
       hits++;
-      if (elevation == kElevations[0]) around++;
+      if (elevation == kElevations[0]) near++;
+      if (elevation == kElevations[1]) far++;
       if (elevation > 0.0f) above++;
       if (!sight.front) {
         backs++;
@@ -52,10 +54,11 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
     }
   }
   const float count = kAzimuths * std::size(kElevations);
-  view.around = static_cast<float>(around) / kAzimuths;
+  view.near = static_cast<float>(near) / kAzimuths;
+  view.far = static_cast<float>(far) / kAzimuths;
   view.above = static_cast<float>(above) / (kAzimuths * 3.0f);
   view.backs = hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
-  view.worth = sum / count + 0.3f * static_cast<float>(seen.size()) / count;
+  view.worth = sum / count + 0.15f * static_cast<float>(seen.size()) / count;
   return view;
 }
 
@@ -75,11 +78,17 @@ float footing(const SceneRays& rays, vec3 eye, float floor, float unit) {
   return level < 6 ? 0.0f : 1.0f - 0.5f * static_cast<float>(lower) / 8.0f;
 }
 
-// 1 in the middle of the core, 0 at its edge.
+// 1 in the middle of the core as seen from above, 0 at its edge.
 float centrality(const Bounds& core, vec3 point) {
   const vec3 half = 0.5f * (core.high - core.low), off = glm::abs(point - 0.5f * (core.low + core.high));
   const float x = half.x > 0.0f ? off.x / half.x : 0.0f, z = half.z > 0.0f ? off.z / half.z : 0.0f;
   return std::clamp(1.0f - std::max(x, z), 0.0f, 1.0f);
+}
+
+// The same among things on all sides.
+float depth_within(const Bounds& core, vec3 point) {
+  const vec3 off = glm::abs(point - 0.5f * (core.low + core.high)) / max(0.5f * (core.high - core.low), vec3(1e-9f));
+  return std::clamp(1.0f - std::max({off.x, off.y, off.z}), 0.0f, 1.0f);
 }
 
 // Ground without anything that rises above the eyes.
@@ -97,11 +106,11 @@ Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float he
   if (height < kLeastEyeHeight) return stand;
   stand.eye = foot + vec3(0.0f, height / unit, 0.0f);
   const float firm = footing(rays, stand.eye, foot.y, unit);
-  if (firm == 0.0f || free_radius(rays, stand.eye) * unit < kElbowRoom) return stand;
+  if (firm == 0.0f || !is_free(rays, stand.eye, kElbowRoom / unit)) return stand;
   const View view = look_around(rays, stand.eye, unit);
-  const bool surrounded = view.around >= 0.75f && (view.above >= 0.05f || is_flat(core, unit));
+  const bool surrounded = view.near >= 0.75f && view.far >= 0.6f && (view.above >= 0.05f || is_flat(core, unit));
   if (!surrounded || view.backs > 0.95f) return stand;
-  stand.worth = (view.worth + 0.3f * centrality(core, stand.eye)) * firm * height / kEyeHeight;
+  stand.worth = (view.worth + 0.4f * centrality(core, stand.eye)) * firm * height / kEyeHeight;
   return stand;
 }
 
@@ -112,8 +121,8 @@ Stand best_in_column(const SceneRays& rays, const Bounds& core, vec3 top, float 
   const float step = 1e-4f * std::max(length(core.high - core.low), 1e-6f);
   for (int storey = 0; storey < kMostStoreys; storey++) {
     const Sight sight = rays.look(top, down);
-    if (sight.leaves()) break;
     const vec3 foot = top + down * sight.distance;
+    if (sight.leaves() || foot.y < core.low.y - step) break;
     if (sight.normal.y >= kLevel) {
       const float headroom = rays.distance(foot - down * step, -down);
       const Stand stand = judge_floor(rays, core, foot, headroom, unit);
@@ -151,14 +160,14 @@ std::optional<Stand> best_stand(const SceneRays& rays, const Bounds& core, float
 }
 
 std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float metres_per_unit) {
-  constexpr int kCells = 7, kSectors = 8, kLeastSectors = 7;
-  constexpr float kSteep = 0.64f;  // the sine of 40 degrees: what is above and below does not surround
-  static const std::vector<vec3> kDirections = sphere_directions(1024);
+  constexpr int kCells = 7, kSectors = 16, kLeastSectors = 13;
+  constexpr float kSteep = 0.26f;  // the sine of 15 degrees: what is above and below does not surround
+  static const std::vector<vec3> kDirections = sphere_directions(2048);
   Stand best;
   for (int cell_number = 0; cell_number < kCells * kCells * kCells; cell_number++) {
     const int x = cell_number % kCells, y = cell_number / kCells % kCells, z = cell_number / (kCells * kCells);
     const vec3 eye = grid_point(core, {cell(x, kCells), cell(y, kCells), cell(z, kCells)});
-    if (free_radius(rays, eye) * metres_per_unit < kElbowRoom) continue;
+    if (!is_free(rays, eye, kElbowRoom / metres_per_unit)) continue;
     std::set<int> sectors, things;
     int fronts = 0, backs = 0;
     for (const vec3& direction : kDirections) {
@@ -171,7 +180,7 @@ std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float
       things.insert(sight.instance);
     }
     if (static_cast<int>(sectors.size()) < kLeastSectors || things.size() < 4 || backs > fronts) continue;
-    const float worth = static_cast<float>(fronts) / 1024.0f + 0.3f * centrality(core, eye);
+    const float worth = static_cast<float>(fronts) / 512.0f + 0.6f * depth_within(core, eye);
     if (worth > best.worth) best = {eye, std::nullopt, std::numeric_limits<float>::infinity(), worth, {}};
   }
   if (best.worth <= 0.0f) return std::nullopt;

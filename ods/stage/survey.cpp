@@ -65,7 +65,7 @@ std::array<float, 2> bulk(std::vector<float> values) {
 Bounds core_bounds(const Scene& scene) {
   const std::vector<Triangle> triangles = sampled_triangles(scene);
   if (triangles.empty()) return {};
-  vec3 low, high;
+  vec3 low(0.0f), high(0.0f);
   for (int axis = 0; axis < 3; axis++) {
     std::vector<float> values;
     for (const Triangle& triangle : triangles) values.push_back(triangle.middle()[axis]);
@@ -108,6 +108,27 @@ float backs_seen_outside(const SceneRays& rays, const Bounds& core) {
   return hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
 }
 
+// In a furnished room most triangles are furniture, so the core may have no walls: what is seen from a first stand
+// shows how far the place extends. An object may stand in a hall.
+static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& survey) {
+  survey.stand = best_stand(rays, survey.core, metres_per_unit);
+  const bool has_outliers = survey.core.low != survey.bounds.low || survey.core.high != survey.bounds.high;
+  if (!survey.stand && has_outliers) {
+    survey.stand = best_stand(rays, survey.bounds, metres_per_unit);
+    if (survey.stand && survey.stand->open.upper > kOpenUpwards) survey.stand.reset();
+  }
+  if (!survey.stand) {
+    survey.stand = best_float(rays, survey.core, metres_per_unit);
+    return;
+  }
+  if (!has_outliers) return;
+  const Bounds seen = seen_bounds(rays, survey.stand->eye);
+  survey.core.low = min(survey.core.low, seen.low);
+  survey.core.high = max(survey.core.high, seen.high);
+  const std::optional<Stand> stand = best_stand(rays, survey.core, metres_per_unit);
+  if (stand) survey.stand = stand;
+}
+
 Survey survey(const SceneRays& rays, float metres_per_unit) {
   Survey survey;
   const Scene& scene = rays.scene();
@@ -115,8 +136,7 @@ Survey survey(const SceneRays& rays, float metres_per_unit) {
   if (visible_triangles(scene) == 0) return survey;
   survey.bounds = scene_bounds(scene);
   survey.core = core_bounds(scene);
-  survey.stand = best_stand(rays, survey.core, metres_per_unit);
-  if (!survey.stand) survey.stand = best_float(rays, survey.core, metres_per_unit);
+  find_stand(rays, metres_per_unit, survey);
   survey.kind = !survey.stand                             ? SceneKind::kObject
                 : survey.stand->open.upper > kOpenUpwards ? SceneKind::kOpenPlace
                                                           : SceneKind::kClosedRoom;
