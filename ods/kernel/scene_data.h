@@ -146,11 +146,12 @@ struct EnvironmentTexel {
   AliasEntry entry;  // within its row; the rows have their own table
 };
 
-// What the kernel knows of the environment besides its texels.
+// What the kernel knows of an environment besides its texels.
 struct EnvironmentInfo {
   vec3 uniform_radiance;  // used if width = 0
   int width;
   int height;
+  int first_texel;
   int light;  // index in the light table; -1 if it is not sampled as a light
 };
 
@@ -166,6 +167,6 @@ struct Hit {
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 28);
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 244 && sizeof(Light) == 64);
-static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
+static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 28 && sizeof(Hit) == 20);
 }  // namespace ods
 #endif

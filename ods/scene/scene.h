@@ -77,6 +77,10 @@ struct Scene {
 
   std::vector<PunctualLight> lights;
   Environment environment;
+  std::optional<Environment> background;  // what the camera sees behind everything; lights nothing. None: environment
+
+  // How many of the last instances are not the scene's own: ground and lamp (ods/stage/light/supply.h).
+  size_t supplied = 0;
 
   std::vector<ViewPoint> view_points;
   std::optional<Viewing> viewing;  // set by settle() (ods/stage/place.h)
