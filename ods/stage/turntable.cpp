@@ -70,7 +70,7 @@ void put_on_table(Scene& scene, int table, const dvec3& middle) {
       moving.node += table + 1;
     }
   }
-  for (size_t i = 0; i < scene.instances.size(); i++) {
+  for (size_t i = 0; i < scene.instances.size() - scene.supplied; i++) {
     const Instance& instance = scene.instances[i];
     if (moves[i] || instance.catcher != 0 || is_hidden(scene, i)) continue;
     const Bounds box = mesh_bounds(scene, scene.meshes[static_cast<size_t>(instance.mesh)]);
