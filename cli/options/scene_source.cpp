@@ -14,11 +14,10 @@
 #include "ods/files/confined_file.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/catchers.h"
-#include "ods/scene/load/environment.h"
 #include "ods/scene/load/load.h"
 #include "ods/stage/place.h"
 
-using ods::Scene, ods::vec3;
+using ods::Scene;
 
 static void add_confine_option(Options& options, SceneSource& source) {
   options.text("--confine", "DIR", source.confine,
@@ -56,12 +55,6 @@ void add_scene_option(Options& options, SceneSource& source, const char* help) {
   options.text("--scene", "SCENE", source.name, help);
   add_unit_option(options, source);
   add_confine_option(options, source);
-}
-
-void add_light_options(Options& options, SceneSource& source) {
-  options.text("--env", "FILE|R,G,B|X", source.environment,
-               "sky light: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; 0 switches the sky off. "
-               "Replaces the scene's own sky. A scene without lights gets 1");
 }
 
 // A name that may have been meant, or else the list of names.
@@ -113,42 +106,7 @@ Scene open_scene(const SceneSource& source) {
   return scene;
 }
 
-static void add_environment(Scene& scene, const SceneSource& source) {
-  if (source.environment.empty()) {
-    if (ods::has_light(scene)) return;
-    note(
-        "the scene has no lamps: an even white sky lights it (--env sky.hdr is another one, --env 0 none, --exposure 1 "
-        "doubles the light)");
-    scene.environment.radiance = vec3(1.0f);
-    return;
-  }
-  std::vector<float> numbers = parse_numbers(source.environment);
-  if (numbers.empty()) {
-    const std::string confined_to = confining_folder(source);
-    // Confined, the message is the same whether or not a file outside exists.
-    if (confined_to.empty() && !std::filesystem::exists(source.environment)) {
-      throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
-                                                   "'; a colour is written R,G,B, as 0.5,0.6,0.8");
-    }
-    std::string color_fault;
-    const ods::ConfinedFile file(source.environment, confined_to);
-    scene.environment =
-        file.read([&](const std::string& opened) { return ods::load_environment(opened, &color_fault); });
-    if (!color_fault.empty()) warn(fmt::format("'{}': {}", source.environment, color_fault));
-    if (scene.environment.width != 2 * scene.environment.height) {
-      note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
-    }
-    return;
-  }
-  bool legal = numbers.size() == 1 || numbers.size() == 3;
-  for (float number : numbers) legal = legal && number >= 0.0f && number <= 1e6f;
-  if (!legal)
-    throw UsageError("--env is a file, R,G,B or one brightness, from 0 to 1e6, not '" + source.environment + "'");
-  scene.environment = {};
-  scene.environment.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
-}
-
-Scene open_lit_scene(const SceneSource& source) {
+Scene open_lit_scene(const SceneSource& source, bool transparent) {
   Scene scene = open_scene(source);
   if (scene.instances.empty()) {
     throw ods::Error(ods::ErrorKind::kInput,
@@ -156,6 +114,6 @@ Scene open_lit_scene(const SceneSource& source) {
                                  "what there is)",
                                  source.name));
   }
-  add_environment(scene, source);
+  light_scene(scene, source.light, ods::find_builtin(source.name) != nullptr, transparent, confining_folder(source));
   return scene;
 }

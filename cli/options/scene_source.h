@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "cli/options/light_options.h"
 #include "ods/scene/scene.h"
 
 struct SceneSource {
   std::string name;          // a file or a built-in scene
   std::optional<int> scene;  // which of the file's scenes; none: its default scene
-  std::string environment;
+  LightOptions light;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
   std::string unit = "auto";
@@ -22,7 +23,6 @@ struct SceneSource {
 void add_scene_argument(Options& options, SceneSource& source);
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
-void add_light_options(Options& options, SceneSource& source);
 
 // The folder of --confine with links resolved; empty if the option was not given. Throws Error(kInput) if there is no
 // such folder.
@@ -33,6 +33,5 @@ std::string confining_folder(const SceneSource& source);
 // noted.
 ods::Scene open_scene(const SceneSource& source);
 
-// Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Throws
-// Error(kInput) if there is nothing to render.
-ods::Scene open_lit_scene(const SceneSource& source);
+// Likewise for rendering, with light: light_scene(). Throws Error(kInput) if there is nothing to render.
+ods::Scene open_lit_scene(const SceneSource& source, bool transparent);

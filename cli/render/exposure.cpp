@@ -28,7 +28,7 @@ bool is_looked_at(const RenderJob& job) {
 }
 
 bool is_made_for_it(const RenderJob& job) {
-  return ods::find_builtin(job.scene.name) && job.scene.environment.empty();
+  return ods::find_builtin(job.scene.name) && job.scene.light.environment.empty();
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
 void render_job(const RenderJob& wanted, ProgressLines& lines) {
   RenderJob job = wanted;
   check_outputs(job);
-  ods::Scene scene = open_lit_scene(job.scene);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, scene);
   const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
@@ -138,7 +138,7 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
 RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
                              const std::function<void(const std::vector<int>& frames)>& planned) {
   check_outputs(job);
-  ods::Scene scene = open_lit_scene(job.scene);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, scene);
   const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);

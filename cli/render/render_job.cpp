@@ -101,7 +101,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   Quality quality;
   Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
   add_scene_argument(options, job.scene);
-  add_light_options(options, job.scene);
+  add_light_options(options, job.scene.light);
   add_picture_options(options, job);
   add_camera_options(options, job.camera);
   add_time_options(options, job.time);
@@ -115,6 +115,9 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
     note("--exposure does not change .exr and .hdr, which are scene-linear");
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
+  }
+  if (job.render.transparent && options.given("--background")) {
+    throw UsageError("--background and --transparent exclude each other");
   }
   if (!job.scene.catchers.empty() && !job.render.transparent) {
     throw UsageError("--shadow-catcher needs --transparent");

@@ -42,7 +42,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   Quality quality;
   Options options("video", kSummary, kExamples);
   add_scene_argument(options, render.scene);
-  add_light_options(options, render.scene);
+  add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
   options.text("--rig", "FILE", job.rig,
                "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");

@@ -202,6 +202,9 @@ const std::map<std::string, std::string> kVideoAlone = {
 const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
     {"--env", "0.5"},
+    {"--lamp", "0,0.5,0"},
+    {"--background", "0.5"},
+    {"--unlit", ""},
     {"--width", "32"},
     {"--height", "10"},
     {"--eyes", "mono"},
