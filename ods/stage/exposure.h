@@ -25,7 +25,7 @@ StereoCamera first_look_camera(const StereoCamera& camera);
 std::optional<float> suitable_exposure(std::span<const Picture> looks);
 
 inline constexpr float kExposedMean = 0.18f;  // middle grey
-inline constexpr float kHighlight = 1.5f;  // PBR Neutral shows it at 0.93
+inline constexpr float kHighlight = 1.5f;     // PBR Neutral shows it at 0.93
 inline constexpr float kHighlightShare = 0.05f;
 inline constexpr float kMostStops = 30.0f;
 
