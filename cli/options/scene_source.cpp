@@ -86,15 +86,16 @@ static std::string unit_word(float metres) {
 }
 
 // Built-in scenes are in metres and have a view point.
-static void settle_scene(Scene& scene, const SceneSource& source) {
+static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result) {
   const std::optional<float> unit = parse_unit(source.unit);
   if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
   const ods::Settled settled = ods::settle(scene, unit);
+  if (result) *result = settled;
   if (settled.unit_reason.empty()) return;
   note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));
 }
 
-Scene open_scene(const SceneSource& source) {
+Scene open_scene(const SceneSource& source, ods::Settled* settled) {
   Scene scene = ods::load_scene(source.name, {.scene = source.scene.value_or(-1), .confine = confining_folder(source)});
   for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
@@ -102,7 +103,7 @@ Scene open_scene(const SceneSource& source) {
     throw UsageError(
         fmt::format("--shadow-catcher: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
   }
-  settle_scene(scene, source);
+  settle_scene(scene, source, settled);
   return scene;
 }
 

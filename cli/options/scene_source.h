@@ -11,6 +11,10 @@
 #include "cli/options/light_options.h"
 #include "ods/scene/scene.h"
 
+namespace ods {
+struct Settled;
+}
+
 struct SceneSource {
   std::string name;          // a file or a built-in scene
   std::optional<int> scene;  // which of the file's scenes; none: its default scene

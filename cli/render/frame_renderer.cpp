@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/render/finish_picture.h"
 #include "ods/kernel/random.h"
 #include "ods/render/render_target.h"
@@ -68,6 +70,16 @@ void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
   warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
 }
 
+constexpr size_t kLooks = 5;  // at a video, spread evenly
+
+bool is_looked_at(const RenderJob& job) {
+  return job.time.is_video || job.part || !keeps_light(job.output);
+}
+
+bool is_made_for_it(const RenderJob& job) {
+  return ods::find_builtin(job.scene.name) && job.scene.light.environment.empty();
+}
+
 constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
 
 }  // namespace
@@ -122,6 +134,23 @@ Rendered FrameRenderer::render(const Frame& frame, const std::function<void(doub
 ods::Picture FrameRenderer::first_look(const Frame& frame) {
   const std::vector<ods::StereoCamera> cameras = set_time(frame);
   return renderer_->render(ods::first_look_camera(cameras[cameras.size() / 2]), ods::first_look(job_.render));
+}
+
+float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
+  if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
+    return job_.exposure.value_or(0.0f);
+  }
+  std::set<size_t> chosen;
+  for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
+  std::vector<ods::Picture> looks;
+  for (const size_t i : chosen) looks.push_back(first_look(frames[i]));
+  const std::optional<float> stops = ods::suitable_exposure(looks);
+  if (!stops) {
+    warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
+    return 0.0f;
+  }
+  note(fmt::format("exposure {:+.1f} stops, from a first look at the light (--exposure {:.1f})", *stops, *stops));
+  return *stops;
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {

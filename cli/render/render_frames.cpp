@@ -13,7 +13,6 @@
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/denoised_frames.h"
-#include "cli/render/exposure.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
 
@@ -119,7 +118,7 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   if (frames.empty()) return;
   say_room(job, frames);
   FrameRenderer renderer(job, time, scene);
-  job.save.exposure = find_exposure(job, renderer, all);
+  job.save.exposure = renderer.find_exposure(all);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
   double samples = 0.0;
@@ -150,7 +149,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   planned(numbers);
   const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
   FrameRenderer renderer(job, time, scene);
-  const float exposure = find_exposure(job, renderer, all);
+  const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));

@@ -7,7 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/exposure.h"
+#include "ods/stage/exposure.h"
 
 namespace {
 
@@ -20,6 +20,14 @@ constexpr const char* kExamples =
     "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30\n"
     "  ods render scene.glb -o part_3.exr --part 3/8   for ods merge 'part_#.exr'\n"
     "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
+
+// None: auto.
+std::optional<float> parse_exposure(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  const std::vector<float> numbers = parse_numbers(word);
+  if (numbers.size() == 1 && numbers[0] >= -ods::kMostStops && numbers[0] <= ods::kMostStops) return numbers[0];
+  throw UsageError(fmt::format("--exposure is auto or a number of stops from -30 to 30, not '{}'", word));
+}
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
@@ -88,6 +96,13 @@ void check_rig(const Options& options, const RenderJob& job) {
 }
 
 }  // namespace
+
+void add_exposure_option(Options& options, RenderJob& job) {
+  options.custom(
+      "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
+      "exposure in stops. auto: what suits the light, found by a first look, the same for both eyes and all frames; "
+      ".hdr and .exr stay scene-linear and ignore it");
+}
 
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
   check_time_options(job.time);

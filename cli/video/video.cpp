@@ -11,7 +11,6 @@
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/video_options.h"
-#include "cli/render/exposure.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_journal.h"

@@ -92,6 +92,21 @@ Bounds core_bounds(const Scene& scene) {
   return empty ? scene_bounds(scene) : core;
 }
 
+float distance_to_see(const Scene& scene, const Bounds& core) {
+  constexpr float kCotangent = 1.7320508f;  // of 30 degrees
+  const vec3 middle = 0.5f * (core.low + core.high);
+  float distance = 0.0f;
+  for (const Triangle& triangle : sampled_triangles(scene)) {
+    for (const vec3& corner : triangle.corners) {
+      if (any(lessThan(corner, core.low)) || any(greaterThan(corner, core.high))) continue;
+      const vec3 off = corner - middle;
+      const float radius = std::hypot(off.x, off.z);
+      distance = std::max({distance, 2.0f * radius, radius + kCotangent * std::abs(off.y)});
+    }
+  }
+  return distance;
+}
+
 float backs_seen_outside(const SceneRays& rays, const Bounds& core) {
   const vec3 middle = 0.5f * (core.low + core.high), half = 0.5f * (core.high - core.low);
   const float radius = 2.0f * length(half);

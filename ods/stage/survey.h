@@ -61,6 +61,10 @@ Survey survey(const SceneRays& rays, float metres_per_unit = 1.0f);
 // Bounds that leave out the few triangles far away from all others. Both corners 0 if nothing is visible.
 Bounds core_bounds(const Scene& scene);
 
+// How far from the middle of the core somebody has to be, level with it, so that whatever is in the core is seen within
+// 30 degrees of straight ahead, to all sides and however it turns about its vertical axis. A ball's diameter.
+float distance_to_see(const Scene& scene, const Bounds& core);
+
 // The share of surfaces that show their backs to a viewer outside: 0 for solid objects, 1 for rooms without outer
 // walls.
 float backs_seen_outside(const SceneRays& rays, const Bounds& core);

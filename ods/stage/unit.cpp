@@ -83,13 +83,15 @@ std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own) {
 
 // An object that is shown as a model.
 UnitGuess model(const SceneRays& rays, Survey own) {
-  const float size = object_size(own.core);
+  const float size = distance_to_see(rays.scene(), own.core);
   const bool fits = size >= kSmallestObject && size <= kLargestObject;
   if (fits || size <= 0.0f || !rays.scene().view_points.empty()) return {1.0f, "", std::move(own)};
   const float exact = std::clamp(kModelSize / size, kLeastUnit, kMostUnit);
   const float metres = std::strtof(fmt::format("{:.3g}", exact).c_str(), nullptr);  // so that it can be repeated
-  const std::string what = size < 1.0f ? fmt::format("{:.3g} cm", 100.0f * size) : fmt::format("{:.4g} m", size);
-  return {metres, fmt::format("the object is {} large and shown as a model of {:.2g} m", what, size * metres),
+  const float longest = extent(own.core);
+  const std::string what =
+      longest < 1.0f ? fmt::format("{:.3g} cm", 100.0f * longest) : fmt::format("{:.4g} m", longest);
+  return {metres, fmt::format("the object is {} long: it is shown as a model of {:.2g} m", what, longest * metres),
           std::move(own)};
 }
 
@@ -115,11 +117,6 @@ void scale_animation(Animation& animation, double factor) {
 }
 
 }  // namespace
-
-float object_size(const Bounds& core) {
-  const vec3 size = core.high - core.low;
-  return std::max(std::hypot(size.x, size.z), size.y);
-}
 
 UnitGuess guess_unit(const SceneRays& rays) {
   Survey own = survey(rays);

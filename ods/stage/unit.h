@@ -42,7 +42,7 @@ inline constexpr float kHighestRoom = 100.0f;    // floor to ceiling: higher tha
 inline constexpr float kWidestPlace = 20000.0f;  // a landscape as far as one sees from the ground
 inline constexpr float kSmallestObject = 0.5f;   // smaller ones are specks at arm's length and beyond,
 inline constexpr float kLargestObject = 5.0f;    // larger ones are too far away for stereo if all of it is to be seen
-inline constexpr float kModelSize = 1.2f;        // the size at which such objects are shown
+inline constexpr float kModelSize = 1.3f;        // the size at which such objects are shown
 
 struct UnitGuess {
   float metres = 1.0f;  // per unit of the file
@@ -58,11 +58,8 @@ struct UnitGuess {
 //    their backs to the outside.
 //  - An object on its own is shown as a model of kModelSize if it is smaller than kSmallestObject or larger than
 //    kLargestObject, unless the scene has a view point: a picture of a ring or of a tower at its own size would have
-//    next to nothing to see in stereo.
+//    next to nothing to see in stereo. Its size is distance_to_see().
 UnitGuess guess_unit(const SceneRays& rays);
-
-// How large an object is: the diameter of the cylinder in which it turns about its vertical axis, or its height.
-float object_size(const Bounds& core);
 
 // Multiplies all lengths of a scene: instances, lights and their range, view points, volumes, and what is animated. The
 // picture stays what it was, seen by smaller or larger eyes: point and spot lights get the factor's square in power, so

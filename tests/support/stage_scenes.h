@@ -133,10 +133,13 @@ inline Scene make_landscape(float width, float relief = 30.0f) {
   const auto height = [=](float x, float z) {
     return relief * (0.5f + 0.5f * std::sin(x * 9.0f / width) * std::cos(z * 7.0f / width));
   };
-  add(scene, make_surface(120, 120, vec2(1.0f), [=](float s, float t) {
-        const float x = width * (s - 0.5f), z = width * (0.5f - t);
-        return vec3(x, height(x, z), z);
-      }), 0);
+  add(scene,
+      make_surface(120, 120, vec2(1.0f),
+                   [=](float s, float t) {
+                     const float x = width * (s - 0.5f), z = width * (0.5f - t);
+                     return vec3(x, height(x, z), z);
+                   }),
+      0);
   for (int i = 0; i < 40; i++) {
     const float x = width * (std::fmod(0.618f * static_cast<float>(i), 1.0f) - 0.5f);
     const float z = width * (std::fmod(0.414f * static_cast<float>(i), 1.0f) - 0.5f);
@@ -148,12 +151,17 @@ inline Scene make_landscape(float width, float relief = 30.0f) {
 // A crooked cave: a closed, bumpy shell seen from inside, 20 m long, with a rough floor.
 inline Scene make_cave() {
   Scene scene = with_materials();
-  add(scene, make_surface(96, 48, vec2(1.0f), [](float s, float t) {
-        const float a = 6.2831853f * s, e = 3.14159265f * (t - 0.5f);
-        const float bump = 1.0f + 0.12f * std::sin(5.0f * a) * std::cos(7.0f * e) + 0.05f * std::sin(11.0f * a + 3.0f * e);
-        const vec3 p(10.0f * std::cos(e) * std::cos(a), 3.5f * std::sin(e), 7.0f * std::cos(e) * std::sin(a));
-        return vec3(p.x * bump, std::max(p.y * bump, -1.8f), p.z * bump);
-      }), 0);
+  add(scene,
+      make_surface(96, 48, vec2(1.0f),
+                   [](float s, float t) {
+                     const float a = 6.2831853f * s, e = 3.14159265f * (t - 0.5f);
+                     const float bump = 1.0f + 0.12f * std::sin(5.0f * a) * std::cos(7.0f * e) +
+                                        0.05f * std::sin(11.0f * a + 3.0f * e);
+                     const vec3 p(10.0f * std::cos(e) * std::cos(a), 3.5f * std::sin(e),
+                                  7.0f * std::cos(e) * std::sin(a));
+                     return vec3(p.x * bump, std::max(p.y * bump, -1.8f), p.z * bump);
+                   }),
+      0);
   for (int i = 0; i < 6; i++) {
     const float a = static_cast<float>(i);
     add(scene, make_cone(0.4f, 2.0f, 16), 1, placed(vec3(5.0f * std::cos(a), -1.8f, 3.5f * std::sin(a))));
@@ -167,7 +175,8 @@ inline Scene make_space() {
   for (int i = 0; i < 300; i++) {
     const float k = static_cast<float>(i);
     const vec3 p = 60.0f * (vec3(std::fmod(0.7548776f * k, 1.0f), std::fmod(0.5698403f * k, 1.0f),
-                                 std::fmod(0.3247180f * k, 1.0f)) - 0.5f);
+                                 std::fmod(0.3247180f * k, 1.0f)) -
+                            0.5f);
     if (length(p) > 8.0f) add(scene, make_sphere(0.5f + std::fmod(0.37f * k, 1.5f), 12), i % 2, placed(p));
   }
   return scene;
