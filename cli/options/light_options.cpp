@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "cli/console/console.h"
 #include "ods/base/error.h"
@@ -116,16 +117,13 @@ ods::LightWishes read_wishes(const LightOptions& light, float yaw, const std::st
   return wishes;
 }
 
-void set_background(ods::Scene& scene, const std::string& word, const std::string& confined_to) {
-  if (word.empty()) return;
-  if (word == "env") {
-    scene.background.reset();
-    return;
-  }
+// None: what the camera would see anyway.
+std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
+  if (word.empty() || word == "env") return std::nullopt;
   const Named named = parse_environment("--background", word);
-  scene.background = named.surround == Surround::kStudio ? ods::make_studio_walls()
-                     : named.surround == Surround::kSky  ? ods::make_sky(named.sky)
-                                                         : given_environment("--background", named, confined_to);
+  if (named.surround == Surround::kStudio) return ods::make_studio_walls();
+  if (named.surround == Surround::kSky) return ods::make_sky(named.sky);
+  return given_environment("--background", named, confined_to);
 }
 
 }  // namespace
@@ -152,6 +150,7 @@ void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, boo
                  const std::string& confined_to) {
   ods::LightWishes wishes = read_wishes(light, ods::default_view(scene).yaw, confined_to);
   wishes.ground = !transparent;
+  const std::optional<ods::Environment> background = read_background(light.background, confined_to);
   ods::LightPlan plan;
   ods::Survey survey;
   if (is_ours && wishes.lamp != ods::LampWish::kPlaced) {
@@ -165,5 +164,5 @@ void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, boo
   }
   if (!plan.note.empty()) note(plan.note);
   ods::apply_light(scene, survey, plan, wishes);
-  set_background(scene, light.background, confined_to);
+  if (!light.background.empty()) scene.background = background;
 }

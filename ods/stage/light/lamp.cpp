@@ -15,7 +15,7 @@ namespace {
 constexpr vec3 kUp(0.0f, 1.0f, 0.0f);
 constexpr int kAround = 32;
 constexpr float kDrop = 0.04f;     // below the ceiling, as a share of the room's height
-constexpr float kSize = 0.2f;      // radius, as a share of the height above the floor
+constexpr float kSize = 0.1f;      // radius, as a share of the height above the floor
 constexpr float kFloor = 0.4f;     // radiance of a white floor beneath
 constexpr float kFarthest = 1e4f;  // of a wall that counts; metres
 

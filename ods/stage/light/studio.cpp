@@ -29,7 +29,7 @@ const SoftBox kBoxes[] = {
 
 constexpr vec3 kFloor(0.184f, 0.18f, 0.176f);
 constexpr float kFloorEnds = -5.0f;  // degrees: from here up the floor turns into the wall
-constexpr int kWidth = 1024;
+constexpr int kWidth = 512;
 
 // The direction relative to the box's centre: degrees to its right and above it.
 vec2 seen_from(const SoftBox& box, vec3 direction) {

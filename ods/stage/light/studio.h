@@ -9,7 +9,7 @@
 
 namespace ods {
 
-// 1024 x 512 texels. yaw: the viewer's, degrees to the right: the lights stand around that line of sight. A white
+// 512 x 256 texels. yaw: the viewer's, degrees to the right: the lights stand around that line of sight. A white
 // Lambert surface that faces the viewer has a radiance of about 1.
 Environment make_studio(float yaw = 0.0f);
 

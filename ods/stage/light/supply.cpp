@@ -58,8 +58,8 @@ bool is_within(const Bounds& bounds, vec3 point) {
   return all(greaterThanEqual(point, bounds.low)) && all(lessThanEqual(point, bounds.high));
 }
 
-// Light from far away reaches nobody behind walls without windows.
-bool own_light_reaches(const SceneRays& rays, const Survey& survey, float windows) {
+// Whether the scene's lamps or its environment do. Light from far away reaches nobody behind walls without windows.
+bool lamps_reach(const SceneRays& rays, const Survey& survey, float windows) {
   const Scene& scene = rays.scene();
   const bool shut = survey.kind == SceneKind::kClosedRoom && windows < kWindows;
   if (scene.environment.radiance != vec3(0.0f) && !shut) return true;
@@ -67,8 +67,22 @@ bool own_light_reaches(const SceneRays& rays, const Survey& survey, float window
     if (!(luminance(light.intensity) > 0.0f)) return false;
     return !shut || (light.kind != kLightDirectional && is_within(survey.bounds, light.position));
   };
-  if (std::ranges::any_of(scene.lights, reaches)) return true;
+  return std::ranges::any_of(scene.lights, reaches);
+}
+
+bool glows_enough(const Scene& scene, const Survey& survey) {
   return emission_level(scene) >= (survey.kind == SceneKind::kObject ? kLitObject : kLitPlace);
+}
+
+// Sets has_light and paint. may_be_painted: the user did not ask for light.
+void judge_light(const SceneRays& rays, const Survey& survey, bool may_be_painted, LightPlan& plan) {
+  const bool is_place = survey.kind == SceneKind::kClosedRoom || survey.kind == SceneKind::kOpenPlace;
+  plan.has_light = lamps_reach(rays, survey, plan.windows);
+  if (plan.has_light) return;
+  const bool glows = glows_enough(rays.scene(), survey);
+  // Scans have no lamps.
+  if (may_be_painted) plan.paint = paint_of(rays.scene(), is_place && !glows);
+  plan.has_light = glows && plan.paint == Paint::kLit;
 }
 
 // Of the environment, if the user did not choose one and the scene has no light.
@@ -87,7 +101,8 @@ std::optional<Surround> missing_surround(const Survey& survey, const LightPlan& 
 }
 
 std::string place_text(vec3 p) {
-  return fmt::format("{:.3g},{:.3g},{:.3g}", p.x, p.y, p.z);
+  const auto rounded = [](float x) { return std::round(100.0f * x) / 100.0f + 0.0f; };  // no -0
+  return fmt::format("{:g},{:g},{:g}", rounded(p.x), rounded(p.y), rounded(p.z));
 }
 
 std::string note_for(const Survey& survey, const LightPlan& plan, const LightWishes& wishes) {
@@ -167,9 +182,7 @@ LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightWis
   const bool chosen = wishes.surround != Surround::kAuto;
   LightPlan plan;
   if (closed) plan.windows = window_share(rays, survey.stand->eye);
-  plan.has_light = own_light_reaches(rays, survey, plan.windows);
-  const bool is_place = closed || survey.kind == SceneKind::kOpenPlace;
-  if (!plan.has_light && !chosen && wishes.lamp != LampWish::kPlaced) plan.paint = paint_of(rays.scene(), is_place);
+  judge_light(rays, survey, !chosen && wishes.lamp != LampWish::kPlaced, plan);
   plan.as_painted = wishes.unlit || plan.paint != Paint::kLit;
   if (chosen) plan.surround = wishes.surround;
   if (!chosen && !plan.has_light) plan.surround = missing_surround(survey, plan);

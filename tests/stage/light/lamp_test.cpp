@@ -47,7 +47,7 @@ TEST(Lamp, HangsInTheMiddleBelowTheCeilingWhereverOneStands) {
     EXPECT_NEAR(lamp->position.z, -0.5f, 0.15f);
     EXPECT_NEAR(lamp->position.y, 2.4f, 1e-3f);
     EXPECT_NEAR(lamp->height, 2.4f, 1e-3f);
-    EXPECT_NEAR(lamp->radius, 0.48f, 1e-3f);
+    EXPECT_NEAR(lamp->radius, 0.24f, 1e-3f);
   }
 }
 
