@@ -35,7 +35,8 @@ std::string confining_folder(const SceneSource& source);
 // Reads the scene, turns the named objects into catchers, and notes what the renderer does not support. A file's scene
 // is measured: it gets its size in metres and a place for the viewer (ods/stage/place.h), and what was assumed is
 // noted.
-ods::Scene open_scene(const SceneSource& source);
+// settled: gets the result of that, if it is not null; built-in scenes leave it as it is.
+ods::Scene open_scene(const SceneSource& source, ods::Settled* settled = nullptr);
 
 // Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Throws
 // Error(kInput) if there is nothing to render.
