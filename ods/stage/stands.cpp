@@ -28,13 +28,14 @@ struct View {
   float worth = 0.0f;
   float near = 0.0f;   // share of the azimuths in which the ground reaches 4.4 m, or ends at a wall
   float far = 0.0f;    // the same for 9 m
+  float walls = 0.0f;  // as Stand::walls
   float above = 0.0f;  // share of the directions above the horizon with something to see
   float backs = 0.0f;  // share of the surfaces that show their backs
 };
 
 View look_around(const SceneRays& rays, vec3 eye, float unit) {
   View view;
-  int hits = 0, backs = 0, above = 0, near = 0, far = 0;
+  int hits = 0, backs = 0, above = 0, near = 0, far = 0, walls = 0;
   float sum = 0.0f;
   std::set<std::pair<int, int>> seen;
   for (int i = 0; i < kAzimuths; i++) {
@@ -44,6 +45,7 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
       hits++;
       if (elevation == kElevations[0]) near++;
       if (elevation == kElevations[1]) far++;
+      if (elevation == kElevations[2]) walls++;
       if (elevation > 0.0f) above++;
       if (!sight.front) {
         backs++;
@@ -56,6 +58,7 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
   const float count = kAzimuths * std::size(kElevations);
   view.near = static_cast<float>(near) / kAzimuths;
   view.far = static_cast<float>(far) / kAzimuths;
+  view.walls = static_cast<float>(walls) / kAzimuths;
   view.above = static_cast<float>(above) / (kAzimuths * 3.0f);
   view.backs = hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
   view.worth = sum / count + 0.15f * static_cast<float>(seen.size()) / count;
@@ -110,6 +113,7 @@ Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float he
   const View view = look_around(rays, stand.eye, unit);
   const bool surrounded = view.near >= 0.75f && view.far >= 0.6f && (view.above >= 0.05f || is_flat(core, unit));
   if (!surrounded || view.backs > 0.95f) return stand;
+  stand.walls = view.walls;
   stand.worth = (view.worth + 0.4f * centrality(core, stand.eye)) * firm * height / kEyeHeight;
   return stand;
 }
@@ -181,7 +185,7 @@ std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float
     }
     if (static_cast<int>(sectors.size()) < kLeastSectors || things.size() < 4 || backs > fronts) continue;
     const float worth = static_cast<float>(fronts) / 512.0f + 0.6f * depth_within(core, eye);
-    if (worth > best.worth) best = {eye, std::nullopt, std::numeric_limits<float>::infinity(), worth, {}};
+    if (worth > best.worth) best = {eye, std::nullopt, std::numeric_limits<float>::infinity(), 0.0f, worth, {}};
   }
   if (best.worth <= 0.0f) return std::nullopt;
   best.open = openness(rays, best.eye);

@@ -123,6 +123,15 @@ float backs_seen_outside(const SceneRays& rays, const Bounds& core) {
   return hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
 }
 
+// The seat of a sofa whose unit is wrong looks like a place. But it is closed from all sides, from below too, as no
+// landscape is, and open where the walls of a courtyard would be.
+static bool stands_on_object(const SceneRays& rays, float metres_per_unit, const Survey& survey) {
+  constexpr float kLargest = 30.0f;  // metres; on a smaller one, a viewer would see its edge
+  const vec3 size = (survey.core.high - survey.core.low) * metres_per_unit;
+  return survey.stand->open.upper > kOpenUpwards && survey.stand->walls < 0.9f &&
+         std::max({size.x, size.y, size.z}) > kLargest && backs_seen_outside(rays, survey.core) < 0.05f;
+}
+
 // In a furnished room most triangles are furniture, so the core may have no walls: what is seen from a first stand
 // shows how far the place extends. An object may stand in a hall.
 static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& survey) {
@@ -136,6 +145,7 @@ static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& sur
     survey.stand = best_float(rays, survey.core, metres_per_unit);
     return;
   }
+  if (stands_on_object(rays, metres_per_unit, survey)) return survey.stand.reset();
   if (!has_outliers) return;
   const Bounds seen = seen_bounds(rays, survey.stand->eye);
   survey.core.low = min(survey.core.low, seen.low);

@@ -41,6 +41,7 @@ struct Stand {
   vec3 eye{0.0f};
   std::optional<float> floor;  // the height of the floor below; none: floating
   float headroom = 0.0f;       // from floor to ceiling; infinite under the sky
+  float walls = 0.0f;          // share of the horizon that is blocked just above eye level
   float worth = 0.0f;          // how much there is to see, to compare stands
   Openness open;
 };

@@ -63,6 +63,7 @@ TEST(Survey, TellsObjectsFromPlacesAndRooms) {
   EXPECT_EQ(kind_of(make_ball(8.0f)), SceneKind::kObject) << "one could stand inside, but it is solid";
   EXPECT_EQ(kind_of(make_car()), SceneKind::kObject);
   EXPECT_EQ(kind_of(resized(make_chair(), 15.0f)), SceneKind::kObject) << "its seat is no floor";
+  EXPECT_EQ(kind_of(resized(make_chair(), 100.0f)), SceneKind::kObject) << "in centimetres";
   EXPECT_EQ(kind_of(make_simple_room()), SceneKind::kClosedRoom);
   EXPECT_EQ(kind_of(make_walled_room()), SceneKind::kClosedRoom);
   EXPECT_EQ(kind_of(make_walled_room(true)), SceneKind::kClosedRoom) << "a window does not open it upwards";
@@ -95,7 +96,8 @@ TEST(Survey, LeavesOutWhatWasLeftFarAway) {
   Scene scene = make_courtyard();
   const Bounds before = core_bounds(scene);
   add_block(scene, vec3(5000, 0, 0), vec3(5001, 1, 1));
-  for (int i = 0; i < 60; i++) add(scene, make_sphere(0.2f, 24), 1, placed(vec3(-5.0f + 0.16f * i, 0.2f, 2.0f)));
+  for (int i = 0; i < 60; i++)
+    add(scene, make_sphere(0.2f, 24), 1, placed(vec3(-5.0f + 0.16f * static_cast<float>(i), 0.2f, 2.0f)));
   const Bounds after = core_bounds(scene);
   EXPECT_LT(after.high.x, 100.0f);
   EXPECT_LE(after.high.x, before.high.x);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ods/kernel/surface.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/motion.h"
 #include "tests/support/stage_scenes.h"
