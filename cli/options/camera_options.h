@@ -10,8 +10,15 @@
 #include "ods/camera/stereo_camera.h"
 #include "ods/scene/scene.h"
 
+// The commands' default: kUsualMerge at both poles.
+inline ods::StereoCamera usual_camera() {
+  ods::StereoCamera camera;
+  camera.top = camera.bottom = ods::kUsualMerge;
+  return camera;
+}
+
 struct CameraOptions {
-  ods::StereoCamera stereo;  // the part that holds for every scene
+  ods::StereoCamera stereo = usual_camera();  // the part that holds for every scene
   std::string merge_map;
   bool merge_map_inverted = false;
   std::string head_tilt_map;

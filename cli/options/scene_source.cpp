@@ -14,20 +14,37 @@
 #include "ods/files/confined_file.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/catchers.h"
-#include "ods/scene/load/environment.h"
 #include "ods/scene/load/load.h"
 #include "ods/scene/motion.h"
 #include "ods/scene/sheet_glass.h"
+#include "ods/stage/place.h"
 
-using ods::Scene, ods::vec3;
+using ods::Scene;
 
 static void add_confine_option(Options& options, SceneSource& source) {
   options.text("--confine", "DIR", source.confine,
                "read no file outside this folder, wherever paths and links in the scene lead: for untrusted scenes");
 }
 
+static void add_unit_option(Options& options, SceneSource& source) {
+  options.text(
+      "--unit", "auto|UNIT|METRES", source.unit,
+      "the unit of lengths in the file: m, cm, mm, in, ft, km, or how many metres it has. auto: metres, unless "
+      "nothing that people meet has that size");
+}
+
+// None: auto.
+static std::optional<float> parse_unit(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  if (const auto unit = ods::find_in(ods::kUnitTable, word)) return ods::row_in(ods::kUnitTable, *unit).metres;
+  const std::vector<float> numbers = parse_numbers(word);
+  if (numbers.size() == 1 && numbers[0] >= ods::kLeastUnit && numbers[0] <= ods::kMostUnit) return numbers[0];
+  throw UsageError(fmt::format("--unit is auto, {}, or the unit in metres (0.000001 to a million), not '{}'",
+                               fmt::join(ods::names_of(ods::kUnitTable), ", "), word));
+}
+
 void add_scene_argument(Options& options, SceneSource& source) {
-  options.argument("SCENE", source.name, "a .glb or .gltf file, a .zip archive with one, or a built-in scene (ods scenes lists them)");
+  options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
@@ -36,18 +53,14 @@ void add_scene_argument(Options& options, SceneSource& source) {
                "which of the file's material variants to show (ods info lists them); by default its first choice");
   options.flag("--solid-glass", source.solid_glass,
                "make closed meshes of glass refract that have no volume in the file, as those of Blender");
+  add_unit_option(options, source);
   add_confine_option(options, source);
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
   options.text("--scene", "SCENE", source.name, help);
+  add_unit_option(options, source);
   add_confine_option(options, source);
-}
-
-void add_light_options(Options& options, SceneSource& source) {
-  options.text("--env", "FILE|R,G,B|X", source.environment,
-               "sky light: a lat-long picture (.hdr, .exr, ...), a colour or a brightness; 0 switches the sky off. "
-               "Replaces the scene's own sky. A scene without lights gets 1");
 }
 
 // A name that may have been meant, or else the list of names.
@@ -71,7 +84,24 @@ std::string confining_folder(const SceneSource& source) {
   return folder.native();
 }
 
-Scene open_scene(const SceneSource& source) {
+static std::string unit_word(float metres) {
+  for (const ods::UnitRow& row : ods::kUnitTable) {
+    if (row.metres == metres) return std::string(row.name);
+  }
+  return fmt::format("{:g}", metres);
+}
+
+// Built-in scenes are in metres and have a view point.
+static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result) {
+  const std::optional<float> unit = parse_unit(source.unit);
+  if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
+  const ods::Settled settled = ods::settle(scene, unit);
+  if (result) *result = settled;
+  if (settled.unit_reason.empty()) return;
+  note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));
+}
+
+Scene open_scene(const SceneSource& source, ods::Settled* settled) {
   Scene scene = ods::load_scene(
       source.name,
       {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
@@ -84,42 +114,8 @@ Scene open_scene(const SceneSource& source) {
   if (source.solid_glass && make_glass_solid(scene) == 0) {
     note("--solid-glass changes nothing: no closed mesh has glass without a volume");
   }
+  settle_scene(scene, source, settled);
   return scene;
-}
-
-static void add_environment(Scene& scene, const SceneSource& source) {
-  if (source.environment.empty()) {
-    if (ods::has_light(scene)) return;
-    note(
-        "the scene has no lamps: an even white sky lights it (--env sky.hdr is another one, --env 0 none, --exposure 1 "
-        "doubles the light)");
-    scene.environment.radiance = vec3(1.0f);
-    return;
-  }
-  std::vector<float> numbers = parse_numbers(source.environment);
-  if (numbers.empty()) {
-    const std::string confined_to = confining_folder(source);
-    // Confined, the message is the same whether or not a file outside exists.
-    if (confined_to.empty() && !std::filesystem::exists(source.environment)) {
-      throw ods::Error(ods::ErrorKind::kInput, "--env: no such file as '" + source.environment +
-                                                   "'; a colour is written R,G,B, as 0.5,0.6,0.8");
-    }
-    std::string color_fault;
-    const ods::ConfinedFile file(source.environment, confined_to);
-    scene.environment =
-        file.read([&](const std::string& opened) { return ods::load_environment(opened, &color_fault); });
-    if (!color_fault.empty()) warn(fmt::format("'{}': {}", source.environment, color_fault));
-    if (scene.environment.width != 2 * scene.environment.height) {
-      note("--env: a sky is a lat-long picture, twice as wide as high; this one is stretched to that");
-    }
-    return;
-  }
-  bool legal = numbers.size() == 1 || numbers.size() == 3;
-  for (float number : numbers) legal = legal && number >= 0.0f && number <= 1e6f;
-  if (!legal)
-    throw UsageError("--env is a file, R,G,B or one brightness, from 0 to 1e6, not '" + source.environment + "'");
-  scene.environment = {};
-  scene.environment.radiance = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
 }
 
 static void check_content(const Scene& scene, const std::string& name) {
@@ -146,10 +142,10 @@ static void note_sheet_glass(const Scene& scene) {
                   others == 0 ? " is" : fmt::format(" and {} other material{} are", others, others == 1 ? "" : "s")));
 }
 
-Scene open_lit_scene(const SceneSource& source) {
+Scene open_lit_scene(const SceneSource& source, bool transparent) {
   Scene scene = open_scene(source);
   check_content(scene, source.name);
   note_sheet_glass(scene);
-  add_environment(scene, source);
+  light_scene(scene, source.light, ods::find_builtin(source.name) != nullptr, transparent, confining_folder(source));
   return scene;
 }

@@ -8,31 +8,37 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "cli/options/light_options.h"
 #include "ods/scene/scene.h"
+
+namespace ods {
+struct Settled;
+}
 
 struct SceneSource {
   std::string name;          // a file or a built-in scene
   std::optional<int> scene;  // which of the file's scenes; none: its default scene
-  std::string environment;
+  LightOptions light;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
   std::string variant;  // of the file's materials; empty: its default
   bool solid_glass = false;
+  std::string unit = "auto";
 };
 
 void add_scene_argument(Options& options, SceneSource& source);
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
-void add_light_options(Options& options, SceneSource& source);
 
 // The folder of --confine with links resolved; empty if the option was not given. Throws Error(kInput) if there is no
 // such folder.
 std::string confining_folder(const SceneSource& source);
 
 // Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
-// does not support.
-ods::Scene open_scene(const SceneSource& source);
+// does not support. A file's scene is measured: it gets its size in metres and a place for the viewer
+// (ods/stage/place.h), and what was assumed is noted; settled, if not null, gets the result (not of built-in scenes).
+ods::Scene open_scene(const SceneSource& source, ods::Settled* settled = nullptr);
 
-// Likewise for rendering, with the requested environment. A scene without lamps gets a white sky and a note. Notes
-// glass that would look different if it were solid. Throws Error(kInput) if there is nothing to render.
-ods::Scene open_lit_scene(const SceneSource& source);
+// Likewise for rendering, with light: light_scene(). Notes glass that would look different if it were solid. Throws
+// Error(kInput) if there is nothing to render.
+ods::Scene open_lit_scene(const SceneSource& source, bool transparent);

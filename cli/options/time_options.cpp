@@ -13,6 +13,7 @@
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/files/frames.h"
+#include "ods/stage/turntable.h"
 
 namespace {
 
@@ -55,8 +56,11 @@ void add_time_options(Options& options, TimeOptions& time) {
                  "length of the video and of camera moves, seconds; by default the animation's length, or 10");
   options.custom(
       "--turntable", "TURNS|TURNS,X,Y,Z", "", [&](const std::string& word) { read_turntable(word, time.move); },
-      "turn the camera to the right on the spot, this many turns in the whole duration; with X,Y,Z: orbit the vertical "
-      "axis through that point and keep facing it");
+      "this many turns in the whole duration: an object on its own turns on the spot, clockwise from above, while "
+      "light "
+      "and ground stay; elsewhere the viewer turns to the right. With X,Y,Z the viewer circles the vertical axis "
+      "through "
+      "that point and keeps facing it");
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
       "fly the camera from its position through these points, on a smooth curve, in the whole duration");
@@ -83,6 +87,22 @@ void check_time_options(const TimeOptions& time) {
   if (names_frames(time)) ods::parse_frames(time.frames);
 }
 
+// An object on its own turns itself, before a viewer who stays where a file's or our own view point is.
+static void turn_object(TimeOptions& time, ods::Scene& scene) {
+  const ods::CameraMove& move = time.move;
+  if (move.turns == 0.0 || move.pivot || !move.fly_to.empty()) return;
+  if (!scene.viewing || !scene.viewing->is_object) return;
+  const std::vector<int> frames = video_frames(time);
+  const double end = *std::max_element(frames.begin(), frames.end()) / static_cast<double>(time.fps) + 1.0;
+  if (std::abs(move.turns) / move.seconds * std::max(end, move.seconds) > ods::kMostTurns) {
+    throw UsageError(fmt::format("--turntable turns an object {:g} times at most", ods::kMostTurns));
+  }
+  ods::turn_object(scene, scene.viewing->middle, move.turns, move.seconds, end);
+  note("the object turns on the spot; --turntable TURNS,X,Y,Z moves the viewer around it instead");
+  if (time.frames.empty()) time.frames = "all";  // still a video, although the camera stays
+  time.move.turns = 0.0;
+}
+
 void start_clock(TimeOptions& time, ods::Scene& scene) {
   ods::Animation& animation = scene.animation;
   const bool timed = time.time || asks_for_video(time);
@@ -98,6 +118,7 @@ void start_clock(TimeOptions& time, ods::Scene& scene) {
   }
   const double length = ods::length_of(animation);
   time.move.seconds = time.duration ? static_cast<double>(*time.duration) : length > 0.0 ? length : 10.0;
+  turn_object(time, scene);
 }
 
 std::vector<int> video_frames(const TimeOptions& time) {

@@ -49,7 +49,9 @@ Grain grain_of(const TimeOptions& time);
 // Checks the options as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);
 
-// Starts the requested animations and finds the length of the video. Throws UsageError.
+// Starts the requested animations and finds the length of the video. Where --turntable turns an object instead of the
+// camera, the object's turning becomes a part of the scene's animation, and time.move no longer has it. Throws
+// UsageError.
 void start_clock(TimeOptions& time, ods::Scene& scene);
 
 // The frames of the video; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.

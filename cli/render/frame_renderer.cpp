@@ -2,13 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render/frame_renderer.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
+#include "cli/console/console.h"
 #include "cli/options/camera_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/render/finish_picture.h"
 #include "ods/kernel/random.h"
 #include "ods/render/render_target.h"
+#include "ods/scene/builtin/builtin.h"
 #include "ods/scene/shutter.h"
+#include "ods/stage/exposure.h"
+#include "ods/stage/place.h"
 
 namespace {
 
@@ -43,6 +51,35 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
   return shot;
 }
 
+// Warns about a camera that the user or the file has placed where there is nothing to see. Where it stands by our own
+// choice it is in free space.
+void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
+  const bool own_choice = !job.camera.position && scene.view_points.empty();
+  const bool made_for_it = !job.camera.position && ods::find_builtin(job.scene.name);
+  if (own_choice || made_for_it) return;
+  const std::string fault = ods::view_fault(ods::SceneRays(scene), eye);
+  if (fault.empty()) return;
+  std::string cure = "--position X,Y,Z moves it";
+  if (job.camera.position && scene.viewing) {
+    const ods::vec3 better = scene.viewing->view.position;
+    cure = fmt::format("without --position it would be at {:.4g},{:.4g},{:.4g}", better.x, better.y, better.z);
+  } else if (scene.viewing) {
+    const ods::vec3 better = scene.viewing->view.position;
+    cure = fmt::format("--position {:.4g},{:.4g},{:.4g} is in free space", better.x, better.y, better.z);
+  }
+  warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
+}
+
+constexpr size_t kLooks = 5;  // at a video, spread evenly
+
+bool is_looked_at(const RenderJob& job) {
+  return job.time.is_video || job.part || !keeps_light(job.output);
+}
+
+bool is_made_for_it(const RenderJob& job) {
+  return ods::find_builtin(job.scene.name) && job.scene.light.environment.empty();
+}
+
 constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
 
 }  // namespace
@@ -65,6 +102,7 @@ std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
     renderer_->update(change_);
   } else {
     place_camera(job_.camera, scene_);  // prints a note with the position
+    check_view(job_, scene_, shot.cameras.front().position);
     renderer_.emplace(scene_, job_.render.threads);
   }
   change_ = {};
@@ -91,6 +129,28 @@ Rendered FrameRenderer::render(const Frame& frame, const std::function<void(doub
   ods::Picture picture = renderer_->render(cameras, options, progress);
   const double samples = picture.samples_taken;
   return {finish_picture(job_, camera, std::move(picture), frame.path), samples};
+}
+
+ods::Picture FrameRenderer::first_look(const Frame& frame) {
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  return renderer_->render(ods::first_look_camera(cameras[cameras.size() / 2]), ods::first_look(job_.render));
+}
+
+float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
+  if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
+    return job_.exposure.value_or(0.0f);
+  }
+  std::set<size_t> chosen;
+  for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
+  std::vector<ods::Picture> looks;
+  for (const size_t i : chosen) looks.push_back(first_look(frames[i]));
+  const std::optional<float> stops = ods::suitable_exposure(looks);
+  if (!stops) {
+    warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
+    return 0.0f;
+  }
+  note(fmt::format("exposure {:+.1f} stops, from a first look at the light (--exposure {:.1f})", *stops, *stops));
+  return *stops;
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {

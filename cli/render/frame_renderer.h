@@ -39,12 +39,19 @@ class FrameRenderer {
   // Renders, denoises and saves. report: gets the fraction done, if it is set.
   Rendered render(const Frame& frame, const std::function<void(double done)>& report);
 
+  // The exposure that the job asks for: a number of stops, or what suits its light (ods/stage/exposure.h) by a first
+  // look at some of `frames`: all of the video, whatever exists already, or the one picture. It depends on the job
+  // alone, so processes that share the frames or resume them find the same. 0 where files keep the scene's light, and
+  // for built-in scenes in their own light, which are made for it. Notes what it chose; warns if all is black.
+  float find_exposure(const std::vector<Frame>& frames);
+
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
 
   // As FrameBeside::places: where the surfaces of a frame are at another time.
   std::vector<std::vector<ods::vec3>> places(const RawFrame& frame, double seconds);
 
  private:
+  ods::Picture first_look(const Frame& frame);
   std::vector<ods::StereoCamera> set_time(const Frame& frame);
   ods::RenderOptions options_for(const Frame& frame, const ods::StereoCamera& camera) const;
 

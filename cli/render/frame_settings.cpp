@@ -50,8 +50,23 @@ void add_file(Settings& settings, const std::string& option, const std::string& 
   settings.push_back({option, sum, ods::one_line(path)});
 }
 
+void add_environment(Settings& settings, const std::string& option, const std::string& word,
+                     const std::string& fallback, const std::string& confined_to) {
+  const std::string file = environment_file(option, word);
+  if (!file.empty()) return add_file(settings, option, file, confined_to);
+  add(settings, option, word.empty() ? fallback : word);
+}
+
+void add_light(Settings& settings, const LightOptions& light, const std::string& confined_to) {
+  const auto& [environment, lamp, background, unlit] = light;
+  add_environment(settings, "--env", environment, "of the scene", confined_to);
+  add(settings, "--lamp", lamp.empty() ? "auto" : lamp);
+  add_environment(settings, "--background", background, "env", confined_to);
+  add_flag(settings, "--unlit", unlit);
+}
+
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, environment, catchers, confine, variant, solid_glass] = source;
+  const auto& [name, scene, light, catchers, confine, variant, solid_glass, unit] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
@@ -67,11 +82,8 @@ void add_scene(Settings& settings, const SceneSource& source) {
   add(settings, "--scene", scene ? fmt::format("{}", *scene) : "of the file");
   add(settings, "--variant", variant.empty() ? "of the file" : variant);
   add_flag(settings, "--solid-glass", solid_glass);
-  if (std::filesystem::is_regular_file(environment, error)) {
-    add_file(settings, "--env", environment, confined_to);
-  } else {
-    add(settings, "--env", environment.empty() ? "of the scene" : environment);
-  }
+  add_light(settings, light, confined_to);
+  add(settings, "--unit", unit);
   add(settings, "--shadow-catcher", fmt::format("{}", fmt::join(catchers, ", ")));
 }
 

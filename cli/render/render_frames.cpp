@@ -20,21 +20,28 @@ using ods::FrameNames;
 
 namespace {
 
-std::vector<Frame> choose_frames(const RenderJob& job, const TimeOptions& time) {
+// All frames of a video, or the one picture, whether or not they exist.
+std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time) {
   if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
   const FrameNames names = video_names(job.output);
   std::vector<Frame> frames;
-  size_t skipped = 0;
-  for (const int number : video_frames(time)) {
-    Frame frame = make_frame(job, names, number);
+  for (const int number : video_frames(time)) frames.push_back(make_frame(job, names, number));
+  return frames;
+}
+
+// Those that are to be rendered.
+std::vector<Frame> choose_frames(const TimeOptions& time, const std::vector<Frame>& all) {
+  if (!asks_for_video(time)) return all;
+  std::vector<Frame> frames;
+  for (const Frame& frame : all) {
     if (time.skip_existing && ods::is_saved(frame.path)) {
       remove_dead_claim(frame.path);
-      skipped++;
     } else {
-      frames.push_back(std::move(frame));
+      frames.push_back(frame);
     }
   }
-  if (skipped > 0) note(fmt::format("{} of {} frames exist already", skipped, skipped + frames.size()));
+  const size_t skipped = all.size() - frames.size();
+  if (skipped > 0) note(fmt::format("{} of {} frames exist already", skipped, all.size()));
   return frames;
 }
 
@@ -58,9 +65,8 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
 using Saved = std::function<void(const Rendered& frame)>;
 
 // Renders and saves the frames; `shared`: except those claimed by other processes. Returns how many it rendered.
-size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<Frame>& frames,
-                  bool shared, const StepReport& report, const Saved& saved) {
-  FrameRenderer renderer(job, time, scene);
+size_t render_all(FrameRenderer& renderer, const TimeOptions& time, const std::vector<Frame>& frames, bool shared,
+                  const StepReport& report, const Saved& saved) {
   size_t rendered = 0;
   const auto render = [&](size_t i) {
     const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
@@ -79,18 +85,14 @@ size_t render_all(const RenderJob& job, ods::Scene& scene, const TimeOptions& ti
 }
 
 // Renders and saves those of a video's frames that are missing, each denoised together with those beside it.
-void render_denoised(const RenderJob& job, ods::Scene& scene, const TimeOptions& time, const std::vector<int>& numbers,
+void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all,
                      const std::vector<Frame>& missing, const StepReport& report) {
-  const FrameNames names = video_names(job.output);
-  std::vector<Frame> all;
   std::set<int> missing_numbers;
   for (const Frame& frame : missing) missing_numbers.insert(frame.number);
   std::set<size_t> wanted;
-  for (const int number : numbers) {
-    if (missing_numbers.contains(number)) wanted.insert(all.size());
-    all.push_back(make_frame(job, names, number));
+  for (size_t i = 0; i < all.size(); i++) {
+    if (missing_numbers.contains(all[i].number)) wanted.insert(i);
   }
-  FrameRenderer renderer(job, time, scene);
   DenoisedFrames frames(job, renderer, all, wanted);
   int made = 0;
   for (const size_t index : wanted) {
@@ -106,14 +108,17 @@ void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
 
 }  // namespace
 
-void render_job(const RenderJob& job, ProgressLines& lines) {
+void render_job(const RenderJob& wanted, ProgressLines& lines) {
+  RenderJob job = wanted;
   check_outputs(job);
-  ods::Scene scene = open_lit_scene(job.scene);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, scene);
-  const std::vector<Frame> frames = choose_frames(job, time);
+  const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
   if (frames.empty()) return;
   say_room(job, frames);
+  FrameRenderer renderer(job, time, scene);
+  job.save.exposure = renderer.find_exposure(all);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
   double samples = 0.0;
@@ -125,14 +130,14 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   };
   const bool shared = asks_for_video(time) && time.skip_existing;
   const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
-  const size_t rendered = render_all(job, scene, time, frames, shared, report, saved);
+  const size_t rendered = render_all(renderer, time, frames, shared, report, saved);
   if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
 }
 
-std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
-                               const std::function<void(const std::vector<int>& frames)>& planned) {
+RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
+                             const std::function<void(const std::vector<int>& frames)>& planned) {
   check_outputs(job);
-  ods::Scene scene = open_lit_scene(job.scene);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, scene);
   const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);
@@ -142,16 +147,18 @@ std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
   }
   const std::vector<int> numbers = video_frames(time);
   planned(numbers);
-  const std::vector<Frame> frames = choose_frames(job, time);
+  const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
+  FrameRenderer renderer(job, time, scene);
+  const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     say_room(job, frames);
     if (draws_on_neighbours(job)) {
-      render_denoised(job, scene, time, numbers, frames, report);
+      render_denoised(job, renderer, all, frames, report);
     } else {
-      render_all(job, scene, time, frames, false, report, [](const Rendered&) {});
+      render_all(renderer, time, frames, false, report, [](const Rendered&) {});
     }
   }
-  return numbers;
+  return {numbers, exposure};
 }

@@ -14,8 +14,12 @@
 // frames (cli/frames/shared_frames.h).
 void render_job(const RenderJob& job, ProgressLines& lines);
 
-// Renders a video's frames for a caller that processes them further: prints no file names, and returns the numbers of
-// all frames, including existing ones. Passes these numbers to `planned` before rendering the first. Throws UsageError
-// if nothing moves and no length was given.
-std::vector<int> render_frames(const RenderJob& job, const StepReport& report,
-                               const std::function<void(const std::vector<int>& frames)>& planned);
+struct RenderedFrames {
+  std::vector<int> numbers;  // of all frames, including those that existed
+  float exposure = 0.0f;     // stops, to show them with
+};
+
+// Renders a video's frames for a caller that processes them further: prints no file names. Passes these numbers to
+// `planned` before rendering the first. Throws UsageError if nothing moves and no length was given.
+RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
+                             const std::function<void(const std::vector<int>& frames)>& planned);

@@ -7,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "ods/stage/exposure.h"
 
 namespace {
 
@@ -19,6 +20,14 @@ constexpr const char* kExamples =
     "  ods render scene.glb -o shot.####.exr --frames 1-100 --fps 30\n"
     "  ods render scene.glb -o part_3.exr --part 3/8   for ods merge 'part_#.exr'\n"
     "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
+
+// None: auto.
+std::optional<float> parse_exposure(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  const std::vector<float> numbers = parse_numbers(word);
+  if (numbers.size() == 1 && numbers[0] >= -ods::kMostStops && numbers[0] <= ods::kMostStops) return numbers[0];
+  throw UsageError(fmt::format("--exposure is auto or a number of stops from -30 to 30, not '{}'", word));
+}
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
@@ -33,8 +42,7 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.texts(
       "--shadow-catcher", "NAME", job.scene.catchers,
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
-                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
+  add_exposure_option(options, job);
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
 }
 
@@ -89,6 +97,13 @@ void check_rig(const Options& options, const RenderJob& job) {
 
 }  // namespace
 
+void add_exposure_option(Options& options, RenderJob& job) {
+  options.custom(
+      "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
+      "exposure in stops. auto: what suits the light, found by a first look, the same for both eyes and all frames; "
+      ".hdr and .exr stay scene-linear and ignore it");
+}
+
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
   check_time_options(job.time);
   finish_quality(options, quality, job);
@@ -101,7 +116,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   Quality quality;
   Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
   add_scene_argument(options, job.scene);
-  add_light_options(options, job.scene);
+  add_light_options(options, job.scene.light);
   add_picture_options(options, job);
   add_camera_options(options, job.camera);
   add_time_options(options, job.time);
@@ -115,6 +130,9 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
     note("--exposure does not change .exr and .hdr, which are scene-linear");
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
+  }
+  if (job.render.transparent && options.given("--background")) {
+    throw UsageError("--background and --transparent exclude each other");
   }
   if (!job.scene.catchers.empty() && !job.render.transparent) {
     throw UsageError("--shadow-catcher needs --transparent");

@@ -22,6 +22,7 @@ struct RenderJob {
   ods::RenderOptions render;
   ods::SaveOptions save;
   std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
+  std::optional<float> exposure;         // stops; none: FrameRenderer::find_exposure() chooses
   bool has_layout = false;               // given by an option
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
@@ -30,6 +31,9 @@ struct RenderJob {
   bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
 };
+
+// Adds --exposure auto|STOPS.
+void add_exposure_option(Options& options, RenderJob& job);
 
 // What remains to be done after parsing, for ods video, too.
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);

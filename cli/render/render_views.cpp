@@ -24,7 +24,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::mark_folders(rig, files);
   ods::SaveOptions save = job.save;
   save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
-  ods::Scene scene = open_lit_scene(job.scene);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, scene);
   ods::set_time(scene, static_cast<double>(time.time.value_or(0.0f)));

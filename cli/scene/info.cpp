@@ -12,6 +12,7 @@
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
+#include "ods/stage/place.h"
 
 using ods::SceneInfo, ods::vec3, ods::ViewPoint;
 
@@ -26,7 +27,13 @@ std::string xyz(vec3 p) {
   return fmt::format("{:.4g},{:.4g},{:.4g}", p.x, p.y, p.z);
 }
 
-void print_text(const SceneInfo& info, vec3 position) {
+// What was found out about a file's scene; kNothing: nothing was asked.
+struct Found {
+  ods::Settled settled;
+  std::optional<ods::Viewing> viewing;
+};
+
+void print_text(const SceneInfo& info, const Found& found, vec3 position) {
   auto row = [](const char* name, const std::string& value) { std::printf("%-14s %s\n", name, value.c_str()); };
   const vec3 size = info.bounds.high - info.bounds.low;
   row("scene", info.name);
@@ -39,6 +46,14 @@ void print_text(const SceneInfo& info, vec3 position) {
                   info.point_lights, info.spot_lights, info.directional_lights, info.has_environment ? "an" : "no"));
   row("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {} to {}", size.x, size.y, size.z, xyz(info.bounds.low),
                           xyz(info.bounds.high)));
+  if (found.settled.kind != ods::SceneKind::kNothing) {
+    row("taken for", std::string(scene_kind_name(found.settled.kind)));
+    if (!found.settled.unit_reason.empty()) row("unit", found.settled.unit_reason + "; --unit m keeps its size");
+  }
+  if (found.viewing && info.view_points.empty()) {
+    const ViewPoint& view = found.viewing->view;
+    row("viewer", fmt::format("at {}, yaw {:.4g}: {}", xyz(view.position), view.yaw, view.name));
+  }
   for (const ViewPoint& view : info.view_points) {
     row("camera", fmt::format("'{}' at {}, yaw {:.4g} pitch {:.4g} roll {:.4g}", view.name, xyz(view.position),
                               view.yaw, view.pitch, view.roll));
@@ -63,7 +78,7 @@ nlohmann::ordered_json to_json(vec3 p) {
   return {p.x, p.y, p.z};
 }
 
-void print_json(const SceneInfo& info, vec3 position) {
+void print_json(const SceneInfo& info, const Found& found, vec3 position) {
   nlohmann::ordered_json json = {
       {"name", info.name},
       {"meshes", info.meshes},
@@ -79,6 +94,10 @@ void print_json(const SceneInfo& info, vec3 position) {
       {"directional_lights", info.directional_lights},
       {"has_environment", info.has_environment},
       {"bounds", {{"low", to_json(info.bounds.low)}, {"high", to_json(info.bounds.high)}}},
+      {"kind", nullptr},
+      {"metres_per_unit", found.settled.metres_per_unit},
+      {"unit_reason", found.settled.unit_reason},
+      {"viewer", nullptr},
       {"position", to_json(position)},
       {"nearest_surface", nullptr},
       {"cameras", nlohmann::ordered_json::array()},
@@ -89,6 +108,11 @@ void print_json(const SceneInfo& info, vec3 position) {
       {"warnings", info.warnings},
   };
   if (info.nearest_surface >= 0.0f) json["nearest_surface"] = info.nearest_surface;
+  if (found.settled.kind != ods::SceneKind::kNothing) json["kind"] = scene_kind_name(found.settled.kind);
+  if (found.viewing) {
+    const ViewPoint& view = found.viewing->view;
+    json["viewer"] = {{"position", to_json(view.position)}, {"yaw", view.yaw}, {"reason", view.name}};
+  }
   for (const ViewPoint& view : info.view_points) {
     json["cameras"].push_back({{"name", view.name},
                                {"position", to_json(view.position)},
@@ -123,10 +147,12 @@ void info(int argc, char** argv) {
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
   console.quiet = true;  // notes would repeat the result
-  const ods::Scene scene = open_scene(source);
+  Found found;
+  const ods::Scene scene = open_scene(source, &found.settled);
+  found.viewing = scene.viewing;
   const vec3 position = place_camera(camera, scene).position;
   const SceneInfo info = describe(scene, position);
-  json ? print_json(info, position) : print_text(info, position);
+  json ? print_json(info, found, position) : print_text(info, found, position);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   Quality quality;
   Options options("video", kSummary, kExamples);
   add_scene_argument(options, render.scene);
-  add_light_options(options, render.scene);
+  add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
   options.text("--rig", "FILE", job.rig,
                "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
@@ -49,7 +49,7 @@ bool read_options(VideoJob& job, int argc, char** argv) {
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
-  options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops");
+  add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
@@ -68,8 +68,8 @@ bool read_options(VideoJob& job, int argc, char** argv) {
 }
 
 // Stitches frames from the views of a rig.
-std::vector<int> stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
-                              const StepReport& report) {
+RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
+                            const StepReport& report) {
   StitchJob stitch;
   stitch.views.names = job.render.scene.name;
   stitch.output = job.render.output;
@@ -79,7 +79,7 @@ std::vector<int> stitch_views(const VideoJob& job, const ods::SlitRig& rig, Vide
   stitch.skip_existing = true, stitch.claims = false, stitch.says_files = false;
   if (stitch.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
   journal.plan(ods::parse_frames(stitch.frames));
-  return stitch_frames(stitch, rig, report);
+  return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
 }
 
 void make_video(VideoJob job, ProgressLines& lines) {
@@ -104,8 +104,10 @@ void make_video(VideoJob job, ProgressLines& lines) {
     lines.report(kRendering * done, seconds_since(start), step);
   };
   const auto planned = [&](const std::vector<int>& numbers) { journal.plan(numbers); };
-  const std::vector<int> frames =
+  const RenderedFrames made =
       rig ? stitch_views(job, *rig, journal, rendered) : render_frames(render, rendered, planned);
+  const std::vector<int>& frames = made.numbers;
+  job.display.exposure = made.exposure;
 
   const ods::FrameFiles files = ods::find_frames(journal.pattern(), frames);
   const ods::VideoPlan plan = ods::plan_video(files, {}, {});

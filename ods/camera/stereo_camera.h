@@ -28,6 +28,10 @@ struct PoleMergeSetting {
   bool operator==(const PoleMergeSetting&) const = default;
 };
 
+// What the commands use where no option, preset or file says otherwise: full stereo up to where people look without
+// bending the neck, none at the pole (docs/ods.md).
+inline constexpr PoleMergeSetting kUsualMerge{kMergeCosine, 60.0f, 90.0f, 1.0f};
+
 inline constexpr NameRow<int> kMergeTable[] = {
     {kMergeNone, "none"},
     {kMergeLinear, "linear"},

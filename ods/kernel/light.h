@@ -54,11 +54,10 @@ struct LightSampler : BsdfEvaluator {
   inline vec3 environment_texel(EnvironmentInfo info, int x, int y) {
     int column = wrap_texel(x, info.width, kWrapRepeat);
     int row = clamp(y, 0, info.height - 1);
-    return scene_environment_texel(row * info.width + column).radiance;
+    return scene_environment_texel(info.first_texel + row * info.width + column).radiance;
   }
 
-  inline vec3 environment_radiance(vec3 direction) {
-    EnvironmentInfo info = scene_environment();
+  inline vec3 radiance_of(EnvironmentInfo info, vec3 direction) {
     if (info.width == 0) return info.uniform_radiance;
     vec2 uv = direction_to_lat_long(direction);
     float x = uv.x * float(info.width) - 0.5f;
@@ -69,6 +68,15 @@ struct LightSampler : BsdfEvaluator {
     vec3 top = mix(environment_texel(info, x0, y0), environment_texel(info, x0 + 1, y0), fx);
     vec3 bottom = mix(environment_texel(info, x0, y0 + 1), environment_texel(info, x0 + 1, y0 + 1), fx);
     return mix(top, bottom, y - float(y0));
+  }
+
+  inline vec3 environment_radiance(vec3 direction) {
+    return radiance_of(scene_environment(), direction);
+  }
+
+  // What the camera sees behind the scene: the environment, unless the scene has a background of its own.
+  inline vec3 background_radiance(vec3 direction) {
+    return radiance_of(scene_background(), direction);
   }
 
   // Solid angle of a texel in row y; all texels of a row have the same.

@@ -134,7 +134,11 @@ struct PathTracer : MediumReader {
   }
 
   inline void meet_environment(PathSettings settings) {
-    meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(path.ray.direction));
+    if (path.bounce == 0) {
+      meet_light(settings, background_radiance(path.ray.direction), 0.0f);
+    } else {
+      meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(path.ray.direction));
+    }
     path.alive = false;
   }
 

@@ -186,11 +186,12 @@ struct EnvironmentTexel {
   AliasEntry entry;  // within its row; the rows have their own table
 };
 
-// What the kernel knows of the environment besides its texels.
+// What the kernel knows of an environment besides its texels.
 struct EnvironmentInfo {
   vec3 uniform_radiance;  // used if width = 0
   int width;
   int height;
+  int first_texel;
   int light;  // index in the light table; -1 if it is not sampled as a light
 };
 
@@ -207,6 +208,6 @@ struct Hit {
 static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 32);
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 64);
 static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
-static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 24 && sizeof(Hit) == 20);
+static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 28 && sizeof(Hit) == 20);
 }  // namespace ods
 #endif

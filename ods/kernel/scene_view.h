@@ -52,6 +52,7 @@ struct SceneView {
   const LightPick* light_picks = nullptr;
   int light_pick_count = 0;
   EnvironmentInfo environment = {};
+  EnvironmentInfo background = {};
   const EnvironmentTexel* environment_texels = nullptr;
   const AliasEntry* environment_rows = nullptr;
   const float* tables = nullptr;
@@ -73,6 +74,7 @@ struct SceneView {
   const LightPick& scene_light_pick(int i) const { return light_picks[i]; }
   int scene_light_pick_count() const { return light_pick_count; }
   const EnvironmentInfo& scene_environment() const { return environment; }
+  const EnvironmentInfo& scene_background() const { return background; }
   const EnvironmentTexel& scene_environment_texel(int i) const { return environment_texels[i]; }
   const AliasEntry& scene_environment_row(int i) const { return environment_rows[i]; }
   float scene_table(int i) const { return tables[i]; }

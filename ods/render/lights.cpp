@@ -134,14 +134,15 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
   }
 }
 
-static void read_environment(const Scene& scene, LightTable& table) {
-  const Environment& source = scene.environment;
+static EnvironmentInfo describe(const Environment& source, size_t first_texel) {
   assert(source.width == 0 ||
          source.texels.size() == static_cast<size_t>(source.width) * static_cast<size_t>(source.height));
-  table.environment.uniform_radiance = source.radiance;
-  table.environment.width = source.width;
-  table.environment.height = source.height;
-  table.environment.light = -1;
+  return {source.radiance, source.width, source.height, static_cast<int>(first_texel), -1};
+}
+
+static void read_environment(const Scene& scene, LightTable& table) {
+  const Environment& source = scene.environment;
+  table.environment = describe(source, 0);
   if (source.width == 0) return;
   const std::vector<double> weights = environment_weights(source);
   std::vector<double> row_weights;
@@ -153,6 +154,14 @@ static void read_environment(const Scene& scene, LightTable& table) {
   }
   table.environment_rows = make_alias_table(row_weights);
   table.environment_power = std::accumulate(row_weights.begin(), row_weights.end(), 0.0);
+}
+
+static void read_background(const Scene& scene, LightTable& table) {
+  if (!scene.background) return;
+  table.background = describe(*scene.background, table.environment_texels.size());
+  for (const vec3& texel : scene.background->texels) {
+    table.environment_texels.push_back({texel * scene.background->radiance, {}});
+  }
 }
 
 static void add_environment_light(double scene_radius, LightTable& table, std::vector<double>& powers) {
@@ -186,6 +195,7 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.light_picks = lights.picks.data();
   view.light_pick_count = static_cast<int>(lights.picks.size());
   view.environment = lights.environment;
+  view.background = scene.background ? lights.background : lights.environment;
   view.environment_texels = lights.environment_texels.data();
   view.environment_rows = lights.environment_rows.data();
   const auto refracts = [](const Material& m) { return m.transmission > 0.0f && m.thickness > 0.0f; };
@@ -235,6 +245,7 @@ void update_lights(const Scene& scene, LightTable& table) {
 LightTable make_lights(const Scene& scene) {
   LightTable table;
   read_environment(scene, table);
+  read_background(scene, table);
   update_lights(scene, table);
   return table;
 }

@@ -16,6 +16,7 @@ struct LightTable {
   std::vector<EnvironmentTexel> environment_texels;
   std::vector<AliasEntry> environment_rows;
   EnvironmentInfo environment;
+  EnvironmentInfo background;       // its texels follow the environment's
   double environment_power = 0.0;   // before the limit below; per square metre of the scene's cross-section
   std::vector<Instance> instances;  // the scene's, with first_light filled in
 };

@@ -142,6 +142,7 @@ Bounds scene_bounds(const Scene& scene) {
 
 ViewPoint default_view(const Scene& scene) {
   if (!scene.view_points.empty()) return scene.view_points.front();
+  if (scene.viewing) return scene.viewing->view;
   const float kEyeHeight = 1.6f;
   const float kElbowRoom = 1.0f;
   const Bounds bounds = scene_bounds(scene);

@@ -4,6 +4,7 @@
 // The scene to render: the kernel's own records (ods/kernel/scene_data.h) in vectors, plus information for people.
 // Loaders and built-in scenes fill it, renderers read it.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,13 @@ struct ViewPoint {
   float yaw = 0.0f;  // degrees, as in StereoCamera
   float pitch = 0.0f;
   float roll = 0.0f;
+};
+
+// How a scene is looked at where it proposes no view point itself (ods/stage/place.h).
+struct Viewing {
+  ViewPoint view;          // its name says why it is there
+  bool is_object = false;  // the scene is an object, seen from outside: a turntable turns it
+  vec3 middle{0.0f};       // of the object
 };
 
 // Rays are offset from their surface by up to this fraction of its distance from the origin, because of single
@@ -78,8 +86,13 @@ struct Scene {
 
   std::vector<PunctualLight> lights;
   Environment environment;
+  std::optional<Environment> background;  // what the camera sees behind everything; lights nothing. None: environment
+
+  // How many of the last instances are not the scene's own: ground and lamp (ods/stage/light/supply.h).
+  size_t supplied = 0;
 
   std::vector<ViewPoint> view_points;
+  std::optional<Viewing> viewing;  // set by settle() (ods/stage/place.h)
 
   std::vector<NamedObject> objects;         // named objects; several may share a name
   std::vector<std::string> material_names;  // by material; may be shorter than `materials`
@@ -123,7 +136,8 @@ struct Bounds {
 // The box around all visible instances' vertices.
 Bounds scene_bounds(const Scene& scene);
 
-// The default viewpoint: the scene's first; otherwise at eye height, in the scene or in front of it, looking along -Z.
+// The default viewpoint: the scene's first; otherwise that of Scene::viewing; otherwise, where nobody has looked for
+// one, at eye height in the scene's bounds or in front of them, looking along -Z.
 ViewPoint default_view(const Scene& scene);
 
 // Whether its surfaces emit light. Unlit materials do not: they show a colour but light nothing.

@@ -205,7 +205,11 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
     {"--variant", "red"},
     {"--solid-glass", ""},
+    {"--unit", "cm"},
     {"--env", "0.5"},
+    {"--lamp", "0,0.5,0"},
+    {"--background", "0.5"},
+    {"--unlit", ""},
     {"--width", "32"},
     {"--height", "10"},
     {"--eyes", "mono"},
@@ -217,7 +221,7 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--roll", "10"},
     {"--camera-preset", "google:IPD=0.1"},
     {"--ipd", "0.06"},
-    {"--merge", "cosine"},
+    {"--merge", "none"},
     {"--merge-top", "power"},
     {"--merge-bottom", "linear"},
     {"--convergence", "shift,3"},
@@ -295,7 +299,7 @@ TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
   }
   ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("map.png")), 0) << err;
   EXPECT_EQ(run(job + " --merge-map " + folder.path("map.png")), 2);
-  EXPECT_NE(err.find("--merge-top was none, now map"), std::string::npos) << err;
+  EXPECT_NE(err.find("--merge-top was cosine,60,90,1, now map"), std::string::npos) << err;
   EXPECT_EQ(run(job + " --head-tilt-map " + folder.path("map.png")), 2);
   EXPECT_NE(err.find("--head-tilt-map is new"), std::string::npos) << err;
   EXPECT_EQ(run(job + " --projection fisheye --fov 100 --lens-direction 20,10"), 2);

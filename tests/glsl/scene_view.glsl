@@ -21,6 +21,7 @@ layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
 struct View {
   Camera camera;
   EnvironmentInfo environment;
+  EnvironmentInfo background;
   int light_pick_count;
   int bounces;
   int motion_keys;
@@ -68,6 +69,7 @@ Light scene_light(int i) { return view.lights.at[i]; }
 LightPick scene_light_pick(int i) { return view.light_picks.at[i]; }
 int scene_light_pick_count() { return view.light_pick_count; }
 EnvironmentInfo scene_environment() { return view.environment; }
+EnvironmentInfo scene_background() { return view.background; }
 EnvironmentTexel scene_environment_texel(int i) { return view.environment_texels.at[i]; }
 AliasEntry scene_environment_row(int i) { return view.environment_rows.at[i]; }
 float scene_table(int i) { return view.tables.at[i]; }

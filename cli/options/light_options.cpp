@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/light_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "cli/console/console.h"
+#include "ods/base/error.h"
+#include "ods/files/confined_file.h"
+#include "ods/scene/load/environment.h"
+#include "ods/stage/light/studio.h"
+
+using ods::Surround, ods::vec3;
+
+namespace {
+
+constexpr const char* kForms =
+    "studio, sky, sky:elevation=35,azimuth=120, white, a lat-long picture, R,G,B or one brightness";
+
+// An environment that an option names.
+struct Named {
+  Surround surround = Surround::kGiven;
+  ods::SkyOptions sky;
+  std::string file;
+  vec3 color{0.0f};
+};
+
+// "sky" or "sky:elevation=35,azimuth=120".
+ods::SkyOptions parse_sky(const std::string& option, const std::string& word) {
+  ods::SkyOptions sky;
+  std::string rest = word.substr(std::min(word.size(), std::string("sky:").size()));
+  while (!rest.empty()) {
+    const size_t comma = std::min(rest.find(','), rest.size()), equals = std::min(rest.find('='), comma);
+    const std::string name = rest.substr(0, equals);
+    const std::vector<float> value = parse_numbers(rest.substr(equals, comma - equals).substr(equals < comma ? 1 : 0));
+    const bool known = name == "elevation" || name == "azimuth";
+    const float low = name == "elevation" ? 0.0f : -360.0f, high = name == "elevation" ? 90.0f : 360.0f;
+    if (!known || value.size() != 1 || !(value[0] >= low && value[0] <= high)) {
+      throw UsageError(
+          fmt::format("{}: a sky has an elevation of the sun from 0 to 90 degrees and an azimuth from -360 "
+                      "to 360, as in sky:elevation=35,azimuth=120, not '{}'",
+                      option, word));
+    }
+    (name == "elevation" ? sky.elevation : sky.azimuth) = value[0];
+    rest.erase(0, comma + 1);
+  }
+  return sky;
+}
+
+Named parse_environment(const std::string& option, const std::string& word) {
+  Named named;
+  if (word == "studio") return {Surround::kStudio, {}, "", {}};
+  if (word == "white") return {Surround::kGiven, {}, "", vec3(1.0f)};
+  if (word == "sky" || word.starts_with("sky:")) return {Surround::kSky, parse_sky(option, word), "", {}};
+  const std::vector<float> numbers = parse_numbers(word);
+  if (numbers.empty()) return {Surround::kGiven, {}, word, {}};
+  const bool legal = (numbers.size() == 1 || numbers.size() == 3) &&
+                     std::ranges::all_of(numbers, [](float number) { return number >= 0.0f && number <= 1e6f; });
+  if (!legal) throw UsageError(fmt::format("{} is {}, from 0 to 1e6, not '{}'", option, kForms, word));
+  named.color = numbers.size() == 1 ? vec3(numbers[0]) : vec3(numbers[0], numbers[1], numbers[2]);
+  return named;
+}
+
+ods::Environment read_picture(const std::string& option, const std::string& path, const std::string& confined_to) {
+  // Confined, the message is the same whether or not a file outside exists.
+  if (confined_to.empty() && !std::filesystem::exists(path)) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("{}: no such file as '{}'; other than a file it can be {}", option, path, kForms));
+  }
+  std::string color_fault;
+  const ods::ConfinedFile file(path, confined_to);
+  ods::Environment environment =
+      file.read([&](const std::string& opened) { return ods::load_environment(opened, &color_fault); });
+  if (!color_fault.empty()) warn(fmt::format("'{}': {}", path, color_fault));
+  if (environment.width != 2 * environment.height) {
+    note(fmt::format("{}: a sky is a lat-long picture, twice as wide as high; this one is stretched to that", option));
+  }
+  return environment;
+}
+
+// Of a file or a colour.
+ods::Environment given_environment(const std::string& option, const Named& named, const std::string& confined_to) {
+  if (!named.file.empty()) return read_picture(option, named.file, confined_to);
+  ods::Environment environment;
+  environment.radiance = named.color;
+  return environment;
+}
+
+void read_lamp(const std::string& word, ods::LightWishes& wishes) {
+  if (word.empty() || word == "auto") return;
+  if (word == "none") {
+    wishes.lamp = ods::LampWish::kNone;
+    return;
+  }
+  const std::vector<float> numbers = parse_numbers(word);
+  const bool legal =
+      numbers.size() == 3 && std::ranges::all_of(numbers, [](float number) { return std::abs(number) <= 1e6f; });
+  if (!legal) throw UsageError(fmt::format("--lamp is auto, none or a place X,Y,Z, not '{}'", word));
+  wishes.lamp = ods::LampWish::kPlaced;
+  wishes.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+ods::LightWishes read_wishes(const LightOptions& light, float yaw, const std::string& confined_to) {
+  ods::LightWishes wishes;
+  read_lamp(light.lamp, wishes);
+  wishes.unlit = light.unlit;
+  wishes.yaw = yaw;
+  if (light.environment.empty()) return wishes;
+  const Named named = parse_environment("--env", light.environment);
+  wishes.surround = named.surround;
+  wishes.sky = named.sky;
+  if (named.surround == Surround::kGiven) wishes.given = given_environment("--env", named, confined_to);
+  return wishes;
+}
+
+// None: what the camera would see anyway.
+std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
+  if (word.empty() || word == "env") return std::nullopt;
+  const Named named = parse_environment("--background", word);
+  if (named.surround == Surround::kStudio) return ods::make_studio_walls();
+  if (named.surround == Surround::kSky) return ods::make_sky(named.sky);
+  return given_environment("--background", named, confined_to);
+}
+
+}  // namespace
+
+void add_light_options(Options& options, LightOptions& light) {
+  options.text("--env", "LIGHT", light.environment,
+               "light from all around, instead of the scene's own: studio, sky, sky:elevation=35,azimuth=120 (of the "
+               "sun), white, a lat-long picture (.hdr, .exr, ...), R,G,B or one brightness; 0 is none. A scene without "
+               "light gets what suits it");
+  options.text("--lamp", "auto|none|X,Y,Z", light.lamp,
+               "a soft lamp that shines down from there; by default (auto) only closed rooms without light get one");
+  options.flag("--unlit", light.unlit, "show all colours as they are painted, without light and shadow");
+  options.text(
+      "--background", "env|PICTURE", light.background,
+      "what the camera sees behind the scene, written as for --env; it lights nothing. By default env, the light "
+      "from all around; of a studio its walls");
+}
+
+std::string environment_file(const std::string& option, const std::string& word) {
+  return word.empty() || word == "env" ? "" : parse_environment(option, word).file;
+}
+
+void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, bool transparent,
+                 const std::string& confined_to) {
+  ods::LightWishes wishes = read_wishes(light, ods::default_view(scene).yaw, confined_to);
+  wishes.ground = !transparent;
+  const std::optional<ods::Environment> background = read_background(light.background, confined_to);
+  ods::LightPlan plan;
+  ods::Survey survey;
+  if (is_ours && wishes.lamp != ods::LampWish::kPlaced) {
+    plan.as_painted = wishes.unlit;
+    plan.sky = wishes.sky;
+    if (wishes.surround != Surround::kAuto) plan.surround = wishes.surround;
+  } else {
+    const ods::SceneRays rays(scene);
+    survey = ods::survey(rays);
+    plan = ods::plan_light(rays, survey, wishes);
+  }
+  if (!plan.note.empty()) note(plan.note);
+  ods::apply_light(scene, survey, plan, wishes);
+  if (!light.background.empty()) scene.background = background;
+}

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/stage/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "ods/kernel/surface.h"
+
+namespace ods {
+
+namespace {
+
+constexpr int kLookWidth = 192, kLookHeight = 96, kLookSamples = 16;
+constexpr int kBlock = 4;
+constexpr double kSkyShare = 0.5;        // the most weight of the sky, as a share of that of surfaces
+constexpr double kBlack = 1.0 / 4096.0;  // of the highlights: what is darker counts as black
+
+struct Patch {
+  double luminance;
+  double weight;    // its solid angle, in proportion
+  double surfaces;  // the share of it that is not sky
+};
+
+// Patches of a lat-long picture that have light.
+void add_patches(const EyeImage& eye, std::vector<Patch>& patches) {
+  const Image& light = eye.radiance;
+  for (int y = 0; y + kBlock <= light.height; y += kBlock) {
+    const double latitude = std::numbers::pi * (0.5 - (y + 0.5 * kBlock) / light.height);
+    for (int x = 0; x + kBlock <= light.width; x += kBlock) {
+      double sum = 0.0, covered = 0.0, surfaces = 0.0;
+      for (int i = 0; i < kBlock * kBlock; i++) {
+        const int px = x + i % kBlock, py = y + i / kBlock;
+        const float* pixel = light.at(px, py);
+        const double value = static_cast<double>(luminance(vec3(pixel[0], pixel[1], pixel[2])));
+        if (std::isfinite(value)) sum += std::max(value, 0.0);
+        covered += eye.alpha.pixels.empty() ? 1.0 : static_cast<double>(*eye.alpha.at(px, py));
+        surfaces += *eye.depth.at(px, py) < kFarDepth ? 1.0 : 0.0;
+      }
+      if (sum > 0.0 && covered > 0.0) {
+        patches.push_back({sum / covered, std::cos(latitude) * covered, surfaces / (kBlock * kBlock)});
+      }
+    }
+  }
+}
+
+// What is looked at are surfaces: the sky around an object has no more weight than the object.
+void limit_sky(std::vector<Patch>& patches) {
+  double surfaces = 0.0, sky = 0.0;
+  for (const Patch& patch : patches) {
+    surfaces += patch.weight * patch.surfaces;
+    sky += patch.weight * (1.0 - patch.surfaces);
+  }
+  if (surfaces == 0.0) return;
+  const double share = std::min(1.0, kSkyShare * surfaces / std::max(sky, 1e-9));
+  for (Patch& patch : patches) patch.weight *= patch.surfaces + share * (1.0 - patch.surfaces);
+}
+
+// The luminance that only this share of the patches exceeds.
+double brightest(const std::vector<Patch>& sorted, double share) {
+  double whole = 0.0, sum = 0.0;
+  for (const Patch& patch : sorted) whole += patch.weight;
+  for (const Patch& patch : sorted) {
+    sum += patch.weight;
+    if (sum >= share * whole) return patch.luminance;
+  }
+  return sorted.back().luminance;
+}
+
+}  // namespace
+
+RenderOptions first_look(const RenderOptions& options) {
+  RenderOptions look;
+  look.width = kLookWidth, look.height = kLookHeight;
+  look.samples = kLookSamples;
+  look.bounces = options.bounces;
+  look.clamp = options.clamp;
+  look.eyes = Eyes::kMonoEye;
+  look.filter = PixelFilter::kBox;
+  look.layers = true;  // for its depth
+  look.transparent = options.transparent;
+  look.threads = options.threads;
+  return look;
+}
+
+StereoCamera first_look_camera(const StereoCamera& camera) {
+  StereoCamera look;
+  look.position = camera.position;
+  look.yaw = camera.yaw;
+  look.ipd = 0.0f;
+  return look;
+}
+
+std::optional<float> suitable_exposure(std::span<const Picture> looks) {
+  std::vector<Patch> patches;
+  for (const Picture& look : looks) {
+    for (const EyeImage& eye : look.eyes) add_patches(eye, patches);
+  }
+  if (patches.empty()) return std::nullopt;
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const Patch& a, const Patch& b) { return a.luminance > b.luminance; });
+  limit_sky(patches);
+  const double highlight = brightest(patches, double{kHighlightShare});
+  double sum = 0.0, weight = 0.0;
+  for (const Patch& patch : patches) {
+    if (patch.luminance < kBlack * highlight) continue;
+    sum += patch.weight * std::log2(patch.luminance);
+    weight += patch.weight;
+  }
+  const double stops =
+      std::min(std::log2(double{kExposedMean}) - sum / weight, std::log2(double{kHighlight} / highlight));
+  const double limit = double{kMostStops};
+  return static_cast<float>(std::round(10.0 * std::clamp(stops, -limit, limit)) / 10.0) + 0.0f;
+}
+
+}  // namespace ods

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The exposure that suits a picture's light, as a camera or an eye would choose it.
+#pragma once
+#include <optional>
+#include <span>
+
+#include "ods/camera/stereo_camera.h"
+#include "ods/picture/picture.h"
+#include "ods/render/render_options.h"
+
+namespace ods {
+
+// How the light of a picture is measured: by a small picture of one eye between the two, with a few samples, of
+// everything around the camera. It has the same bits on every machine and for every size of the picture itself.
+RenderOptions first_look(const RenderOptions& options);
+StereoCamera first_look_camera(const StereoCamera& camera);
+
+// The exposure in stops, rounded to tenths, for one or several such looks (frames of a video) together. The mean of the
+// logarithm of luminance, by solid angle, the sky at most with half the weight of surfaces,
+// and without what is black, becomes kExposedMean; but less than that where
+// kHighlightShare of the sphere would be brighter than kHighlight. None if all is black. Light is averaged over 4 x 4
+// pixels first, as single pixels of so few samples are noise.
+std::optional<float> suitable_exposure(std::span<const Picture> looks);
+
+inline constexpr float kExposedMean = 0.18f;  // middle grey
+inline constexpr float kHighlight = 1.5f;     // PBR Neutral shows it at 0.93
+inline constexpr float kHighlightShare = 0.05f;
+inline constexpr float kMostStops = 30.0f;
+
+}  // namespace ods

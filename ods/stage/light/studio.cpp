@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/stage/light/studio.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "ods/kernel/camera/camera.h"
+#include "ods/scene/builtin/builder.h"
+
+namespace ods {
+namespace {
+
+// A rectangle of light with soft edges, in degrees.
+struct SoftBox {
+  float azimuth;  // clockwise from the viewer's line of sight
+  float elevation;
+  vec2 half_size;  // across and upwards, to the middle of the soft edge
+  float soft;      // half the width of that edge
+  vec3 radiance;
+};
+
+const SoftBox kBoxes[] = {
+    {-135.0f, 48.0f, {27.0f, 20.0f}, 10.0f, vec3(7.0f, 6.8f, 6.5f)},    // key
+    {118.0f, 22.0f, {34.0f, 26.0f}, 20.0f, vec3(1.35f, 1.40f, 1.48f)},  // fill
+    {36.0f, 50.0f, {13.0f, 20.0f}, 9.0f, vec3(5.6f, 5.8f, 6.2f)},       // rim
+    {-48.0f, 44.0f, {8.0f, 24.0f}, 7.0f, vec3(3.6f, 3.7f, 3.9f)},       // the other rim
+};
+
+constexpr vec3 kFloor(0.184f, 0.18f, 0.176f);
+constexpr float kFloorEnds = -5.0f;  // degrees: from here up the floor turns into the wall
+constexpr int kWidth = 512;
+
+// The direction relative to the box's centre: degrees to its right and above it.
+vec2 seen_from(const SoftBox& box, vec3 direction) {
+  const float azimuth = glm::radians(box.azimuth), elevation = glm::radians(box.elevation);
+  const vec3 forward(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
+  const vec3 right(cos(azimuth), 0.0f, sin(azimuth));
+  const vec3 up = cross(right, forward);
+  const float ahead = dot(direction, forward);
+  return glm::degrees(vec2(std::atan2(dot(direction, right), ahead), std::atan2(dot(direction, up), ahead)));
+}
+
+// 1 inside of a box with rounded soft edges, 0 outside.
+float cover(const SoftBox& box, vec3 direction) {
+  const vec2 past = abs(seen_from(box, direction)) - box.half_size + box.soft;
+  const float distance = length(max(past, vec2(0.0f))) + min(max(past.x, past.y), 0.0f);
+  return 1.0f - smoothstep(0.0f, 2.0f * box.soft, distance);
+}
+
+// From the floor's tone at the horizon to a dark ceiling.
+vec3 wall(float elevation) {
+  return mix(vec3(0.25f, 0.25f, 0.253f), vec3(0.06f, 0.061f, 0.067f), smoothstep(-15.0f, 60.0f, elevation));
+}
+
+float elevation_of(vec3 direction) {
+  return glm::degrees(std::asin(clamp(direction.y, -1.0f, 1.0f)));
+}
+
+vec3 upper_half(vec3 direction) {
+  vec3 light = wall(elevation_of(direction));
+  for (const SoftBox& box : kBoxes) light = mix(light, box.radiance, cover(box, direction));
+  return light;
+}
+
+// The radiance of the floor under all that light.
+vec3 floor_radiance() {
+  constexpr int kRows = 90, kColumns = 180;
+  glm::dvec3 sum(0.0);
+  for (int y = 0; y < kRows; y++) {
+    const float elevation = 0.5f * kPi * (float(y) + 0.5f) / float(kRows);
+    for (int x = 0; x < kColumns; x++) {
+      const float azimuth = 2.0f * kPi * (float(x) + 0.5f) / float(kColumns);
+      const vec3 direction(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
+      sum += glm::dvec3(upper_half(direction) * (sin(elevation) * cos(elevation)));
+    }
+  }
+  return kFloor * vec3(sum * (1.0 / (double{kRows} * kColumns)) * double{kPi});
+}
+
+}  // namespace
+
+Environment make_studio(float yaw) {
+  const vec3 floor = floor_radiance();
+  const float turned = glm::radians(yaw);
+  return make_environment(kWidth, [&](vec3 direction) {
+    const vec3 own(direction.x * cos(turned) + direction.z * sin(turned), direction.y,
+                   direction.z * cos(turned) - direction.x * sin(turned));
+    return mix(floor, upper_half(own), smoothstep(kFloorEnds, 0.0f, elevation_of(own)));
+  });
+}
+
+Environment make_studio_walls() {
+  const vec3 floor = floor_radiance();
+  return make_environment(kWidth, [&](vec3 direction) {
+    const float elevation = elevation_of(direction);
+    return mix(floor, wall(elevation), smoothstep(kFloorEnds, 0.0f, elevation));
+  });
+}
+
+vec3 studio_floor() {
+  return kFloor;
+}
+
+void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo) {
+  assert(radius > 0.0f);
+  constexpr int kSegments = 96, kRows = 12;
+  constexpr float kSolid = 0.75f;  // share of the radius
+  Material material = matte(albedo);
+  material.double_sided = 0;
+  const auto place = placed(center);
+  add(scene, make_disc(kSolid * radius, kSegments), add_material(scene, material), place);
+  Shape edge = make_surface(kSegments, kRows, vec2(1.0f), [&](float s, float t) {
+    const float angle = 2.0f * kPi * s;
+    return mix(kSolid, 1.0f, t) * radius * vec3(cos(angle), 0.0f, sin(angle));
+  });
+  for (Vertex& vertex : edge.vertices) {
+    vertex.color.w = 1.0f - smoothstep(kSolid, 1.0f, length(vertex.position) / radius);
+  }
+  material.alpha_mode = kAlphaBlend;
+  add(scene, edge, add_material(scene, material), place);
+  if (!scene.hidden.empty()) scene.hidden.resize(scene.instances.size(), 0);
+}
+
+}  // namespace ods

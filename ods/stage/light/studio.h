@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A photographer's studio for an object on its own: a soft key light from behind the viewer's left shoulder, a larger
+// and weaker fill light on the right, two rim lights behind the object, grey walls that darken upwards, and a floor of
+// the walls' tone. The camera sees it without its lights, which would dazzle.
+#pragma once
+#include "ods/scene/scene.h"
+
+namespace ods {
+
+// 512 x 256 texels. yaw: the viewer's, degrees to the right: the lights stand around that line of sight. A white
+// Lambert surface that faces the viewer has a radiance of about 1.
+Environment make_studio(float yaw = 0.0f);
+
+// The same walls and floor without the lights, for Scene::background.
+Environment make_studio_walls();
+
+// The albedo of the studio's floor.
+vec3 studio_floor();
+
+// Adds a horizontal disc to the scene that catches the object's shadow. Its outer quarter fades out, so that over an
+// environment whose ground looks like it there is no edge to be seen. It faces up; seen from below it is invisible.
+// Precondition: radius > 0.
+void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo);
+
+}  // namespace ods

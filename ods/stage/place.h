@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the viewer is: on a floor in a place, before an object.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "ods/stage/unit.h"
+
+namespace ods {
+
+inline constexpr float kObjectDistance = 1.5f;  // metres from the viewer to the middle of an object, at least
+
+// Where the viewer is put.
+//  - In a place: at Stand::eye, facing where there is most to see.
+//  - Before an object: level with its middle or a little above, at kObjectDistance or as far as is needed to see it 60
+//    degrees wide at most, on its +Z side, which glTF calls the front, unless something is in the way there.
+// Lengths are in the scene's units. Precondition: survey.kind is not kNothing.
+Viewing place_viewer(const SceneRays& rays, const Survey& survey, float metres_per_unit = 1.0f);
+
+struct Settled {
+  SceneKind kind = SceneKind::kNothing;
+  float metres_per_unit = 1.0f;
+  std::string unit_reason;  // why that is not 1; empty if it is, or was given
+};
+
+// Gives a scene its size in metres and its viewer: guesses the unit, unless it is given, scales the scene by it, and
+// sets Scene::viewing. A scene without anything visible is left as it is, but for a unit that is given.
+Settled settle(Scene& scene, std::optional<float> metres_per_unit = std::nullopt);
+
+// What is wrong with a viewer at a point, in words for a warning that starts with "the camera"; empty: nothing. The
+// scene is in metres.
+std::string view_fault(const SceneRays& rays, vec3 eye);
+
+}  // namespace ods

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/stage/unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ods/base/error.h"
+#include "ods/scene/motion.h"
+#include "ods/scene/placement.h"
+
+namespace ods {
+
+namespace {
+
+constexpr float kUsualRoom = 2.7f;  // metres from floor to ceiling
+
+float extent(const Bounds& box) {
+  const vec3 size = box.high - box.low;
+  return std::max({size.x, size.y, size.z});
+}
+
+// Whether the upper corners can be seen from high above the stand, as in a room; under a dome they cannot.
+bool is_boxy(const SceneRays& rays, const Survey& survey) {
+  const Bounds& box = survey.bounds;
+  const vec3 middle = 0.5f * (box.low + box.high), half = 0.5f * (box.high - box.low);
+  const vec3 from(survey.stand->eye.x, *survey.stand->floor + 0.8f * survey.stand->headroom, survey.stand->eye.z);
+  int seen = 0;
+  for (const vec3& corner : {vec3(-1, 1, -1), vec3(1, 1, -1), vec3(-1, 1, 1), vec3(1, 1, 1)}) {
+    const vec3 way = middle + 0.85f * half * corner - from;
+    if (rays.distance(from, normalize(way)) > length(way)) seen++;
+  }
+  return seen >= 2;
+}
+
+std::string unit_text(float metres) {
+  for (const UnitRow& row : kUnitTable) {
+    if (row.metres == metres) return std::string(row.plural);
+  }
+  return fmt::format("{:g} m", metres);
+}
+
+// How far a height is from that of a usual room, as a ratio.
+float strangeness(float height) {
+  return std::abs(std::log(height / kUsualRoom));
+}
+
+UnitGuess with_unit(const SceneRays& rays, float metres, const std::string& what) {
+  return {metres, fmt::format("{}, so its unit is taken for {}", what, unit_text(metres)), survey(rays, metres)};
+}
+
+UnitGuess smaller_place(const SceneRays& rays, Survey own) {
+  const Stand& stand = *own.stand;
+  if (own.kind == SceneKind::kClosedRoom && stand.floor && stand.headroom > kHighestRoom && is_boxy(rays, own)) {
+    const float units[] = {0.0254f, 0.01f, 0.001f};
+    const float best = *std::min_element(std::begin(units), std::end(units), [&](float a, float b) {
+      return strangeness(stand.headroom * a) < strangeness(stand.headroom * b);
+    });
+    return with_unit(rays, best, fmt::format("the room is {:.4g} m high", stand.headroom));
+  }
+  if (own.kind == SceneKind::kOpenPlace && stand.floor && extent(own.core) > kWidestPlace) {
+    const float metres = extent(own.core) * 0.01f <= kWidestPlace ? 0.01f : 0.001f;
+    return with_unit(rays, metres, fmt::format("the place is {:.4g} km wide", extent(own.core) * 1e-3f));
+  }
+  return {1.0f, "", std::move(own)};
+}
+
+// A room that is too small to stand in.
+std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own) {
+  if (extent(own.core) >= kSmallestPlace && backs_seen_outside(rays, own.core) < 0.5f) return std::nullopt;
+  std::optional<UnitGuess> best;
+  for (const float metres : {10.0f, 100.0f, 1000.0f}) {
+    UnitGuess guess = with_unit(rays, metres, fmt::format("the room is {:.2g} m wide", extent(own.core)));
+    if (guess.survey.kind != SceneKind::kClosedRoom) continue;
+    const float height = guess.survey.stand->headroom * metres;
+    if (!best || strangeness(height) < strangeness(best->survey.stand->headroom * best->metres)) best = guess;
+  }
+  return best;
+}
+
+// An object that is shown as a model.
+UnitGuess model(const SceneRays& rays, Survey own) {
+  const float size = distance_to_see(rays.scene(), own.core);
+  const bool fits = size >= kSmallestObject && size <= kLargestObject;
+  if (fits || size <= 0.0f || !rays.scene().view_points.empty()) return {1.0f, "", std::move(own)};
+  const float exact = std::clamp(kModelSize / size, kLeastUnit, kMostUnit);
+  const float metres = std::strtof(fmt::format("{:.3g}", exact).c_str(), nullptr);  // so that it can be repeated
+  const float longest = extent(own.core);
+  const std::string what =
+      longest < 1.0f ? fmt::format("{:.3g} cm", 100.0f * longest) : fmt::format("{:.4g} m", longest);
+  return {metres, fmt::format("the object is {} long: it is shown as a model of {:.2g} m", what, longest * metres),
+          std::move(own)};
+}
+
+void scale_animation(Animation& animation, double factor) {
+  const glm::dmat4 scaling(glm::dvec4(factor, 0, 0, 0), glm::dvec4(0, factor, 0, 0), glm::dvec4(0, 0, factor, 0),
+                           glm::dvec4(0, 0, 0, 1));
+  for (MovingNode& node : animation.nodes) {
+    if (node.parent == -1) node.before = scaling * node.before;
+  }
+  for (MovingInstance& moving : animation.instances) {
+    const bool skinned =
+        moving.deformation != -1 && animation.deformations[static_cast<size_t>(moving.deformation)].skin != -1;
+    if (moving.node == -1 && !skinned) moving.local = scaling * moving.local;  // joints place a skinned mesh
+  }
+  for (Lamp& lamp : animation.lamps) lamp.intensity *= factor * factor, lamp.range *= factor;
+  for (Clip& clip : animation.clips) {
+    for (Track& track : clip.tracks) {
+      if (track.property != Property::kLampIntensity && track.property != Property::kLampRange) continue;
+      const double scale = track.property == Property::kLampRange ? factor : factor * factor;
+      for (float& value : track.keys.values) value = static_cast<float>(double{value} * scale);
+    }
+  }
+}
+
+}  // namespace
+
+UnitGuess guess_unit(const SceneRays& rays) {
+  Survey own = survey(rays);
+  if (own.kind == SceneKind::kNothing) return {1.0f, "", std::move(own)};
+  if (own.stand) return smaller_place(rays, std::move(own));
+  if (std::optional<UnitGuess> room = larger_room(rays, own)) return std::move(*room);
+  return model(rays, std::move(own));
+}
+
+void scale_scene(Scene& scene, float factor) {
+  assert(factor >= kLeastUnit && factor <= kMostUnit && scene.animation.playing.empty());
+  if (factor == 1.0f) return;
+  const Bounds bounds = scene_bounds(scene);
+  const vec3 reach = max(glm::abs(bounds.low), glm::abs(bounds.high)) * factor;
+  if (!(std::max({reach.x, reach.y, reach.z}) <= kFarthest)) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("with a unit of {:g} m the scene would extend further than a million km; "
+                            "--unit m keeps its size",
+                            factor));
+  }
+  for (Instance& instance : scene.instances) {
+    instance.row0 *= factor, instance.row1 *= factor, instance.row2 *= factor;
+  }
+  for (PunctualLight& light : scene.lights) {
+    light.position *= factor;
+    light.range *= factor;
+    if (light.kind != kLightDirectional) light.intensity *= factor * factor;
+  }
+  for (ViewPoint& view : scene.view_points) view.position *= factor;
+  if (scene.viewing) scene.viewing->view.position *= factor, scene.viewing->middle *= factor;
+  for (Material& material : scene.materials) {
+    if (std::isfinite(material.attenuation_distance)) material.attenuation_distance *= factor;
+  }
+  scale_animation(scene.animation, static_cast<double>(factor));
+  set_time(scene, 0.0);
+}
+
+}  // namespace ods

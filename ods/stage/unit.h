@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The unit of a scene. glTF is in metres by definition, but files of other units are common: a room that is 400 units
+// wide because it was modelled in centimetres. Stereo needs the true size, as the eyes are 65 mm apart.
+#pragma once
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ods/base/names.h"
+#include "ods/stage/survey.h"
+
+namespace ods {
+
+enum class LengthUnit { kMetre, kCentimetre, kMillimetre, kInch, kFoot, kKilometre };
+
+struct UnitRow {
+  LengthUnit member;
+  std::string_view name;
+  std::string_view plural;
+  float metres;
+};
+inline constexpr UnitRow kUnitTable[] = {
+    {LengthUnit::kMetre, "m", "metres", 1.0f},
+    {LengthUnit::kCentimetre, "cm", "centimetres", 0.01f},
+    {LengthUnit::kMillimetre, "mm", "millimetres", 0.001f},
+    {LengthUnit::kInch, "in", "inches", 0.0254f},
+    {LengthUnit::kFoot, "ft", "feet", 0.3048f},
+    {LengthUnit::kKilometre, "km", "kilometres", 1000.0f},
+};
+static_assert(has_every_member(kUnitTable));
+
+// The range of metres per unit.
+inline constexpr float kLeastUnit = 1e-6f;
+inline constexpr float kMostUnit = 1e6f;
+
+// Limits between what people meet and what must be a wrong unit, metres.
+inline constexpr float kSmallestPlace = 0.05f;   // the whole of a room: not even a doll's house is that small
+inline constexpr float kHighestRoom = 100.0f;    // floor to ceiling: higher than any cathedral's nave or hangar
+inline constexpr float kWidestPlace = 20000.0f;  // a landscape as far as one sees from the ground
+inline constexpr float kSmallestObject = 0.5f;   // smaller ones are specks at arm's length and beyond,
+inline constexpr float kLargestObject = 5.0f;    // larger ones are too far away for stereo if all of it is to be seen
+inline constexpr float kModelSize = 1.3f;        // the size at which such objects are shown
+
+struct UnitGuess {
+  float metres = 1.0f;  // per unit of the file
+  std::string reason;   // for people, if it is not 1: "the room is 260 m high, so its unit is taken for centimetres"
+  Survey survey;        // of the scene with that unit, in the file's units
+};
+
+// The unit that a scene is in. It stays metres unless people meet no room, place or object of that size.
+//  - A box-shaped room that is too high is in the unit, among inches, centimetres and millimetres, that brings its
+//    height closest to 2.7 m; a place that is too wide is in centimetres or millimetres.
+//  - A room too small to stand in is enlarged by 10, 100 or 1000, if it is smaller than kSmallestPlace or its walls
+//  show
+//    their backs to the outside.
+//  - An object on its own is shown as a model of kModelSize if it is smaller than kSmallestObject or larger than
+//    kLargestObject, unless the scene has a view point: a picture of a ring or of a tower at its own size would have
+//    next to nothing to see in stereo. Its size is distance_to_see().
+UnitGuess guess_unit(const SceneRays& rays);
+
+// Multiplies all lengths of a scene: instances, lights and their range, view points, volumes, and what is animated. The
+// picture stays what it was, seen by smaller or larger eyes: point and spot lights get the factor's square in power, so
+// that they light their surroundings as before; directional lights, emission and environment do not depend on lengths.
+// Leaves the scene at rest, at time 0. Precondition: kLeastUnit <= factor <= kMostUnit, and no clip plays.
+// Throws Error(kInput) if the scene would extend further than kFarthest (ods/scene/placement.h).
+void scale_scene(Scene& scene, float factor);
+
+}  // namespace ods

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/stage/light/studio.h"
+
+#include <gtest/gtest.h>
+
+#include "ods/render/cpu/render.h"
+#include "tests/support/pictures.h"
+
+namespace ods {
+namespace {
+
+// What a camera sees in a direction; degrees.
+double seen(const Scene& scene, vec3 eye, float yaw, float pitch, int samples = 1024, float fov = 2.0f) {
+  StereoCamera camera;
+  camera.position = eye;
+  camera.yaw = yaw;
+  camera.pitch = pitch;
+  camera.projection.kind = kPerspective;
+  camera.projection.fov = fov;
+  return mean_of(render_cpu(scene, camera, small_render(4, samples)).eyes[0].radiance).value();
+}
+
+// A small white square around the origin that faces `normal`.
+Scene target(vec3 normal) {
+  Scene scene;
+  const vec3 right = normalize(cross(vec3(0.01f, 1.0f, 0.0f), normal)), up = cross(normal, right);
+  add_rectangle(scene, -0.5f * (right + up), right, up, add_material(scene, matte(vec3(1.0f))));
+  scene.environment = make_studio();
+  return scene;
+}
+
+TEST(Studio, LightsWhatFacesTheViewerAsWhite) {
+  EXPECT_NEAR(seen(target(vec3(0, 0, 1)), vec3(0, 0, 2), 0, 0), 1.0, 0.1);
+}
+
+// Key on the left, fill on the right, both weaker than together; behind there is rim light enough for edges.
+TEST(Studio, HasKeyFillAndRim) {
+  const double left = seen(target(normalize(vec3(-1, 0.2f, 1))), 2.0f * normalize(vec3(-1, 0.2f, 1)), 45, -8);
+  const double right = seen(target(normalize(vec3(1, 0.2f, 1))), 2.0f * normalize(vec3(1, 0.2f, 1)), -45, -8);
+  EXPECT_GT(left, 1.4 * right);
+  EXPECT_GT(right, 0.35);
+  const Scene scene = target(vec3(0, 0, 1));
+  double brightest = 0.0;
+  for (float yaw = -60.0f; yaw <= 60.0f; yaw += 4.0f) {
+    brightest = std::max(brightest, seen(scene, vec3(0, 0, -5), yaw, 45, 1));
+  }
+  EXPECT_GT(brightest, 3.0);
+}
+
+TEST(Studio, TurnsWithTheViewer) {
+  const Environment straight = make_studio(), turned = make_studio(90.0f);
+  const size_t quarter = 128, width = 512;
+  for (size_t i = 0; i < straight.texels.size(); i += 97) {
+    const size_t row = i / width * width, column = i % width;
+    EXPECT_NEAR(straight.texels[i].g, turned.texels[row + (column + quarter) % width].g, 2e-2f) << i;
+  }
+}
+
+// Far from any shadow the ground looks as the studio's own floor does, so its edge cannot be seen.
+TEST(Studio, GroundLooksLikeTheFloor) {
+  Scene scene = target(vec3(0, 1, 0));
+  scene.instances.clear();
+  const double floor = seen(scene, vec3(0.0f), 0, -60, 1);
+  add_ground(scene, vec3(0, -1, 0), 8.0f, studio_floor());
+  for (const float pitch : {-85.0f, -40.0f, -14.0f, -10.0f, -8.0f}) {
+    EXPECT_NEAR(seen(scene, vec3(0.0f), 30, pitch), floor, 0.03 * floor) << pitch;
+  }
+  EXPECT_GT(floor, 0.2);
+  EXPECT_LT(floor, 0.5);
+}
+
+TEST(Studio, GroundCatchesTheShadowAndIsInvisibleFromBelow) {
+  Scene scene = target(vec3(0, 1, 0));
+  scene.instances.clear();
+  add_ground(scene, vec3(0, -1, 0), 8.0f, studio_floor());
+  const double open = seen(scene, vec3(0, 0, 4), 0, -45);
+  add(scene, make_sphere(0.8f, 24), add_material(scene, matte(vec3(0.5f))), placed(vec3(-0.8f, -0.2f, 3.3f)));
+  EXPECT_LT(seen(scene, vec3(0, 0, 4), 0, -45), 0.75 * open);
+  EXPECT_GT(seen(scene, vec3(0, -3, 0), 0, 40, 1, 1.0f), 0.0) << "the studio, through the ground";
+}
+
+TEST(Studio, HiddenListFollowsTheInstances) {
+  Scene scene = target(vec3(0, 1, 0));
+  scene.hidden = {1};
+  add_ground(scene, vec3(0, -1, 0), 8.0f, studio_floor());
+  EXPECT_EQ(scene.hidden, (std::vector<char>{1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace ods
