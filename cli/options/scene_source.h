@@ -21,6 +21,7 @@ struct SceneSource {
   std::vector<std::string> catchers;
   std::string confine;  // --confine
   std::string unit = "auto";
+  bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 
 void add_scene_argument(Options& options, SceneSource& source);

@@ -51,7 +51,7 @@ void add_file(Settings& settings, const std::string& option, const std::string& 
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, environment, catchers, confine, unit] = source;
+  const auto& [name, scene, environment, catchers, confine, unit, has_places] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);

@@ -106,6 +106,8 @@ void add_exposure_option(Options& options, RenderJob& job) {
 
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
   check_time_options(job.time);
+  job.scene.has_places =
+      !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   finish_quality(options, quality, job);
   job.has_layout = options.given("--layout") || options.given("--size");
   finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);

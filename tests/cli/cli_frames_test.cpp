@@ -124,6 +124,8 @@ class SharedFrames : public CliFrames {
             samples,
             "--frames",
             "1-6",
+            "--exposure",
+            "0",
             "--skip-existing",
             "-o",
             folder.path("shot.#.png")};
