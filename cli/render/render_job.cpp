@@ -128,7 +128,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
-  if (options.given("--exposure") && keeps_light(job.output))
+  if (job.exposure && !job.part && keeps_light(job.output))
     note("--exposure does not change .exr and .hdr, which are scene-linear");
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
