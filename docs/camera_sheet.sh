@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Makes docs/images/projections.jpg, layouts.jpg, merges.jpg, eyes.jpg and testcard.jpg, or one of them:
+# Makes docs/images/projections.jpg, layouts.jpg, merges.jpg, poles.jpg, eyes.jpg and testcard.jpg, or one of them:
 #   docs/camera_sheet.sh projections
 # Needs build/release/ods and oiiotool.
 set -eu
@@ -63,9 +63,21 @@ for merge in none linear,30,90 cosine,30,90 cosine,0,90,0.2 smoothstep,30,90 smo
 done
 sheet 3x3 merges.jpg
 
+begin poles
+# The room's floor below the viewer.
+for merge in none cosine,60,90; do
+  [ $wanted = yes ] || continue
+  count=$((count + 1))
+  "$ods" render room --quiet --samples 96 -o "$parts/raw.png" --layout anaglyph --projection fisheye --fov 100 --lens-direction 0,-90 --ipd 0.2 \
+    --merge "$merge" --width 400 > /dev/null
+  oiiotool "$parts/raw.png" --ch R,G,B --cut 400x428+0+0 --text:x=200:y=422:size=17:xalign=center:color=1,1,1:font=DejaVuSans.ttf \
+    "--merge $merge" -d uint8 -o "$parts/tile-$(printf %02d $count).png"
+done
+sheet 2x1 poles.jpg
+
 begin eyes
 # Ahead and a little down, red-cyan, eyes 20 cm apart where nothing else is said.
-window="--layout anaglyph --projection perspective --fov 80 --lens-direction 0,-15 --width 320"
+window="--merge none --layout anaglyph --projection perspective --fov 80 --lens-direction 0,-15 --width 320"
 tile "--ipd 0.2" $window --ipd 0.2
 tile "--ipd 0.065" $window --ipd 0.065
 tile "--convergence toe-in,3" $window --ipd 0.2 --convergence toe-in,3

@@ -95,7 +95,7 @@ static std::string unit_word(float metres) {
 static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result) {
   const std::optional<float> unit = parse_unit(source.unit);
   if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
-  const ods::Settled settled = ods::settle(scene, unit);
+  const ods::Settled settled = ods::settle(scene, unit, !source.has_places);
   if (result) *result = settled;
   if (settled.unit_reason.empty()) return;
   note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));

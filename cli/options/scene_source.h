@@ -24,6 +24,7 @@ struct SceneSource {
   std::string variant;  // of the file's materials; empty: its default
   bool solid_glass = false;
   std::string unit = "auto";
+  bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 
 void add_scene_argument(Options& options, SceneSource& source);

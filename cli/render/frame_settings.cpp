@@ -66,7 +66,7 @@ void add_light(Settings& settings, const LightOptions& light, const std::string&
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, light, catchers, confine, variant, solid_glass, unit] = source;
+  const auto& [name, scene, light, catchers, confine, variant, solid_glass, unit, has_places] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);

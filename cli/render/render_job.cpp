@@ -106,6 +106,8 @@ void add_exposure_option(Options& options, RenderJob& job) {
 
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
   check_time_options(job.time);
+  job.scene.has_places =
+      !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   finish_quality(options, quality, job);
   job.has_layout = options.given("--layout") || options.given("--size");
   finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);
@@ -126,7 +128,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
-  if (options.given("--exposure") && keeps_light(job.output))
+  if (job.exposure && !job.part && keeps_light(job.output))
     note("--exposure does not change .exr and .hdr, which are scene-linear");
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");

@@ -147,6 +147,7 @@ void info(int argc, char** argv) {
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
   console.quiet = true;  // notes would repeat the result
+  source.has_places = camera.position.has_value();
   Found found;
   const ods::Scene scene = open_scene(source, &found.settled);
   found.viewing = scene.viewing;

@@ -84,6 +84,7 @@ float measure(const ods::Scene& scene, ods::StereoCamera camera) {
 std::pair<ods::Sidecar, float> survey(RigJob& job) {
   ods::Sidecar file = read_camera_source(job.source);
   if (job.scene.name.empty()) return {file, job.nearest.value_or(1.0f)};
+  job.scene.has_places = true;  // the rig is for programs that have the scene in its own size
   ods::Scene scene = open_scene(job.scene);
   file.camera = place_camera(job.source.camera, scene);
   return {file, measure(scene, file.camera)};

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 
@@ -22,6 +24,7 @@ namespace {
 
 constexpr const char* kPart = "ods:part";
 constexpr const char* kSamples = "ods:samples";
+constexpr const char* kExposure = "ods:exposure";
 constexpr const char* kSettings = "ods:settings";
 constexpr const char* kSidecar = "ods:sidecar";
 
@@ -164,6 +167,7 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
   if (samples.eyes.size() == 2) options.layout = Layout::kMultiview;
   options.attributes = {{kPart, part_text(picture.options.part)},
                         {kSamples, picture.options.samples},
+                        {kExposure, fmt::format("{}", picture.exposure)},
                         {kSettings, picture.settings},
                         {kSidecar, picture.camera}};
   return save_picture(rows, &camera, options, path).front();
@@ -178,6 +182,8 @@ SampledPicture read_part_header(const std::string& path) {
   const auto samples = info.numbers.find(kSamples);
   SampledPicture picture;
   picture.settings = text(kSettings), picture.camera = text(kSidecar);
+  const float exposure = std::strtof(text(kExposure).c_str(), nullptr);
+  if (std::isfinite(exposure)) picture.exposure = exposure;
   RenderOptions& options = picture.options;
   const std::optional<Part> part = parse_part(text(kPart));
   options.samples = samples == info.numbers.end() ? 0 : static_cast<int>(samples->second.front());

@@ -108,12 +108,12 @@ Viewing place_viewer(const SceneRays& rays, const Survey& survey, float metres_p
   return survey.stand ? in_place(rays, survey, metres_per_unit) : before_object(rays, survey, metres_per_unit);
 }
 
-Settled settle(Scene& scene, std::optional<float> metres_per_unit) {
+Settled settle(Scene& scene, std::optional<float> metres_per_unit, bool shows_models) {
   Settled settled;
   {
     const SceneRays rays(scene);
-    UnitGuess guess =
-        metres_per_unit ? UnitGuess{*metres_per_unit, "", survey(rays, *metres_per_unit)} : guess_unit(rays);
+    UnitGuess guess = metres_per_unit ? UnitGuess{*metres_per_unit, "", survey(rays, *metres_per_unit)}
+                                      : guess_unit(rays, shows_models);
     settled = {guess.survey.kind, guess.metres, guess.reason};
     if (settled.kind != SceneKind::kNothing) scene.viewing = place_viewer(rays, guess.survey, guess.metres);
   }

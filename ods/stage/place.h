@@ -26,8 +26,9 @@ struct Settled {
 };
 
 // Gives a scene its size in metres and its viewer: guesses the unit, unless it is given, scales the scene by it, and
-// sets Scene::viewing. A scene without anything visible is left as it is, but for a unit that is given.
-Settled settle(Scene& scene, std::optional<float> metres_per_unit = std::nullopt);
+// sets Scene::viewing. A scene without anything visible is left as it is, but for a unit that is given. shows_models:
+// as in guess_unit().
+Settled settle(Scene& scene, std::optional<float> metres_per_unit = std::nullopt, bool shows_models = true);
 
 // What is wrong with a viewer at a point, in words for a warning that starts with "the camera"; empty: nothing. The
 // scene is in metres.

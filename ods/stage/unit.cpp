@@ -118,11 +118,12 @@ void scale_animation(Animation& animation, double factor) {
 
 }  // namespace
 
-UnitGuess guess_unit(const SceneRays& rays) {
+UnitGuess guess_unit(const SceneRays& rays, bool shows_models) {
   Survey own = survey(rays);
   if (own.kind == SceneKind::kNothing) return {1.0f, "", std::move(own)};
   if (own.stand) return smaller_place(rays, std::move(own));
   if (std::optional<UnitGuess> room = larger_room(rays, own)) return std::move(*room);
+  if (!shows_models) return {1.0f, "", std::move(own)};
   return model(rays, std::move(own));
 }
 

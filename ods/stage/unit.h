@@ -58,8 +58,9 @@ struct UnitGuess {
 //    their backs to the outside.
 //  - An object on its own is shown as a model of kModelSize if it is smaller than kSmallestObject or larger than
 //    kLargestObject, unless the scene has a view point: a picture of a ring or of a tower at its own size would have
-//    next to nothing to see in stereo. Its size is distance_to_see().
-UnitGuess guess_unit(const SceneRays& rays);
+//    next to nothing to see in stereo. Its size is distance_to_see(). Not if shows_models is false, as where places in
+//    the scene are given, which are as the file has it.
+UnitGuess guess_unit(const SceneRays& rays, bool shows_models = true);
 
 // Multiplies all lengths of a scene: instances, lights and their range, view points, volumes, and what is animated. The
 // picture stays what it was, seen by smaller or larger eyes: point and spot lights get the factor's square in power, so

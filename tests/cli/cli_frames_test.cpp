@@ -44,7 +44,7 @@ class CliFrames : public Cli {
 
 TEST_F(CliFrames, AFrameAloneIsTheFrameOfTheRun) {
   for (const std::string noise : {"fixed", "changing"}) {
-    const std::string words = "--turntable 1 --shutter 180 --grain " + noise;
+    const std::string words = "--turntable 1,0,0,0 --shutter 180 --grain " + noise;  // turns the viewer on the spot
     ASSERT_EQ(run(video("--frames 5-9x2 " + words)), 0) << err;
     ASSERT_EQ(run(video("--frames 7 " + words, "alone.%04d.png")), 0) << err;
     EXPECT_EQ(out, folder.path("alone.0007.png") + "\n");
@@ -114,19 +114,9 @@ const std::vector<std::string> kFrames = {"1", "2", "3", "4", "5", "6"};
 class SharedFrames : public CliFrames {
  protected:
   std::vector<std::string> job(const std::string& samples) const {
-    return {"render",
-            scene,
-            "--position",
-            "0,0,0",
-            "--width",
-            "64",
-            "--samples",
-            samples,
-            "--frames",
-            "1-6",
-            "--skip-existing",
-            "-o",
-            folder.path("shot.#.png")};
+    return {"render",     scene,       "--position",      "0,0,0",    "--width",
+            "64",         "--samples", samples,           "--frames", "1-6",
+            "--exposure", "0",         "--skip-existing", "-o",       folder.path("shot.#.png")};
   }
 };
 
