@@ -28,7 +28,7 @@ const SoftBox kBoxes[] = {
 };
 
 constexpr vec3 kFloor(0.184f, 0.18f, 0.176f);
-constexpr float kFloorEnds = -5.0f;  // degrees: from here up the floor turns into the wall
+constexpr vec3 kHorizon(0.27f);  // what the floor's own tone comes to, more or less
 constexpr int kWidth = 512;
 
 // The direction relative to the box's centre: degrees to its right and above it.
@@ -48,17 +48,16 @@ float cover(const SoftBox& box, vec3 direction) {
   return 1.0f - smoothstep(0.0f, 2.0f * box.soft, distance);
 }
 
-// From the floor's tone at the horizon to a dark ceiling.
-vec3 wall(float elevation) {
-  return mix(vec3(0.25f, 0.25f, 0.253f), vec3(0.06f, 0.061f, 0.067f), smoothstep(-15.0f, 60.0f, elevation));
-}
-
 float elevation_of(vec3 direction) {
   return glm::degrees(std::asin(clamp(direction.y, -1.0f, 1.0f)));
 }
 
-vec3 upper_half(vec3 direction) {
-  vec3 light = wall(elevation_of(direction));
+// From the floor's tone at the horizon to a dark ceiling, and down to the floor in that tone.
+vec3 wall(vec3 horizon, vec3 direction) {
+  return mix(horizon, vec3(0.06f, 0.061f, 0.067f), smoothstep(0.0f, 60.0f, elevation_of(direction)));
+}
+
+vec3 with_lights(vec3 light, vec3 direction) {
   for (const SoftBox& box : kBoxes) light = mix(light, box.radiance, cover(box, direction));
   return light;
 }
@@ -72,7 +71,8 @@ vec3 floor_radiance() {
     for (int x = 0; x < kColumns; x++) {
       const float azimuth = 2.0f * kPi * (float(x) + 0.5f) / float(kColumns);
       const vec3 direction(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
-      sum += glm::dvec3(upper_half(direction) * (sin(elevation) * cos(elevation)));
+      const vec3 light = with_lights(wall(kHorizon, direction), direction);
+      sum += glm::dvec3(light * (sin(elevation) * cos(elevation)));
     }
   }
   return kFloor * vec3(sum * (1.0 / (double{kRows} * kColumns)) * double{kPi});
@@ -86,16 +86,13 @@ Environment make_studio(float yaw) {
   return make_environment(kWidth, [&](vec3 direction) {
     const vec3 own(direction.x * cos(turned) + direction.z * sin(turned), direction.y,
                    direction.z * cos(turned) - direction.x * sin(turned));
-    return mix(floor, upper_half(own), smoothstep(kFloorEnds, 0.0f, elevation_of(own)));
+    return own.y < 0.0f ? floor : with_lights(wall(floor, own), own);
   });
 }
 
 Environment make_studio_walls() {
   const vec3 floor = floor_radiance();
-  return make_environment(kWidth, [&](vec3 direction) {
-    const float elevation = elevation_of(direction);
-    return mix(floor, wall(elevation), smoothstep(kFloorEnds, 0.0f, elevation));
-  });
+  return make_environment(kWidth, [&](vec3 direction) { return wall(floor, direction); });
 }
 
 vec3 studio_floor() {
@@ -104,21 +101,9 @@ vec3 studio_floor() {
 
 void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo) {
   assert(radius > 0.0f);
-  constexpr int kSegments = 96, kRows = 12;
-  constexpr float kSolid = 0.75f;  // share of the radius
   Material material = matte(albedo);
   material.double_sided = 0;
-  const auto place = placed(center);
-  add(scene, make_disc(kSolid * radius, kSegments), add_material(scene, material), place);
-  Shape edge = make_surface(kSegments, kRows, vec2(1.0f), [&](float s, float t) {
-    const float angle = 2.0f * kPi * s;
-    return mix(kSolid, 1.0f, t) * radius * vec3(cos(angle), 0.0f, sin(angle));
-  });
-  for (Vertex& vertex : edge.vertices) {
-    vertex.color.w = 1.0f - smoothstep(kSolid, 1.0f, length(vertex.position) / radius);
-  }
-  material.alpha_mode = kAlphaBlend;
-  add(scene, edge, add_material(scene, material), place);
+  add(scene, make_disc(radius, 192), add_material(scene, material), placed(center));
   if (!scene.hidden.empty()) scene.hidden.resize(scene.instances.size(), 0);
 }
 

@@ -19,8 +19,9 @@ Environment make_studio_walls();
 // The albedo of the studio's floor.
 vec3 studio_floor();
 
-// Adds a horizontal disc to the scene that catches the object's shadow. Its outer quarter fades out, so that over an
-// environment whose ground looks like it there is no edge to be seen. It faces up; seen from below it is invisible.
+// Adds a horizontal disc to the scene that catches the object's shadow. Over an environment whose ground looks like it,
+// as those of the studio and of make_sky() do, its edge cannot be seen: fading it out would only add noise there. It
+// faces up; seen from below it is invisible.
 // Precondition: radius > 0.
 void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo);
 

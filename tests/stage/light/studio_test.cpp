@@ -84,7 +84,7 @@ TEST(Studio, HiddenListFollowsTheInstances) {
   Scene scene = target(vec3(0, 1, 0));
   scene.hidden = {1};
   add_ground(scene, vec3(0, -1, 0), 8.0f, studio_floor());
-  EXPECT_EQ(scene.hidden, (std::vector<char>{1, 0, 0}));
+  EXPECT_EQ(scene.hidden, (std::vector<char>{1, 0}));
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ TEST(Supply, AnObjectGetsAStudioAndAGround) {
     EXPECT_TRUE(plan.ground);
     EXPECT_FALSE(plan.lamp);
     EXPECT_TRUE(says(plan, "studio") && says(plan, "--env 0")) << plan.note;
-    ASSERT_EQ(scene.instances.size(), instances + 2);
-    EXPECT_EQ(scene.supplied, 2u);
+    ASSERT_EQ(scene.instances.size(), instances + 1);
+    EXPECT_EQ(scene.supplied, 1u);
     EXPECT_TRUE(scene.background);
     const float height = bounds.high.y - bounds.low.y;
     const float ground = scene_bounds(scene).low.y;
