@@ -151,7 +151,7 @@ void add_circle_options(Options& options, CameraOptions& camera) {
   const auto set_bottom = [&](const std::string& text) { stereo.bottom = parse_merge("--merge-bottom", text); };
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
   options.custom(
-      "--merge", merge_unit, "cosine,60,90,1", set_both,
+      "--merge", merge_unit, same_merge(stereo.top, ods::kUsualMerge) ? "cosine,60,90,1" : "none,60,90,1", set_both,
       fmt::format("reduce the eye distance to 0 towards the poles, so that one can look up and down: {}; between the "
                   "elevations START and END, degrees; EXP is the curve's exponent. none: the pure model",
                   merge_names()));

@@ -92,6 +92,7 @@ std::pair<ods::Sidecar, float> survey(RigJob& job) {
 
 void rig(int argc, char** argv) {
   RigJob job;
+  job.source.camera.stereo = {};  // no merge: each step from one pitch of the views to the next would show it
   if (!read_options(job, argc, argv)) return;
   const auto [file, nearest] = survey(job);
   if (!job.scene.name.empty()) note(fmt::format("the nearest surface is {:.3g} m away", nearest));

@@ -154,6 +154,18 @@ TEST_F(Stage, FramesAndPartsShareTheExposure) {
   EXPECT_TRUE(bytes("parts.png") == bytes("whole.png"));
 }
 
+TEST_F(Stage, ViewsOfARigHaveTheExposureThatIsGiven) {
+  ASSERT_EQ(run("rig --width 16 --slits 6 --pitches 3 -q -o " + scenes.path("rig.json")), 0) << err;
+  const std::string views = "render room -q --samples 1 --rig " + scenes.path("rig.json") + " -o ";
+  std::vector<std::string> firsts;
+  for (const std::string exposure : {"", " --exposure 0", " --exposure 3"}) {
+    ASSERT_EQ(run(views + folder.path("v_####.png") + exposure), 0) << err;
+    firsts.push_back(bytes(folder.names().back()));
+  }
+  EXPECT_TRUE(firsts[0] == firsts[1]);
+  EXPECT_FALSE(firsts[0] == firsts[2]);
+}
+
 TEST_F(Stage, AnObjectTurnsOnTheSpot) {
   const std::string object = box("box.glb", 1, 1, 0.2f, false);
   const std::string video =

@@ -32,7 +32,7 @@ const Thing kThings[] = {{{0.35f, 0.05f, -0.5f}, 0.2f, false},  {{-0.4f, 0.3f, -
                          {{-0.15f, 0.0f, -0.75f}, 0.25f, true}, {{-0.7f, -0.1f, 0.2f}, 0.2f, false}};
 
 // The camera, beside the origin, turned and tilted.
-constexpr const char* kCamera = "--position 0.02,0.03,-0.01 --yaw 25 --pitch 15 --roll -10 --width 1024";
+constexpr const char* kCamera = "--position 0.02,0.03,-0.01 --yaw 25 --pitch 15 --roll -10 --width 1024 --merge none";
 
 // --- the scene, told four times --------------------------------------------------------------------------------------
 
