@@ -54,7 +54,7 @@ using Bsdf64 = std::function<dvec3(dvec3 wi)>;  // of one viewer; without the co
 
 // The integral of a function over the hemisphere above (side 1) or below (side -1).
 dvec3 integrate(double side, const std::function<dvec3(dvec3)>& function) {
-  constexpr int kHeights = 400, kTurns = 400;
+  constexpr int kHeights = 240, kTurns = 240;
   dvec3 sum(0.0);
   for (int i = 0; i < kHeights; i++) {
     const double t = (i + 0.5) / kHeights, z = t * t, r = std::sqrt(1.0 - z * z);  // denser where light grazes

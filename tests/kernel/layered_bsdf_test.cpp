@@ -8,7 +8,9 @@
 
 #include "ods/kernel/bsdf.h"
 #include "ods/kernel/random.h"
+#include "ods/render/lights.h"
 #include "ods/render/tables.h"
+#include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
 namespace ods {
@@ -350,6 +352,69 @@ TEST(Layers, NeverBreak) {
       for (int c = 0; c < 3; c++) ASSERT_TRUE(value.value[c] >= 0.0f && std::isfinite(value.value[c]));
     }
   }
+}
+
+// What the denoiser takes for the surface's colour: with specular and glossiness it is not the base colour alone.
+TEST(Layers, AlbedoHasTheReflectionsColour) {
+  BsdfEvaluator kernel = make_kernel();
+  Layered metal;
+  metal.surface.base_color = vec3(0.0f);
+  metal.surface.ior = 1e8f;
+  metal.layers.specular_color = vec3(0.9f, 0.6f, 0.2f);
+  kernel.surface_layers = metal.layers;
+  EXPECT_LT(length(kernel.albedo_of_layers(metal.surface, -kUp) - metal.layers.specular_color), 1e-6f);
+  for (const NamedMaterial& each : white_materials(0.5f)) {
+    if (each.material.surface.ior > 2.0f) continue;
+    kernel.surface_layers = each.material.layers;
+    const vec3 white = kernel.albedo_of_layers(each.material.surface, -viewer(0.6f));
+    EXPECT_LT(length(white - vec3(1.0f)), 1e-5f) << each.name;
+  }
+}
+
+// Each slot's channel, and what its factor does.
+TEST(Layers, TexturesMultiplyTheFactors) {
+  Scene scene;
+  scene.textures.push_back({});
+  scene.textures[0].width = scene.textures[0].height = 1;
+  scene.texels.push_back(51u | 102u << 8 | 153u << 16 | 204u << 24);  // 0.2, 0.4, 0.6, 0.8
+  MaterialLayers layers = default_layers();
+  layers.clearcoat = layers.clearcoat_roughness = layers.sheen_roughness = layers.anisotropy = 0.5f;
+  layers.iridescence = layers.diffuse_transmission = layers.specular = 0.5f;
+  layers.sheen_color = vec3(0.5f);
+  layers.iridescence_thinnest = 100.0f;
+  layers.iridescence_thickest = 200.0f;
+  layers.clearcoat_normal_scale = 0.5f;
+  for (TextureSlot* slot :
+       {&layers.specular_slot, &layers.specular_color_slot, &layers.clearcoat_slot, &layers.clearcoat_roughness_slot,
+        &layers.clearcoat_normal_slot, &layers.sheen_color_slot, &layers.sheen_roughness_slot, &layers.anisotropy_slot,
+        &layers.iridescence_slot, &layers.iridescence_thickness_slot, &layers.diffuse_transmission_slot,
+        &layers.diffuse_transmission_color_slot}) {
+    slot->texture = 0;
+  }
+  add_rectangle(scene, vec3(0.0f), vec3(1, 0, 0), vec3(0, 1, 0), add_layered(scene, default_material(), layers));
+  for (Vertex& vertex : scene.vertices) vertex.tangent = vec4(1, 0, 0, 1);
+  const LightTable lights = make_lights(scene);
+  BsdfEvaluator kernel;
+  set_scene(kernel, scene, lights);
+  const Hit hit{1.0f, 0.3f, 0.3f, 0, 0};
+  const vec3 direction(0.0f, 0.0f, -1.0f), color(0.2f, 0.4f, 0.6f);
+  const Surface surface = kernel.surface_at(hit, direction, false);
+  ASSERT_TRUE(surface.layered);
+  kernel.read_layers(hit, surface, direction, false);
+  const SurfaceLayers& found = kernel.surface_layers;
+  EXPECT_NEAR(found.specular, 0.4f, 1e-6f);
+  EXPECT_LT(length(found.specular_color - color), 1e-6f);
+  EXPECT_NEAR(found.clearcoat, 0.1f, 1e-6f);
+  EXPECT_NEAR(found.clearcoat_roughness, 0.2f, 1e-6f);
+  EXPECT_LT(length(found.clearcoat_normal - normalize(vec3(-0.3f, -0.1f, 0.2f))), 1e-5f);
+  EXPECT_LT(length(found.sheen_color - 0.5f * color), 1e-6f);
+  EXPECT_NEAR(found.sheen_roughness, 0.4f, 1e-6f);
+  EXPECT_NEAR(found.anisotropy, 0.3f, 1e-6f);
+  EXPECT_LT(length(found.anisotropy_direction - vec3(-0.6f, -0.2f, 0.0f)), 1e-5f);
+  EXPECT_NEAR(found.iridescence, 0.1f, 1e-6f);
+  EXPECT_NEAR(found.film.thickness, 140.0f, 1e-3f);
+  EXPECT_NEAR(found.diffuse_transmission, 0.4f, 1e-6f);
+  EXPECT_LT(length(found.diffuse_transmission_color - color), 1e-6f);
 }
 
 // Smooth glass that splits colours: each colour is reflected by its own reflectance and refracted by its own index.
