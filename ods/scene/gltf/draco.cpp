@@ -227,6 +227,7 @@ static Copy copy_as(int component_type) {
 // An attribute in the component type of its accessor. Returns why it failed.
 static std::string unpack(const draco::Mesh& mesh, const draco::PointAttribute* attribute, AccessorView& view) {
   if (!attribute || attribute->num_components() > 4) return "is missing";
+  if (attribute->data_type() == draco::DT_BOOL) return "has a type that glTF does not have";
   const size_t points = mesh.num_points();
   const size_t stored = static_cast<size_t>(attribute->byte_stride()) * attribute->size();
   const bool mapped = attribute->is_mapping_identity() || attribute->indices_map_size() >= points;
