@@ -65,6 +65,7 @@ ZipArchive::ZipArchive(std::span<const unsigned char> bytes, const std::string& 
     const std::string name = plain_name(entry.name);
     if (!name.empty()) entries_.emplace(name, Entry{i, static_cast<size_t>(entry.size)});
   }
+  for (const auto& [name, entry] : entries_) names_.emplace(small_letters(name), name);
 }
 
 ZipArchive::~ZipArchive() = default;
@@ -73,6 +74,11 @@ std::vector<std::string> ZipArchive::names() const {
   std::vector<std::string> names;
   for (const auto& [name, entry] : entries_) names.push_back(name);
   return names;
+}
+
+std::string ZipArchive::find_ignoring_case(const std::string& name) const {
+  const auto found = names_.find(small_letters(name));
+  return found == names_.end() ? "" : found->second;
 }
 
 size_t ZipArchive::size_of(const std::string& name) const {

@@ -29,6 +29,9 @@ class ZipArchive {
   std::vector<std::string> names() const;
   bool holds(const std::string& name) const { return entries_.contains(name); }
 
+  // The first file with this name in any letter case; empty if there is none.
+  std::string find_ignoring_case(const std::string& name) const;
+
   // Bytes of a file after decompression, as the archive states it; 0 if there is no such file.
   size_t size_of(const std::string& name) const;
 
@@ -47,7 +50,8 @@ class ZipArchive {
   std::string path_;
   std::unique_ptr<Handle> handle_;
   std::map<std::string, Entry> entries_;
-  size_t budget_;  // bytes that may still be read
+  std::map<std::string, std::string> names_;  // by their small letters
+  size_t budget_;                             // bytes that may still be read
   std::mutex mutex_;
 };
 

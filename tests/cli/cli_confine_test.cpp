@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tests/support/cli_runner.h"
+#include "tests/support/compressed_gltf.h"
 #include "tests/support/gltf_builder.h"
 
 namespace fs = std::filesystem;
@@ -99,6 +100,19 @@ TEST_F(Confine, TheSceneItselfAndTheSkyLieInsideToo) {
   expect_refused("lies outside");
   EXPECT_EQ(run("video -q --width 16 --samples 1 " + outside + confine + " --duration 1 -o " + folder.path("f.mp4")),
             3);
+  expect_refused("lies outside");
+}
+
+TEST_F(Confine, ArchivesLieInsideToo) {
+  const ods::Binary zip = ods::make_zip({{"model/scene.glb", ods::make_triangle().glb()}});
+  for (const char* name : {"in/a.zip", "out/a.zip"}) folder.write(name, {zip.begin(), zip.end()});
+  EXPECT_EQ(info(folder.path("in/a.zip"), true), 0) << err;
+  EXPECT_EQ(run("render -q --width 16 --samples 1 " + folder.path("in/a.zip") + " --confine " + folder.path("in") +
+                " -o " + folder.path("p.png")),
+            0)
+      << err;
+  EXPECT_EQ(info(folder.path("out/a.zip"), false), 0) << err;
+  EXPECT_EQ(info(folder.path("out/a.zip"), true), 3);
   expect_refused("lies outside");
 }
 

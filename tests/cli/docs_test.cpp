@@ -21,6 +21,7 @@
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/unfinished.h"
+#include "tests/support/compressed_gltf.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
@@ -201,6 +202,7 @@ class Pages : public ::testing::Test {
     if (kind.empty() || name.starts_with("-") || fs::exists(folder.path(name)) || !made_.insert(name).second) return;
     fs::create_directories(fs::path(folder.path(name)).parent_path());
     if (kind == ".glb") return folder.write(name, scene());
+    if (kind == ".zip") return provide_archive(name);
     if (kind == ".wav") return folder.write(name, ods::made::wav(4, 0.2));
     if (kind == ".txt") return folder.write(name, "0,1,-2\n");
     if (kind == ".unfinished") return provide_unfinished(name);
@@ -211,6 +213,12 @@ class Pages : public ::testing::Test {
     }
     static const std::set<std::string> pictures = {".png", ".jpg", ".exr", ".tif", ".hdr", ".webp"};
     if (pictures.contains(kind)) provide_picture(name);
+  }
+
+  void provide_archive(const std::string& name) {
+    const std::string glb = scene();
+    const ods::Binary zip = ods::make_zip({{"model/scene.glb", {glb.begin(), glb.end()}}});
+    folder.write(name, {zip.begin(), zip.end()});
   }
 
   // What an interrupted rendering leaves.

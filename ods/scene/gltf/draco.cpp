@@ -34,21 +34,15 @@ class DracoBudget {
   bool take(size_t bytes) {
     size_t left = left_;
     do {
-      if (bytes > left) {
-        exceeded_ = true;
-        return false;
-      }
+      if (bytes > left) return false;
     } while (!left_.compare_exchange_weak(left, left - bytes));
     check_memory(bytes, what_, "use a machine with more");
     return true;
   }
-  void refuse() { exceeded_ = true; }
-  bool exceeded() const { return exceeded_; }
   size_t left() const { return left_; }
 
  private:
   std::atomic<size_t> left_;
-  std::atomic<bool> exceeded_ = false;
   std::string what_;
 };
 
@@ -63,6 +57,9 @@ class LimitedDecoder : public Decoder {
  public:
   explicit LimitedDecoder(DracoBudget& budget) : budget_(budget) {}
 
+  // Whether it has stopped.
+  bool refused() const { return refused_; }
+
  protected:
   bool DecodeConnectivity() override {
     stream_ = this->buffer();
@@ -76,7 +73,7 @@ class LimitedDecoder : public Decoder {
       if (!draco::DecodeVarint(&faces, &start) || !draco::DecodeVarint(&vertices, &start)) return false;
     }
     if (size_t{vertices} > 3 * size_t{faces}) return false;
-    if (!budget_.take(faces * (kBytesPerFace + 3 * kBytesPerSeparateCorner * separate))) return false;
+    if (!take(faces * (kBytesPerFace + 3 * kBytesPerSeparateCorner * separate))) return false;
     corners_ = 3 * size_t{faces};
     return Decoder::DecodeConnectivity();
   }
@@ -88,7 +85,7 @@ class LimitedDecoder : public Decoder {
       const draco::PointAttribute& attribute = *cloud.attribute(i);
       const auto size = static_cast<size_t>(draco::DataTypeLength(attribute.data_type()));
       // Integers, and what they stand for.
-      if (!budget_.take(cloud.num_points() * (kBytesPerPoint + attribute.num_components() * (4 + size)))) return false;
+      if (!take(cloud.num_points() * (kBytesPerPoint + attribute.num_components() * (4 + size)))) return false;
     }
     return Decoder::DecodeAllAttributes();
   }
@@ -98,11 +95,16 @@ class LimitedDecoder : public Decoder {
   const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int id) const override {
     const draco::MeshAttributeIndicesEncodingData* data = Decoder::GetAttributeEncodingData(id);
     if (!data || is_sound(id, static_cast<uint32_t>(data->num_values))) return data;
-    budget_.refuse();
+    refused_ = true;
     return nullptr;
   }
 
  private:
+  bool take(size_t bytes) {
+    refused_ = refused_ || !budget_.take(bytes);
+    return !refused_;
+  }
+
   // The predictor of texture coordinates allocates a bit for each of up to two billion orientations, which the stream
   // states after the values; no mesh has more of them than corners.
   bool is_sound(int id, uint32_t count) const {
@@ -127,6 +129,7 @@ class LimitedDecoder : public Decoder {
   DracoBudget& budget_;
   const draco::DecoderBuffer* stream_ = nullptr;
   size_t corners_ = 0;
+  mutable bool refused_ = false;
 };
 
 struct Job {
@@ -140,6 +143,15 @@ struct Job {
 
 }  // namespace
 
+template <class Decoder>
+static std::string decode_with(DracoBudget& budget, draco::DecoderBuffer& buffer, draco::Mesh& mesh) {
+  LimitedDecoder<Decoder> decoder(budget);
+  const draco::DecoderOptions options;
+  const draco::Status status = decoder.Decode(options, &buffer, &mesh);
+  if (decoder.refused()) return "it is damaged, or asks for far more than a file of its size can hold";
+  return status.ok() ? "" : one_line(status.error_msg_string());
+}
+
 // Returns why it failed; empty if it did not.
 static std::string decode(Bytes bytes, DracoBudget& budget, draco::Mesh& mesh) {
   draco::DecoderBuffer buffer;
@@ -151,17 +163,13 @@ static std::string decode(Bytes bytes, DracoBudget& budget, draco::Mesh& mesh) {
   if (header.version_major != 2 || header.version_minor != 2) {
     return fmt::format("it has version {}.{} of Draco, glTF has 2.2", header.version_major, header.version_minor);
   }
-  const draco::DecoderOptions options;
-  draco::Status status;
   if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
-    status = LimitedDecoder<draco::MeshEdgebreakerDecoder>(budget).Decode(options, &buffer, &mesh);
-  } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
-    status = LimitedDecoder<draco::MeshSequentialDecoder>(budget).Decode(options, &buffer, &mesh);
-  } else {
-    return "it is encoded in an unknown way";
+    return decode_with<draco::MeshEdgebreakerDecoder>(budget, buffer, mesh);
   }
-  if (budget.exceeded()) return "it is damaged, or asks for far more than a file of its size can hold";
-  return status.ok() ? "" : one_line(status.error_msg_string());
+  if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    return decode_with<draco::MeshSequentialDecoder>(budget, buffer, mesh);
+  }
+  return "it is encoded in an unknown way";
 }
 
 // --- attributes
@@ -227,6 +235,7 @@ static Copy copy_as(int component_type) {
 // An attribute in the component type of its accessor. Returns why it failed.
 static std::string unpack(const draco::Mesh& mesh, const draco::PointAttribute* attribute, AccessorView& view) {
   if (!attribute || attribute->num_components() > 4) return "is missing";
+  if (attribute->data_type() == draco::DT_BOOL) return "has a type that glTF does not have";
   const size_t points = mesh.num_points();
   const size_t stored = static_cast<size_t>(attribute->byte_stride()) * attribute->size();
   const bool mapped = attribute->is_mapping_identity() || attribute->indices_map_size() >= points;

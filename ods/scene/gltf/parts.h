@@ -66,6 +66,7 @@ struct GltfFile {
   std::shared_ptr<ZipArchive> archive;         // that the scene is in; null: it is a file on the disk
   std::string folder;                          // of the scene in the archive
   std::map<std::string, std::string> renamed;  // files that are not called what the scene calls them
+  int searches = 0;                            // for files that are not called what the scene calls them
   std::vector<Bytes> buffers;                  // empty: without data
   std::vector<ImageSource> images;
   std::vector<ClipSource> clips;

@@ -88,11 +88,8 @@ static fs::path entry_in(const GltfFile& file, const fs::path& folder, const fs:
 // The name with the letter case of the file that exists; empty if there is none.
 static std::string find_ignoring_case(const GltfFile& file, const std::string& name) {
   if (file.archive) {
-    const std::string small = small_letters(name_in_archive(file, name));
-    for (const std::string& other : file.archive->names()) {
-      if (small_letters(other) == small) return fs::path(other).lexically_relative(file.folder).generic_string();
-    }
-    return "";
+    const std::string found = file.archive->find_ignoring_case(name_in_archive(file, name));
+    return found.empty() ? "" : fs::path(found).lexically_relative(file.folder).generic_string();
   }
   const fs::path folder = fs::path(file.path).parent_path();
   fs::path found;
@@ -120,6 +117,8 @@ std::string resolve_uri(GltfFile& file, const std::string& uri) {
   if (is_data_uri(uri)) return uri;
   const std::string plain = decode_percent(uri);
   if (!is_relative(plain) || has_scheme(uri) || exists(file, plain)) return normal(plain);
+  constexpr int kMostSearches = 1000;  // each may list a folder, and a file can name a million others
+  if (++file.searches > kMostSearches) return normal(plain);
   const std::vector<std::string> names = readings(uri);
   std::string found;
   for (const std::string& name : names) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compressed primitives give the geometry of the plain file; damaged ones one line.
+#include <draco/attributes/geometry_attribute.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -312,6 +313,16 @@ TEST(GltfDracoDamage, ReferencesAndCounts) {
   file = compressed_grid({});  // an attribute beside the stream, of another length
   file.primitive()["attributes"]["TEXCOORD_1"] = file.add<float>({0, 0, 1, 1}, kFloat, "VEC2");
   EXPECT_NE(error_of(file.glb()).find("169 positions, but 2 values of TEXCOORD_1"), std::string::npos);
+}
+
+TEST(GltfDracoDamage, TypesThatGltfDoesNotHave) {
+  GltfBuilder file = compressed_grid({});
+  const unsigned char uvs[] = {draco::GeometryAttribute::TEX_COORD, draco::DT_FLOAT32, 2, 0};  // the last attribute
+  unsigned char* end = stream_of(file) + stream_size(file);
+  unsigned char* found = std::search(stream_of(file), end, std::begin(uvs), std::end(uvs));
+  ASSERT_NE(found, end);
+  found[1] = draco::DT_BOOL;
+  EXPECT_NE(error_of(file.glb()).find("a type that glTF does not have"), std::string::npos) << error_of(file.glb());
 }
 
 // Sequential streams hold their indices as they are.

@@ -4,6 +4,7 @@
 // Names of files as programs write them, whatever the specification says.
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <filesystem>
 
 #include "ods/base/error.h"
@@ -131,6 +132,20 @@ TEST_F(GltfUri, NothingOutsideIsFoundByAnotherSpelling) {
     EXPECT_NE(error(uri, ""), "") << uri;
     EXPECT_NE(error(uri, "in"), "") << uri;
   }
+}
+
+// A file may name a million absent ones: only the first are searched for.
+TEST_F(GltfUri, ManyAbsentFilesTakeNoTime) {
+  GltfBuilder file = make_triangle();
+  for (int i = 0; i < 30000; i++) file.json["images"].push_back({{"uri", "Textures\\" + std::to_string(i) + ".png"}});
+  folder.write("in/scene.gltf", file.json.dump());
+  for (int i = 0; i < 300; i++) folder.write("in/" + std::to_string(i), "");
+  file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "a.bin"}}};
+  write("in/a.bin");
+  folder.write("in/scene.gltf", file.json.dump());
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(load_gltf(folder.path("in/scene.gltf")).triangles.size(), 1u);
+  EXPECT_LT(std::clock() - start, 4 * CLOCKS_PER_SEC);
 }
 
 TEST_F(GltfUri, AbsentFilesAreNamedAsTheFileNamesThem) {
