@@ -77,7 +77,8 @@ bool is_looked_at(const RenderJob& job) {
 }
 
 bool is_made_for_it(const RenderJob& job) {
-  return ods::find_builtin(job.scene.name) && job.scene.light.environment.empty();
+  const auto& [environment, lamp, background, unlit] = job.scene.light;
+  return ods::find_builtin(job.scene.name) && environment.empty() && lamp.empty() && background.empty() && !unlit;
 }
 
 constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the rest
