@@ -69,14 +69,14 @@ Price price_of_cycles(const Subject& subject, const Folder& folder) {
   std::ifstream times(folder.path("seconds"));
   double seconds = 0.0;
   for (double each = 0.0; times >> each;) seconds += each;
-  const auto picture = [&](int seed) {
+  const auto rendered = [&](int seed) {
     Picture picture;
     for (const char* eye : {"L", "R"}) {
       picture.eyes.emplace_back().radiance = read_image(fmt::format("{}/{}_{}.exr", folder.path(), seed, eye));
     }
     return picture;
   };
-  return price_of(picture(1), picture(2), seconds);
+  return price_of(rendered(1), rendered(2), seconds);
 }
 
 Price price_of_ours(const Subject& subject) {

@@ -36,8 +36,12 @@ inline uint pack_normal(vec3 n) {
   return uint((n.x * 0.5f + 0.5f) * 65535.0f + 0.5f) | uint((n.y * 0.5f + 0.5f) * 65535.0f + 0.5f) << 16u;
 }
 
-// What unpack gives is as texels of bytes hold it: 0..1 for -1..1.
-inline vec4 unpack_normal(uint bits) {
+// The vector as texels of bytes hold it: 0..1 for -1..1. Few textures are packed: the others must not pay for it.
+#ifdef __cplusplus
+[[gnu::noinline, gnu::cold]]
+#endif
+inline vec4
+unpack_normal(uint bits) {
   float x = float(bits & 65535u) * (1.0f / 65535.0f);
   float y = float(bits >> 16u) * (1.0f / 65535.0f);
   vec2 n = vec2(x * 2.0f - 1.0f, y * 2.0f - 1.0f);

@@ -200,7 +200,7 @@ TEST_F(EncodeCommand, ATitleGoesOverAVideo) {
   const std::string video = folder.path("video_360_TB.mp4"), made = folder.path("made_360_TB.mp4");
   const std::string title = folder.path("title.exr"), over = "over " + title + " " + video + " --progress none -o ";
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 --audio " + folder.path("sound.wav") + " -q -o " + video), 0);
-  ASSERT_EQ(run("title End --at 0,0,2 --text-height 1 --width 64 -o " + title), 0) << err;
+  ASSERT_EQ(run("title End --merge none --at 0,0,2 --text-height 1 --width 64 -o " + title), 0) << err;
   ASSERT_EQ(run("over " + title + " " + video + " -o " + made), 0) << err;
   EXPECT_EQ(out, made + "\n");
   EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 6 frames at 30 a second"), std::string::npos) << err;
