@@ -147,22 +147,21 @@ std::string environment_file(const std::string& option, const std::string& word)
 }
 
 void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, bool transparent,
-                 const std::string& confined_to) {
+                 const std::string& confined_to, std::optional<ods::Survey> survey) {
   ods::LightWishes wishes = read_wishes(light, ods::default_view(scene).yaw, confined_to);
   wishes.ground = !transparent;
   const std::optional<ods::Environment> background = read_background(light.background, confined_to);
   ods::LightPlan plan;
-  ods::Survey survey;
   if (is_ours && wishes.lamp != ods::LampWish::kPlaced) {
     plan.as_painted = wishes.unlit;
     plan.sky = wishes.sky;
     if (wishes.surround != Surround::kAuto) plan.surround = wishes.surround;
   } else {
     const ods::SceneRays rays(scene);
-    survey = ods::survey(rays);
-    plan = ods::plan_light(rays, survey, wishes);
+    if (!survey) survey = ods::survey(rays);
+    plan = ods::plan_light(rays, *survey, wishes);
   }
   if (!plan.note.empty()) note(plan.note);
-  ods::apply_light(scene, survey, plan, wishes);
+  ods::apply_light(scene, survey.value_or(ods::Survey()), plan, wishes);
   if (!light.background.empty()) scene.background = background;
 }

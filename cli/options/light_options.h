@@ -3,6 +3,7 @@
 //
 // The options of a scene's light, and what they supply where the scene has none.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "cli/console/options.h"
@@ -23,6 +24,7 @@ std::string environment_file(const std::string& option, const std::string& word)
 
 // Supplies light as the options ask, and whatever the scene lacks; a note says what. Scenes of ours have their own
 // light (is_ours). transparent: the picture has no background, and so no ground. confined_to: confining_folder().
+// survey: of the scene, if it is known.
 // Throws UsageError, and Error(kInput) for files.
 void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, bool transparent,
-                 const std::string& confined_to);
+                 const std::string& confined_to, std::optional<ods::Survey> survey);

@@ -85,10 +85,8 @@ std::string confining_folder(const SceneSource& source) {
 }
 
 static std::string unit_word(float metres) {
-  for (const ods::UnitRow& row : ods::kUnitTable) {
-    if (row.metres == metres) return std::string(row.name);
-  }
-  return fmt::format("{:g}", metres);
+  const ods::UnitRow* const row = ods::unit_of(metres);
+  return row ? std::string(row->name) : fmt::format("{:g}", metres);
 }
 
 // Built-in scenes are in metres and have a view point.
@@ -143,9 +141,11 @@ static void note_sheet_glass(const Scene& scene) {
 }
 
 Scene open_lit_scene(const SceneSource& source, bool transparent) {
-  Scene scene = open_scene(source);
+  ods::Settled settled;
+  Scene scene = open_scene(source, &settled);
   check_content(scene, source.name);
   note_sheet_glass(scene);
-  light_scene(scene, source.light, ods::find_builtin(source.name) != nullptr, transparent, confining_folder(source));
+  light_scene(scene, source.light, ods::find_builtin(source.name) != nullptr, transparent, confining_folder(source),
+              std::move(settled.survey));
   return scene;
 }

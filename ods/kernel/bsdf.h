@@ -22,10 +22,8 @@ namespace ods {
 
 struct Bsdf {
   int view;  // the surface has layers: kOwnView or kOtherView, where layered[] has all that is known of it; else -1
-  vec3 wo;   // towards the viewer, in the local frame of the vectors below
-  vec3 tangent;
-  vec3 bitangent;
-  vec3 normal;
+  vec3 wo;   // towards the viewer, in the frame
+  Frame frame;
   vec3 geometric;
   float alpha;
   float eta;         // index beyond / index on the viewer's side
@@ -41,14 +39,6 @@ struct Bsdf {
   float p_glass;
 };
 
-inline vec3 bsdf_to_local(Bsdf bsdf, vec3 w) {
-  return vec3(dot(w, bsdf.tangent), dot(w, bsdf.bitangent), dot(w, bsdf.normal));
-}
-
-inline vec3 bsdf_to_world(Bsdf bsdf, vec3 w) {
-  return bsdf.tangent * w.x + bsdf.bitangent * w.y + bsdf.normal * w.z;
-}
-
 #ifdef __cplusplus
 struct BsdfEvaluator : LayeredEvaluator {
 #endif
@@ -63,12 +53,9 @@ struct BsdfEvaluator : LayeredEvaluator {
       make_layered(view, surface, direction, eta);
       return bsdf;
     }
-    bsdf.normal = surface.normal;
     bsdf.geometric = surface.geometric;
-    Frame frame = frame_around(surface.normal);
-    bsdf.tangent = frame.tangent;
-    bsdf.bitangent = frame.bitangent;
-    bsdf.wo = bsdf_to_local(bsdf, -direction);
+    bsdf.frame = frame_around(surface.normal);
+    bsdf.wo = to_frame(bsdf.frame, -direction);
     bsdf.wo.z = max(bsdf.wo.z, 1e-5f);
     float roughness = clamp(surface.roughness, 0.0f, 1.0f);
     bsdf.alpha = roughness * roughness;
@@ -140,17 +127,10 @@ struct BsdfEvaluator : LayeredEvaluator {
 
   // Value and pdf of refraction to wi (wi.z < 0), likewise.
   inline vec2 refraction_value(Bsdf bsdf, vec3 wi) {
-    vec3 h = bsdf.wo + wi * bsdf.eta;
-    float size = length(h);
-    if (size < 1e-6f) return vec2(0.0f);
-    h = h * ((h.z < 0.0f ? -1.0f : 1.0f) / size);
-    float o = dot(bsdf.wo, h);
-    float i = dot(wi, h);
-    if (o <= 0.0f || i >= 0.0f) return vec2(0.0f);
-    float denominator = o + bsdf.eta * i;
-    float jacobian = bsdf.eta * bsdf.eta * -i / max(denominator * denominator, 1e-12f);
+    RefractingFacet facet = refracting_facet(bsdf.wo, wi, bsdf.eta);
+    if (facet.cosine <= 0.0f) return vec2(0.0f);
     float lambda_o = ggx_lambda(bsdf.wo, bsdf.alpha);
-    float d = ggx_distribution(h, bsdf.alpha) * o * jacobian / bsdf.wo.z;
+    float d = ggx_distribution(facet.normal, bsdf.alpha) * facet.cosine * facet.jacobian / bsdf.wo.z;
     return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)), d / (1.0f + lambda_o));
   }
 
@@ -161,7 +141,7 @@ struct BsdfEvaluator : LayeredEvaluator {
     BsdfValue result;
     result.value = vec3(0.0f);
     result.pdf = 0.0f;
-    vec3 wi = bsdf_to_local(bsdf, direction);
+    vec3 wi = to_frame(bsdf.frame, direction);
     bool above = wi.z > 0.0f;
     // A direction that is on different sides of the shading normal and the triangle carries nothing: light would leak.
     if (above != (dot(direction, bsdf.geometric) > 0.0f) || abs(wi.z) < 1e-6f) return result;
@@ -206,7 +186,7 @@ struct BsdfEvaluator : LayeredEvaluator {
     vec3 up = vec3(0.0f, 0.0f, 1.0f);
     vec3 wi = glass ? sample_glass(bsdf, up, pick) : vec3(-bsdf.wo.x, -bsdf.wo.y, bsdf.wo.z);
     BsdfSample result;
-    result.direction = normalize(bsdf_to_world(bsdf, wi));
+    result.direction = normalize(from_frame(bsdf.frame, wi));
     result.pdf = 0.0f;
     result.through = wi.z < 0.0f;
     result.weight = vec3(0.0f);
@@ -243,7 +223,7 @@ struct BsdfEvaluator : LayeredEvaluator {
       wi = sample_glass(bsdf, h, left_over);
     }
     BsdfSample result;
-    result.direction = bsdf_to_world(bsdf, wi);
+    result.direction = from_frame(bsdf.frame, wi);
     result.through = wi.z < 0.0f;
     result.weight = vec3(0.0f);
     result.pdf = 0.0f;

@@ -24,16 +24,6 @@ inline float ggx_lambda(vec3 w, float alpha) {
   return 0.5f * (sqrt(1.0f + alpha * alpha * (w.x * w.x + w.y * w.y) / z2) - 1.0f);
 }
 
-// Samples a microfacet normal visible from wo (wo.z > 0), with pdf ggx_visible_pdf().
-inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
-  vec3 stretched = normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
-  float phi = 2.0f * kPi * u.x;
-  float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
-  float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
-  vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
-  return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9f)));
-}
-
 inline float ggx_visible_pdf(vec3 wo, vec3 h, float alpha) {
   return max(dot(wo, h), 0.0f) * ggx_distribution(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
 }
@@ -52,6 +42,7 @@ inline float ggx_lambda(vec3 w, vec2 alpha) {
   return 0.5f * (sqrt(1.0f + (x * x + y * y) / max(w.z * w.z, 1e-12f)) - 1.0f);
 }
 
+// Samples a microfacet normal visible from wo (wo.z > 0).
 inline vec3 ggx_sample_visible(vec3 wo, vec2 alpha, vec2 u) {
   vec3 stretched = normalize(vec3(alpha.x * wo.x, alpha.y * wo.y, wo.z));
   float phi = 2.0f * kPi * u.x;
@@ -59,6 +50,11 @@ inline vec3 ggx_sample_visible(vec3 wo, vec2 alpha, vec2 u) {
   float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
   vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
   return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, 1e-9f)));
+}
+
+// Likewise with one alpha; the pdf is ggx_visible_pdf().
+inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
+  return ggx_sample_visible(wo, vec2(alpha), u);
 }
 
 // The weight of the grazing reflectance in Schlick's approximation. cosine: between the ray and the microfacet normal.
@@ -76,6 +72,30 @@ inline float fresnel_dielectric(float cosine, float eta) {
   float parallel = (eta * cosine - beyond) / (eta * cosine + beyond);
   float perpendicular = (cosine - eta * beyond) / (cosine + eta * beyond);
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+// The microfacet that refracts between wo and wi (wi.z < 0).
+struct RefractingFacet {
+  vec3 normal;     // towards wo
+  float cosine;    // between wo and the normal; 0: no facet refracts so
+  float jacobian;  // solid angle of normals over that of wi
+};
+
+inline RefractingFacet refracting_facet(vec3 wo, vec3 wi, float eta) {
+  RefractingFacet facet;
+  facet.cosine = 0.0f;
+  facet.jacobian = 0.0f;
+  facet.normal = wo + wi * eta;
+  float size = length(facet.normal);
+  if (size < 1e-6f) return facet;
+  facet.normal = facet.normal * ((facet.normal.z < 0.0f ? -1.0f : 1.0f) / size);
+  float o = dot(wo, facet.normal);
+  float i = dot(wi, facet.normal);
+  if (o <= 0.0f || i >= 0.0f) return facet;
+  float denominator = o + eta * i;
+  facet.cosine = o;
+  facet.jacobian = eta * eta * -i / max(denominator * denominator, 1e-12f);
+  return facet;
 }
 
 // Direction refracted at an interface with microfacet normal h (dot(wo, h) > 0); zero at total reflection.

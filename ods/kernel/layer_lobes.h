@@ -138,17 +138,10 @@ inline vec2 layered_reflection(LayeredBsdf b, vec3 wi) {
 
 // Value and pdf of refraction to wi (wi.z < 0), likewise.
 inline vec2 layered_refraction(LayeredBsdf b, vec3 wi) {
-  vec3 h = b.wo + wi * b.eta;
-  float size = length(h);
-  if (size < 1e-6f) return vec2(0.0f);
-  h = h * ((h.z < 0.0f ? -1.0f : 1.0f) / size);
-  float o = dot(b.wo, h);
-  float i = dot(wi, h);
-  if (o <= 0.0f || i >= 0.0f) return vec2(0.0f);
-  float denominator = o + b.eta * i;
-  float jacobian = b.eta * b.eta * -i / max(denominator * denominator, 1e-12f);
+  RefractingFacet facet = refracting_facet(b.wo, wi, b.eta);
+  if (facet.cosine <= 0.0f) return vec2(0.0f);
   float lambda_o = ggx_lambda(b.wo, b.alpha);
-  float d = ggx_distribution(h, b.alpha) * o * jacobian / b.wo.z;
+  float d = ggx_distribution(facet.normal, b.alpha) * facet.cosine * facet.jacobian / b.wo.z;
   return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, b.alpha)), d / (1.0f + lambda_o));
 }
 

@@ -19,6 +19,10 @@ TextureSlot no_texture() {
   return slot;
 }
 
+vec3 direction_of(float azimuth, float elevation) {
+  return vec3(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
+}
+
 Material default_material() {
   Material material;
   material.base_color = vec4(1.0f);

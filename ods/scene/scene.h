@@ -33,6 +33,9 @@ struct Environment {
   std::vector<vec3> texels;  // rows from the top
 };
 
+// The direction at a place of such a picture, in radians: azimuth to the right of -Z, elevation above the horizon.
+vec3 direction_of(float azimuth, float elevation);
+
 // A viewpoint that the scene itself proposes: a camera of the file, or a built-in scene's own.
 struct ViewPoint {
   std::string name;

@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "ods/scene/placement.h"
+
 namespace ods {
 
 using glm::dvec3;
@@ -124,12 +126,8 @@ static int copy_material(Scene& scene, int material) {
 
 // The shortest side of the box around a mesh: a thickness only tells solid glass from a sheet.
 static float thickness_of(const Scene& scene, const Mesh& mesh) {
-  vec3 low = scene.vertices[mesh.first_vertex].position, high = low;
-  for (uint i = 0; i < mesh.vertex_count; i++) {
-    const vec3 p = scene.vertices[mesh.first_vertex + i].position;
-    low = min(low, p), high = max(high, p);
-  }
-  const vec3 size = high - low;
+  const Bounds box = mesh_bounds(scene, mesh);
+  const vec3 size = box.high - box.low;
   return std::max(std::min({size.x, size.y, size.z}), 1e-6f);
 }
 

@@ -16,10 +16,9 @@ constexpr int kAzimuths = 72;
 constexpr float kElevations[] = {-35.0f, -20.0f, -10.0f, 0.0f, 10.0f, 20.0f, 35.0f};
 constexpr int kRows = static_cast<int>(std::size(kElevations));
 
-// The direction of a yaw and elevation in degrees.
+// In degrees.
 vec3 toward(float yaw, float elevation) {
-  const float a = glm::radians(yaw), e = glm::radians(elevation);
-  return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
+  return direction_of(glm::radians(yaw), glm::radians(elevation));
 }
 
 // How much there is to see in a direction, compared with the directions beside and below: edges and other things count
@@ -114,8 +113,9 @@ Settled settle(Scene& scene, std::optional<float> metres_per_unit, bool shows_mo
     const SceneRays rays(scene);
     UnitGuess guess = metres_per_unit ? UnitGuess{*metres_per_unit, "", survey(rays, *metres_per_unit)}
                                       : guess_unit(rays, shows_models);
-    settled = {guess.survey.kind, guess.metres, guess.reason};
+    settled = {guess.survey.kind, guess.metres, guess.reason, std::nullopt};
     if (settled.kind != SceneKind::kNothing) scene.viewing = place_viewer(rays, guess.survey, guess.metres);
+    if (settled.metres_per_unit == 1.0f) settled.survey = std::move(guess.survey);
   }
   scale_scene(scene, settled.metres_per_unit);
   return settled;
@@ -124,11 +124,11 @@ Settled settle(Scene& scene, std::optional<float> metres_per_unit, bool shows_mo
 std::string view_fault(const SceneRays& rays, vec3 eye) {
   constexpr float kCramped = 0.15f;  // metres
   const Surroundings around = surroundings(rays, eye);
-  const float nearest = free_radius(rays, eye);
   if (around.backs > 0.5f && around.backs > 9.0f * around.fronts) {
     return fmt::format("is inside a solid model: {:.0f} percent of what it sees are backs of surfaces",
                        100.0f * around.backs / (around.backs + around.fronts));
   }
+  if (around.nearest >= kCramped) return "";
   const std::vector<vec3> directions = sphere_directions(256);
   const auto cramped = std::count_if(directions.begin(), directions.end(),
                                      [&](vec3 direction) { return rays.distance(eye, direction) < kCramped; });
@@ -136,8 +136,8 @@ std::string view_fault(const SceneRays& rays, vec3 eye) {
     return fmt::format("is in a closed space: there are surfaces within {:.0f} cm on nearly all sides",
                        100.0f * kCramped);
   }
-  if (nearest >= kCramped) return "";
-  return fmt::format("is {:.2g} cm from the nearest surface: nobody can look at that in stereo", 100.0f * nearest);
+  return fmt::format("is {:.2g} cm from the nearest surface: nobody can look at that in stereo",
+                     100.0f * around.nearest);
 }
 
 }  // namespace ods

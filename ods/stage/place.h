@@ -22,7 +22,8 @@ Viewing place_viewer(const SceneRays& rays, const Survey& survey, float metres_p
 struct Settled {
   SceneKind kind = SceneKind::kNothing;
   float metres_per_unit = 1.0f;
-  std::string unit_reason;  // why that is not 1; empty if it is, or was given
+  std::string unit_reason;       // why that is not 1; empty if it is, or was given
+  std::optional<Survey> survey;  // of the scene as it is now; none if it was scaled
 };
 
 // Gives a scene its size in metres and its viewer: guesses the unit, unless it is given, scales the scene by it, and

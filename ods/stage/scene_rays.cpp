@@ -113,11 +113,13 @@ Openness openness(const SceneRays& rays, vec3 point) {
 Surroundings surroundings(const SceneRays& rays, vec3 point) {
   static const std::vector<vec3> kDirections = sphere_directions(kNearDirections);
   int fronts = 0, backs = 0;
+  float nearest = std::numeric_limits<float>::infinity();
   for (const vec3& direction : kDirections) {
     const Sight sight = rays.look(point, direction);
     if (!sight.leaves()) (sight.front ? fronts : backs)++;
+    nearest = std::min(nearest, sight.distance);
   }
-  return {static_cast<float>(fronts) / kNearDirections, static_cast<float>(backs) / kNearDirections};
+  return {static_cast<float>(fronts) / kNearDirections, static_cast<float>(backs) / kNearDirections, nearest};
 }
 
 std::optional<float> floor_below(const SceneRays& rays, vec3 point) {

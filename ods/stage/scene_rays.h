@@ -75,7 +75,8 @@ Openness openness(const SceneRays& rays, vec3 point);
 // What the surfaces around a point show of themselves, as shares of all directions.
 struct Surroundings {
   float fronts = 0.0f;
-  float backs = 0.0f;  // inside a solid model all surfaces show their backs
+  float backs = 0.0f;                                      // inside a solid model all surfaces show their backs
+  float nearest = std::numeric_limits<float>::infinity();  // free_radius()
 };
 Surroundings surroundings(const SceneRays& rays, vec3 point);
 

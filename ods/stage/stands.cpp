@@ -19,9 +19,9 @@ constexpr int kAzimuths = 16;
 constexpr float kLevel = 0.7071f;                                      // the least upward part of a floor's normal
 constexpr float kElevations[] = {-20.0f, -10.0f, 5.0f, 20.0f, 40.0f};  // degrees, of what is seen from a stand
 
+// In degrees.
 vec3 direction_at(float azimuth, float elevation) {
-  const float a = glm::radians(azimuth), e = glm::radians(elevation);
-  return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
+  return direction_of(glm::radians(azimuth), glm::radians(elevation));
 }
 
 struct View {

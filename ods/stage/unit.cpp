@@ -37,10 +37,8 @@ bool is_boxy(const SceneRays& rays, const Survey& survey) {
 }
 
 std::string unit_text(float metres) {
-  for (const UnitRow& row : kUnitTable) {
-    if (row.metres == metres) return std::string(row.plural);
-  }
-  return fmt::format("{:g} m", metres);
+  const UnitRow* const row = unit_of(metres);
+  return row ? std::string(row->plural) : fmt::format("{:g} m", metres);
 }
 
 // How far a height is from that of a usual room, as a ratio.
@@ -117,6 +115,11 @@ void scale_animation(Animation& animation, double factor) {
 }
 
 }  // namespace
+
+const UnitRow* unit_of(float metres) {
+  const auto* const row = std::ranges::find(kUnitTable, metres, &UnitRow::metres);
+  return row == std::end(kUnitTable) ? nullptr : row;
+}
 
 UnitGuess guess_unit(const SceneRays& rays, bool shows_models) {
   Survey own = survey(rays);

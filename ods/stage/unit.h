@@ -32,6 +32,9 @@ inline constexpr UnitRow kUnitTable[] = {
 };
 static_assert(has_every_member(kUnitTable));
 
+// The unit of this length; null if none has it.
+const UnitRow* unit_of(float metres);
+
 // The range of metres per unit.
 inline constexpr float kLeastUnit = 1e-6f;
 inline constexpr float kMostUnit = 1e6f;

@@ -89,10 +89,6 @@ int add(Scene& scene, const Shape& shape, int material, const glm::mat4& object_
   return mesh;
 }
 
-static vec3 direction_of(float azimuth, float elevation) {
-  return vec3(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
-}
-
 Environment make_environment(int width, const std::function<vec3(vec3)>& radiance) {
   Environment environment;
   environment.radiance = vec3(1.0f);

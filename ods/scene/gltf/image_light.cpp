@@ -96,8 +96,7 @@ static Environment unroll(const CubeMap& cube, const glm::mat3& to_cube) {
       for (int i = 0; i < kSamples * kSamples; i++) {
         const vec2 place = (vec2(i % kSamples, i / kSamples) + 0.5f) / float(kSamples);
         const vec2 angle = ((vec2(x, y) + place) / size - 0.5f) * vec2(2.0f * kPi, -kPi);
-        sum +=
-            light_from(cube, to_cube * vec3(sin(angle.x) * cos(angle.y), sin(angle.y), -cos(angle.x) * cos(angle.y)));
+        sum += light_from(cube, to_cube * direction_of(angle.x, angle.y));
       }
       environment.texels[static_cast<size_t>(y * environment.width + x)] = sum / float(kSamples * kSamples);
     }

@@ -33,8 +33,8 @@ constexpr int kWidth = 512;
 
 // The direction relative to the box's centre: degrees to its right and above it.
 vec2 seen_from(const SoftBox& box, vec3 direction) {
-  const float azimuth = glm::radians(box.azimuth), elevation = glm::radians(box.elevation);
-  const vec3 forward(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
+  const float azimuth = glm::radians(box.azimuth);
+  const vec3 forward = direction_of(azimuth, glm::radians(box.elevation));
   const vec3 right(cos(azimuth), 0.0f, sin(azimuth));
   const vec3 up = cross(right, forward);
   const float ahead = dot(direction, forward);
@@ -70,7 +70,7 @@ vec3 floor_radiance() {
     const float elevation = 0.5f * kPi * (float(y) + 0.5f) / float(kRows);
     for (int x = 0; x < kColumns; x++) {
       const float azimuth = 2.0f * kPi * (float(x) + 0.5f) / float(kColumns);
-      const vec3 direction(sin(azimuth) * cos(elevation), sin(elevation), -cos(azimuth) * cos(elevation));
+      const vec3 direction = direction_of(azimuth, elevation);
       const vec3 light = with_lights(wall(kHorizon, direction), direction);
       sum += glm::dvec3(light * (sin(elevation) * cos(elevation)));
     }
