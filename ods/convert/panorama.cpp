@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "ods/kernel/camera/project.h"
+#include "ods/kernel/camera/line.h"
 
 namespace ods {
 
@@ -80,30 +80,12 @@ static Place find_direction(const Source& source, int source_eye, vec3 d) {
   return place;
 }
 
-// The direction d' under which a toed-in picture stores the line of direction d: C d' minus the eye's offset is
-// parallel to d. The offset's size depends on the elevation, through the merge: a few iterations find both.
-static vec3 toed_in_label(const Camera& camera, int eye, vec3 d) {
-  if (has_head_tilt(camera)) return look_of_point(camera, eye, d, 0.0f).direction;
-  const float c = camera.convergence_distance, height = dot(d, camera.axis);
-  const vec3 level = d - camera.axis * height;
-  if (length(level) == 0.0f) return d;
-  float phi = std::asin(std::clamp(height, -1.0f, 1.0f)), r = 0.0f;
-  for (int i = 0; i < 8; i++) {
-    r = 0.5f * camera.ipd * std::abs(eye_side(eye)) * merge_at(camera, d, phi);
-    phi = std::asin(std::clamp(height * std::sqrt(1.0f + r * r / (c * c)), -1.0f, 1.0f));
-  }
-  const float turn = -eye_side(eye) * std::atan2(r, c * std::cos(phi));
-  return turn_about(normalize(level), camera.axis, turn) * std::cos(phi) + camera.axis * std::sin(phi);
-}
-
 Place place_of_line(const Source& source, int source_eye, vec3 direction) {
   const Camera& camera = source.camera;
   const int which = source.picture->eyes[static_cast<size_t>(source_eye)].eye;
   direction = normalize(direction);
-  vec3 d(dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.back));
-  if (camera.convergence == kToeIn) d = toed_in_label(camera, which, d);
-  if (camera.convergence == kShift) d = turn_about(d, camera.axis, -shift_angle(camera, which));
-  return find_direction(source, source_eye, d);
+  const vec3 d(dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.back));
+  return find_direction(source, source_eye, line_label(camera, which, d));
 }
 
 Cell cell_of(const Projection& projection, Extent size, vec2 at) {

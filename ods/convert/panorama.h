@@ -4,10 +4,9 @@
 // Where a stored picture has its pixels: which texel a line of sight meets, and which texel is next to another across a
 // seam, a pole or an edge of a face. It is never merely the neighbour in the file.
 //
-// A line of sight is identified by its direction alone: pictures with the same viewing circle and merge contain the
-// same lines, and differ only in where they put them. Toe-in at a distance C also shrinks the circle, by the factor
-// cos(atan(r / (C cos phi))): a reduction by a thousandth at 45 degrees, for r = 32.5 mm and C = 1 m. This is ignored.
-// Above the elevation atan(C / r) toe-in has no lines; the last ones are used instead.
+// A line of sight is identified by its direction alone (ods/kernel/camera/line.h). Toe-in at a distance C also shrinks
+// the circle, by the factor cos(atan(r / (C cos phi))): a reduction by a thousandth at 45 degrees, for r = 32.5 mm and
+// C = 1 m. This is ignored. Above the elevation atan(C / r) toe-in has no lines; the last ones are used instead.
 #pragma once
 #include "ods/picture/stored_picture.h"
 

@@ -10,6 +10,7 @@ precision highp int;
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
 #include "ods/kernel/camera/project.h"
+#include "ods/kernel/camera/line.h"
 
 uniform Camera camera;
 uniform sampler2D merge_map;
@@ -26,4 +27,5 @@ float camera_map_texel(Camera a_camera, int which, int i) {
 void main() {
   Ray ray = camera_ray(camera, kLeft, uv, uv, vec2(0.0));
   color = vec4(ray.origin + ray.direction, project_point(camera, kLeft, ray.origin + ray.direction).depth);
+  color.xy += place_of_line(camera, kLeft, ray.direction).uv;
 }
