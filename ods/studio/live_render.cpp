@@ -91,14 +91,18 @@ struct Window {
 
 Window window_of(const LiveView& view, float margin) {
   const float across = margin * std::tan(0.5f * glm::radians(std::clamp(view.fov, 1.0f, 150.0f)));
-  const float up = across / std::max(view.aspect, 0.1f), half_height = glm::degrees(std::atan(up));
-  const float low = view.pitch - half_height, high = view.pitch + half_height;
+  const float up = across / std::max(view.aspect, 0.1f), pitch = glm::radians(view.pitch);
+  const auto latitude = [&](float x, float y) {
+    return glm::degrees(std::asin((std::sin(pitch) + y * std::cos(pitch)) / std::sqrt(1.0f + x * x + y * y)));
+  };
+  Window window;
+  window.low = std::min(latitude(0.0f, -up), latitude(across, -up));
+  window.high = std::max(latitude(0.0f, up), latitude(across, up));
   // The corners nearest to a pole reach furthest around; beyond it, all the way.
-  const float pitch = glm::radians(std::abs(view.pitch));
-  const float ahead = std::cos(pitch) - up * std::sin(pitch);
-  const bool has_pole = low <= -90.0f || high >= 90.0f;
-  const float half_width = has_pole ? 180.0f : glm::degrees(std::atan2(across, ahead));
-  return {half_width, std::max(low, -90.0f), std::min(high, 90.0f)};
+  const float ahead = std::cos(pitch) - up * std::sin(std::abs(pitch));
+  window.half_width = ahead > 0.0f ? glm::degrees(std::atan(across / ahead)) : 180.0f;
+  if (ahead <= 0.0f) (view.pitch < 0.0f ? window.low : window.high) = view.pitch < 0.0f ? -90.0f : 90.0f;
+  return window;
 }
 
 bool shows(const StereoCamera& patch, const LiveView& view) {
