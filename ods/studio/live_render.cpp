@@ -288,12 +288,14 @@ LiveRender::LiveRender(Scene& scene, int threads) : state_(std::make_unique<Stat
 }
 
 LiveRender::~LiveRender() {
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    state_->ended = true;
-  }
-  state_->changed.notify_all();
+  end();
   state_->thread.join();
+}
+
+void LiveRender::end() {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->ended = true;
+  state_->changed.notify_all();
 }
 
 int LiveRender::set(const LiveSettings& settings, const LiveView& view) {

@@ -74,6 +74,9 @@ class LiveRender {
   // Refines there from now on.
   void look(const LiveView& view);
 
+  // Nothing is rendered any more, and nobody waits.
+  void end();
+
   // The latest frame of the base or the patch with a number above this one, base first; null if there is none in time.
   std::shared_ptr<const LiveFrame> next_frame(int number, std::chrono::milliseconds patience) const;
 
