@@ -103,7 +103,6 @@ Scene open_scene(const SceneSource& source, ods::Settled* settled) {
   Scene scene = ods::load_scene(
       source.name,
       {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
-  for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
     throw UsageError(
@@ -113,6 +112,7 @@ Scene open_scene(const SceneSource& source, ods::Settled* settled) {
     note("--solid-glass changes nothing: no closed mesh has glass without a volume");
   }
   settle_scene(scene, source, settled);
+  for (const std::string& warning : scene.warnings) warn(warning);
   return scene;
 }
 

@@ -252,7 +252,7 @@ Scene make_dripstone_cave() {
   const int rock = add_material(scene, paint(vec3(0.42f, 0.33f, 0.25f), 0.85f));
   const int drip = add_material(scene, paint(vec3(0.55f, 0.46f, 0.36f), 0.35f));
   const auto shell = [](float s, float t) {
-    const float a = 2.0f * kPi * s, e = kPi * (t - 0.5f);
+    const float a = 2.0f * kPi * s, e = 0.998f * kPi * (t - 0.5f);
     const vec3 out(std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a));
     const vec3 cell = 3.0f * out + 16.0f;
     const float rough =
@@ -324,7 +324,7 @@ Scene make_asteroids() {
   std::vector<int> rocks;
   for (uint kind = 0; kind < 4; kind++) {
     const auto lump = [=](float s, float t) {
-      const float a = 2.0f * kPi * s, e = kPi * (t - 0.5f);
+      const float a = 2.0f * kPi * s, e = 0.998f * kPi * (t - 0.5f);
       const float r = 0.7f + 0.6f * fractal_noise(vec2(8.0f * s, 4.0f * t), 8, 4, 30u + kind) * std::cos(e);
       return r * vec3(std::cos(e) * std::cos(a), std::sin(e), -std::cos(e) * std::sin(a));
     };
@@ -430,7 +430,7 @@ const std::vector<KindOfScene>& kinds_of_scene() {
       {"huge-room", make_huge_room, SceneKind::kClosedRoom, "taken for millimetres"},
       {"cave", make_dripstone_cave, SceneKind::kClosedRoom, "a lamp hangs"},
       {"hills", make_hills, SceneKind::kOpenPlace, "sun and sky light it"},
-      {"asteroids", make_asteroids, SceneKind::kOpenPlace, "sun and sky light it"},
+      {"asteroids", make_asteroids, SceneKind::kOpenPlace, "a studio lights them"},
       {"far-courtyard", make_far_courtyard, SceneKind::kOpenPlace, "sun and sky light it"},
       {"neon-street", make_neon_street, SceneKind::kOpenPlace, ""},
   };
