@@ -13,9 +13,9 @@ count=10
 for name in chair ring lighthouse still-life glasses asteroids hills far-courtyard neon-street room-with-lamps \
   room-without-a-lamp small-window baked-room tiny-room huge-room cave; do
   count=$((count + 1))
-  "$build/ods" render "$work/$name.glb" -o "$work/$name.png" --width 768 --samples 32
+  "$build/ods" render "$work/$name.glb" -o "$work/$name.png" --width 512 --samples 16
   caption=$(echo "$name" | tr - ' ')
-  oiiotool "$work/$name.png" --cut 768x384+0+0 --resize 448x224 --cut 448x246+0+0 \
+  oiiotool "$work/$name.png" --cut 512x256+0+0 --resize 448x224 --cut 448x246+0+0 \
     --text:x=224:y=240:size=15:xalign=center:color=1,1,1:font=DejaVuSans.ttf "$caption" -d uint8 -o "$work/tile-$count.png"
 done
 oiiotool "$work"/tile-*.png --mosaic:pad=6 4x4 --compression jpeg:86 -d uint8 -o docs/images/kinds.jpg
