@@ -6,16 +6,14 @@
 //
 // Where Blender 3.4 does not read an extension by its letter, a line of Python sets the material, so that physics is
 // compared with physics:
-//   metals     its importer chooses GGX, which loses the light of multiple scattering; MULTI_GGX keeps it, as we do.
-//   Its
-//              metals turn white towards grazing angles as a dielectric does, glTF's by Schlick's term: an index of
-//              1.34, a specular of 0.264, has the same mean
-//   clearcoat  its Principled coat has another lobe and adds light; the extension's formula is a mix of two shaders.
-//   Two
-//              lobes of MULTI_GGX on one surface create energy in Cycles 3.4 (0.600 becomes 0.626 under a white sky
-//              when a mirror-like coat gets a roughness of 0.05), so the coat is GGX, which loses little of its share
-//   glass      its Principled glass creates energy; the Glass shader does not. Volume Absorption takes 1 - colour as
-//              the coefficient, the extension -log(colour)
+//   metals: its importer chooses GGX, which loses the light of multiple scattering; MULTI_GGX keeps it, as we do. Its
+//     metals turn white towards grazing angles as a dielectric does, glTF's by Schlick's term: an index of 1.34, which
+//     is a specular of 0.264, has the same mean.
+//   clearcoat: its coat has another lobe and adds light; the extension's formula is a mix of two shaders. Two lobes of
+//     MULTI_GGX on one surface create energy in Cycles 3.4 (under a white sky 0.600 becomes 0.626 when a mirror-like
+//     coat gets a roughness of 0.05), so the coat is GGX, which loses little of its share.
+//   glass: Volume Absorption takes 1 - colour as the coefficient, the extension -log(colour). Rough glass is MULTI_GGX,
+//     too, for which the Glass shader stands in.
 // Emission needs no such line.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -96,7 +94,7 @@ links.new(mix.outputs[0], output.inputs['Surface'])
                                  clearcoat, roughness);
 }
 
-// attenuation: of a distance of 1, -log(colour).
+// Absorption over the distance of 1 / density.
 constexpr const char* kGlassFix = R"(
 glass = nodes.new('ShaderNodeBsdfGlass')
 glass.distribution = 'MULTI_GGX' if principled.inputs['Roughness'].default_value > 0 else 'SHARP'
