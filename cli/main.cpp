@@ -35,6 +35,7 @@ int ods_stitch(int argc, char** argv);
 int ods_testcard(int argc, char** argv);
 int ods_title(int argc, char** argv);
 int ods_video(int argc, char** argv);
+int ods_view(int argc, char** argv);
 
 namespace {
 
@@ -49,6 +50,7 @@ constexpr Command kCommands[] = {
     {"convert", "change a picture's projection, layout, size or eyes", ods_convert},
     {"denoise", "remove the noise of a rendered picture, both eyes as one", ods_denoise},
     {"merge", "put together parts of a picture that were rendered apart", ods_merge},
+    {"view", "look at pictures and videos in the browser and in the headset", ods_view},
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"title", "make a title with depth for stereo 360", ods_title},

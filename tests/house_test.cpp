@@ -29,6 +29,9 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
     {"meshoptimizer.h", {"ods/scene/gltf/meshopt.cpp"}},
     {"zip.h", {"ods/files/zip_archive.cpp"}},
+    {"httplib.h", {"cli/view/http_server.cpp"}},
+    {"openssl/", {"cli/view/certificate.cpp"}},
+    {"qrencode.h", {"cli/view/qr_code.cpp"}},
     {"lcms2", {"ods/image/icc_profile.cpp"}},
     {"libavcodec/", kAvFiles},
     {"libavformat/", kAvFiles},
@@ -38,8 +41,8 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"pango/", {"ods/compose/lettering.cpp"}}};
 
 // Libraries that any .cpp may know, and the system.
-const std::set<std::string> kShared = {"fmt/",    "glm/",     "nlohmann/", "tbb/",    "dlfcn.h",
-                                       "fcntl.h", "signal.h", "sys/",      "unistd.h"};
+const std::set<std::string> kShared = {"fmt/", "glm/",     "nlohmann/", "tbb/",      "dlfcn.h", "fcntl.h", "signal.h",
+                                       "sys/", "unistd.h", "arpa/",     "ifaddrs.h", "net/",    "spawn.h"};
 
 struct Source {
   std::string path;  // from the root of the tree

@@ -13,7 +13,6 @@
 #include "scene_view.glsl"
 #include "ods/kernel/filter.h"
 #include "ods/kernel/texture.h"
-#include "ods/kernel/frame.h"
 #include "ods/kernel/surface.h"
 #include "ods/kernel/ggx.h"
 #include "ods/kernel/sheen.h"

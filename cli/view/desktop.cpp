@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/desktop.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "cli/view/certificate.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/file_input.h"
+
+std::vector<std::string> network_addresses() {
+  std::vector<std::string> addresses;
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return addresses;
+  const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
+  for (const ifaddrs* each = list; each; each = each->ifa_next) {
+    if (!each->ifa_addr || each->ifa_addr->sa_family != AF_INET) continue;
+    if ((each->ifa_flags & IFF_LOOPBACK) || !(each->ifa_flags & IFF_UP)) continue;
+    char text[INET_ADDRSTRLEN] = {};
+    const auto* const address = reinterpret_cast<const sockaddr_in*>(each->ifa_addr);
+    if (inet_ntop(AF_INET, &address->sin_addr, text, sizeof(text))) addresses.emplace_back(text);
+  }
+  return addresses;
+}
+
+void open_in_browser(const std::string& address) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+  std::string program = "xdg-open", argument = address;
+  char* const words[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  posix_spawn_file_actions_t silent;
+  posix_spawn_file_actions_init(&silent);
+  posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&silent, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnp(&child, "xdg-open", &silent, nullptr, words, environ);
+  posix_spawn_file_actions_destroy(&silent);
+}
+
+std::string state_folder() {
+  const char* const state = std::getenv("XDG_STATE_HOME");
+  const char* const home = std::getenv("HOME");
+  if (!state && !home) return "";
+  const std::string folder = (state && *state ? std::string(state) : std::string(home) + "/.local/state") + "/ods";
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  return fault || chmod(folder.c_str(), S_IRWXU) != 0 ? "" : folder;
+}
+
+std::string kept_secret(const std::string& folder) {
+  const std::string path = folder + "/view-secret";
+  if (folder.empty()) return random_secret();
+  if (std::filesystem::exists(path)) {
+    const ods::FileInput file(path);
+    const std::string secret = file.read(0, std::min<uint64_t>(file.size(), 64));
+    const auto is_hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
+    if (secret.size() == 32 && std::ranges::all_of(secret, is_hex)) return secret;
+  }
+  const std::string secret = random_secret();
+  ods::write_file(path, secret);
+  return secret;
+}

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The machine around ods view: its addresses, its browser, and the folder for what is kept from one time to the next.
+#pragma once
+#include <string>
+#include <vector>
+
+// The IPv4 addresses under which other machines of the local network reach this one.
+std::vector<std::string> network_addresses();
+
+// Shows the page in the user's browser, if there is a desktop; else does nothing.
+void open_in_browser(const std::string& address);
+
+// ~/.local/state/ods, or as XDG_STATE_HOME has it; made, for the user alone. Empty if there is no home.
+std::string state_folder();
+
+// The secret of this user's addresses, the same every time, so that a page finds its server again: from the folder, or
+// new. folder: state_folder().
+std::string kept_secret(const std::string& folder);

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/export_site.h"
+
+#include "ods/files/atomic_file.h"
+#include "ods/files/file_input.h"
+#include "ods/view/page.h"
+
+using ods::ViewItem;
+
+static void copy_file(const std::string& from, const std::string& to) {
+  const ods::FileInput file(from);
+  ods::AtomicFile copy(to);
+  file.copy(0, file.size(), copy);
+  copy.commit();
+}
+
+static void write_eyes(const ViewItem& item, const std::vector<std::string>& files, const std::string& folder) {
+  ods::OpenOptions options;
+  options.format = item.known;
+  options.color_only = true;
+  const ods::StoredPicture picture = ods::open_picture(item.path, options);
+  for (size_t i = 0; i < files.size(); i++) {
+    ods::write_file(folder + "/" + files[i], eye_jpeg(picture, picture.eyes[i].eye, {}));
+  }
+}
+
+std::string export_site(const std::vector<ViewItem>& items, const std::string& folder) {
+  for (const ods::PageFile& file : ods::page_files()) {
+    ods::write_file(folder + "/" + std::string(file.name), file.data);
+  }
+  for (size_t i = 0; i < items.size(); i++) {
+    const std::vector<std::string> files = item_files(items[i], i);
+    items[i].has_own_file ? copy_file(items[i].path, folder + "/" + files[0]) : write_eyes(items[i], files, folder);
+  }
+  const std::string view = folder + "/view.json";
+  ods::write_file(view, view_json(items, false));
+  return view;
+}

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Serves a web page to its own user, over HTTP or HTTPS, through cpp-httplib.
+//
+// Nobody else may use it: every address begins with a secret, the Host header must be a name that we go by (else a web
+// site could reach us by a name of its own that it lets point to this machine), and a request with an Origin must come
+// from our page. Nothing is shared with other sites, and the page can load nothing from elsewhere. Requests are limited
+// in size, in time and in number.
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct WebRequest {
+  bool is_post = false;
+  std::string path;  // after the secret: item/0/left.jpg
+  std::map<std::string, std::string> query;
+  std::string body;
+};
+
+struct WebAnswer {
+  int status = 200;
+  std::string type = "text/plain; charset=utf-8";
+  std::string body;
+  std::string file;       // is sent in place of the body, in the ranges that the browser asks for
+  bool can_keep = false;  // browsers may keep it; else they ask again
+};
+
+// Called from several threads at once. What it throws becomes an answer with a line of text: ods::Error of kind kInput
+// or kUsage 400, all else 500.
+using WebHandler = std::function<WebAnswer(const WebRequest& request)>;
+
+struct WebOptions {
+  std::string address = "127.0.0.1";                         // to listen at; 0.0.0.0: all of this machine's
+  int port = 0;                                              // 0: any that is free
+  std::string secret;                                        // the first part of every path
+  std::vector<std::string> hosts{"127.0.0.1", "localhost"};  // the names that we go by
+  std::string certificate;                                   // PEM files, for https; empty: http
+  std::string key;
+  size_t most_body = size_t{64} << 10;  // bytes of a request's body
+};
+
+class HttpServer {
+ public:
+  // Listens, but answers nothing before run(). Throws UsageError if the port is taken, Error(kInput) for a certificate
+  // that cannot be used.
+  HttpServer(const WebOptions& options, WebHandler handler);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  int port() const;
+  // Answers until stop(), which another thread calls.
+  void run();
+  void stop();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};

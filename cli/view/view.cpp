@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods view: shows pictures and videos in the browser and in the headset.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/console/console.h"
+#include "cli/console/interrupt.h"
+#include "cli/view/certificate.h"
+#include "cli/view/desktop.h"
+#include "cli/view/export_site.h"
+#include "cli/view/qr_code.h"
+#include "cli/view/view_job.h"
+#include "cli/view/view_site.h"
+
+namespace {
+
+constexpr int kUsualPort = 8360;
+
+const char* last_words(int) {
+  return "ods: the viewer has ended";
+}
+
+// At the usual port, so that an open page finds the server again; if another program has it, at any.
+std::unique_ptr<HttpServer> listen(WebOptions web, bool any_will_do, ViewSite& site) {
+  const auto answer = [&site](const WebRequest& request) { return site.answer(request); };
+  try {
+    return std::make_unique<HttpServer>(web, answer);
+  } catch (const UsageError&) {
+    if (!any_will_do) throw;
+    web.port = 0;
+    return std::make_unique<HttpServer>(web, answer);
+  }
+}
+
+void explain_network(const std::string& address, int port) {
+  std::fputs(qr_code(address).c_str(), stderr);
+  note(
+      "open that address in the headset's browser; it warns, as nobody vouches for this machine: choose Advanced, "
+      "then Proceed. The page asks for a click to enter the headset");
+  note(fmt::format(
+      "everyone who has the address can see these files until you press Ctrl-C. By cable instead: end this, "
+      "start it without --lan, and run adb reverse tcp:{} tcp:{}",
+      port, port));
+}
+
+void serve(const ViewJob& job) {
+  ViewSite site(open_items(job));
+  const std::string folder = state_folder();
+  WebOptions web;
+  web.secret = kept_secret(folder);
+  web.port = job.port.value_or(kUsualPort);
+  std::string shown_host = web.hosts[0];
+  if (job.lan) {
+    const std::vector<std::string> addresses = network_addresses();
+    if (addresses.empty()) throw ods::Error(ods::ErrorKind::kInput, "--lan: this machine is in no network");
+    if (folder.empty()) throw UsageError("--lan keeps its certificate in your home folder: set HOME");
+    web.address = "0.0.0.0";
+    web.hosts.insert(web.hosts.end(), addresses.begin(), addresses.end());
+    const Certificate kept = keep_certificate(folder, web.hosts);
+    web.certificate = kept.path, web.key = kept.key;
+    shown_host = addresses[0];
+  }
+  const std::unique_ptr<HttpServer> server = listen(web, !job.port, site);
+  const std::string address =
+      fmt::format("{}://{}:{}/{}/", job.lan ? "https" : "http", shown_host, server->port(), web.secret);
+  std::puts(address.c_str());
+  std::fflush(stdout);
+  if (job.lan) explain_network(address, server->port());
+  note("Ctrl-C ends it");
+  if (job.browser && !job.lan) open_in_browser(address);
+  end_on_interrupts(last_words);
+  server->run();
+}
+
+}  // namespace
+
+int ods_view(int argc, char** argv) {
+  return run_command([=] {
+    ViewJob job;
+    if (!read_view_job(job, argc, argv)) return;
+    end_on_interrupts();
+    if (job.folder.empty()) return serve(job);
+    announce_file(export_site(open_items(job), job.folder));
+  });
+}

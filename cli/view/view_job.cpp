@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/view_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "cli/console/options.h"
+#include "cli/options/layout_options.h"
+#include "cli/options/projection_options.h"
+#include "ods/image/format/file_format.h"
+#include "ods/video/container/video_file.h"
+
+using ods::ViewItem;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods view picture_360_TB.png\n"
+    "  ods view film_360_TB.mp4 other.exr folder/\n"
+    "  ods view picture.png --lan\n"
+    "  ods view picture_360_TB.png --export site/";
+
+constexpr const char* kSummary =
+    "Shows stereo 360 pictures and videos around you: in the browser, and with one click in the headset. --lan is for\n"
+    "headsets in the same network. --export writes the viewer as a folder for any web host. docs/view.md has the keys.";
+
+constexpr size_t kMostItems = 2000;
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string path = entry.path().string();
+    if (!entry.is_regular_file() || entry.path().filename().string().starts_with('.')) continue;
+    if (ods::format_of_path(path) || ods::is_video(path)) paths.push_back(path);
+  }
+  std::ranges::sort(paths);
+  return paths;
+}
+
+void add_folder(const std::string& folder, const ods::FormatHint& known, std::vector<ViewItem>& items) {
+  std::vector<std::string> faults;
+  const size_t before = items.size();
+  for (const std::string& path : files_in(folder)) {
+    if (items.size() == kMostItems) {
+      warn(fmt::format("'{}' has more than {} files: the rest is left out", folder, kMostItems));
+      break;
+    }
+    try {
+      items.push_back(ods::open_view_item(path, known));
+    } catch (const ods::Error& error) {
+      if (error.kind() != ods::ErrorKind::kInput) throw;
+      faults.emplace_back(error.what());
+    }
+  }
+  if (items.size() == before) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     faults.empty() ? fmt::format("'{}' has no picture and no video", folder) : faults.front());
+  }
+  if (!faults.empty()) note(fmt::format("'{}': {} left out; the first: {}", folder, faults.size(), faults.front()));
+}
+
+}  // namespace
+
+bool read_view_job(ViewJob& job, int argc, char** argv) {
+  Options options("view", kSummary, kExamples);
+  options.arguments("FILE", job.paths, "pictures, videos, and folders of them; %V in a name: one file per eye");
+  options.group("Input, if neither the file nor its name tells");
+  add_layout_option(options, job.known.layout, "how both eyes share the file; separate: one eye");
+  options.custom(
+      "--projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
+      "its projection");
+  options.group("Page");
+  options.flag("--lan", job.lan, "let a headset or phone in the same network see it: https, with a QR code");
+  options.number("--port", job.port, 1, 65535, "the port to serve at; by default 8360, or any if that is taken");
+  bool stay = false;
+  options.flag("--no-browser", stay, "only print the address");
+  options.text("--export", "FOLDER", job.folder, "write the viewer and the files into this folder instead");
+  options.group("Console");
+  add_console_options(options);
+  if (!options.parse(argc, argv)) return false;
+  job.browser = !stay;
+  if (!job.folder.empty() && (job.lan || job.port))
+    throw UsageError("--export serves nothing: leave --lan and --port out");
+  return true;
+}
+
+std::vector<ViewItem> open_items(const ViewJob& job) {
+  std::vector<ViewItem> items;
+  for (const std::string& path : job.paths) {
+    if (std::filesystem::is_directory(path)) {
+      add_folder(path, job.known, items);
+    } else {
+      items.push_back(ods::open_view_item(path, job.known));
+      for (const std::string& guess : items.back().picture.guesses) note(fmt::format("'{}' is {}", path, guess));
+    }
+  }
+  return items;
+}

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command line of ods view asks for.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/view/view_item.h"
+
+struct ViewJob {
+  std::vector<std::string> paths;
+  ods::FormatHint known;
+  std::string folder;  // to export to; empty: serve
+  bool lan = false;
+  bool browser = true;
+  std::optional<int> port;
+};
+
+// False if help was asked for. Throws UsageError.
+bool read_view_job(ViewJob& job, int argc, char** argv);
+
+// The files, and those in folders that can be shown, in the order of their names. Throws Error(kInput) for a file that
+// cannot be shown; of a folder such files are left out, with a note, but one must be left.
+std::vector<ods::ViewItem> open_items(const ViewJob& job);

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/view_site.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "cli/console/console.h"
+#include "cli/options/layout_options.h"
+#include "cli/options/projection_options.h"
+#include "ods/view/page.h"
+
+using ods::ViewItem, ods::StoredPicture;
+
+namespace {
+
+const WebAnswer kNothing{404, WebAnswer().type, "there is nothing of that name\n", "", false};
+
+std::string value_of(const WebRequest& request, const std::string& name) {
+  const auto found = request.query.find(name);
+  return found == request.query.end() ? "" : found->second;
+}
+
+// Nothing if it is not asked for.
+std::optional<float> number_of(const WebRequest& request, const std::string& name, float low, float high) {
+  const std::string text = value_of(request, name);
+  if (text.empty()) return {};
+  float number = 0.0f;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc() || end != text.data() + text.size() || !(number >= low && number <= high)) {
+    throw UsageError(fmt::format("{} must be {:g} to {:g}", name, low, high));
+  }
+  return number;
+}
+
+ods::EyeOptions read_eye_options(const WebRequest& request) {
+  ods::EyeOptions options;
+  options.exposure = number_of(request, "exposure", -30.0f, 30.0f).value_or(0.0f);
+  options.most_wide = static_cast<int>(number_of(request, "width", 1.0f, 32768.0f).value_or(0.0f));
+  const std::string tone = value_of(request, "tone");
+  for (const auto& row : ods::kToneCurveTable) {
+    if (row.name == tone) options.tone = row.member;
+  }
+  return options;
+}
+
+// item/3/left.jpg -> 3; nothing for any other form.
+std::optional<size_t> item_number(const std::string& path) {
+  size_t number = 0;
+  constexpr std::string_view kStart = "item/";
+  if (!path.starts_with(kStart)) return {};
+  const auto [end, fault] = std::from_chars(path.data() + kStart.size(), path.data() + path.size(), number);
+  if (fault != std::errc() || end == path.data() + path.size() || *end != '/') return {};
+  return number;
+}
+
+}  // namespace
+
+std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const WebRequest& request) {
+  const std::string layout = value_of(request, "layout"), projection = value_of(request, "projection");
+  const std::string name = fmt::format("{}\n{}\n{}", item.path, layout, projection);
+  if (opened_ == name) return picture_;
+  ods::OpenOptions options;
+  options.color_only = true;
+  options.format = item.known;
+  if (layout == "mono") options.format.one_eye = true;
+  if (!layout.empty() && layout != "mono") options.format.layout = layout_by_name("layout", layout);
+  if (!projection.empty() && projection != "own") {
+    options.format.projection = projection_by_name("projection", projection);
+  }
+  picture_ = nullptr;  // never two in memory
+  opened_.clear();
+  picture_ = std::make_shared<StoredPicture>(ods::open_picture(item.path, options));
+  opened_ = name;
+  return picture_;
+}
+
+WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
+  const std::optional<size_t> number = item_number(path);
+  if (!number || *number >= items_.size()) return kNothing;
+  const ViewItem& item = items_[*number];
+  if (item.has_own_file && path == item_files(item, *number)[0]) {
+    return {200, std::string(ods::media_type(path)), "", item.path, false};
+  }
+  if (item.is_video) return kNothing;
+  for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
+    if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    return {200, std::string(ods::media_type(path)), eye_jpeg(*open(item, request), eye, read_eye_options(request)), "",
+            false};
+  }
+  return kNothing;
+}
+
+WebAnswer ViewSite::answer(const WebRequest& request) {
+  if (request.is_post) return kNothing;
+  if (request.path == "alive") return {200, "application/json", "{}", "", false};
+  if (request.path == "view.json") {
+    return {200, std::string(ods::media_type(request.path)), view_json(items_, true), "", false};
+  }
+  if (request.path.starts_with("item/")) return item(request.path, request);
+  const std::string name = request.path.empty() ? "index.html" : request.path;
+  const ods::PageFile* const file = ods::find_page_file(name);
+  if (!file) return kNothing;
+  return {200, std::string(ods::media_type(name)), std::string(file->data), "", false};
+}

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods view answers: the page's files, view.json, and the items by their numbers. No path that a browser sends is
+// ever opened.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "cli/view/http_server.h"
+#include "ods/view/view_item.h"
+
+class ViewSite {
+ public:
+  explicit ViewSite(std::vector<ods::ViewItem> items) : items_(std::move(items)) {}
+
+  // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
+  // projection where the page's user knows better. Throws UsageError for a query that makes no sense.
+  WebAnswer answer(const WebRequest& request);
+
+ private:
+  WebAnswer item(const std::string& path, const WebRequest& request);
+  // Of the latest item that was asked for: both eyes are, one after the other.
+  std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);
+
+  std::vector<ods::ViewItem> items_;
+  std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
+  std::string opened_;
+  std::shared_ptr<const ods::StoredPicture> picture_;
+};

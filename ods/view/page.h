@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The files of the viewer's page: those of web/, which the build puts into the program (cmake/page.cmake).
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace ods {
+
+struct PageFile {
+  std::string_view name;  // index.html
+  std::string_view data;
+};
+
+std::span<const PageFile> page_files();
+
+// Null if the page has no such file.
+const PageFile* find_page_file(std::string_view name);
+
+// The media type for a file of this name, as browsers want it: by its extension, application/octet-stream if that is
+// unknown.
+std::string_view media_type(std::string_view name);
+
+}  // namespace ods

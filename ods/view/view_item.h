@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures and videos as the viewer's page shows them: a file that browsers read, or a JPEG of each eye, and what the
+// page's shader needs to know of the camera. docs/view.md describes view.json.
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ods/image/tone.h"
+#include "ods/picture/stored_picture.h"
+
+namespace ods {
+
+struct ViewItem {
+  std::string path;
+  std::string name;  // for people: the file's name without its folder
+  bool is_video = false;
+  bool is_light = false;      // scene-linear: shown with an exposure and a tone curve
+  bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
+  FormatHint known;           // what the caller knew of it
+  StoredPicture picture;      // its header, without pixels
+  double fps = 0.0;           // of a video; 0: unknown
+};
+
+// Finds out what a file shows, as `ods convert` would read it. Throws Error(kInput) as open_picture() and open_video();
+// also for a format of browsers that holds no picture.
+ViewItem open_view_item(const std::string& path, const FormatHint& known = {});
+
+// The page's view.json: items, and the layouts, projections and tone curves that they can be changed to.
+// is_live: eyes are sent by a server, which can develop them again. studio: JSON of the studio, or empty.
+std::string view_json(std::span<const ViewItem> items, bool is_live, const std::string& studio = "");
+
+// The names under which view.json refers to an item's files, relative to itself: item/0/picture.png, or item/0/left.jpg
+// and item/0/right.jpg.
+std::vector<std::string> item_files(const ViewItem& item, size_t index);
+
+struct EyeOptions {
+  float exposure = 0.0f;  // stops, and with the tone curve only for scene-linear pictures
+  ToneCurve tone = ToneCurve::kNeutral;
+  int most_wide = 0;  // pixels; 0: as the picture has it
+};
+
+// One eye (kLeft, kRight, kMono) as a JPEG. The picture has its pixels. Throws Error(kOutput) if the temporary folder
+// is not writable.
+std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options);
+
+}  // namespace ods
