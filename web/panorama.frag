@@ -97,6 +97,7 @@ Place place_at(int which, vec3 direction) {
 }
 
 // How the place moves with a step of the direction, in texels. A step that leaves the face is taken backwards.
+// (Drivers inline every call and compile for seconds: whatever is large is called from few places, in loops.)
 vec2 movement(int which, vec3 direction, vec3 step_by, Place from) {
   const float kPart = 0.25;
   vec2 size = eyes[which].size;
@@ -177,9 +178,13 @@ vec3 averaged(int which, Spot spot, float square) {
   int level = clamp(int(floor(0.5 * log2(boxes))), 0, kLastLevel - 1);
   float box = exp2(2.0 * float(level));
   float more = clamp((boxes - box) / (3.0 * box), 0.0, 1.0);
-  vec3 light = bicubic(which, spot, level);
-  if (more > 0.01) light = mix(light, bicubic(which, spot, level + 1), more);
-  return light;
+  if (more < 0.01) more = 0.0;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 2; i++) {
+    float weight = i == 0 ? 1.0 - more : more;
+    if (weight > 0.0) sum += weight * bicubic(which, spot, level + i);
+  }
+  return sum;
 }
 
 // dx, dy: how far the place moves from pixel to pixel, in texels.
@@ -201,14 +206,13 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
   float square = max(max(middle - spread, 1.0), large / 9.0);
   float rest = large - square;
   int count = 1 + int(ceil(2.0 * sqrt(rest / square) - 0.1));
-  if (count == 1) return averaged(which, spot_at(which, place, vec2(0.0)), square);
   // A tent of points, as make_tent() in ods/convert/texel_filter.cpp.
   vec2 axis = xx >= yy ? vec2(middle + spread - yy, xy) : vec2(xy, middle + spread - xx);
-  axis = normalize(axis);
+  axis = count > 1 ? normalize(axis) : vec2(0.0);
   float n = float(count);
   bool is_even = count % 2 == 0;
   float variance = is_even ? 1.0 + 2.0 / (n * n) : (n * n - 1.0) * (n * n + 3.0) / (n * n * (n * n + 1.0));
-  float radius = sqrt(rest / variance);
+  float radius = count > 1 ? sqrt(rest / variance) : 0.0;
   float unit = 2.0 / (is_even ? n * n : n * n + 1.0);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; i++) {
@@ -225,7 +229,9 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
 vec3 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
   Place place = place_at(which, direction);
   if (!place.seen) return vec3(0.0103);  // a neutral dark grey: the picture has nothing there
-  return filtered(which, place, movement(which, direction, dx, place), movement(which, direction, dy, place));
+  vec2 moves[2];
+  for (int i = 0; i < 2; i++) moves[i] = movement(which, direction, i == 0 ? dx : dy, place);
+  return filtered(which, place, moves[0], moves[1]);
 }
 
 vec3 encode(vec3 light) {
@@ -262,14 +268,14 @@ void main() {
   vec3 direction = direction_at(screen);
   vec3 dx = direction_at(screen + vec2(2.0 / viewport.x, 0.0)) - direction;
   vec3 dy = direction_at(screen - vec2(0.0, 2.0 / viewport.y)) - direction;
-  vec3 shown;
-  if (mode == kOneEye) {
-    shown = encode(light_of(eye, direction, dx, dy));
-  } else {
-    vec3 left = light_of(kLeft, direction, dx, dy);
-    vec3 right = light_of(kRight, direction, dx, dy);
-    shown = mode == kAnaglyph ? encode(dubois(left, right)) : abs(encode(left) - encode(right));
+  vec3 light[2];
+  for (int i = 0; i < 2; i++) {
+    if (mode != kOneEye || i == eye) light[i] = light_of(i, direction, dx, dy);
   }
+  vec3 shown;
+  if (mode == kOneEye) shown = encode(light[eye]);
+  if (mode == kAnaglyph) shown = encode(dubois(light[kLeft], light[kRight]));
+  if (mode == kDifference) shown = abs(encode(light[kLeft]) - encode(light[kRight]));
   if (grid) shown = with_grid(shown, direction, dy);
   color = vec4(shown, 1.0);
 }
