@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws looks with the page's own modules and sends them to the server that asks for them: jobs.json is
+//   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap }] }, ...]
+// where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
+// A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
+// have `press` and `stick`: what a hand does to its controller first.
+import { Headset } from './headset.js';
+import { Panorama, loadShader, raysOf } from './panorama.js';
+import { openPicture } from './picture.js';
+import { Viewer } from './viewer.js';
+
+const json = async (path) => (await fetch(path)).json();
+const post = (path, body) => fetch(path, { method: 'POST', body });
+const sendCanvas = async (canvas, name) => post(`result/${name}`, await new Promise((done) => canvas.toBlob(done)));
+
+function makeCanvas({ width, height }) {
+  const canvas = document.createElement('canvas');
+  Object.assign(canvas, { width, height });
+  canvas.style.width = `${width}px`;
+  canvas.style.height = `${height}px`;
+  document.body.append(canvas);
+  return canvas;
+}
+
+let drawing; // one for all pictures: software compiles the shader for seconds
+
+async function draw(view, shader, { item, choice, width, height, looks }) {
+  drawing ??= new Panorama(makeCanvas({ width, height }), shader);
+  const panorama = drawing;
+  const { canvas } = panorama;
+  Object.assign(canvas, { width, height });
+  const picture = await openPicture(panorama, view, view.items[item], { choice });
+  picture.refresh?.();
+  for (const { name, eye = 0, show, swap, ...look } of looks) {
+    panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap });
+    await sendCanvas(canvas, name);
+  }
+  picture.free();
+}
+
+// As the device's orientation: a turn to the right by yaw, after one up by pitch.
+function orient(quaternion, { yaw = 0, pitch = 0 }) {
+  const [y, p] = [-yaw, pitch].map((angle) => (angle * Math.PI) / 360);
+  const [sy, cy, sp, cp] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p)];
+  quaternion.set(cy * sp, sy * cp, -sy * sp, cy * cp);
+}
+
+async function wear(view, shader, job) {
+  // The runtime makes the canvas as large as the window.
+  Object.defineProperties(window, { innerWidth: { value: job.width }, innerHeight: { value: job.height } });
+  const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
+  const device = new XRDevice(metaQuest3);
+  device.installRuntime({ forceInstall: true });
+  device.stereoEnabled = true;
+  device.fovy = Math.PI / 2;
+  device.position.set(3, 1.6, -2); // which must not matter
+  const canvas = makeCanvas(job);
+  const viewer = new Viewer(canvas, view, shader, location.href);
+  await viewer.open(job.item, job.choice);
+  if (!viewer.picture) throw new Error('the picture did not open');
+  const headset = new Headset(viewer, {});
+  await headset.toggle();
+  // Our callback comes after the headset's, which was asked for before.
+  const frames = (count) => new Promise((done) => {
+    const next = () => (count-- > 0 && headset.session ? headset.session.requestAnimationFrame(next) : done());
+    next();
+  });
+  for (const { name, press, stick, ...look } of job.looks) {
+    orient(device.quaternion, look);
+    await frames(2);
+    const hand = device.controllers.right;
+    if (press) {
+      hand.updateButtonValue(press, 1);
+      await frames(2);
+      hand.updateButtonValue(press, 0);
+    }
+    if (stick) {
+      hand.updateAxes('thumbstick', ...stick);
+      await frames(2);
+      hand.updateAxes('thumbstick', 0, 0);
+    }
+    await frames(2);
+    if (headset.session) await sendCanvas(canvas, name);
+    else await post(`result/${name}`, 'left');
+  }
+  if (headset.session) await headset.session.end();
+  await post('result/ended', String(viewer.session));
+}
+
+async function run() {
+  const [view, shader, jobs] = [await json('view.json'), await loadShader(location.href), await json('jobs.json')];
+  for (const job of jobs) await (job.headset ? wear : draw)(view, shader, job);
+}
+
+run().then(() => post('done', 'ok'), (error) => post('done', `${error.message}\n${error.stack}`));

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The picture as WebXR equirect layers, which the headset's compositor samples by itself. The specification never says
+// which half of a stereo-top-bottom layer is the left eye's, and browsers differ; so each eye is asked for by name, and
+// drawn into what the browser answers.
+const LARGEST = 4096; // pixels of a layer around the horizon
+
+export function hasLayers(session) {
+  return (session.enabledFeatures?.includes('layers') ?? true) && typeof XRWebGLBinding !== 'undefined' &&
+    typeof XRWebGLBinding.prototype.createEquirectLayer === 'function' && (session.maxRenderLayers ?? 1) >= 1;
+}
+
+export class EyeLayers {
+  constructor(session, gl, space) {
+    this.base = session.renderState.baseLayer; // for pictures that get no layer
+    Object.assign(this, { session, gl, space, layer: null, shown: null, target: gl.createFramebuffer() });
+    this.binding = new XRWebGLBinding(session, gl);
+  }
+
+  create(picture) {
+    const { gl } = this;
+    const most = Math.min(LARGEST, gl.getParameter(gl.MAX_TEXTURE_SIZE) / 2);
+    const width = Math.min(most, picture.eyes[0].size[0]);
+    this.layer?.destroy?.();
+    try {
+      this.layer = this.binding.createEquirectLayer({
+        space: this.space, viewPixelWidth: width, viewPixelHeight: width / 2, layout: 'stereo-left-right', isStatic: false,
+        radius: 0, centralHorizontalAngle: 2 * Math.PI, upperVerticalAngle: Math.PI / 2, lowerVerticalAngle: -Math.PI / 2,
+      });
+    } catch (error) {
+      console.warn('No equirect layer, so the shader draws:', error.message);
+      this.layer = null;
+    }
+    this.session.updateRenderState(this.layer ? { layers: [this.layer] } : { baseLayer: this.base });
+  }
+
+  // Draws the eyes where something changed. Returns false where the shader must draw: there is no layer, or the browser
+  // keeps the layer for itself.
+  show(frame, { panorama, picture, state }, turn) {
+    const { gl } = this;
+    if (this.picture !== picture) {
+      this.picture = picture;
+      this.create(picture);
+      this.shown = null;
+    }
+    if (!this.layer) return false;
+    const [s, c] = [Math.sin(-turn / 2), Math.cos(turn / 2)];
+    this.layer.transform = new XRRigidTransform({ x: 0, y: 0, z: 0 }, { x: 0, y: -s, z: 0, w: c });
+    const what = `${state.swap} ${state.grid} ${picture.frame?.()}`;
+    if (this.shown === what && !this.layer.needsRedraw) return true;
+    this.shown = what;
+    for (const [eye, name] of ['left', 'right'].entries()) {
+      const part = this.binding.getSubImage(this.layer, frame, name);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, part.colorTexture, 0);
+      const { x, y, width, height } = part.viewport;
+      panorama.draw(picture, {
+        rays: [1, 0, 0, 0, 1, 0, 0, 0, -1], box: [x, y, width, height], eye, swap: state.swap, grid: state.grid,
+        target: this.target, all: true,
+      });
+    }
+    return true;
+  }
+
+  free() {
+    this.layer?.destroy?.();
+    this.gl.deleteFramebuffer(this.target);
+  }
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How two eyes share a flat screen: the parts of the screen (x, y, width, height as fractions, from the lower left) and
+// what each shows.
+const WHOLE = [0, 0, 1, 1];
+const LEFT_HALF = [0, 0, 0.5, 1];
+const RIGHT_HALF = [0.5, 0, 0.5, 1];
+const WIGGLE = 160; // milliseconds per eye
+
+export const MODES = [
+  { name: 'left', label: 'Left eye', parts: () => [{ at: WHOLE, eye: 0 }] },
+  { name: 'right', label: 'Right eye', parts: () => [{ at: WHOLE, eye: 1 }] },
+  {
+    name: 'side-by-side',
+    label: 'Side by side',
+    parts: () => [{ at: LEFT_HALF, eye: 0 }, { at: RIGHT_HALF, eye: 1 }],
+  },
+  {
+    name: 'cross-eyed',
+    label: 'Cross-eyed',
+    parts: () => [{ at: LEFT_HALF, eye: 1 }, { at: RIGHT_HALF, eye: 0 }],
+  },
+  { name: 'anaglyph', label: 'Anaglyph, red-cyan', parts: () => [{ at: WHOLE, show: 'anaglyph' }] },
+  { name: 'wiggle', label: 'Wiggle', moves: true, parts: (now) => [{ at: WHOLE, eye: Math.floor(now / WIGGLE) % 2 }] },
+  { name: 'difference', label: 'Difference', parts: () => [{ at: WHOLE, show: 'difference' }] },
+];
+
+export const modeOf = (name) => MODES.find((mode) => mode.name === name) ?? MODES[0];
+
+// In whole pixels of a canvas.
+export function boxOf([x, y, width, height], canvas) {
+  const [left, low] = [Math.round(x * canvas.width), Math.round(y * canvas.height)];
+  return [left, low, Math.round((x + width) * canvas.width) - left, Math.round((y + height) * canvas.height) - low];
+}

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An eye's picture as a texture: the layers of an array, each a tile with a border of what the world has next to it. So
+// pictures may be larger than the GPU's largest texture, and no filter meets a seam.
+import { compile } from './panorama.js';
+
+const BORDER = 16; // texels, as in panorama.frag: two of the filter at the smallest mip level that is used close by
+const LEVELS = 6; // of mip maps
+const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
+const LARGEST = 4096 + 2 * STEP; // of a layer: larger ones gain nothing, and some browsers fail to fill them
+
+// Copies an eye of a video's frame into a layer. Rendering into an sRGB texture encodes, so it decodes first.
+const CUT = `#version 300 es
+precision highp float;
+precision highp int;
+uniform sampler2D frame;
+uniform ivec4 crop;    // the eye's part of the frame: x, y, width, height
+uniform ivec2 origin;  // of the layer, in the eye's picture
+uniform bool wraps;
+in vec2 screen;
+out vec4 color;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy) + origin;
+  at = ivec2(wraps ? (at.x % crop.z + crop.z) % crop.z : clamp(at.x, 0, crop.z - 1), clamp(at.y, 0, crop.w - 1));
+  vec3 s = texelFetch(frame, crop.xy + at, 0).rgb;
+  color = vec4(mix(pow((s + 0.055) / 1.055, vec3(2.4)), s / 12.92, vec3(lessThanEqual(s, vec3(0.04045)))), 1.0);
+}`;
+
+const upTo = (size, step) => Math.ceil(size / step) * step;
+
+export class EyeTexture {
+  // width, height: of the eye's picture. wraps: its right edge continues at its left edge.
+  constructor(gl, width, height, wraps) {
+    const most = Math.min(LARGEST, gl.getParameter(gl.MAX_TEXTURE_SIZE)) - 2 * BORDER;
+    this.gl = gl;
+    this.size = [width, height];
+    this.wraps = wraps;
+    const columns = Math.ceil(width / most);
+    const rows = Math.ceil(height / most);
+    this.tile = [Math.ceil(width / columns), Math.ceil(height / rows)];
+    this.layer = this.tile.map((side) => upTo(side + 2 * BORDER, STEP));
+    this.tiles = [];
+    for (let row = 0; row < rows; row++) {
+      for (let column = 0; column < columns; column++) {
+        this.tiles.push([column * this.tile[0] - BORDER, row * this.tile[1] - BORDER]);
+      }
+    }
+    this.uniforms = { size: this.size, tile: this.tile, columns };
+    this.texture = gl.createTexture();
+    this.bind();
+    gl.texStorage3D(gl.TEXTURE_2D_ARRAY, LEVELS, gl.SRGB8_ALPHA8, ...this.layer, this.tiles.length);
+    gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    const sharp = gl.getExtension('EXT_texture_filter_anisotropic');
+    if (sharp) gl.texParameterf(gl.TEXTURE_2D_ARRAY, sharp.TEXTURE_MAX_ANISOTROPY_EXT, 8);
+  }
+
+  bind() {
+    this.gl.activeTexture(this.gl.TEXTURE0);
+    this.gl.bindTexture(this.gl.TEXTURE_2D_ARRAY, this.texture);
+  }
+
+  // source: an ImageBitmap; x, y: where the eye's picture begins in it. Gives way between tiles, so that the page stays
+  // alive.
+  async fill(source, x, y) {
+    const { gl } = this;
+    const [width, height] = this.layer;
+    const canvas = new OffscreenCanvas(width, height);
+    const context = canvas.getContext('2d', { alpha: false, willReadFrequently: true });
+    context.imageSmoothingEnabled = false;
+    for (const [layer, origin] of this.tiles.entries()) {
+      this.paint(context, source, x, y, ...origin);
+      this.bind();
+      gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, layer, width, height, 1, gl.RGBA, gl.UNSIGNED_BYTE, canvas);
+      await new Promise((go) => setTimeout(go));
+    }
+    this.bind();
+    gl.generateMipmap(gl.TEXTURE_2D_ARRAY);
+  }
+
+  // Draws what a tile shows, then repeats the edges outwards where the picture ends.
+  paint(context, source, x, y, left, top) {
+    const [width, height] = this.layer;
+    const [whole, high] = this.size;
+    const first = this.wraps ? Math.floor(left / whole) : 0;
+    const last = this.wraps ? Math.floor((left + width - 1) / whole) : 0;
+    const [y0, y1] = [Math.max(top, 0), Math.min(top + height, high)];
+    for (let turn = first; turn <= last; turn++) {
+      const x0 = Math.max(left, turn * whole);
+      const x1 = Math.min(left + width, (turn + 1) * whole);
+      const size = [x1 - x0, y1 - y0];
+      context.drawImage(source, x + x0 - turn * whole, y + y0, ...size, x0 - left, y0 - top, ...size);
+    }
+    const { canvas } = context;
+    const repeat = (x0, x1, edge) => {
+      if (x1 > x0) context.drawImage(canvas, edge, 0, 1, height, x0, 0, x1 - x0, height);
+    };
+    if (!this.wraps) {
+      repeat(0, -left, -left);
+      repeat(whole - left, width, whole - left - 1);
+    }
+    if (top < 0) context.drawImage(canvas, 0, -top, width, 1, 0, 0, width, -top);
+    const bottom = high - top;
+    if (bottom < height) context.drawImage(canvas, 0, bottom - 1, width, 1, 0, bottom, width, height - bottom);
+  }
+
+  free() {
+    this.gl.deleteTexture(this.texture);
+  }
+}
+
+// Moves a video's current frame into the textures of its eyes without leaving the GPU.
+export class FrameCutter {
+  constructor(gl) {
+    this.gl = gl;
+    this.program = compile(gl, CUT);
+    this.at = (name) => gl.getUniformLocation(this.program, name);
+    this.frame = gl.createTexture();
+    this.target = gl.createFramebuffer();
+  }
+
+  // eyes: textures, each with its crop [x, y, width, height] of the frame.
+  cut(video, eyes, crops) {
+    const { gl } = this;
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, this.frame);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, video);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.useProgram(this.program);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
+    for (const eye of new Set(eyes)) {
+      gl.viewport(0, 0, ...eye.layer);
+      gl.uniform4iv(this.at('crop'), crops[eyes.indexOf(eye)]);
+      gl.uniform1i(this.at('wraps'), eye.wraps);
+      eye.tiles.forEach((origin, layer) => {
+        gl.framebufferTextureLayer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, eye.texture, 0, layer);
+        gl.uniform2iv(this.at('origin'), origin);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+      });
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    for (const eye of new Set(eyes)) {
+      eye.bind();
+      gl.generateMipmap(gl.TEXTURE_2D_ARRAY);
+    }
+  }
+
+  free() {
+    this.gl.deleteTexture(this.frame);
+    this.gl.deleteFramebuffer(this.target);
+    this.gl.deleteProgram(this.program);
+  }
+}

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A video as a picture whose eyes change. The browser decodes; times that are asked for are the middles of frames, so
+// that rounding cannot show a neighbour.
+import { cropOf, isRound, same } from './picture.js';
+import { EyeTexture, FrameCutter } from './tiles.js';
+
+const REASONS = {
+  1: 'stopped loading. Reload the page.',
+  2: 'did not load: the connection broke. Is the server still running?',
+  3: 'is damaged, or its codec is too much for this browser. Try H.264: ods encode --codec h264',
+  4: 'has a codec or a container that this browser does not play. Try H.264 in MP4: ods encode --codec h264 -o video.mp4',
+};
+
+function whenLoaded(video, name, signal) {
+  return new Promise((done, fail) => {
+    const failed = () => fail(new Error(`${name} ${REASONS[video.error?.code] ?? REASONS[4]}`));
+    video.addEventListener('loadeddata', done, { once: true, signal });
+    video.addEventListener('error', failed, { once: true, signal });
+    signal?.addEventListener('abort', () => fail(signal.reason), { once: true });
+  });
+}
+
+export async function openVideo(gl, item, form, url, signal) {
+  const video = document.createElement('video');
+  Object.assign(video, { src: url.href, preload: 'auto', playsInline: true, loop: true });
+  const close = () => {
+    video.pause();
+    video.removeAttribute('src');
+    video.load();
+  };
+  try {
+    await whenLoaded(video, item.name, signal);
+  } catch (error) {
+    close();
+    throw error;
+  }
+  const fps = item.video?.fps || 30;
+  const file = { width: video.videoWidth, height: video.videoHeight };
+  const crops = [cropOf(form.layout.left, file), cropOf(form.layout.right, file)];
+  const mono = same(...crops);
+  const wraps = isRound(form.camera);
+  const left = new EyeTexture(gl, crops[0][2], crops[0][3], wraps);
+  const eyes = [left, mono ? left : new EyeTexture(gl, crops[1][2], crops[1][3], wraps)];
+  const cutter = new FrameCutter(gl);
+  const frames = item.video?.frames || Math.round(video.duration * fps);
+  let mediaTime = 0;
+  let isNew = true;
+  const heard = new AbortController();
+
+  // The browser says when it has another frame; where it does not, whenever one may be there.
+  const listen = () => video.requestVideoFrameCallback?.((now, about) => {
+    mediaTime = about.mediaTime;
+    isNew = true;
+    picture.changed?.();
+    listen();
+  });
+  if (!video.requestVideoFrameCallback) {
+    for (const event of ['seeked', 'timeupdate']) {
+      video.addEventListener(event, () => {
+        mediaTime = video.currentTime;
+        isNew = true;
+        picture.changed?.();
+      }, { signal: heard.signal });
+    }
+  }
+  for (const event of ['play', 'pause', 'ended', 'volumechange', 'ratechange', 'seeked']) {
+    video.addEventListener(event, () => picture.changed?.(), { signal: heard.signal });
+  }
+
+  const picture = {
+    eyes, camera: form.camera, mono, video, fps, frames,
+    changed: null, // called when there is something new to draw or to say
+    frame: () => Math.min(Math.floor(mediaTime * fps + 0.5), frames - 1),
+    // Before it is drawn: puts a new frame into the textures.
+    refresh() {
+      if (!isNew || video.readyState < 2) return;
+      isNew = false;
+      cutter.cut(video, eyes, crops);
+    },
+    toggle: () => (video.paused ? video.play().catch(() => {}) : video.pause()),
+    seek(seconds) {
+      video.currentTime = Math.min(Math.max(seconds, 0), video.duration);
+    },
+    step(count) {
+      video.pause();
+      const to = Math.min(Math.max(picture.frame() + count, 0), frames - 1);
+      video.currentTime = (to + 0.5) / fps;
+    },
+    free() {
+      heard.abort();
+      picture.changed = null;
+      close();
+      cutter.free();
+      new Set(eyes).forEach((eye) => eye.free());
+    },
+  };
+  listen();
+  return picture;
+}
