@@ -8,7 +8,7 @@
 // same lines, and differ only in where they put them.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/camera/project.h"
+#include "ods/kernel/camera/look_of_point.h"
 namespace ods {
 #endif
 
