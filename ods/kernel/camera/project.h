@@ -13,10 +13,10 @@
 // Otherwise r and n depend on phi, and the equation in phi has one root, since a circle that shrinks towards the poles
 // never makes rays cross: bisection finds it.
 //
-// A head-tilt map moves the eyes out of the circle's plane, so none of this holds: look_of_point() iterates.
+// A head-tilt map moves the eyes out of the circle's plane, so none of this holds: look_of_point() (line.h) iterates.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/camera/look_of_point.h"
+#include "ods/kernel/camera/line.h"
 namespace ods {
 #endif
 
