@@ -12,7 +12,7 @@
 
 #include "ods/base/error.h"
 #include "ods/denoise/denoise.h"
-#include "ods/kernel/camera/line.h"
+#include "ods/kernel/camera/project.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/render_target.h"
 #include "ods/scene/motion.h"

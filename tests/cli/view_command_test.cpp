@@ -2,20 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods view as its user starts it, and as others attack it: by requests byte by byte.
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <atomic>
 #include <chrono>
 #include <fstream>
-#include <optional>
-#include <regex>
 #include <thread>
 
-#include "tests/support/cli_runner.h"
+#include "tests/support/served.h"
 
 using namespace std::chrono_literals;
 
@@ -23,69 +18,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A connection to the server. Reading ends after ten seconds.
-class Connection {
- public:
-  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{10, 0};
-    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  }
-  Connection(Connection&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
-  Connection(const Connection&) = delete;
-  ~Connection() {
-    if (socket_ >= 0) close(socket_);
-  }
-
-  bool send_text(const std::string& text) const {
-    return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
-  }
-
-  // Until the server closes.
-  std::string read_all() const {
-    std::string text;
-    char piece[65536];
-    for (ssize_t count = 0; (count = recv(socket_, piece, sizeof(piece), 0)) > 0;) {
-      text.append(piece, static_cast<size_t>(count));
-    }
-    return text;
-  }
-
- private:
-  int socket_;
-};
-
-class ViewCommand : public Cli {
+class ViewCommand : public Served {
  protected:
   void SetUp() override {
-    setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
     picture = folder.path("small_360_TB.png");
     ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
-    server.emplace(std::vector<std::string>{"view", picture, "--no-browser"});
-    server->wait_for("Ctrl-C ends it");
-    const std::string address = server->out.substr(0, server->out.find('\n'));
-    std::smatch parts;
-    ASSERT_TRUE(std::regex_match(address, parts, std::regex("http://127\\.0\\.0\\.1:([0-9]+)/([0-9a-f]{32})/")))
-        << address;
-    port = std::stoi(parts[1]);
-    secret = parts[2];
+    serve({picture});
   }
-
-  std::string head(const std::string& path, const std::string& method = "GET", const std::string& more = "") const {
-    return fmt::format("{} {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n{}\r\n", method, path, port, more);
-  }
-
-  // The answer to a request, head and body.
-  std::string ask(const std::string& request) const {
-    const Connection connection(port);
-    connection.send_text(request);
-    return connection.read_all();
-  }
-  std::string get(const std::string& path) const { return ask(head(fmt::format("/{}/{}", secret, path))); }
 
   // Kilobytes of the server's that are in memory.
   long resident() const {
@@ -97,14 +36,7 @@ class ViewCommand : public Cli {
   }
 
   std::string picture;
-  std::optional<Ods> server;
-  int port = 0;
-  std::string secret;
 };
-
-int status_of(const std::string& answer) {
-  return answer.starts_with("HTTP/1.1 ") ? std::stoi(answer.substr(9)) : 0;
-}
 
 }  // namespace
 

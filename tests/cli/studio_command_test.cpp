@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio of ods view as its page uses it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "ods/image/image_file.h"
+#include "ods/image/tone.h"
+#include "tests/support/served.h"
+
+using Json = nlohmann::json;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Frame {
+  Json about;
+  std::string pixels;
+};
+
+class StudioCommand : public Served {
+ protected:
+  void SetUp() override {
+    std::filesystem::current_path(folder.path(""));  // where pictures are written
+    serve({"toys"});
+  }
+  void TearDown() override {
+    Served::TearDown();
+    std::filesystem::current_path("/");
+  }
+
+  Json asked(const std::string& path, const Json& body = Json::object()) const {
+    const std::string answer = post("studio/" + path, body.dump());
+    EXPECT_EQ(status_of(answer), 200) << path << ": " << answer;
+    return Json::parse(body_of(answer), nullptr, false);
+  }
+
+  // The next frame of this revision and part with so many samples.
+  Frame frame_of(int revision, const std::string& part, int samples) const {
+    for (int number = 0, tries = 0; tries < 200; tries++) {
+      const std::string answer = get(fmt::format("studio/frame?after={}", number)), body = body_of(answer);
+      if (status_of(answer) == 204) continue;
+      EXPECT_EQ(status_of(answer), 200) << answer.substr(0, 300);
+      if (status_of(answer) != 200) break;
+      size_t size = 0;
+      for (size_t i = 0; i < 4; i++) size |= static_cast<size_t>(static_cast<unsigned char>(body[i])) << (8 * i);
+      Frame frame{Json::parse(body.substr(4, size)), body.substr(4 + size)};
+      number = std::max(number, frame.about["number"].get<int>());
+      if (frame.about["revision"] == revision && frame.about["part"] == part && frame.about["samples"] >= samples) {
+        return frame;
+      }
+    }
+    ADD_FAILURE() << "no such frame";
+    return {};
+  }
+};
+
+// The mean of code values 0..255 of each half, one above the other.
+std::array<double, 2> means_of_halves(const std::vector<float>& values) {
+  std::array<double, 2> sums{};
+  for (size_t i = 0; i < values.size(); i++) sums[i * 2 / values.size()] += static_cast<double>(values[i]);
+  for (double& sum : sums) sum /= static_cast<double>(values.size()) / 2.0;
+  return sums;
+}
+
+}  // namespace
+
+TEST_F(StudioCommand, DescribesItsControls) {
+  const Json studio = Json::parse(body_of(get("view.json")))["studio"];
+  EXPECT_EQ(studio["scene"], "toys");
+  EXPECT_EQ(studio["settings"]["sidecar"]["merge_top"]["mode"], "cosine");
+  EXPECT_EQ(studio["ranges"]["ipd"][0], 0.0);
+  EXPECT_EQ(studio["settings"]["exposure"], 0.0);
+}
+
+// Thirty changes in quick succession; then the picture is that of the command that the page shows.
+TEST_F(StudioCommand, ShowsWhatItsCommandRenders) {
+  Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
+  Json answer;
+  for (int i = 0; i < 30; i++) {
+    settings["sidecar"]["yaw"] = 3 * i;
+    settings["sidecar"]["merge_top"] = {{"mode", "linear"}, {"start", 30 + i}, {"end", 85}, {"exponent", 1}};
+    settings["exposure"] = 0.5;
+    settings["width"] = 512;
+    answer = asked("set", settings);
+    std::this_thread::sleep_for(20ms);
+  }
+  const Frame frame = frame_of(answer["revision"], "base", 4);
+  ASSERT_FALSE(frame.pixels.empty());
+  const std::string command = answer["command"];
+  EXPECT_NE(command.find("--yaw 87"), std::string::npos) << command;
+  EXPECT_NE(command.find("--merge-top linear,59,85,1"), std::string::npos) << command;
+  ASSERT_TRUE(command.starts_with("ods ")) << command;
+  ASSERT_EQ(run(command.substr(4) + " -q --samples 16 --noise 0"), 0) << err;
+  std::vector<float> shown;
+  for (const char c : frame.pixels) shown.push_back(static_cast<float>(static_cast<unsigned char>(c)));
+  std::vector<float> rendered;
+  for (const float light : ods::read_image(folder.path("toys_360_TB.png")).pixels) {
+    rendered.push_back(255.0f * ods::srgb_encode(light));
+  }
+  const auto ours = means_of_halves(shown), theirs = means_of_halves(rendered);
+  for (size_t eye = 0; eye < 2; eye++) EXPECT_NEAR(ours[eye], theirs[eye], 1.0) << eye;
+}
+
+TEST_F(StudioCommand, SaysWhatIsWrongWithASetting) {
+  for (const char* wrong :
+       {R"({"sidecar":{"omnistereo_camera":1,"ipd":-1}})", R"({"exposure":"bright"})", R"({"tone":"x"})",
+        R"({"env":"/etc/passwd"})", R"({"variant":"none"})", R"({"width":1})", "{", "[]", "null",
+        R"({"sidecar":{"omnistereo_camera":1,"merge_top":{"mode":"linear","start":90,"end":90}}})"}) {
+    const std::string answer = post("studio/set", wrong);
+    EXPECT_EQ(status_of(answer), 400) << wrong << answer;
+    EXPECT_EQ(std::count(body_of(answer).begin(), body_of(answer).end(), '\n'), 1) << wrong;
+  }
+  EXPECT_EQ(status_of(post("studio/set", std::string(1 << 17, ' '))), 413);
+}
+
+TEST_F(StudioCommand, RendersUnderANewNameOnly) {
+  for (const char* name : {"", "../up.png", "/tmp/x.png", ".hidden.png", "-x.png", "no_picture.txt", "a/b.png"}) {
+    EXPECT_EQ(status_of(post("studio/render", Json({{"output", name}, {"quality", "draft"}}).dump())), 400) << name;
+  }
+  asked("set", {{"width", 64}});
+  asked("render", {{"output", "small_360_TB.png"}, {"quality", "draft"}});
+  EXPECT_EQ(status_of(post("studio/render", R"({"output":"other.png","quality":"draft"})")), 400) << "one at a time";
+  Json job;
+  for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
+    std::this_thread::sleep_for(100ms);
+    job = Json::parse(body_of(get("studio/job")));
+  }
+  EXPECT_EQ(job["state"], "done") << job;
+  EXPECT_EQ(job["item"], 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("small_360_TB.png")));
+  EXPECT_NE(get("item/0/picture.png").find("\x89PNG"), std::string::npos);
+  EXPECT_EQ(status_of(post("studio/render", R"({"output":"small_360_TB.png","quality":"draft"})")), 400) << "it exists";
+}
+
+TEST_F(StudioCommand, CancelsWhatItRenders) {
+  asked("set", {{"width", 4096}});
+  asked("render", {{"output", "large_360_TB.png"}, {"quality", "final"}});
+  asked("cancel");
+  EXPECT_EQ(Json::parse(body_of(get("studio/job")))["state"], "cancelled");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("large_360_TB.png")));
+}
+
+TEST_F(StudioCommand, SavesTheCameraAndTakesItBack) {
+  Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
+  settings["sidecar"]["roll"] = 12.5;
+  asked("set", settings);
+  EXPECT_EQ(asked("save")["file"], "toys.camera.json");
+  settings["sidecar"]["roll"] = 0;
+  asked("set", settings);
+  const std::string answer = post("studio/drop?name=toys.camera.json", folder.read("toys.camera.json"));
+  ASSERT_EQ(status_of(answer), 200) << answer;
+  EXPECT_EQ(Json::parse(body_of(answer))["settings"]["sidecar"]["roll"], 12.5);
+  EXPECT_EQ(status_of(post("studio/drop?name=x.exe", "MZ")), 400);
+  EXPECT_EQ(status_of(post("studio/drop?name=x.glb", "no scene")), 400);
+  EXPECT_EQ(status_of(get("studio/status")), 200) << "the old scene is still there";
+}
+
+TEST_F(StudioCommand, SaysWhatAClickMeets) {
+  const Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
+  frame_of(asked("set", settings)["revision"], "base", 2);
+  const Json ground = asked("pick", {{"yaw", 0}, {"pitch", -60}, {"eye", "left"}});
+  ASSERT_TRUE(ground.contains("distance")) << ground;
+  EXPECT_GT(ground["distance"], 0.1);
+  EXPECT_GT(ground["disparity"], 0.0);
+}
