@@ -32,6 +32,8 @@ struct Eye {
 };
 
 uniform Camera camera;
+uniform bool over;    // the picture is a finer window of the one that is drawn already,
+uniform Camera below;  // whose camera this is
 uniform Eye eyes[2];
 uniform sampler2DArray left_tiles;
 uniform sampler2DArray right_tiles;
@@ -255,6 +257,14 @@ vec3 with_grid(vec3 shown, vec3 direction, vec3 dy) {
   return mix(shown, vec3(1.0, 0.8, 0.3), 0.8 * thick);
 }
 
+// How much of a window covers what is below it: it fades at its edges, and adds nothing where the picture below ends.
+float cover(int which, vec3 direction) {
+  Place place = place_at(which, direction);
+  if (!place.seen || !place_of_line(below, mono ? kMono : which, direction).seen) return 0.0;
+  vec2 inside = min(place.at, eyes[which].size - place.at);
+  return clamp(min(inside.x, inside.y) / 12.0, 0.0, 1.0);
+}
+
 void main() {
   vec3 direction = direction_at(screen);
   vec3 dx = direction_at(screen + vec2(2.0 / viewport.x, 0.0)) - direction;
@@ -269,4 +279,6 @@ void main() {
   }
   if (grid) shown = with_grid(shown, direction, dy);
   color = vec4(shown, 1.0);
+  if (over && mode == kOneEye) color.a = cover(eye, direction);
+  if (over && mode != kOneEye) color.a = min(cover(kLeft, direction), cover(kRight, direction));
 }

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio's talk with the server: settings go out, frames come in. Two sides, A and B, each with settings of its own
+// and a history; the server renders the active one. Events: `edit` (the settings, the history or the active side),
+// `accepted` (detail: its side), `refused` (detail: { text, paths }), `status` (detail: what a frame or the server says of
+// itself), `lost` and `found` (the server).
+const PAUSE = 30; // milliseconds between two messages
+const PATIENCE = 400; // milliseconds that a drag waits for a picture of what it sent, so that one appears at all
+const HISTORY = 200;
+
+export const sleep = (time) => new Promise((done) => setTimeout(done, time));
+const copy = (value) => structuredClone(value);
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+export const valueAt = (settings, path) => path.split('.').reduce((from, key) => from?.[key], settings);
+
+function put(settings, path, value) {
+  const keys = path.split('.');
+  const last = keys.pop();
+  const parent = keys.reduce((from, key) => (from[key] ??= {}), settings);
+  if (value === undefined) delete parent[last];
+  else parent[last] = value;
+}
+
+// The paths where two settings differ.
+function changes(a, b, at = '') {
+  if (same(a, b)) return [];
+  if (typeof a !== 'object' || typeof b !== 'object' || !a || !b) return [at];
+  return [...new Set([...Object.keys(a), ...Object.keys(b)])].flatMap((key) => changes(a[key], b[key], at ? `${at}.${key}` : key));
+}
+
+// Sends JSON, or a file as it is. Throws an Error with the server's line of text; its `refused` says that the server
+// understood, and will not.
+export async function ask(path, body) {
+  const options = body === undefined ? {} : { method: 'POST', body: body instanceof Blob ? body : JSON.stringify(body) };
+  const answer = await fetch(`studio/${path}`, options);
+  if (answer.ok) return answer.json();
+  const text = (await answer.text()).trim().split('\n')[0];
+  throw Object.assign(new Error(text || `The server answers ${answer.status}`), { refused: answer.status < 500 });
+}
+
+export class Session extends EventTarget {
+  // look(): { yaw, pitch, fov, aspect } of the view. onFrame(meta, pixels, side): shows it, may be async.
+  constructor(settings, look, onFrame) {
+    super();
+    Object.assign(this, { look, onFrame, revision: 0, number: 0, alive: true, wanted: false, eager: true, sentAt: 0, shown: 0 });
+    this.sides = [{ settings: copy(settings), past: [], future: [] }];
+    this.active = 0;
+    this.accepted = copy(settings);
+    this.receive();
+  }
+
+  get side() {
+    return this.sides[this.active];
+  }
+
+  get settings() {
+    return this.side.settings;
+  }
+
+  say(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+
+  // Changes values by their paths; undefined removes one. Edits with the same gesture (not null) are one step to undo;
+  // `dragging` says that more will follow at once.
+  edit(values, gesture = null, dragging = false) {
+    const { side } = this;
+    const next = copy(side.settings);
+    for (const [path, value] of Object.entries(values)) put(next, path, value);
+    if (same(next, side.settings)) {
+      if (!dragging && !this.eager) this.send(true);
+      return;
+    }
+    if (gesture === null || gesture !== this.gesture) {
+      side.past.push(side.settings);
+      if (side.past.length > HISTORY) side.past.shift();
+      side.future = [];
+    }
+    this.gesture = gesture;
+    this.use(next, !dragging);
+  }
+
+  use(settings, eager = true) {
+    this.side.settings = settings;
+    this.say('edit');
+    this.send(eager);
+  }
+
+  // by: -1 undoes, 1 redoes.
+  step(by) {
+    const [from, to] = by < 0 ? [this.side.past, this.side.future] : [this.side.future, this.side.past];
+    if (!from.length) return false;
+    to.push(this.settings);
+    this.gesture = null;
+    this.use(from.pop());
+    return true;
+  }
+
+  // The other side; at first a copy of this one.
+  swap(to = 1 - this.active) {
+    if (to === this.active) return;
+    this.sides[to] ??= { settings: copy(this.settings), past: [], future: [] };
+    this.active = to;
+    this.gesture = null;
+    this.say('edit');
+    this.send(true);
+  }
+
+  // Settings that the server made, as after a drop.
+  replace(settings) {
+    this.side.past.push(this.settings);
+    this.side.future = [];
+    this.use(copy(settings));
+  }
+
+  async send(eager) {
+    Object.assign(this, { wanted: true, eager });
+    if (this.sending) return;
+    this.sending = true;
+    while (this.wanted) {
+      while (this.mustWait()) await sleep(8);
+      this.wanted = false;
+      const { side } = this;
+      const settings = side.settings;
+      this.sentAt = performance.now();
+      this.answer = ask('set', { ...settings, look: this.look() });
+      try {
+        const { revision, command } = await this.answer;
+        this.revision = revision;
+        Object.assign(side, { revision, command, sent: settings });
+        this.accepted = settings;
+        this.say('accepted', side);
+      } catch (error) {
+        if (error.refused) this.say('refused', { text: error.message, paths: changes(this.accepted, settings) });
+        else {
+          this.lose();
+          await sleep(1000);
+          this.wanted = true;
+        }
+      }
+    }
+    this.sending = false;
+  }
+
+  mustWait() {
+    const since = performance.now() - this.sentAt;
+    return since < PAUSE || (!this.eager && since < PATIENCE && this.shown < this.revision);
+  }
+
+  lose() {
+    if (!this.alive) return;
+    this.alive = false;
+    this.say('lost');
+  }
+
+  // The server is back, and knows nothing of us.
+  find() {
+    Object.assign(this, { alive: true, revision: 0, number: 0, shown: 0 });
+    this.say('found');
+    this.send(true);
+  }
+
+  async receive() {
+    for (;;) {
+      try {
+        const answer = await fetch(`studio/frame?after=${this.number}`);
+        if (!answer.ok) throw new Error();
+        if (!this.alive) this.find();
+        if (answer.status === 204) this.say('status', await ask('status'));
+        else await this.show(await answer.arrayBuffer());
+      } catch (error) {
+        if (error.name === 'FrameError') console.warn(error.message);
+        else this.lose();
+        await sleep(1000);
+      }
+    }
+  }
+
+  async show(buffer) {
+    const length = new DataView(buffer).getUint32(0, true);
+    const meta = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+    this.number = meta.number;
+    await this.answer?.catch(() => {}); // it may say that this frame is old
+    const { side } = this;
+    if (meta.revision < this.revision || (side.revision && meta.revision !== side.revision)) return;
+    this.shown = meta.revision;
+    const pixels = new Uint8Array(buffer, 4 + length);
+    try {
+      await this.onFrame(meta, pixels, side);
+    } catch (error) {
+      throw Object.assign(error, { name: 'FrameError' });
+    }
+    this.say('status', meta);
+  }
+}
