@@ -103,9 +103,9 @@ export class Controls {
     find('name').title = about.name;
     document.title = `${about.name} – Omnistereo`;
     find('picture').setAttribute('aria-label', `${about.name}. Look around with the arrow keys; ? lists all keys.`);
-    const why = about.layout_reason ? ` (${about.layout_reason})` : '';
+    find('reason').textContent = choice.layout ? '' : (about.layout_reason ?? '');
     const layouts = view.layouts.map(({ name }) => [name, name]);
-    fill(find('layout'), about.image ? [['', `as found: ${about.layout}${why}`], ...layouts] : [['', about.layout ?? 'a file per eye']]);
+    fill(find('layout'), about.image ? [['', `as found: ${about.layout}`], ...layouts] : [['', about.layout ?? 'a file per eye']]);
     find('layout').disabled = !about.image;
     find('layout').value = choice.layout ?? '';
     fill(find('projection'), [['', `as found: ${about.projection}`], ...view.projections.map(({ name }) => [name, name])]);

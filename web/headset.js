@@ -69,6 +69,7 @@ export class Headset {
     this.layers?.free();
     Object.assign(this, { session: null, layers: null, pose: null });
     this.viewer.session = null;
+    this.viewer.resize();
     this.viewer.redraw();
     this.viewer.say('change');
   }

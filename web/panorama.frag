@@ -37,20 +37,23 @@ uniform Camera below;  // whose camera this is
 uniform Eye eyes[2];
 uniform sampler2DArray left_tiles;
 uniform sampler2DArray right_tiles;
-uniform mat3 rays;      // a pixel at (x, y), both -1..1, looks along rays * (x, y, 1) in the picture's frame
+uniform sampler2D merge_texels;
+uniform sampler2D head_tilt_texels;
+uniform mat3 rays;        // a pixel at (x, y), both -1..1, looks along rays * (x, y, 1) in the picture's frame
 uniform bool all_around;  // the view is a lat-long picture of the whole sphere instead
-uniform vec2 viewport;  // pixels
+uniform vec2 viewport;    // pixels
 uniform int mode;
-uniform int eye;    // for kOneEye
-uniform bool mono;  // both eyes are the same picture
-uniform bool fast;  // let the GPU filter what is minified
+uniform int eye;          // for kOneEye
+uniform bool mono;        // both eyes are the same picture
+uniform bool fast;        // let the GPU filter what is minified
 uniform bool grid;
 in vec2 screen;
 out vec4 color;
 
-// The viewer's pictures have no maps: a camera whose eyes a map moves comes without it.
 float camera_map_texel(Camera a_camera, int which, int i) {
-  return which == kMapOfMerge ? 1.0 : 0.5;
+  int width = which == kMapOfMerge ? a_camera.merge_map.width : a_camera.head_tilt_map.width;
+  ivec2 at = ivec2(i % width, i / width);
+  return which == kMapOfMerge ? texelFetch(merge_texels, at, 0).x : texelFetch(head_tilt_texels, at, 0).x;
 }
 
 vec3 direction_at(vec2 at) {

@@ -72,18 +72,34 @@ export class Panorama {
       this.uniforms.push({ path: name.split(/[.[\]]+/), type, at: gl.getUniformLocation(this.program, name) });
     }
     gl.bindVertexArray(gl.createVertexArray());
+    this.maps = new Map();
   }
 
-  // Sets every uniform to the value of its name in nested objects and arrays.
+  // Binds a map of the camera (camera.merge_map, camera.head_tilt_map) to a texture unit.
+  bindMap(unit, { width, height, texels }) {
+    const { gl } = this;
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    gl.bindTexture(gl.TEXTURE_2D, this.maps.get(texels) ?? null);
+    if (!texels || this.maps.has(texels)) return;
+    this.maps.set(texels, gl.createTexture());
+    gl.bindTexture(gl.TEXTURE_2D, this.maps.get(texels));
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, width, height, 0, gl.RED, gl.FLOAT, new Float32Array(texels));
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+  }
+
+  // Sets every uniform to the value of its name in nested objects and arrays. What view.json leaves out stays 0: drivers
+  // may keep uniforms that no pixel needs.
   set(values) {
     const { gl } = this;
     const setters = {
       [gl.FLOAT]: gl.uniform1f, [gl.FLOAT_VEC2]: gl.uniform2fv, [gl.FLOAT_VEC3]: gl.uniform3fv,
       [gl.INT]: gl.uniform1i, [gl.BOOL]: gl.uniform1i, [gl.SAMPLER_2D_ARRAY]: gl.uniform1i,
+      [gl.SAMPLER_2D]: gl.uniform1i,
     };
     for (const { path, type, at } of this.uniforms) {
       const value = path.reduce((from, key) => from?.[key], values);
-      if (value === undefined) throw new Error(`view.json has no ${path.join('.')}. Export the folder again.`);
+      if (value === undefined) continue;
       if (type === gl.FLOAT_MAT3) gl.uniformMatrix3fv(at, false, value);
       else setters[type].call(gl, at, value);
     }
@@ -117,8 +133,10 @@ export class Panorama {
       gl.activeTexture(gl.TEXTURE0 + i);
       gl.bindTexture(gl.TEXTURE_2D_ARRAY, each.texture);
     });
+    this.bindMap(2, picture.camera.merge_map);
+    this.bindMap(3, picture.camera.head_tilt_map);
     this.set({
-      camera: picture.camera, eyes: eyes.map((each) => each.uniforms), left_tiles: 0, right_tiles: 1, rays,
+      camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), left_tiles: 0, right_tiles: 1, rays,
       all_around: all, viewport: box.slice(2), mode: MODES[show], eye, mono: picture.mono, fast, grid,
       over: Boolean(picture.below), below: picture.below ?? picture.camera,
     });

@@ -67,7 +67,7 @@ async function openImage(gl, item, form, url, signal, progress) {
   const wraps = isRound(form.camera);
   const files = item.image ? [url(item.image)] : [url(item.left), url(item.right)];
   const crops = item.image ? [form.layout.left, form.layout.right] : [[0, 0, 1, 1], [0, 0, 1, 1]];
-  const mono = files.length === 1 && same(...crops);
+  const mono = files.length === 1 ? same(...crops) : item.left === item.right;
   const eyes = [];
   const free = () => new Set(eyes).forEach((eye) => eye.free());
   let source = null;

@@ -45,8 +45,10 @@ export class Viewer extends EventTarget {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 
+  // An emulated headset draws into the canvas, whose size is then not ours to change.
   resize() {
     const { canvas } = this;
+    if (this.session) return;
     const scale = window.devicePixelRatio || 1;
     canvas.width = Math.max(1, Math.round(canvas.clientWidth * scale));
     canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));

@@ -4,27 +4,91 @@
 // Draws looks with the page's own modules and sends them to the server that asks for them: jobs.json is
 //   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap }] }, ...]
 // where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
-import { openPicture } from './picture.js';
+// A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
+// have `press` and `stick`: what a hand does to its controller first.
+import { Headset } from './headset.js';
 import { Panorama, loadShader, raysOf } from './panorama.js';
+import { openPicture } from './picture.js';
+import { Viewer } from './viewer.js';
 
 const json = async (path) => (await fetch(path)).json();
 const post = (path, body) => fetch(path, { method: 'POST', body });
-const canvas = document.querySelector('canvas');
+const sendCanvas = async (canvas, name) => post(`result/${name}`, await new Promise((done) => canvas.toBlob(done)));
+
+function makeCanvas({ width, height }) {
+  const canvas = document.createElement('canvas');
+  Object.assign(canvas, { width, height });
+  canvas.style.width = `${width}px`;
+  canvas.style.height = `${height}px`;
+  document.body.append(canvas);
+  return canvas;
+}
+
+async function draw(view, shader, job) {
+  const { item, choice, width, height, looks } = job;
+  const canvas = makeCanvas(job);
+  const panorama = new Panorama(canvas, shader);
+  const picture = await openPicture(panorama, view, view.items[item], { choice });
+  picture.refresh?.();
+  for (const { name, eye = 0, show, swap, ...look } of looks) {
+    panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap });
+    await sendCanvas(canvas, name);
+  }
+  picture.free();
+  panorama.gl.getExtension('WEBGL_lose_context')?.loseContext();
+  canvas.remove();
+}
+
+// As the device's orientation: a turn to the right by yaw, after one up by pitch.
+function orient(quaternion, { yaw = 0, pitch = 0 }) {
+  const [y, p] = [-yaw, pitch].map((angle) => (angle * Math.PI) / 360);
+  const [sy, cy, sp, cp] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p)];
+  quaternion.set(cy * sp, sy * cp, -sy * sp, cy * cp);
+}
+
+async function wear(view, shader, job) {
+  const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
+  const device = new XRDevice(metaQuest3);
+  device.installRuntime({ forceInstall: true });
+  device.stereoEnabled = true;
+  device.fovy = Math.PI / 2;
+  device.position.set(3, 1.6, -2); // which must not matter
+  const canvas = makeCanvas(job);
+  const viewer = new Viewer(canvas, view, shader, location.href);
+  await viewer.open(job.item, job.choice);
+  if (!viewer.picture) throw new Error('the picture did not open');
+  const headset = new Headset(viewer, {});
+  await headset.toggle();
+  // Our callback comes after the headset's, which was asked for before.
+  const frames = (count) => new Promise((done) => {
+    const next = () => (count-- > 0 && headset.session ? headset.session.requestAnimationFrame(next) : done());
+    next();
+  });
+  for (const { name, press, stick, ...look } of job.looks) {
+    orient(device.quaternion, look);
+    await frames(4);
+    const hand = device.controllers.right;
+    if (press) {
+      hand.updateButtonValue(press, 1);
+      await frames(4);
+      hand.updateButtonValue(press, 0);
+    }
+    if (stick) {
+      hand.updateAxes('thumbstick', ...stick);
+      await frames(4);
+      hand.updateAxes('thumbstick', 0, 0);
+    }
+    await frames(4);
+    if (headset.session) await sendCanvas(canvas, name);
+    else await post(`result/${name}`, 'left');
+  }
+  if (headset.session) await headset.session.end();
+  await post('result/ended', String(viewer.session));
+}
 
 async function run() {
-  const view = await json('view.json');
-  const panorama = new Panorama(canvas, await loadShader(location.href));
-  for (const { item, choice, width, height, looks } of await json('jobs.json')) {
-    Object.assign(canvas, { width, height });
-    const picture = await openPicture(panorama, view, view.items[item], { choice });
-    picture.refresh?.();
-    for (const { name, eye = 0, show, swap, ...look } of looks) {
-      panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap });
-      const png = await new Promise((done) => canvas.toBlob(done));
-      await post(`result/${name}`, png);
-    }
-    picture.free();
-  }
+  const [view, shader, jobs] = [await json('view.json'), await loadShader(location.href), await json('jobs.json')];
+  for (const job of jobs) await (job.headset ? wear : draw)(view, shader, job);
 }
 
 run().then(() => post('done', 'ok'), (error) => post('done', `${error.message}\n${error.stack}`));

@@ -1,0 +1,408 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The viewer's page in real browsers, against ods convert: every projection and every layout, each eye, at five looks.
+// Chromium and Firefox run without a screen and are skipped where they are missing. The pages come from the server of
+// `ods view` itself, with its policy of what a page may load.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/view/export_site.h"
+#include "cli/view/http_server.h"
+#include "ods/base/error.h"
+#include "ods/files/file_input.h"
+#include "ods/image/compare.h"
+#include "ods/image/tone.h"
+#include "ods/view/page.h"
+#include "tests/support/picture_rows.h"
+#include "tests/support/stored_pictures.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kWindow = 256;     // pixels
+constexpr int kPerRadian = 163;  // of the pictures: 1024 around
+constexpr double kAlike = 38.0;  // dB
+constexpr auto kPatience = std::chrono::seconds(150);
+const std::vector<int> kBothEyes{kLeft, kRight};
+
+struct Look {
+  float yaw, pitch, fov;
+};
+using Looks = std::array<Look, 5>;
+
+constexpr Looks kAround = {{{0, 0, 90}, {179, 20, 70}, {100, -75, 90}, {-45, 85, 60}, {30, -10, 25}}};
+constexpr Looks kAhead = {{{0, 0, 60}, {30, 20, 60}, {-35, -25, 50}, {5, -30, 60}, {10, 5, 20}}};
+constexpr Looks kNarrow = {{{0, 0, 60}, {10, 8, 40}, {-12, -8, 40}, {0, 0, 20}, {5, -5, 50}}};
+constexpr Looks kThroughLens = {{{0, 0, 20}, {3, 3, 12}, {-4, 2, 10}, {2, -3, 14}, {0, 0, 8}}};
+constexpr Looks kLevel = {{{0, 0, 90}, {179, 10, 60}, {90, -20, 60}, {-100, 20, 40}, {30, 0, 20}}};
+constexpr Looks kAbove = {{{0, 50, 60}, {90, 45, 60}, {180, 60, 50}, {-60, 80, 60}, {20, 40, 40}}};
+// Straight behind, a mirror ball is all rim: a texel there is a streak across the view.
+constexpr Looks kNotBehind = {{{0, 0, 90}, {120, 20, 60}, {100, -60, 80}, {-45, 70, 60}, {30, -10, 25}}};
+
+// Within what the projection shows.
+const Looks& looks_in(std::string_view projection) {
+  if (projection == "vr180" || projection == "fisheye" || projection == "fisheye-equisolid") return kAhead;
+  if (projection == "perspective" || projection == "eac-face") return kNarrow;
+  if (projection == "fisheye-polynomial") return kThroughLens;
+  if (projection == "cylinder") return kLevel;
+  if (projection == "dome") return kAbove;
+  if (projection == "mirror-ball") return kNotBehind;
+  return kAround;
+}
+
+// Waves from broad to about four texels, bent differently for each eye.
+void world(int eye, vec3 d, float* out) {
+  const float phase = eye == kRight ? 1.2f : 0.0f;
+  const float fine = std::sin(28.0f * d.x + phase) * std::sin(31.0f * d.y) * std::sin(29.0f * d.z + phase);
+  const vec3 broad(std::sin(5.0f * d.x + 2.0f * d.y + phase), std::sin(7.0f * d.z - 3.0f * d.x * d.y + phase),
+                   std::cos(6.0f * d.y + d.x + phase));
+  for (int c = 0; c < 3; c++) out[c] = 0.4f + 0.2f * broad[c] + 0.15f * fine;
+}
+
+Extent extent_of(const ProjectionSetting& projection) {
+  const double width = kPerRadian / pixels_per_radian(projection, 1.0);
+  const int step = 2 * width_step(projection);
+  const int rounded = std::max(static_cast<int>(std::lround(std::min(width, 1400.0) / step)), 1) * step;
+  return {rounded, natural_height(projection, rounded)};
+}
+
+void save_world(const StereoCamera& stereo, Layout layout, const std::string& path) {
+  MadePicture made = make_picture(stereo, extent_of(stereo.projection), kBothEyes);
+  const Camera camera = make_camera(stereo);
+  add_colour(made, [&camera](int eye, vec2 uv, float* out) {
+    const vec3 direction = camera_ray(camera, eye, uv).direction;
+    out[0] = out[1] = out[2] = 0.0f;
+    if (direction != vec3(0.0f)) world(eye, direction, out);
+  });
+  made.picture.is_float = true;
+  SaveOptions save;
+  save.layout = layout;
+  save.tone = ToneCurve::kLinear;
+  const Conversion conversion = convert(made.picture, same_format(made.picture));
+  save_picture(conversion.rows, keeps_layers(path) ? &stereo : nullptr, save, path);
+}
+
+// A look's colours as a screen has them. The light of an EXR has been through the tone curve.
+Image shown(Image image, bool is_light) {
+  for (size_t i = 0; i < image.pixels.size(); i += 3) {
+    float* const pixel = image.pixels.data() + i;
+    const ToneCurve curve = is_light ? ToneCurve::kNeutral : ToneCurve::kLinear;
+    const vec3 light = tone_map(vec3(pixel[0], pixel[1], pixel[2]), 0.0f, curve);
+    for (int c = 0; c < 3; c++) pixel[c] = srgb_encode(light[c]);
+  }
+  return image;
+}
+
+Image converted(const StoredPicture& picture, int eye, const Look& look) {
+  ConvertTarget target = same_format(picture);
+  target.camera.projection = projection_named("perspective");
+  target.camera.projection.fov = look.fov;
+  target.eye = {kWindow, kWindow};
+  target.eyes = {kMono};
+  target.mono_from = eye;
+  turn(target.camera, look.yaw, look.pitch, 0.0f);
+  const Conversion conversion = convert(picture, target);
+  return shown(images_of(conversion.rows)[0], picture.is_float);
+}
+
+// A part of a browser's PNG, from the column on.
+Image drawn(const std::string& path, int column = 0) {
+  OpenOptions options;
+  options.format.one_eye = true;
+  const StoredPicture picture = open_picture(path, options);
+  Image image(kWindow, kWindow, 3);
+  for (int y = 0; y < kWindow; y++) {
+    for (int x = 0; x < kWindow; x++) {
+      for (int c = 0; c < 3; c++) {
+        image.at(x, y)[c] = value_at(picture.eyes[0].layers[0], x + column, y, static_cast<size_t>(c));
+      }
+    }
+  }
+  return image;
+}
+
+double likeness(const Image& a, const Image& b) {
+  return compare_eyes({a}, {b}).whole.psnr;
+}
+
+// --- browsers -------------------------------------------------------------------------------------------------------
+
+std::string find_program(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::istringstream path(std::getenv("PATH"));
+    for (std::string folder; std::getline(path, folder, ':');) {
+      if (access((folder + "/" + name).c_str(), X_OK) == 0) return folder + "/" + name;
+    }
+  }
+  return "";
+}
+
+std::vector<std::string> chromium(const std::string& profile) {
+  const std::string program =
+      find_program({"chromium", "chromium-browser", "google-chrome", "chromium-headless-shell"});
+  if (program.empty()) return {};
+  return {program,
+          "--headless",
+          "--no-sandbox",
+          "--use-angle=swiftshader",
+          "--enable-unsafe-swiftshader",
+          "--ignore-gpu-blocklist",
+          "--no-first-run",
+          "--disable-extensions",
+          "--user-data-dir=" + profile};
+}
+
+std::vector<std::string> firefox(const std::string& profile) {
+  const std::string program = find_program({"firefox-esr", "firefox"});
+  if (program.empty()) return {};
+  return {program, "--headless", "--no-remote", "--profile", profile};
+}
+
+// A browser and its children, until the end of its life.
+class Browser {
+ public:
+  Browser(std::vector<std::string> words, const std::string& home, const std::string& address) {
+    words.push_back(address);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ != 0) return;
+    setpgid(0, 0);
+    setenv("HOME", home.c_str(), 1);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
+  ~Browser() {
+    kill(-pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+// --- the harness ----------------------------------------------------------------------------------------------------
+
+class ViewBrowser : public ::testing::Test {
+ protected:
+  // Adds a picture of the world as an item of the page; returns its index.
+  size_t add(const std::string& name, const StereoCamera& stereo, Layout layout) {
+    const std::string path = folder_.path(name);
+    save_world(stereo, layout, path);
+    FormatHint known;
+    known.layout = layout;
+    if (!keeps_layers(path)) known.projection = stereo.projection;
+    items_.push_back(open_view_item(path, known));
+    OpenOptions options;
+    options.format = known;
+    pictures_.push_back(open_picture(path, options));
+    return items_.size() - 1;
+  }
+
+  void ask(size_t item, const Looks& looks) {
+    Json asked = Json::array();
+    for (size_t i = 0; i < looks.size(); i++) {
+      for (const int eye : kBothEyes) {
+        asked.push_back({{"name", fmt::format("{}_{}_{}", item, i, eye)},
+                         {"eye", eye},
+                         {"yaw", looks[i].yaw},
+                         {"pitch", looks[i].pitch},
+                         {"fov", looks[i].fov}});
+      }
+    }
+    jobs_.push_back(
+        {{"item", item}, {"choice", Json::object()}, {"width", kWindow}, {"height", kWindow}, {"looks", asked}});
+  }
+
+  // Lets a browser do the jobs; returns what it said at the end.
+  std::string run(const std::vector<std::string>& browser) {
+    export_site(items_, folder_.path("site"));
+    const auto answer = [this](const WebRequest& request) { return serve(request); };
+    WebOptions options;
+    options.secret = "secret";
+    options.most_body = size_t{16} << 20;
+    HttpServer server(options, answer);
+    std::thread thread([&server] { server.run(); });
+    {
+      const Browser running(browser, folder_.path("home"),
+                            fmt::format("http://127.0.0.1:{}/secret/harness.html", server.port()));
+      std::unique_lock lock(mutex_);
+      is_done_.wait_for(lock, kPatience, [this] { return !end_.empty(); });
+    }
+    server.stop();
+    thread.join();
+    return end_.empty() ? "the browser did not finish" : end_;
+  }
+
+  // Both eyes of every look are what ods convert makes, and not the other eye's.
+  void expect_looks(size_t item, const Looks& looks, const std::string& what) {
+    for (size_t i = 0; i < looks.size(); i++) {
+      const Image wanted[] = {converted(pictures_[item], kLeft, looks[i]),
+                              converted(pictures_[item], kRight, looks[i])};
+      for (const int eye : kBothEyes) {
+        const Image got = drawn(folder_.path(fmt::format("{}_{}_{}", item, i, eye)));
+        EXPECT_GE(likeness(got, wanted[eye]), kAlike) << what << ", look " << i << ", eye " << eye;
+        EXPECT_LT(likeness(got, wanted[1 - eye]), kAlike) << what << ", look " << i << ", eyes swapped";
+      }
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::vector<ViewItem> items_;
+  std::vector<StoredPicture> pictures_;
+  Json jobs_ = Json::array();
+
+ private:
+  WebAnswer serve(const WebRequest& request) {
+    WebAnswer answer;
+    const std::string name = request.path;
+    if (request.is_post) {
+      const std::lock_guard lock(mutex_);
+      if (name == "done")
+        end_ = request.body;
+      else
+        write_file(folder_.path(name.substr(name.find('/') + 1)), request.body);
+      is_done_.notify_all();
+      return answer;
+    }
+    answer.type = media_type(name);
+    if (name == "jobs.json") {
+      answer.body = jobs_.dump();
+    } else if (name == "iwer.module.js") {
+      answer.file = std::getenv("ODS_IWER");
+    } else {
+      const std::string harness = std::string(ODS_SOURCE_DIR "/tests/web/") + name;
+      answer.file = std::filesystem::exists(harness) ? harness : folder_.path("site/" + name);
+      if (!std::filesystem::exists(answer.file)) answer.status = 404, answer.file.clear();
+    }
+    return answer;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable is_done_;
+  std::string end_;
+};
+
+StereoCamera camera_of(const ProjectionSetting& projection) {
+  StereoCamera stereo;
+  stereo.top = stereo.bottom = kUsualMerge;
+  stereo.projection = projection;
+  return stereo;
+}
+
+// Every projection, in two layouts by turns.
+TEST_F(ViewBrowser, ShowsEveryProjectionAsConvertDoes) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  for (const NamedProjection& named : named_projections()) {
+    const Layout layout = items_.size() % 2 ? Layout::kSideBySide : Layout::kTopBottom;
+    ask(add(std::string(named.name) + ".png", camera_of(named.setting), layout), looks_in(named.name));
+  }
+  ASSERT_EQ(run(browser), "ok");
+  size_t item = 0;
+  for (const NamedProjection& named : named_projections()) {
+    expect_looks(item++, looks_in(named.name), std::string(named.name));
+  }
+}
+
+// Browsers read some layouts themselves; the others come as a JPEG of each eye.
+TEST_F(ViewBrowser, ShowsEveryLayoutAsConvertDoes) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  std::vector<Layout> layouts;
+  for (const Layout layout : kLayouts) {
+    if (is_anaglyph(layout)) continue;
+    const bool is_exr = layout == Layout::kMultiview, is_pair = layout == Layout::kSeparate;
+    const std::string name = std::string(layout_name(layout)) + (is_exr ? ".exr" : is_pair ? "%V.png" : ".png");
+    ask(add(name, camera_of(projection_named("lat-long")), layout), kAround);
+    layouts.push_back(layout);
+  }
+  ASSERT_EQ(run(browser), "ok");
+  for (size_t i = 0; i < layouts.size(); i++) expect_looks(i, kAround, std::string(layout_name(layouts[i])));
+}
+
+// What an EXR says of its camera: a lens of its own, and eyes that converge.
+TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  StereoCamera lens = camera_of(projection_named("fisheye"));
+  lens.projection.fov = 220.0f, lens.projection.pan = 15.0f, lens.projection.tilt = 10.0f;
+  StereoCamera toe_in = camera_of(projection_named("lat-long"));
+  toe_in.convergence = kToeIn, toe_in.convergence_distance = 0.4f;
+  ask(add("lens.exr", lens, Layout::kMultiview), kAhead);
+  ask(add("toe-in.exr", toe_in, Layout::kMultiview), kAround);
+  ASSERT_EQ(run(browser), "ok");
+  expect_looks(0, kAhead, "lens");
+  expect_looks(1, kAround, "toe-in");
+}
+
+TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
+  const std::vector<std::string> browser = firefox(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no firefox";
+  std::filesystem::create_directories(folder_.path("profile"));
+  std::filesystem::create_directories(folder_.path("home"));
+  const std::vector<std::string> names = {"lat-long", "eac", "fisheye"};
+  for (const std::string& name : names) {
+    ask(add(name + ".png", camera_of(projection_named(name)), Layout::kTopBottom), looks_in(name));
+  }
+  const std::string end = run(browser);
+  if (end.find("no WebGL 2") != std::string::npos) GTEST_SKIP() << "skipped: this firefox has no WebGL 2";
+  ASSERT_EQ(end, "ok");
+  for (size_t i = 0; i < names.size(); i++) expect_looks(i, looks_in(names[i]), names[i]);
+}
+
+// In an emulated headset: each eye has its own picture in the direction in which its view points, wherever the head is.
+TEST_F(ViewBrowser, ShowsEachEyeItsPictureInAHeadset) {
+  if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)";
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const size_t item = add("picture.png", camera_of(projection_named("lat-long")), Layout::kTopBottom);
+  const Json looks = {{{"name", "ahead"}, {"yaw", 0}, {"pitch", 0}},
+                      {{"name", "aside"}, {"yaw", 120}, {"pitch", 0}},
+                      {{"name", "up"}, {"yaw", -40}, {"pitch", 50}},
+                      {{"name", "swapped"}, {"yaw", 0}, {"pitch", 0}, {"press", "a-button"}},
+                      {{"name", "back"}, {"yaw", 0}, {"pitch", 0}, {"press", "a-button"}},
+                      {{"name", "centred"}, {"yaw", 75}, {"pitch", 0}, {"press", "thumbstick"}},
+                      {{"name", "left"}, {"press", "b-button"}}};
+  jobs_.push_back({{"item", item}, {"headset", true}, {"width", 2 * kWindow}, {"height", kWindow}, {"looks", looks}});
+  ASSERT_EQ(run(browser), "ok");
+  const auto expect = [&](const std::string& name, const Look& look, bool is_swapped) {
+    for (const int eye : kBothEyes) {
+      const Image wanted = converted(pictures_[item], is_swapped ? 1 - eye : eye, look);
+      const Image other = converted(pictures_[item], is_swapped ? eye : 1 - eye, look);
+      const Image got = drawn(folder_.path(name), eye * kWindow);
+      // The GPU's own filter, which is fast and softer, minifies there.
+      EXPECT_GE(likeness(got, wanted), 30.0) << name << ", eye " << eye;
+      EXPECT_LT(likeness(got, other), 25.0) << name << ", eye " << eye;
+    }
+  };
+  expect("ahead", {0, 0, 90}, false);
+  expect("aside", {120, 0, 90}, false);
+  expect("up", {-40, 50, 90}, false);
+  expect("swapped", {0, 0, 90}, true);
+  expect("back", {0, 0, 90}, false);
+  expect("centred", {0, 0, 90}, false);
+  EXPECT_EQ(folder_.read("left"), "left");  // the session ended by the button
+  EXPECT_EQ(folder_.read("ended"), "null");
+}
+
+}  // namespace
+}  // namespace ods
