@@ -32,8 +32,8 @@ struct Eye {
 };
 
 uniform Camera camera;
-uniform bool over;    // the picture is a finer window of the one that is drawn already,
-uniform Camera below;  // whose camera this is
+uniform bool over;         // the picture is a finer window of one that is drawn already,
+uniform Projection below;  // whose projection this is
 uniform Eye eyes[2];
 uniform sampler2DArray left_tiles;
 uniform sampler2DArray right_tiles;
@@ -68,6 +68,7 @@ struct Place {
   vec2 low;   // the texels that are contiguous in the world: a cube's face, or everything
   vec2 high;
   bool seen;
+  vec3 label;  // the direction under which the picture stores the line of sight
 };
 
 bool wraps() {
@@ -79,6 +80,7 @@ Place place_at(int which, vec3 direction) {
   ImagePoint point = place_of(camera.projection, label);
   vec2 size = eyes[which].size;
   Place place;
+  place.label = label;
   place.at = point.uv * size;
   place.low = vec2(-1e6);
   place.high = vec2(1e6);
@@ -223,11 +225,16 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
 
 // --- colour ---------------------------------------------------------------------------------------------------------
 
-// Linear light of an eye's picture along a direction; dx, dy: the direction's steps from pixel to pixel.
-vec3 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
+// Linear light of an eye's picture along a direction; dx, dy: the direction's steps from pixel to pixel. And how much it
+// covers what is below it: a window fades at its edges, and adds nothing where the picture below ends.
+vec4 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
   Place place = place_at(which, direction);
-  if (!place.seen) return vec3(0.0103);  // a neutral dark grey: the picture has nothing there
-  return filtered(which, place, movement(which, direction, dx, place), movement(which, direction, dy, place));
+  if (!place.seen) return vec4(vec3(0.0103), over ? 0.0 : 1.0);  // a neutral dark grey: the picture has nothing there
+  vec2 moves[2];
+  for (int i = 0; i < 2; i++) moves[i] = movement(which, direction, i == 0 ? dx : dy, place);
+  vec2 inside = min(place.at, eyes[which].size - place.at);
+  float cover = !over ? 1.0 : place_of(below, place.label).seen ? clamp(min(inside.x, inside.y) / 12.0, 0.0, 1.0) : 0.0;
+  return vec4(filtered(which, place, moves[0], moves[1]), cover);
 }
 
 vec3 encode(vec3 light) {
@@ -260,28 +267,16 @@ vec3 with_grid(vec3 shown, vec3 direction, vec3 dy) {
   return mix(shown, vec3(1.0, 0.8, 0.3), 0.8 * thick);
 }
 
-// How much of a window covers what is below it: it fades at its edges, and adds nothing where the picture below ends.
-float cover(int which, vec3 direction) {
-  Place place = place_at(which, direction);
-  if (!place.seen || !place_of_line(below, mono ? kMono : which, direction).seen) return 0.0;
-  vec2 inside = min(place.at, eyes[which].size - place.at);
-  return clamp(min(inside.x, inside.y) / 12.0, 0.0, 1.0);
-}
-
 void main() {
   vec3 direction = direction_at(screen);
   vec3 dx = direction_at(screen + vec2(2.0 / viewport.x, 0.0)) - direction;
   vec3 dy = direction_at(screen - vec2(0.0, 2.0 / viewport.y)) - direction;
-  vec3 shown;
-  if (mode == kOneEye) {
-    shown = encode(light_of(eye, direction, dx, dy));
-  } else {
-    vec3 left = light_of(kLeft, direction, dx, dy);
-    vec3 right = light_of(kRight, direction, dx, dy);
-    shown = mode == kAnaglyph ? encode(dubois(left, right)) : abs(encode(left) - encode(right));
-  }
+  // One call in a loop: software GPUs copy every call's code into place, and compile for seconds.
+  vec4 lights[2];
+  for (int i = 0; i < (mode == kOneEye ? 1 : 2); i++) lights[i] = light_of(mode == kOneEye ? eye : i, direction, dx, dy);
+  vec3 shown = encode(lights[0].rgb);
+  if (mode == kAnaglyph) shown = encode(dubois(lights[0].rgb, lights[1].rgb));
+  if (mode == kDifference) shown = abs(shown - encode(lights[1].rgb));
   if (grid) shown = with_grid(shown, direction, dy);
-  color = vec4(shown, 1.0);
-  if (over && mode == kOneEye) color.a = cover(eye, direction);
-  if (over && mode != kOneEye) color.a = min(cover(kLeft, direction), cover(kRight, direction));
+  color = vec4(shown, mode == kOneEye ? lights[0].a : min(lights[0].a, lights[1].a));
 }

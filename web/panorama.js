@@ -138,7 +138,7 @@ export class Panorama {
     this.set({
       camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), left_tiles: 0, right_tiles: 1, rays,
       all_around: all, viewport: box.slice(2), mode: MODES[show], eye, mono: picture.mono, fast, grid,
-      over: Boolean(picture.below), below: picture.below ?? picture.camera,
+      over: Boolean(picture.below), below: picture.below ?? picture.camera.projection,
     });
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.disable(gl.SCISSOR_TEST);

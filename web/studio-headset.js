@@ -85,7 +85,7 @@ export class VrSteering {
     const { camera } = this.studio.page.viewer.view.projections.find(({ name }) => name === 'lat-long');
     const high = (WIDE * TEXT[1]) / TEXT[0];
     const window = { ...camera, projection: { ...camera.projection, center: [0, BELOW], span: [WIDE, high] } };
-    return { eyes: [texture, texture], camera: window, below: window, mono: true };
+    return { eyes: [texture, texture], camera: window, below: window.projection, mono: true };
   }
 
   // Draws the text where it is due. rays: of the view in the room; pose: the head's.

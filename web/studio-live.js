@@ -65,7 +65,7 @@ export class Live {
   picture(side, beside = null, split = 1) {
     const { base, patch } = this.sides.get(side) ?? {};
     if (!base) return null;
-    const over = patch && { ...patch.picture, below: base.picture.camera };
+    const over = patch && { ...patch.picture, below: base.picture.camera.projection };
     return { ...base.picture, over, beside: beside && this.picture(beside), split, free() {}, changed() {} };
   }
 

@@ -61,7 +61,10 @@ export class RenderFoot {
       this.attempt(() => this.render());
     });
     element.append(make('div', { className: 'command' }, this.command, copy), form, this.job);
-    session.addEventListener('accepted', ({ detail }) => (this.command.textContent = detail.command));
+    session.addEventListener('accepted', ({ detail: { command } }) => {
+      // Lines break between options only.
+      this.command.replaceChildren(...command.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));
+    });
     session.addEventListener('edit', () => this.update());
     this.update();
     this.watch();

@@ -30,6 +30,7 @@ class Studio {
     viewer.steering = new VrSteering(this);
     this.listen();
     this.showScene();
+    this.panel.curve.look(viewer.state.pitch);
     this.session.send(true);
   }
 
