@@ -101,6 +101,7 @@ Place place_at(int which, vec3 direction) {
 }
 
 // How the place moves with a step of the direction, in texels. A step that leaves the face is taken backwards.
+// (Drivers inline every call and compile for seconds: whatever is large is called from few places, in loops.)
 vec2 movement(int which, vec3 direction, vec3 step_by, Place from) {
   const float kPart = 0.25;
   vec2 size = eyes[which].size;
@@ -181,9 +182,13 @@ vec3 averaged(int which, Spot spot, float square) {
   int level = clamp(int(floor(0.5 * log2(boxes))), 0, kLastLevel - 1);
   float box = exp2(2.0 * float(level));
   float more = clamp((boxes - box) / (3.0 * box), 0.0, 1.0);
-  vec3 light = bicubic(which, spot, level);
-  if (more > 0.01) light = mix(light, bicubic(which, spot, level + 1), more);
-  return light;
+  if (more < 0.01) more = 0.0;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 2; i++) {
+    float weight = i == 0 ? 1.0 - more : more;
+    if (weight > 0.0) sum += weight * bicubic(which, spot, level + i);
+  }
+  return sum;
 }
 
 // dx, dy: how far the place moves from pixel to pixel, in texels.
@@ -205,14 +210,13 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
   float square = max(max(middle - spread, 1.0), large / 9.0);
   float rest = large - square;
   int count = 1 + int(ceil(2.0 * sqrt(rest / square) - 0.1));
-  if (count == 1) return averaged(which, spot_at(which, place, vec2(0.0)), square);
   // A tent of points, as make_tent() in ods/convert/texel_filter.cpp.
   vec2 axis = xx >= yy ? vec2(middle + spread - yy, xy) : vec2(xy, middle + spread - xx);
-  axis = normalize(axis);
+  axis = count > 1 ? normalize(axis) : vec2(0.0);
   float n = float(count);
   bool is_even = count % 2 == 0;
   float variance = is_even ? 1.0 + 2.0 / (n * n) : (n * n - 1.0) * (n * n + 3.0) / (n * n * (n * n + 1.0));
-  float radius = sqrt(rest / variance);
+  float radius = count > 1 ? sqrt(rest / variance) : 0.0;
   float unit = 2.0 / (is_even ? n * n : n * n + 1.0);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; i++) {
@@ -271,12 +275,14 @@ void main() {
   vec3 direction = direction_at(screen);
   vec3 dx = direction_at(screen + vec2(2.0 / viewport.x, 0.0)) - direction;
   vec3 dy = direction_at(screen - vec2(0.0, 2.0 / viewport.y)) - direction;
-  // One call in a loop: software GPUs copy every call's code into place, and compile for seconds.
-  vec4 lights[2];
-  for (int i = 0; i < (mode == kOneEye ? 1 : 2); i++) lights[i] = light_of(mode == kOneEye ? eye : i, direction, dx, dy);
-  vec3 shown = encode(lights[0].rgb);
-  if (mode == kAnaglyph) shown = encode(dubois(lights[0].rgb, lights[1].rgb));
-  if (mode == kDifference) shown = abs(shown - encode(lights[1].rgb));
+  vec4 light[2];
+  for (int i = 0; i < 2; i++) {
+    if (mode != kOneEye || i == eye) light[i] = light_of(i, direction, dx, dy);
+  }
+  vec3 shown;
+  if (mode == kOneEye) shown = encode(light[eye].rgb);
+  if (mode == kAnaglyph) shown = encode(dubois(light[kLeft].rgb, light[kRight].rgb));
+  if (mode == kDifference) shown = abs(encode(light[kLeft].rgb) - encode(light[kRight].rgb));
   if (grid) shown = with_grid(shown, direction, dy);
-  color = vec4(shown, mode == kOneEye ? lights[0].a : min(lights[0].a, lights[1].a));
+  color = vec4(shown, mode == kOneEye ? light[eye].a : min(light[kLeft].a, light[kRight].a));
 }

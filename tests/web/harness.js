@@ -24,10 +24,13 @@ function makeCanvas({ width, height }) {
   return canvas;
 }
 
-async function draw(view, shader, job) {
-  const { item, choice, width, height, looks } = job;
-  const canvas = makeCanvas(job);
-  const panorama = new Panorama(canvas, shader);
+let drawing; // one for all pictures: software compiles the shader for seconds
+
+async function draw(view, shader, { item, choice, width, height, looks }) {
+  drawing ??= new Panorama(makeCanvas({ width, height }), shader);
+  const panorama = drawing;
+  const { canvas } = panorama;
+  Object.assign(canvas, { width, height });
   const picture = await openPicture(panorama, view, view.items[item], { choice });
   picture.refresh?.();
   for (const { name, eye = 0, show, swap, ...look } of looks) {
@@ -35,8 +38,6 @@ async function draw(view, shader, job) {
     await sendCanvas(canvas, name);
   }
   picture.free();
-  panorama.gl.getExtension('WEBGL_lose_context')?.loseContext();
-  canvas.remove();
 }
 
 // As the device's orientation: a turn to the right by yaw, after one up by pitch.
@@ -47,6 +48,8 @@ function orient(quaternion, { yaw = 0, pitch = 0 }) {
 }
 
 async function wear(view, shader, job) {
+  // The runtime makes the canvas as large as the window.
+  Object.defineProperties(window, { innerWidth: { value: job.width }, innerHeight: { value: job.height } });
   const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
   const device = new XRDevice(metaQuest3);
   device.installRuntime({ forceInstall: true });
@@ -66,19 +69,19 @@ async function wear(view, shader, job) {
   });
   for (const { name, press, stick, ...look } of job.looks) {
     orient(device.quaternion, look);
-    await frames(4);
+    await frames(2);
     const hand = device.controllers.right;
     if (press) {
       hand.updateButtonValue(press, 1);
-      await frames(4);
+      await frames(2);
       hand.updateButtonValue(press, 0);
     }
     if (stick) {
       hand.updateAxes('thumbstick', ...stick);
-      await frames(4);
+      await frames(2);
       hand.updateAxes('thumbstick', 0, 0);
     }
-    await frames(4);
+    await frames(2);
     if (headset.session) await sendCanvas(canvas, name);
     else await post(`result/${name}`, 'left');
   }
