@@ -63,7 +63,7 @@ export class MergeCurve {
     this.fill = shape('polygon', { class: 'fill' }, svg);
     this.other = shape('polyline', { class: 'other' }, svg);
     this.line = shape('polyline', { class: 'curve-line' }, svg);
-    const words = shape('text', { x: SIZE[0] / 2, y: yOf(0.55), 'text-anchor': 'middle' }, svg);
+    const words = shape('text', { x: SIZE[0] / 2, y: yOf(0.7), 'text-anchor': 'middle' }, svg);
     words.textContent = 'full eye distance';
     this.gaze = shape('line', { class: 'gaze', y1: BOX[2] - 6, y2: BOX[3] + 6 }, svg);
     this.handles = [['top', 'start'], ['top', 'end'], ['bottom', 'start'], ['bottom', 'end']].map((names) => this.handle(...names));

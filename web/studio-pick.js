@@ -108,6 +108,7 @@ export function pickWithClicks(studio) {
     card.replaceChildren(make('p', { textContent: '…' }));
     follow();
     try {
+      await studio.session.settle();
       const found = await ask('pick', direction);
       if (where === direction) tell(found);
     } catch (error) {

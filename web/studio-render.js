@@ -44,7 +44,10 @@ export class RenderFoot {
     this.width.addEventListener('change', () => session.edit({ width: Math.round(Number(this.width.value)) || session.settings.width }));
     this.go = make('button', { type: 'submit', className: 'primary', textContent: 'Render' });
     const save = make('button', { type: 'button', textContent: 'Save camera' });
-    save.addEventListener('click', () => this.attempt(async () => page.toast(`Camera saved: ${(await ask('save', {})).file}`)));
+    save.addEventListener('click', () => this.attempt(async () => {
+      await session.settle();
+      page.toast(`Camera saved: ${(await ask('save', {})).file}`);
+    }));
     this.bar = make('progress', { max: 1, value: 0, 'aria-label': 'Rendering' });
     this.text = make('output', {});
     this.cancel = make('button', { type: 'button', className: 'small', textContent: 'Cancel' });
@@ -61,9 +64,10 @@ export class RenderFoot {
       this.attempt(() => this.render());
     });
     element.append(make('div', { className: 'command' }, this.command, copy), form, this.job);
-    session.addEventListener('accepted', ({ detail: { command } }) => {
+    session.addEventListener('accepted', ({ detail }) => {
+      if (detail !== session.side) return;
       // Lines break between options only.
-      this.command.replaceChildren(...command.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));
+      this.command.replaceChildren(...detail.command.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));
     });
     session.addEventListener('edit', () => this.update());
     this.update();
@@ -100,6 +104,7 @@ export class RenderFoot {
 
   async render() {
     if (this.watching) return;
+    await this.studio.session.settle();
     await ask('render', { output: this.name.value.trim(), quality: this.quality.value });
     this.bar.value = 0;
     this.say('Starting', 'running');

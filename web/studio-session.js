@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The studio's talk with the server: settings go out, frames come in. Two sides, A and B, each with settings of its own
-// and a history; the server renders the active one. Events: `edit` (the settings, the history or the active side),
+// and a history; the server renders the active one, or the other for a while (refine). Events: `edit` (the settings, the history or the active side),
 // `accepted` (detail: its side), `refused` (detail: { text, paths }), `status` (detail: what a frame or the server says of
 // itself), `lost` and `found` (the server).
 const PAUSE = 30; // milliseconds between two messages
@@ -47,7 +47,11 @@ export class Session extends EventTarget {
     Object.assign(this, { look, onFrame, revision: 0, number: 0, alive: true, wanted: false, eager: true, sentAt: 0, shown: 0 });
     this.sides = [{ settings: copy(settings), past: [], future: [] }];
     this.active = 0;
-    this.accepted = copy(settings);
+    this.target = 0; // the side that is rendered
+  }
+
+  start() {
+    this.send(true);
     this.receive();
   }
 
@@ -108,6 +112,20 @@ export class Session extends EventTarget {
     this.send(true);
   }
 
+  // Has another side than the active one rendered, until something changes.
+  refine(side) {
+    this.send(true, side);
+  }
+
+  // Waits until the server renders the active side as it is now. Throws what it refuses.
+  async settle(patience = 5000) {
+    const { side } = this;
+    if (this.target !== this.active) this.send(true);
+    const end = performance.now() + patience;
+    while ((this.sending || this.wanted) && performance.now() < end) await sleep(10);
+    if (side.sent !== side.settings) throw new Error(this.fault || 'The server does not answer');
+  }
+
   // Settings that the server made, as after a drop.
   replace(settings) {
     this.side.past.push(this.settings);
@@ -115,26 +133,30 @@ export class Session extends EventTarget {
     this.use(copy(settings));
   }
 
-  async send(eager) {
-    Object.assign(this, { wanted: true, eager });
+  async send(eager, target = this.active) {
+    Object.assign(this, { wanted: true, eager, target });
     if (this.sending) return;
     this.sending = true;
     while (this.wanted) {
       while (this.mustWait()) await sleep(8);
       this.wanted = false;
-      const { side } = this;
-      const settings = side.settings;
+      const side = this.sides[this.target];
+      const { settings } = side;
       this.sentAt = performance.now();
       this.answer = ask('set', { ...settings, look: this.look() });
       try {
         const { revision, command } = await this.answer;
         this.revision = revision;
         Object.assign(side, { revision, command, sent: settings });
-        this.accepted = settings;
+        this.fault = '';
+        if (this.missed) this.number = 0;
+        this.missed = false;
         this.say('accepted', side);
       } catch (error) {
-        if (error.refused) this.say('refused', { text: error.message, paths: changes(this.accepted, settings) });
-        else {
+        if (error.refused) {
+          this.fault = error.message;
+          this.say('refused', { text: error.message, paths: changes(side.sent ?? settings, settings) });
+        } else {
           this.lose();
           await sleep(1000);
           this.wanted = true;
@@ -183,8 +205,11 @@ export class Session extends EventTarget {
     const meta = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     this.number = meta.number;
     await this.answer?.catch(() => {}); // it may say that this frame is old
-    const { side } = this;
-    if (meta.revision < this.revision || (side.revision && meta.revision !== side.revision)) return;
+    const side = this.sides[this.target];
+    if (meta.revision !== side.revision) {
+      this.missed ||= meta.revision > this.revision; // the server was faster than its answer
+      return;
+    }
     this.shown = meta.revision;
     const pixels = new Uint8Array(buffer, 4 + length);
     try {
@@ -192,6 +217,6 @@ export class Session extends EventTarget {
     } catch (error) {
       throw Object.assign(error, { name: 'FrameError' });
     }
-    this.say('status', meta);
+    this.say('status', { ...meta, side });
   }
 }

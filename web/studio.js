@@ -15,6 +15,7 @@ import { Session, ask, sleep } from './studio-session.js';
 
 const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
 const SIDES = ['A', 'B'];
+const TURN = 2000; // milliseconds of a side's first turn in a comparison
 
 class Studio {
   constructor(page) {
@@ -31,7 +32,7 @@ class Studio {
     this.listen();
     this.showScene();
     this.panel.curve.look(viewer.state.pitch);
-    this.session.send(true);
+    this.session.start();
   }
 
   build() {
@@ -110,10 +111,12 @@ class Studio {
     this.refresh();
   }
 
-  tell({ state, samples, seconds, done, fault }) {
+  tell({ state, samples, seconds, done, fault, side }) {
+    this.takeTurns(done, side);
     if (fault) this.page.fail(fault);
+    const name = this.split === null || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
     if (state === 'loading') this.status.textContent = 'Loading the scene …';
-    else if (samples) this.status.textContent = `${samples} ${samples === 1 ? 'sample' : 'samples'}, ${seconds.toFixed(1)} s${done ? ' – finished' : ''}`;
+    else if (samples) this.status.textContent = `${name}${samples} ${samples === 1 ? 'sample' : 'samples'}, ${seconds.toFixed(1)} s${done ? ' – finished' : ''}`;
   }
 
   // --- what is shown ---
@@ -197,6 +200,23 @@ class Studio {
     if (this.split !== null && !this.session.sides[1]) this.session.swap(1);
     this.update();
     return this.split === null ? 'One picture' : 'A left, B right: change B, and drag the line';
+  }
+
+  // While both sides are seen, each is rendered in turn, until it is as good as it gets; turns grow, as a side begins
+  // anew each time.
+  takeTurns(done, side) {
+    const { session } = this;
+    const [a, b] = session.sides;
+    if (this.split === null || !b || JSON.stringify(a.settings) === JSON.stringify(b.settings)) return;
+    const now = performance.now();
+    const both = [a.settings, b.settings];
+    if (this.turn?.both.some((settings, i) => settings !== both[i]) ?? true) this.turn = { both, since: now, length: TURN, done: new Set() };
+    const { turn } = this;
+    if (done && side) turn.done.add(side);
+    const next = 1 - session.target;
+    if (turn.done.has(session.sides[next]) || (!done && now - turn.since < turn.length)) return;
+    Object.assign(turn, { since: now, length: next === session.active ? 2 * turn.length : turn.length });
+    session.refine(next);
   }
 
   placeDivider() {
