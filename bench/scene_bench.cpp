@@ -3,6 +3,8 @@
 //
 // How long a compressed scene of a million triangles takes to load, over the same scene without compression, and how
 // much memory, over the scene it becomes: in turn, five times, of which the median counts. Targets: at most 1.5 and 2.
+// A single primitive takes 2.9 times the scene's memory, all of it libdraco's own: corner tables of the mesh and of each
+// attribute. Primitives of a usual size are below the target.
 #include <draco/compression/expert_encode.h>
 #include <malloc.h>
 
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "ods/base/large_blocks.h"
 #include "ods/scene/gltf/gltf.h"
 
 namespace {
@@ -195,6 +198,7 @@ void load_draco(benchmark::State& state, uint32_t primitives) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  return_large_blocks();  // as the command does
   for (const uint32_t primitives : {1u, 16u}) {
     benchmark::RegisterBenchmark(("draco/primitives:" + std::to_string(primitives)).c_str(),
                                  [=](benchmark::State& state) { load_draco(state, primitives); })

@@ -11,6 +11,7 @@
 
 #include "cli/console/exit_code.h"
 #include "cli/console/manual.h"
+#include "ods/base/large_blocks.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 
@@ -105,6 +106,7 @@ int unknown_command(const char* name) {
 
 int main(int argc, char** argv) {
   open_closed_streams();
+  ods::return_large_blocks();
   if (argc < 2) {
     std::fputs(overview(ManualFormat::kHelp).c_str(), stderr);
     return kExitUsage;

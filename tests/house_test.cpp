@@ -41,8 +41,8 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"pango/", {"ods/compose/lettering.cpp"}}};
 
 // Libraries that any .cpp may know, and the system.
-const std::set<std::string> kShared = {"fmt/", "glm/",     "nlohmann/", "tbb/",      "dlfcn.h", "fcntl.h", "signal.h",
-                                       "sys/", "unistd.h", "arpa/",     "ifaddrs.h", "net/",    "spawn.h"};
+const std::set<std::string> kShared = {"fmt/",     "glm/", "nlohmann/", "tbb/",  "dlfcn.h",   "fcntl.h", "malloc.h",
+                                       "signal.h", "sys/", "unistd.h",  "arpa/", "ifaddrs.h", "net/",    "spawn.h"};
 
 struct Source {
   std::string path;  // from the root of the tree

@@ -104,19 +104,6 @@ void read_lamp(const std::string& word, ods::LightWishes& wishes) {
   wishes.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-ods::LightWishes read_wishes(const LightOptions& light, float yaw, const std::string& confined_to) {
-  ods::LightWishes wishes;
-  read_lamp(light.lamp, wishes);
-  wishes.unlit = light.unlit;
-  wishes.yaw = yaw;
-  if (light.environment.empty()) return wishes;
-  const Named named = parse_environment("--env", light.environment);
-  wishes.surround = named.surround;
-  wishes.sky = named.sky;
-  if (named.surround == Surround::kGiven) wishes.given = given_environment("--env", named, confined_to);
-  return wishes;
-}
-
 // None: what the camera would see anyway.
 std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
   if (word.empty() || word == "env") return std::nullopt;
@@ -146,22 +133,34 @@ std::string environment_file(const std::string& option, const std::string& word)
   return word.empty() || word == "env" ? "" : parse_environment(option, word).file;
 }
 
-void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, bool transparent,
-                 const std::string& confined_to, std::optional<ods::Survey> survey) {
-  ods::LightWishes wishes = read_wishes(light, ods::default_view(scene).yaw, confined_to);
+ods::LightWishes read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to) {
+  ods::LightWishes wishes;
+  read_lamp(light.lamp, wishes);
+  wishes.unlit = light.unlit;
   wishes.ground = !transparent;
+  if (light.environment.empty()) return wishes;
+  const Named named = parse_environment("--env", light.environment);
+  wishes.surround = named.surround;
+  wishes.sky = named.sky;
+  if (named.surround == Surround::kGiven) wishes.given = given_environment("--env", named, confined_to);
+  return wishes;
+}
+
+void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightWishes wishes, bool is_ours,
+                 const std::string& confined_to, PlannedLight planned) {
+  wishes.yaw = ods::default_view(scene).yaw;
   const std::optional<ods::Environment> background = read_background(light.background, confined_to);
-  ods::LightPlan plan;
-  if (is_ours && wishes.lamp != ods::LampWish::kPlaced) {
+  auto& [survey, plan] = planned;
+  if (is_ours && wishes.lamp == ods::LampWish::kPlaced) {
+    const ods::SceneRays rays(scene);
+    survey = ods::survey(rays);
+    plan = ods::plan_light(rays, survey, wishes);
+  } else if (is_ours) {
     plan.as_painted = wishes.unlit;
     plan.sky = wishes.sky;
     if (wishes.surround != Surround::kAuto) plan.surround = wishes.surround;
-  } else {
-    const ods::SceneRays rays(scene);
-    if (!survey) survey = ods::survey(rays);
-    plan = ods::plan_light(rays, *survey, wishes);
   }
   if (!plan.note.empty()) note(plan.note);
-  ods::apply_light(scene, survey.value_or(ods::Survey()), plan, wishes);
+  ods::apply_light(scene, survey, plan, wishes);
   if (!light.background.empty()) scene.background = background;
 }

@@ -22,9 +22,16 @@ void add_light_options(Options& options, LightOptions& light);
 // The file that --env or --background (option) names; empty for words, numbers and an empty word. Throws UsageError.
 std::string environment_file(const std::string& option, const std::string& word);
 
-// Supplies light as the options ask, and whatever the scene lacks; a note says what. Scenes of ours have their own
-// light (is_ours). transparent: the picture has no background, and so no ground. confined_to: confining_folder().
-// survey: of the scene, if it is known.
+// What they ask for. transparent: the picture has no background, and so no ground. confined_to: confining_folder().
 // Throws UsageError, and Error(kInput) for files.
-void light_scene(ods::Scene& scene, const LightOptions& light, bool is_ours, bool transparent,
-                 const std::string& confined_to, std::optional<ods::Survey> survey);
+ods::LightWishes read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to);
+
+struct PlannedLight {
+  ods::Survey survey;
+  ods::LightPlan plan;
+};
+
+// Supplies light as the options ask, and whatever the scene lacks; a note says what. Scenes of ours have their own
+// light (is_ours). planned: for the others, made with these wishes. Throws as read_wishes() does.
+void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightWishes wishes, bool is_ours,
+                 const std::string& confined_to, PlannedLight planned);

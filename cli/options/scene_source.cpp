@@ -17,7 +17,6 @@
 #include "ods/scene/load/load.h"
 #include "ods/scene/motion.h"
 #include "ods/scene/sheet_glass.h"
-#include "ods/stage/place.h"
 
 using ods::Scene;
 
@@ -90,20 +89,19 @@ static std::string unit_word(float metres) {
 }
 
 // Built-in scenes are in metres and have a view point.
-static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result) {
+static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result, const ods::LookAround& look) {
   const std::optional<float> unit = parse_unit(source.unit);
   if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
-  const ods::Settled settled = ods::settle(scene, unit, !source.has_places);
+  const ods::Settled settled = ods::settle(scene, unit, !source.has_places, look);
   if (result) *result = settled;
   if (settled.unit_reason.empty()) return;
   note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));
 }
 
-Scene open_scene(const SceneSource& source, ods::Settled* settled) {
+Scene open_scene(const SceneSource& source, ods::Settled* settled, const ods::LookAround& look) {
   Scene scene = ods::load_scene(
       source.name,
       {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
-  for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
     throw UsageError(
@@ -112,7 +110,8 @@ Scene open_scene(const SceneSource& source, ods::Settled* settled) {
   if (source.solid_glass && make_glass_solid(scene) == 0) {
     note("--solid-glass changes nothing: no closed mesh has glass without a volume");
   }
-  settle_scene(scene, source, settled);
+  settle_scene(scene, source, settled, look);
+  for (const std::string& warning : scene.warnings) warn(warning);
   return scene;
 }
 
@@ -141,11 +140,14 @@ static void note_sheet_glass(const Scene& scene) {
 }
 
 Scene open_lit_scene(const SceneSource& source, bool transparent) {
-  ods::Settled settled;
-  Scene scene = open_scene(source, &settled);
+  const std::string confined_to = confining_folder(source);
+  const ods::LightWishes wishes = read_wishes(source.light, transparent, confined_to);
+  PlannedLight planned;
+  Scene scene = open_scene(source, nullptr, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
+    planned = {survey, ods::plan_light(rays, survey, wishes)};
+  });
   check_content(scene, source.name);
   note_sheet_glass(scene);
-  light_scene(scene, source.light, ods::find_builtin(source.name) != nullptr, transparent, confining_folder(source),
-              std::move(settled.survey));
+  light_scene(scene, source.light, wishes, ods::find_builtin(source.name) != nullptr, confined_to, std::move(planned));
   return scene;
 }

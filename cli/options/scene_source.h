@@ -10,10 +10,7 @@
 #include "cli/console/options.h"
 #include "cli/options/light_options.h"
 #include "ods/scene/scene.h"
-
-namespace ods {
-struct Settled;
-}
+#include "ods/stage/place.h"
 
 struct SceneSource {
   std::string name;          // a file or a built-in scene
@@ -37,8 +34,9 @@ std::string confining_folder(const SceneSource& source);
 
 // Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
 // does not support. A file's scene is measured: it gets its size in metres and a place for the viewer
-// (ods/stage/place.h), and what was assumed is noted; settled, if not null, gets the result (not of built-in scenes).
-ods::Scene open_scene(const SceneSource& source, ods::Settled* settled = nullptr);
+// (ods/stage/place.h), and what was assumed is noted; settled, if not null, gets the result, and look is called as
+// ods::settle() does (neither for built-in scenes).
+ods::Scene open_scene(const SceneSource& source, ods::Settled* settled = nullptr, const ods::LookAround& look = {});
 
 // Likewise for rendering, with light: light_scene(). Notes glass that would look different if it were solid. Throws
 // Error(kInput) if there is nothing to render.

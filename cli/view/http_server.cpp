@@ -14,6 +14,7 @@
 namespace {
 
 constexpr int kThreads = 256;           // a connection holds one while it lives
+constexpr int kWaiting = 256;           // connections for which there is no thread yet
 constexpr int kReadSeconds = 5;         // for the next bytes of a request
 constexpr int kIdleSeconds = 2;         // between requests of a connection
 constexpr size_t kMostRequests = 1000;  // of a connection
@@ -44,6 +45,7 @@ struct HttpServer::State {
   WebHandler handler;
   std::unique_ptr<httplib::Server> server;
   int port = 0;
+  socket_t listener = INVALID_SOCKET;
 
   std::string scheme() const { return options.certificate.empty() ? "http" : "https"; }
 
@@ -85,7 +87,7 @@ struct HttpServer::State {
     for (const auto& [name, value] : from.params) request.query[name] = value;
     request.body = std::move(body);
     const WebAnswer answer = ask(request);
-    response.status = answer.status;
+    if (answer.status != 200) response.status = answer.status;  // else the library's: 206 for a part of a file
     response.set_header("Cache-Control", answer.can_keep ? "private, max-age=3600" : "no-store");
     answer.file.empty() ? response.set_content(answer.body, answer.type) : send_file(response, answer);
   }
@@ -106,6 +108,12 @@ struct HttpServer::State {
 
   void set_up() {
     server->new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    // The library's own choice would let several programs listen at one port, each for some of the connections.
+    server->set_socket_options([this](socket_t socket) {
+      listener = socket;
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    });
     server->set_tcp_nodelay(true);
     server->set_keep_alive_max_count(kMostRequests);
     server->set_keep_alive_timeout(kIdleSeconds);
@@ -159,6 +167,7 @@ HttpServer::HttpServer(const WebOptions& options, WebHandler handler) : state_(s
     state_->port = options.port;
   }
   if (state_->port <= 0) throw UsageError(fmt::format("--port {}: another program has this port", options.port));
+  listen(state_->listener, kWaiting);  // the library lets five wait
 }
 
 HttpServer::~HttpServer() {

@@ -46,8 +46,15 @@ void explain_network(const std::string& address, int port) {
       port, port));
 }
 
+std::unique_ptr<Studio> open_studio(const ViewJob& job) {
+  if (job.scene.empty()) return nullptr;
+  SceneSource source;
+  source.name = job.scene;
+  return std::make_unique<Studio>(source);
+}
+
 void serve(const ViewJob& job) {
-  ViewSite site(open_items(job));
+  ViewSite site(open_items(job), open_studio(job));
   const std::string folder = state_folder();
   WebOptions web;
   web.secret = kept_secret(folder);

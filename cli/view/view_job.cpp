@@ -11,7 +11,9 @@
 #include "cli/console/options.h"
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
+#include "ods/base/text.h"
 #include "ods/image/format/file_format.h"
+#include "ods/scene/builtin/builtin.h"
 #include "ods/video/container/video_file.h"
 
 using ods::ViewItem;
@@ -22,6 +24,7 @@ constexpr const char* kExamples =
     "  ods view picture_360_TB.png\n"
     "  ods view film_360_TB.mp4 other.exr folder/\n"
     "  ods view picture.png --lan\n"
+    "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
     "  ods view picture_360_TB.png --export site/";
 
 constexpr const char* kSummary =
@@ -29,6 +32,13 @@ constexpr const char* kSummary =
     "headsets in the same network. --export writes the viewer as a folder for any web host. docs/view.md has the keys.";
 
 constexpr size_t kMostItems = 2000;
+
+// Whether the studio is for it: a file of a scene, or a built-in one that no file has the name of.
+bool names_scene(const std::string& path) {
+  const std::string extension = ods::small_letters(std::filesystem::path(path).extension().string());
+  if (extension == ".glb" || extension == ".gltf" || extension == ".zip") return true;
+  return ods::find_builtin(path) && !std::filesystem::exists(path);
+}
 
 std::vector<std::string> files_in(const std::string& folder) {
   std::vector<std::string> paths;
@@ -67,7 +77,8 @@ void add_folder(const std::string& folder, const ods::FormatHint& known, std::ve
 
 bool read_view_job(ViewJob& job, int argc, char** argv) {
   Options options("view", kSummary, kExamples);
-  options.arguments("FILE", job.paths, "pictures, videos, and folders of them; %V in a name: one file per eye");
+  options.arguments("FILE", job.paths,
+                    "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
   options.group("Input, if neither the file nor its name tells");
   add_layout_option(options, job.known.layout, "how both eyes share the file; separate: one eye");
   options.custom(
@@ -84,6 +95,13 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   job.browser = !stay;
+  const auto scene = std::ranges::find_if(job.paths, names_scene);
+  if (scene != job.paths.end()) {
+    job.scene = *scene;
+    job.paths.erase(scene);
+    if (std::ranges::any_of(job.paths, names_scene)) throw UsageError("the studio shows one scene at a time");
+    if (!job.folder.empty()) throw UsageError("--export writes pictures and videos: render the scene first");
+  }
   if (!job.folder.empty() && (job.lan || job.port))
     throw UsageError("--export serves nothing: leave --lan and --port out");
   return true;

@@ -11,6 +11,7 @@
 
 struct ViewJob {
   std::vector<std::string> paths;
+  std::string scene;  // for the studio; empty: none
   ods::FormatHint known;
   std::string folder;  // to export to; empty: serve
   bool lan = false;

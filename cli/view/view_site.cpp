@@ -58,6 +58,14 @@ std::optional<size_t> item_number(const std::string& path) {
 
 }  // namespace
 
+ViewSite::ViewSite(std::vector<ViewItem> items, std::unique_ptr<Studio> studio)
+    : items_(std::move(items)), studio_(std::move(studio)) {}
+
+std::vector<ViewItem> ViewSite::items() const {
+  const std::lock_guard<std::mutex> lock(of_items_);
+  return items_;
+}
+
 std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const WebRequest& request) {
   const std::string layout = value_of(request, "layout"), projection = value_of(request, "projection");
   const std::string name = fmt::format("{}\n{}\n{}", item.path, layout, projection);
@@ -79,8 +87,9 @@ std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const 
 
 WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   const std::optional<size_t> number = item_number(path);
-  if (!number || *number >= items_.size()) return kNothing;
-  const ViewItem& item = items_[*number];
+  const std::vector<ViewItem> all = items();
+  if (!number || *number >= all.size()) return kNothing;
+  const ViewItem& item = all[*number];
   if (item.has_own_file && path == item_files(item, *number)[0]) {
     return {200, std::string(ods::media_type(path)), "", item.path, false};
   }
@@ -94,11 +103,23 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   return kNothing;
 }
 
+WebAnswer ViewSite::studio(const WebRequest& request) {
+  WebAnswer answer = studio_->answer(request);
+  const std::string result = studio_->take_result();
+  if (result.empty()) return answer;
+  const ViewItem item = ods::open_view_item(result);
+  const std::lock_guard<std::mutex> lock(of_items_);
+  items_.push_back(item);
+  return answer;
+}
+
 WebAnswer ViewSite::answer(const WebRequest& request) {
+  if (studio_ && request.path.starts_with("studio/")) return studio(request);
   if (request.is_post) return kNothing;
   if (request.path == "alive") return {200, "application/json", "{}", "", false};
   if (request.path == "view.json") {
-    return {200, std::string(ods::media_type(request.path)), view_json(items_, true), "", false};
+    const std::string studio = studio_ ? studio_->description() : "";
+    return {200, std::string(ods::media_type(request.path)), view_json(items(), true, studio), "", false};
   }
   if (request.path.starts_with("item/")) return item(request.path, request);
   const std::string name = request.path.empty() ? "index.html" : request.path;

@@ -10,22 +10,29 @@
 #include <vector>
 
 #include "cli/view/http_server.h"
+#include "cli/view/studio.h"
 #include "ods/view/view_item.h"
 
 class ViewSite {
  public:
-  explicit ViewSite(std::vector<ods::ViewItem> items) : items_(std::move(items)) {}
+  // studio: null if no scene is shown.
+  ViewSite(std::vector<ods::ViewItem> items, std::unique_ptr<Studio> studio);
 
   // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
   // projection where the page's user knows better. Throws UsageError for a query that makes no sense.
   WebAnswer answer(const WebRequest& request);
 
  private:
+  WebAnswer studio(const WebRequest& request);
   WebAnswer item(const std::string& path, const WebRequest& request);
   // Of the latest item that was asked for: both eyes are, one after the other.
   std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);
 
+  std::vector<ods::ViewItem> items() const;
+
+  mutable std::mutex of_items_;  // what the studio renders becomes one
   std::vector<ods::ViewItem> items_;
+  std::unique_ptr<Studio> studio_;
   std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
   std::string opened_;
   std::shared_ptr<const ods::StoredPicture> picture_;

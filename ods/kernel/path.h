@@ -312,8 +312,12 @@ struct PathTracer : MediumReader {
     play_roulette(pick.y);
   }
 
-  inline void note_first_hit(Surface surface, float t) {
+  // A ground that goes over into the background has next to no normal and no albedo, as that, or a denoiser would keep
+  // them apart. But some normal, as bare sky is what has none.
+  inline void note_first_hit(Surface surface, float t, bool fades) {
     path.depth = path.travelled + t;
+    path.normal = 0.01f * surface.normal;
+    if (fades) return;
     path.normal = surface.normal;
     path.albedo = surface.layered ? albedo_of_layers(surface, path.ray.direction) : surface.base_color;
   }
@@ -359,7 +363,7 @@ struct PathTracer : MediumReader {
       path.light_without = luminance(path.shadow_light);
       path.light_with = path.blocked ? 0.0f : path.light_without;
     }
-    path.alive = !arrived && scene_instance(hit.instance).catcher == 0 && scene_instance(hit.instance).first_light < 0;
+    path.alive = !arrived && scene_instance(hit.instance).catcher != 1 && scene_instance(hit.instance).first_light < 0;
     if (!path.alive) return;
     path.blocked = true;
     vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * path.shadow_length;
@@ -431,7 +435,7 @@ struct PathTracer : MediumReader {
       return;
     }
 
-    if (path.bounce == 0) note_first_hit(surface, hit.t);
+    if (path.bounce == 0) note_first_hit(surface, hit.t, scene_instance(hit.instance).catcher == 2);
     if (unlit) {
       add_light(path.throughput * surface.base_color, path.throughput * surface.base_color);
       path.alive = false;

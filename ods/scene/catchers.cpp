@@ -27,7 +27,7 @@ bool make_catchers(Scene& scene, const std::string& name) {
 }
 
 bool has_catchers(const Scene& scene) {
-  const auto is_one = [](const Instance& instance) { return instance.catcher != 0; };
+  const auto is_one = [](const Instance& instance) { return instance.catcher == 1; };
   return std::any_of(scene.instances.begin(), scene.instances.end(), is_one);
 }
 

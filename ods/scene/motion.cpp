@@ -86,6 +86,12 @@ void write(const Track& track, double seconds, Pose& pose) {
     case Property::kMetallic:
     case Property::kRoughness:
       return write_material(track.property, value, pose.materials[target]);
+    case Property::kLayerNumber:
+      pose.materials[target / kLayerNumberCount].layer_numbers[target % kLayerNumberCount] = value[0];
+      return;
+    case Property::kLayerColor:
+      pose.materials[target / kLayerColorCount].layer_colors[target % kLayerColorCount] = three(value);
+      return;
     case Property::kUvOffset:
     case Property::kUvRotation:
     case Property::kUvScale:
@@ -187,8 +193,23 @@ void write_views(Scene& scene, const Pose& pose, SceneChange& change) {
   }
 }
 
-float clamped(double value, double high) {
-  return static_cast<float>(std::isfinite(value) ? std::clamp(value, 0.0, high) : 0.0);
+float clamped(double value, double high, double low = 0.0) {
+  return static_cast<float>(std::isfinite(value) ? std::clamp(value, low, high) : low);
+}
+
+void write_layers(const MovingMaterial& moving, MaterialLayers& layers) {
+  for (size_t i = 0; i < std::size(kLayerNumbers); i++) {
+    layers.*kLayerNumbers[i].member = clamped(moving.layer_numbers[i], kLayerNumbers[i].high, kLayerNumbers[i].low);
+  }
+  for (size_t i = 0; i < std::size(kLayerColors); i++) {
+    for (int c = 0; c < 3; c++) {
+      (layers.*kLayerColors[i].member)[c] = clamped(moving.layer_colors[i][c], kLayerColors[i].high);
+    }
+  }
+  for (size_t i = 0; i < std::size(kLayerTextures); i++) {
+    const size_t slot = kFirstLayerSlot + i;
+    if (moving.placed[slot]) place_texture(layers.*kLayerTextures[i].member, moving.places[slot]);
+  }
 }
 
 void write_materials(Scene& scene, const Pose& pose, SceneChange& change) {
@@ -200,12 +221,17 @@ void write_materials(Scene& scene, const Pose& pose, SceneChange& change) {
     material.emission *= clamped(moving.strength, 1e9);
     material.metallic = clamped(moving.metallic, 1.0);
     material.roughness = clamped(moving.roughness, 1.0);
-    TextureSlot* slots[kSlotCount] = {&material.base_color_slot, &material.metallic_roughness_slot,
-                                      &material.normal_slot, &material.emission_slot, &material.transmission_slot};
-    for (size_t k = 0; k < kSlotCount; k++) {
+    TextureSlot* slots[kFirstLayerSlot] = {&material.base_color_slot, &material.metallic_roughness_slot,
+                                           &material.normal_slot, &material.emission_slot, &material.transmission_slot};
+    for (size_t k = 0; k < kFirstLayerSlot; k++) {
       if (moving.placed[k]) place_texture(*slots[k], moving.places[k]);
     }
     change.materials |= std::memcmp(&before, &material, sizeof before) != 0;
+    if (material.layers < 0) continue;
+    MaterialLayers& layers = scene.material_layers[static_cast<size_t>(material.layers)];
+    const MaterialLayers layers_before = layers;
+    write_layers(moving, layers);
+    change.materials |= std::memcmp(&layers_before, &layers, sizeof layers) != 0;
   }
 }
 

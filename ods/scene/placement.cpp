@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/placement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -55,6 +57,17 @@ Bounds mesh_bounds(const Scene& scene, const Mesh& mesh) {
     bounds.high = max(bounds.high, scene.vertices[mesh.first_vertex + i].position);
   }
   return bounds;
+}
+
+std::string reach_warning(const Scene& scene) {
+  const Bounds bounds = scene_bounds(scene);
+  const vec3 corner = max(abs(bounds.low), abs(bounds.high));
+  const float reach = std::max({corner.x, corner.y, corner.z});
+  if (reach <= kFirmReach) return "";
+  return fmt::format(
+      "the scene extends {:.3g} km from the origin, where light leaks through walls thinner than {:.2g} m; move it "
+      "nearer",
+      reach * 1e-3f, reach * kThinnestWall);
 }
 
 void set_matrix(Instance& instance, const dmat4& object_to_world) {

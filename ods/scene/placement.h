@@ -29,6 +29,9 @@ bool stays_near(const glm::dmat4& matrix, const Bounds& box);
 // The box around a mesh's own vertices.
 Bounds mesh_bounds(const Scene& scene, const Mesh& mesh);
 
+// The warning about a scene that extends further than kFirmReach; empty for others.
+std::string reach_warning(const Scene& scene);
+
 // Stores a matrix as the rows of an instance.
 void set_matrix(Instance& instance, const glm::dmat4& object_to_world);
 

@@ -107,17 +107,21 @@ Viewing place_viewer(const SceneRays& rays, const Survey& survey, float metres_p
   return survey.stand ? in_place(rays, survey, metres_per_unit) : before_object(rays, survey, metres_per_unit);
 }
 
-Settled settle(Scene& scene, std::optional<float> metres_per_unit, bool shows_models) {
+Settled settle(Scene& scene, std::optional<float> metres_per_unit, bool shows_models, const LookAround& look) {
   Settled settled;
   {
     const SceneRays rays(scene);
-    UnitGuess guess = metres_per_unit ? UnitGuess{*metres_per_unit, "", survey(rays, *metres_per_unit)}
-                                      : guess_unit(rays, shows_models);
-    settled = {guess.survey.kind, guess.metres, guess.reason, std::nullopt};
+    const UnitGuess guess = metres_per_unit ? UnitGuess{*metres_per_unit, "", survey(rays, *metres_per_unit)}
+                                            : guess_unit(rays, shows_models);
+    settled = {guess.survey.kind, guess.metres, guess.reason};
     if (settled.kind != SceneKind::kNothing) scene.viewing = place_viewer(rays, guess.survey, guess.metres);
-    if (settled.metres_per_unit == 1.0f) settled.survey = std::move(guess.survey);
+    if (look && guess.metres == 1.0f) look(rays, guess.survey);
   }
+  if (settled.metres_per_unit == 1.0f) return settled;
   scale_scene(scene, settled.metres_per_unit);
+  if (!look) return settled;
+  const SceneRays rays(scene);
+  look(rays, survey(rays));
   return settled;
 }
 

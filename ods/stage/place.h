@@ -3,6 +3,7 @@
 //
 // Where the viewer is: on a floor in a place, before an object.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,14 +23,17 @@ Viewing place_viewer(const SceneRays& rays, const Survey& survey, float metres_p
 struct Settled {
   SceneKind kind = SceneKind::kNothing;
   float metres_per_unit = 1.0f;
-  std::string unit_reason;       // why that is not 1; empty if it is, or was given
-  std::optional<Survey> survey;  // of the scene as it is now; none if it was scaled
+  std::string unit_reason;  // why that is not 1; empty if it is, or was given
 };
+
+// What else needs the rays of the settled scene and what they found, so that nobody traces them again.
+using LookAround = std::function<void(const SceneRays& rays, const Survey& survey)>;
 
 // Gives a scene its size in metres and its viewer: guesses the unit, unless it is given, scales the scene by it, and
 // sets Scene::viewing. A scene without anything visible is left as it is, but for a unit that is given. shows_models:
-// as in guess_unit().
-Settled settle(Scene& scene, std::optional<float> metres_per_unit = std::nullopt, bool shows_models = true);
+// as in guess_unit(). look: called once, when all that is done.
+Settled settle(Scene& scene, std::optional<float> metres_per_unit = std::nullopt, bool shows_models = true,
+               const LookAround& look = {});
 
 // What is wrong with a viewer at a point, in words for a warning that starts with "the camera"; empty: nothing. The
 // scene is in metres.

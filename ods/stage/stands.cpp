@@ -24,6 +24,8 @@ vec3 direction_at(float azimuth, float elevation) {
   return direction_of(glm::radians(azimuth), glm::radians(elevation));
 }
 
+constexpr float kWithinSolid = 1e-3f;  // such a stand is worth less than any other
+
 struct View {
   float worth = 0.0f;
   float near = 0.0f;   // share of the azimuths in which the ground reaches 4.4 m, or ends at a wall
@@ -31,6 +33,10 @@ struct View {
   float walls = 0.0f;  // as Stand::walls
   float above = 0.0f;  // share of the directions above the horizon with something to see
   float backs = 0.0f;  // share of the surfaces that show their backs
+  bool shut = false;   // nothing leads outside
+
+  // As inside a rock with other things in it, or under the water of a lake; also in a room whose walls face outwards.
+  bool is_within_solid() const { return shut && backs > 0.25f; }
 };
 
 View look_around(const SceneRays& rays, vec3 eye, float unit) {
@@ -61,6 +67,7 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
   view.walls = static_cast<float>(walls) / kAzimuths;
   view.above = static_cast<float>(above) / (kAzimuths * 3.0f);
   view.backs = hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
+  view.shut = hits == static_cast<int>(count);
   view.worth = sum / count + 0.15f * static_cast<float>(seen.size()) / count;
   return view;
 }
@@ -100,6 +107,13 @@ bool is_flat(const Bounds& core, float unit) {
   return std::min(size.x, size.z) * unit >= 10.0f && size.y < 0.08f * std::max(size.x, size.z);
 }
 
+// Whether what is seen from a point is most of the scene: the walls of a room, not the inside of one thing among many.
+bool sees_most(const SceneRays& rays, const Bounds& core, vec3 eye) {
+  const Bounds seen = seen_bounds(rays, eye);
+  const vec3 seen_size = seen.high - seen.low, size = core.high - core.low;
+  return seen_size.x * seen_size.y * seen_size.z >= 0.3f * size.x * size.y * size.z;
+}
+
 // A floor with its headroom; worth 0: nobody can stand there.
 Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float headroom, float unit) {
   Stand stand;
@@ -115,6 +129,7 @@ Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float he
   if (!surrounded || view.backs > 0.95f) return stand;
   stand.walls = view.walls;
   stand.worth = (view.worth + 0.4f * centrality(core, stand.eye)) * firm * height / kEyeHeight;
+  if (view.is_within_solid()) stand.worth *= kWithinSolid;
   return stand;
 }
 
@@ -130,7 +145,8 @@ Stand best_in_column(const SceneRays& rays, const Bounds& core, vec3 top, float 
     if (sight.normal.y >= kLevel) {
       const float headroom = rays.distance(foot - down * step, -down);
       const Stand stand = judge_floor(rays, core, foot, headroom, unit);
-      if (stand.worth > best.worth) best = stand;
+      const bool within_solid = stand.worth < 3.0f * kWithinSolid;
+      if (stand.worth > best.worth && !(within_solid && !sees_most(rays, core, stand.eye))) best = stand;
     }
     top = foot + down * step;
   }

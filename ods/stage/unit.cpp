@@ -141,6 +141,7 @@ void scale_scene(Scene& scene, float factor) {
                             "--unit m keeps its size",
                             factor));
   }
+  std::erase(scene.warnings, reach_warning(scene));
   for (Instance& instance : scene.instances) {
     instance.row0 *= factor, instance.row1 *= factor, instance.row2 *= factor;
   }
@@ -156,6 +157,7 @@ void scale_scene(Scene& scene, float factor) {
   }
   scale_animation(scene.animation, static_cast<double>(factor));
   set_time(scene, 0.0);
+  if (std::string far = reach_warning(scene); !far.empty()) scene.warnings.push_back(std::move(far));
 }
 
 }  // namespace ods

@@ -385,9 +385,8 @@ TEST_F(ViewBrowser, ShowsEachEyeItsPictureInAHeadset) {
       const Image wanted = converted(pictures_[item], is_swapped ? 1 - eye : eye, look);
       const Image other = converted(pictures_[item], is_swapped ? eye : 1 - eye, look);
       const Image got = drawn(folder_.path(name), eye * kWindow);
-      // The GPU's own filter, which is fast and softer, minifies there.
-      EXPECT_GE(likeness(got, wanted), 30.0) << name << ", eye " << eye;
-      EXPECT_LT(likeness(got, other), 25.0) << name << ", eye " << eye;
+      EXPECT_GE(likeness(got, wanted), kAlike) << name << ", eye " << eye;
+      EXPECT_LT(likeness(got, other), kAlike) << name << ", eye " << eye;
     }
   };
   expect("ahead", {0, 0, 90}, false);

@@ -141,5 +141,22 @@ TEST(ViewFault, NamesSolidsClosedBoxesAndCeilings) {
   EXPECT_NE(view_fault(SceneRays(box), vec3(0)).find("closed space"), std::string::npos);
 }
 
+// Whether the unit is that of the file, is guessed, or is given: what looks around sees the scene in metres, once.
+TEST(Settle, LetsOthersLookAroundInTheSettledScene) {
+  for (const float size : {1.0f, 100.0f}) {
+    Scene scene = resized(make_simple_room(), size);
+    int looks = 0;
+    const Settled settled = settle(scene, std::nullopt, true, [&](const SceneRays& rays, const Survey& survey) {
+      looks++;
+      EXPECT_EQ(survey.kind, SceneKind::kClosedRoom);
+      ASSERT_TRUE(survey.stand && survey.stand->floor);
+      EXPECT_NEAR(survey.stand->eye.y - *survey.stand->floor, kEyeHeight, 0.01f);
+      EXPECT_NEAR(rays.distance(survey.stand->eye, vec3(0, -1, 0)), kEyeHeight, 0.01f);
+    });
+    EXPECT_EQ(looks, 1);
+    EXPECT_NEAR(settled.metres_per_unit, 1.0f / size, 1e-6f);
+  }
+}
+
 }  // namespace
 }  // namespace ods

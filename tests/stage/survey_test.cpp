@@ -103,6 +103,39 @@ TEST(Survey, LeavesOutWhatWasLeftFarAway) {
   EXPECT_LE(after.high.x, before.high.x);
 }
 
+// Hills with a lake in their valley: the water is one sheet, and one could stand on the bed beneath it.
+TEST(Survey, NobodyStandsUnderWater) {
+  Scene scene = make_landscape(400.0f);
+  add(scene, make_floor(400, 400), 1, placed(vec3(0, 12, 0)));
+  const Survey found = survey(SceneRays(scene));
+  EXPECT_EQ(found.kind, SceneKind::kOpenPlace);
+  ASSERT_TRUE(found.stand);
+  EXPECT_GT(found.stand->eye.y, 12.0f);
+}
+
+// A hollow rock with other rocks in it is not a room: the fronts of those are seen from inside.
+TEST(Survey, NobodyStandsInsideOfARock) {
+  Scene scene = make_space();
+  add(scene, make_sphere(7.0f, 24), 0, placed(vec3(15, 9, 9)));
+  for (const float x : {11.0f, 19.0f}) add(scene, make_sphere(1.5f, 16), 1, placed(vec3(x, 9, 9)));
+  const Survey found = survey(SceneRays(scene));
+  EXPECT_EQ(found.kind, SceneKind::kOpenPlace);
+  ASSERT_TRUE(found.stand);
+  EXPECT_FALSE(found.stand->floor);
+  Scene tower = with_materials();
+  add(tower, make_cylinder(9, 3.4f, 32), 0, placed(vec3(0, 1.7f, 0)));
+  add(tower, make_cylinder(4, 30, 32), 1, placed(vec3(0, 18.4f, 0)));
+  EXPECT_EQ(kind_of(tower), SceneKind::kObject) << "its foot is hollow, as all meshes are";
+}
+
+TEST(Survey, ARoomWhoseWallsFaceOutwardsIsARoom) {
+  Scene scene = with_materials();
+  add(scene, make_box(vec3(6, 2.6f, 5)), 0, placed(vec3(0, 1.3f, 0)));
+  add_furniture(scene, vec3(-2.0f, 0, -0.5f));
+  add_block(scene, vec3(-2.9f, 0, 1.0f), vec3(-2.4f, 2.0f, 2.2f));
+  EXPECT_EQ(kind_of(scene), SceneKind::kClosedRoom);
+}
+
 TEST(Survey, HiddenThingsDoNotCount) {
   Scene scene = make_chair();
   scene.hidden.assign(scene.instances.size(), 1);

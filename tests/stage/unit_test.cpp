@@ -144,6 +144,19 @@ TEST(ScaleScene, ScalesVolumesAndViewPoints) {
   EXPECT_NEAR(scene.view_points[0].position.z, 0.03f, 1e-7f);
 }
 
+// The warning is about what is rendered, not about the numbers in the file.
+TEST(ScaleScene, KnowsWhetherTheSceneIsStillTooLarge) {
+  Scene scene = make_landscape(10000.0f);
+  scene.warnings = {"another", reach_warning(scene)};
+  ASSERT_NE(scene.warnings.back(), "");
+  Scene smaller = scene, larger = scene;
+  scale_scene(smaller, 0.01f);
+  EXPECT_EQ(smaller.warnings, std::vector<std::string>{"another"});
+  scale_scene(larger, 10.0f);
+  ASSERT_EQ(larger.warnings.size(), 2u);
+  EXPECT_NE(larger.warnings.back().find("extends 50 km"), std::string::npos) << larger.warnings.back();
+}
+
 TEST(ScaleScene, RefusesWhatNoFloatCouldHold) {
   Scene scene = make_landscape(2000.0f);
   EXPECT_THROW(scale_scene(scene, 1e6f), Error);

@@ -20,6 +20,7 @@ size_t property_width(Property property) {
     case Property::kEmissionStrength:
     case Property::kMetallic:
     case Property::kRoughness:
+    case Property::kLayerNumber:
     case Property::kUvRotation:
       return 1;
     case Property::kUvOffset:
@@ -29,6 +30,7 @@ size_t property_width(Property property) {
     case Property::kScale:
     case Property::kLampColor:
     case Property::kEmission:
+    case Property::kLayerColor:
       return 3;
     case Property::kRotation:
     case Property::kBaseColor:
@@ -45,6 +47,10 @@ int targets_per_material(Property property) {
     case Property::kMetallic:
     case Property::kRoughness:
       return 1;
+    case Property::kLayerNumber:
+      return kLayerNumberCount;
+    case Property::kLayerColor:
+      return kLayerColorCount;
     case Property::kUvOffset:
     case Property::kUvRotation:
     case Property::kUvScale:
@@ -62,6 +68,15 @@ int targets_per_material(Property property) {
       return 0;
   }
   return 0;
+}
+
+void rest_at(MovingMaterial& moving, const MaterialLayers& layers) {
+  for (size_t i = 0; i < std::size(kLayerNumbers); i++) {
+    moving.layer_numbers[i] = static_cast<double>(layers.*kLayerNumbers[i].member);
+  }
+  for (size_t i = 0; i < std::size(kLayerColors); i++) {
+    moving.layer_colors[i] = glm::dvec3(layers.*kLayerColors[i].member);
+  }
 }
 
 double length_of(const Animation& animation) {

@@ -17,6 +17,7 @@
 #include "ods/base/names.h"
 #include "ods/scene/animation/deformation.h"
 #include "ods/scene/animation/keyframes.h"
+#include "ods/scene/animation/layer_factors.h"
 
 namespace ods {
 
@@ -36,17 +37,19 @@ enum class Property {
   kEmissionStrength,
   kMetallic,
   kRoughness,
-  kUvOffset,  // of a texture transform: target is 5 * material + slot (kBaseColorSlot ..)
+  kLayerNumber,  // of a material's layers: target is kLayerNumberCount * material + index in kLayerNumbers
+  kLayerColor,   //                         likewise for kLayerColors: r, g, b
+  kUvOffset,     // of a texture transform: target is kSlotCount * material + slot (kBaseColorSlot ..)
   kUvRotation,
   kUvScale,
 };
 
-inline constexpr Property kProperties[] = {Property::kTranslation,      Property::kRotation,   Property::kScale,
-                                           Property::kVisible,          Property::kWeights,    Property::kLampColor,
-                                           Property::kLampIntensity,    Property::kLampRange,  Property::kLampInnerCone,
-                                           Property::kLampOuterCone,    Property::kBaseColor,  Property::kEmission,
-                                           Property::kEmissionStrength, Property::kMetallic,   Property::kRoughness,
-                                           Property::kUvOffset,         Property::kUvRotation, Property::kUvScale};
+inline constexpr Property kProperties[] = {
+    Property::kTranslation,      Property::kRotation,      Property::kScale,         Property::kVisible,
+    Property::kWeights,          Property::kLampColor,     Property::kLampIntensity, Property::kLampRange,
+    Property::kLampInnerCone,    Property::kLampOuterCone, Property::kBaseColor,     Property::kEmission,
+    Property::kEmissionStrength, Property::kMetallic,      Property::kRoughness,     Property::kLayerNumber,
+    Property::kLayerColor,       Property::kUvOffset,      Property::kUvRotation,    Property::kUvScale};
 static_assert(std::size(kProperties) == enumerator_count<Property>());
 
 // The number of values that change together; 0: one per morph target.
@@ -115,16 +118,23 @@ struct UvPlace {
   glm::dvec2 scale{1.0};
 };
 
-enum { kBaseColorSlot, kMetallicRoughnessSlot, kNormalSlot, kEmissionSlot, kTransmissionSlot, kSlotCount };
+// Textures of a material, then those of its layers.
+enum { kBaseColorSlot, kMetallicRoughnessSlot, kNormalSlot, kEmissionSlot, kTransmissionSlot, kFirstLayerSlot };
+inline constexpr int kSlotCount = kFirstLayerSlot + kLayerTextureCount;
 
 struct MovingMaterial {
   int material = 0;  // index in the scene
   glm::dvec4 base_color{1.0};
   glm::dvec3 emission{0.0};  // without the strength factor
   double strength = 1.0, metallic = 0.0, roughness = 1.0;
+  double layer_numbers[kLayerNumberCount] = {};
+  glm::dvec3 layer_colors[kLayerColorCount] = {};
   UvPlace places[kSlotCount];
   bool placed[kSlotCount] = {};  // per slot: whether a track animates its texture transform
 };
+
+// Sets the layers' factors at rest.
+void rest_at(MovingMaterial& moving, const MaterialLayers& layers);
 
 struct Animation {
   std::vector<Clip> clips;

@@ -43,6 +43,7 @@ int add_moving_material(Scene& scene, int index) {
   moving.emission = glm::dvec3(material.emission);
   moving.metallic = static_cast<double>(material.metallic);
   moving.roughness = static_cast<double>(material.roughness);
+  if (material.layers >= 0) rest_at(moving, scene.material_layers[static_cast<size_t>(material.layers)]);
   const TextureSlot& slot = material.base_color_slot;
   moving.places[kBaseColorSlot] = {glm::dvec2(slot.offset), 0.0, {slot.axis_u.x, slot.axis_v.y}};
   scene.animation.materials.push_back(moving);

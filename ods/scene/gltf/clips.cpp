@@ -23,13 +23,12 @@ struct Target {
   List list;
   int index;
   Property property;
-  int slot = 0;  // texture slot of a material
+  int slot = 0;  // of a material: its texture slot, or the row of kLayerNumbers or kLayerColors
 };
 
 struct PointerForm {
   std::string_view member;
   Property property;
-  int slot = 0;
 };
 
 }  // namespace
@@ -51,12 +50,14 @@ static constexpr std::array kMaterialForms = {
     PointerForm{"/emissiveFactor", Property::kEmission},
     PointerForm{"/extensions/KHR_materials_emissive_strength/emissiveStrength", Property::kEmissionStrength}};
 
+static const std::string kExtensions = "/extensions/";
+
 static constexpr std::array kTextureForms = {
     PointerForm{"/extensions/KHR_texture_transform/offset", Property::kUvOffset},
     PointerForm{"/extensions/KHR_texture_transform/rotation", Property::kUvRotation},
     PointerForm{"/extensions/KHR_texture_transform/scale", Property::kUvScale}};
 
-static constexpr std::array<std::string_view, kSlotCount> kSlots = {
+static constexpr std::array<std::string_view, kFirstLayerSlot> kSlots = {
     "/pbrMetallicRoughness/baseColorTexture", "/pbrMetallicRoughness/metallicRoughnessTexture", "/normalTexture",
     "/emissiveTexture", "/extensions/KHR_materials_transmission/transmissionTexture"};
 
@@ -68,13 +69,30 @@ static std::optional<Target> find_format(List list, int index, std::span<const P
   return std::nullopt;
 }
 
+static std::string texture_name(int slot) {
+  if (slot < kFirstLayerSlot) return std::string(kSlots[static_cast<size_t>(slot)]);
+  return kExtensions + std::string(kLayerTextures[slot - kFirstLayerSlot].name);
+}
+
 static std::optional<Target> find_texture_form(int index, std::string_view member) {
-  for (size_t slot = 0; slot < kSlots.size(); slot++) {
-    if (!member.starts_with(kSlots[slot])) continue;
-    std::optional<Target> target =
-        find_format(List::kMaterials, index, kTextureForms, member.substr(kSlots[slot].size()));
-    if (target) target->slot = static_cast<int>(slot);
+  for (int slot = 0; slot < kSlotCount; slot++) {
+    const std::string texture = texture_name(slot);
+    if (!member.starts_with(texture)) continue;
+    auto target = find_format(List::kMaterials, index, kTextureForms, member.substr(texture.size()));
+    if (target) target->slot = slot;
     return target;
+  }
+  return std::nullopt;
+}
+
+static std::optional<Target> find_layer_form(int index, std::string_view member) {
+  if (!member.starts_with(kExtensions)) return std::nullopt;
+  member.remove_prefix(kExtensions.size());
+  for (int i = 0; i < kLayerNumberCount; i++) {
+    if (member == kLayerNumbers[i].name) return Target{List::kMaterials, index, Property::kLayerNumber, i};
+  }
+  for (int i = 0; i < kLayerColorCount; i++) {
+    if (member == kLayerColors[i].name) return Target{List::kMaterials, index, Property::kLayerColor, i};
   }
   return std::nullopt;
 }
@@ -96,8 +114,10 @@ static std::optional<Target> parse_pointer(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error != std::errc() || index < 0) return std::nullopt;
     const std::string_view member = text.substr(static_cast<size_t>(end - text.data()));
-    if (const auto target = find_format(start.list, index, start.forms, member)) return target;
-    return start.list == List::kMaterials ? find_texture_form(index, member) : std::nullopt;
+    const auto target = find_format(start.list, index, start.forms, member);
+    if (target || start.list != List::kMaterials) return target;
+    const auto layer = find_layer_form(index, member);
+    return layer ? layer : find_texture_form(index, member);
   }
   return std::nullopt;
 }
@@ -130,6 +150,19 @@ AnimatedNodes find_animated_nodes(const GltfFile& file) {
     }
   }
   return animated;
+}
+
+std::vector<char> find_moving_layers(const GltfFile& file) {
+  std::vector<char> moving(file.materials.size(), 0);
+  for (const ClipSource& clip : file.clips) {
+    for (const ChannelSource& channel : clip.channels) {
+      const auto target = target_of(channel);
+      if (!target || (target->property != Property::kLayerNumber && target->property != Property::kLayerColor))
+        continue;
+      element(file, moving, target->index, "material") = 1;
+    }
+  }
+  return moving;
 }
 
 // --- keys
@@ -219,12 +252,9 @@ int TargetRows::row(const Target& target) {
     const bool weights = target.property == Property::kWeights;
     return element(file_, weights ? places_.weights : places_.nodes, target.index, "node");
   }
-  const int row = material(target.index);
-  const bool placed = target.property == Property::kUvOffset || target.property == Property::kUvRotation ||
-                      target.property == Property::kUvScale;
-  if (!placed) return row;
-  animation_.materials[static_cast<size_t>(row)].placed[target.slot] = true;
-  return row * kSlotCount + target.slot;
+  const int row = material(target.index), width = targets_per_material(target.property);
+  if (width == kSlotCount) animation_.materials[static_cast<size_t>(row)].placed[target.slot] = true;
+  return row * width + target.slot;
 }
 
 // Adds lights whose properties or node are animated.

@@ -13,6 +13,7 @@
 #include "ods/scene/gltf/extensions.h"
 #include "ods/scene/gltf/nodes.h"
 #include "ods/scene/motion.h"
+#include "ods/scene/placement.h"
 
 namespace ods {
 
@@ -106,16 +107,6 @@ static void warn_of_undrawn(const GltfFile& file, Scene& scene) {
                           counted(points, "point"), all == 1 ? " is" : "s are"));
 }
 
-static void check_reach(Scene& scene) {
-  const Bounds bounds = scene_bounds(scene);
-  const vec3 corner = max(abs(bounds.low), abs(bounds.high));
-  const float reach = std::max({corner.x, corner.y, corner.z});
-  if (reach <= kFirmReach) return;
-  warn(scene, fmt::format("the scene extends {:.3g} km from the origin, where light leaks through walls thinner than "
-                          "{:.2g} m; move it nearer",
-                          reach * 1e-3f, reach * kThinnestWall));
-}
-
 static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
@@ -129,7 +120,7 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   read_clips(file, scene, places);
   warn_of_undrawn(file, scene);
   set_time(scene, 0.0);  // poses skins and morph targets at rest
-  check_reach(scene);
+  if (const std::string far = reach_warning(scene); !far.empty()) warn(scene, far);
   return scene;
 }
 

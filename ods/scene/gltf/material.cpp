@@ -29,10 +29,12 @@ static float factor(const JsonValue& parent, const char* key, double high, doubl
   return clamped(number(parent, key, fallback), 0.0, high, fallback);
 }
 
-static void read_clearcoat_and_sheen(const JsonValue& source, TextureTable& textures, MaterialLayers& layers) {
+// moves: an animation moves a factor, which may be 0 at rest.
+static void read_clearcoat_and_sheen(const JsonValue& source, TextureTable& textures, bool moves,
+                                     MaterialLayers& layers) {
   const JsonValue& coat = extension(source, "KHR_materials_clearcoat");
   layers.clearcoat = factor(coat, "clearcoatFactor", 1.0, 0.0);
-  if (layers.clearcoat > 0.0f) {
+  if (moves || layers.clearcoat > 0.0f) {
     layers.clearcoat_slot = textures.slot(coat, "clearcoatTexture", false);
     layers.clearcoat_roughness = factor(coat, "clearcoatRoughnessFactor", 1.0, 0.0);
     layers.clearcoat_roughness_slot = textures.slot(coat, "clearcoatRoughnessTexture", false);
@@ -41,23 +43,24 @@ static void read_clearcoat_and_sheen(const JsonValue& source, TextureTable& text
   }
   const JsonValue& sheen = extension(source, "KHR_materials_sheen");
   layers.sheen_color = color(numbers(sheen, "sheenColorFactor", {0.0, 0.0, 0.0}), 1.0);
-  if (layers.sheen_color != vec3(0.0f)) {
+  if (moves || layers.sheen_color != vec3(0.0f)) {
     layers.sheen_color_slot = textures.slot(sheen, "sheenColorTexture", true);
     layers.sheen_roughness = factor(sheen, "sheenRoughnessFactor", 1.0, 0.0);
     layers.sheen_roughness_slot = textures.slot(sheen, "sheenRoughnessTexture", false);
   }
 }
 
-static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTable& textures, MaterialLayers& layers) {
+static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTable& textures, bool moves,
+                                            MaterialLayers& layers) {
   const JsonValue& anisotropy = extension(source, "KHR_materials_anisotropy");
   layers.anisotropy = factor(anisotropy, "anisotropyStrength", 1.0, 0.0);
-  if (layers.anisotropy > 0.0f) {
+  if (moves || layers.anisotropy > 0.0f) {
     layers.anisotropy_rotation = clamped(number(anisotropy, "anisotropyRotation", 0.0), -1e3, 1e3, 0.0);
     layers.anisotropy_slot = textures.slot(anisotropy, "anisotropyTexture", false);
   }
   const JsonValue& film = extension(source, "KHR_materials_iridescence");
   layers.iridescence = factor(film, "iridescenceFactor", 1.0, 0.0);
-  if (layers.iridescence > 0.0f) {
+  if (moves || layers.iridescence > 0.0f) {
     constexpr double kThickest = 1e5;  // nanometres; interference is long gone
     layers.iridescence_slot = textures.slot(film, "iridescenceTexture", false);
     layers.iridescence_ior = clamped(number(film, "iridescenceIor", 1.3), 1.0, 100.0, 1.3);
@@ -68,7 +71,7 @@ static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTabl
 }
 
 // What most materials lack. Extensions whose values change nothing leave the material as it is.
-static void read_layers(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
+static void read_layers(const JsonValue& source, Scene& scene, TextureTable& textures, bool moves, Material& material) {
   const MaterialLayers plain = default_layers();
   MaterialLayers layers = plain;
   const JsonValue& specular = extension(source, "KHR_materials_specular");
@@ -82,24 +85,25 @@ static void read_layers(const JsonValue& source, Scene& scene, TextureTable& tex
     layers.specular_color = color(numbers(older, "specularFactor", {1.0, 1.0, 1.0}), 1.0);
     layers.specular_color_slot = textures.slot(older, "specularGlossinessTexture", true);
   }
-  read_clearcoat_and_sheen(source, textures, layers);
-  read_anisotropy_and_iridescence(source, textures, layers);
+  read_clearcoat_and_sheen(source, textures, moves, layers);
+  read_anisotropy_and_iridescence(source, textures, moves, layers);
   if (material.transmission > 0.0f && material.thickness > 0.0f) {
     layers.dispersion = factor(extension(source, "KHR_materials_dispersion"), "dispersion", 100.0, 0.0);
   }
   const JsonValue& through = extension(source, "KHR_materials_diffuse_transmission");
   layers.diffuse_transmission = factor(through, "diffuseTransmissionFactor", 1.0, 0.0);
-  if (layers.diffuse_transmission > 0.0f) {
+  if (moves || layers.diffuse_transmission > 0.0f) {
     layers.diffuse_transmission_slot = textures.slot(through, "diffuseTransmissionTexture", false);
     layers.diffuse_transmission_color = color(numbers(through, "diffuseTransmissionColorFactor", {1.0, 1.0, 1.0}), 1.0);
     layers.diffuse_transmission_color_slot = textures.slot(through, "diffuseTransmissionColorTexture", true);
   }
-  if (std::memcmp(&layers, &plain, sizeof plain) == 0) return;
+  if (!moves && std::memcmp(&layers, &plain, sizeof plain) == 0) return;
   material.layers = static_cast<int>(scene.material_layers.size());
   scene.material_layers.push_back(layers);
 }
 
-static void read_extensions(const JsonValue& source, Scene& scene, TextureTable& textures, Material& material) {
+static void read_extensions(const JsonValue& source, Scene& scene, TextureTable& textures, bool moves,
+                            Material& material) {
   const double strength = number(extension(source, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
   material.emission *= clamped(strength, 0.0, 1e9, 1.0);
   const JsonValue& ior = extension(source, "KHR_materials_ior");
@@ -126,7 +130,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
     material.attenuation_color = color(numbers(volume, "attenuationColor", {1.0, 1.0, 1.0}), 1.0);
   }
   material.unlit = !extension(source, "KHR_materials_unlit").is_null();
-  if (material.unlit == 0) read_layers(source, scene, textures, material);
+  if (material.unlit == 0) read_layers(source, scene, textures, moves, material);
 }
 
 // KHR_materials_pbrSpecularGlossiness, which KHR_materials_specular replaced: with an index of refraction of 0, a
@@ -142,7 +146,7 @@ static void read_specular_glossiness(const JsonValue& older, TextureTable& textu
   material.ior = kMirrorIor;
 }
 
-static Material read_material(const JsonValue& source, Scene& scene, TextureTable& textures) {
+static Material read_material(const JsonValue& source, Scene& scene, TextureTable& textures, bool moves) {
   const JsonValue &pbr = source["pbrMetallicRoughness"], &normal = source["normalTexture"];
   Material material = default_material();
   const std::vector<double> base = numbers(pbr, "baseColorFactor", {1.0, 1.0, 1.0, 1.0});
@@ -159,7 +163,7 @@ static Material read_material(const JsonValue& source, Scene& scene, TextureTabl
   material.alpha_mode = alpha == "MASK" ? kAlphaMask : alpha == "BLEND" ? kAlphaBlend : kAlphaOpaque;
   material.alpha_cutoff = clamped(number(source, "alphaCutoff", 0.5), 0.0, 2.0, 0.5);
   material.double_sided = source["doubleSided"].is_true();
-  read_extensions(source, scene, textures, material);
+  read_extensions(source, scene, textures, moves, material);
   const JsonValue& older = extension(source, "KHR_materials_pbrSpecularGlossiness");
   if (!older.is_null()) read_specular_glossiness(older, textures, material);
   return material;
@@ -186,18 +190,27 @@ MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, in
   moving.places[kNormalSlot] = place_of(source, "normalTexture");
   moving.places[kEmissionSlot] = place_of(source, "emissiveTexture");
   moving.places[kTransmissionSlot] = place_of(extension(source, "KHR_materials_transmission"), "transmissionTexture");
+  for (size_t i = 0; i < std::size(kLayerTextures); i++) {
+    const std::string name(kLayerTextures[i].name);
+    const size_t slash = name.find('/');
+    moving.places[kFirstLayerSlot + i] =
+        place_of(extension(source, name.substr(0, slash).c_str()), name.c_str() + slash + 1);
+  }
+  if (material.layers >= 0) rest_at(moving, scene.material_layers[static_cast<size_t>(material.layers)]);
   return moving;
 }
 
-void read_materials(const GltfFile& file, Scene& scene) {
+void read_materials(GltfFile& file, Scene& scene) {
   check_memory(file.materials.size() * (sizeof(Material) + sizeof(std::string)), file.path + ": its list of materials",
                "use a machine with more");
   TextureTable textures(file, scene);
-  for (const JsonValue* material : file.materials) {
-    scene.materials.push_back(read_material(*material, scene, textures));
-    scene.material_names.push_back(printable(*(*material)["name"].text));
+  file.moving_layers = find_moving_layers(file);
+  for (size_t i = 0; i < file.materials.size(); i++) {
+    const JsonValue& material = *file.materials[i];
+    scene.materials.push_back(read_material(material, scene, textures, file.moving_layers[i] != 0));
+    scene.material_names.push_back(printable(*material["name"].text));
   }
-  scene.materials.push_back(read_material(kNoJson, scene, textures));
+  scene.materials.push_back(read_material(kNoJson, scene, textures, false));
   textures.decode_images();
 }
 

@@ -262,13 +262,15 @@ static void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3
 
 // The texture coordinates that a material's tangents follow: those of its normal map, or of its clearcoat's, or of its
 // anisotropy. Null: it needs no tangents.
-static const TextureSlot* slot_of_tangents(const Scene& scene, int index) {
+static const TextureSlot* slot_of_tangents(const GltfFile& file, const Scene& scene, int index) {
   const Material& material = scene.materials[static_cast<size_t>(index)];
   if (material.normal_slot.texture != -1) return &material.normal_slot;
   if (material.layers < 0) return nullptr;
   const MaterialLayers& layers = scene.material_layers[static_cast<size_t>(material.layers)];
   if (layers.clearcoat_normal_slot.texture != -1) return &layers.clearcoat_normal_slot;
-  return layers.anisotropy > 0.0f ? &layers.anisotropy_slot : nullptr;
+  const auto i = static_cast<size_t>(index);
+  const bool moves = i < file.moving_layers.size() && file.moving_layers[i] != 0;
+  return moves || layers.anisotropy > 0.0f ? &layers.anisotropy_slot : nullptr;
 }
 
 // The file's index of a primitive's material, -1: none. The first mapping that names the chosen variant counts.
@@ -329,7 +331,7 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
   if (!deforms) file.draco.erase(&listed);
   if (flat) make_flat(geometry);
   repair_normals(geometry);
-  const TextureSlot* const tangent_slot = slot_of_tangents(scene, material);
+  const TextureSlot* const tangent_slot = slot_of_tangents(file, scene, material);
   if (tangent_slot) make_tangents(geometry.vertices, geometry.triangles, *tangent_slot);
   const int index = add_mesh(scene, std::move(geometry.vertices), std::move(geometry.triangles), material);
   if (deforms) read_deformation(file, scene, source, bending, index, flat);

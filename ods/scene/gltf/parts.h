@@ -76,6 +76,7 @@ struct GltfFile {
   size_t size = 0;                              // bytes of the file and its buffers
   size_t draco_budget = 0;                      // bytes that decoding may still use
   size_t budget = 0;                            // remaining corners and instances, in proportion to the file's size
+  std::vector<char> moving_layers;              // per material: whether an animation moves a factor of its layers
   int variant = -1;                             // the chosen one of KHR_materials_variants; -1: none
   std::set<const JsonValue*> points, lines;     // primitives that were met and not read
 };
@@ -121,10 +122,15 @@ inline constexpr const char* kBasis = "KHR_texture_basisu";
 inline constexpr const char* kBasisCure = "gltf-transform ktxdecompress in.glb out.glb";
 
 // The scene's materials are the file's in order, then one more for primitives without a material.
-void read_materials(const GltfFile& file, Scene& scene);
+// Sets file.moving_layers.
+void read_materials(GltfFile& file, Scene& scene);
 
 // A material's factors and texture transforms, from which its animation starts.
 MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int material);
+
+// --- clips.cpp
+// Per material of the file: whether an animation moves a factor of its MaterialLayers.
+std::vector<char> find_moving_layers(const GltfFile& file);
 
 // --- mesh.cpp
 // What deforms a node's mesh: indices into Scene::animation.

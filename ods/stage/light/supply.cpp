@@ -92,6 +92,7 @@ std::optional<Surround> missing_surround(const Survey& survey, const LightPlan& 
     case SceneKind::kObject:
       return Surround::kStudio;
     case SceneKind::kOpenPlace:
+      if (!survey.stand->floor) return Surround::kStudio;  // the sky has a ground, and nothing here stands on one
       return Surround::kSky;
     case SceneKind::kClosedRoom:
       break;
@@ -122,8 +123,11 @@ std::string note_for(const Survey& survey, const LightPlan& plan, const LightWis
   }
   if (!plan.surround || wishes.surround != Surround::kAuto) return "";
   if (plan.surround == Surround::kStudio) {
-    return "an object without light of its own: a studio lights it (--env sky, white, R,G,B or a lat-long picture "
-           "replaces the studio, --env 0 removes it)";
+    const bool floats = survey.kind == SceneKind::kOpenPlace;
+    return fmt::format(
+        "{} own: a studio lights {} (--env sky, white, R,G,B or a lat-long picture replaces the studio, --env "
+        "0 removes it)",
+        floats ? "floating things without light of their" : "an object without light of its", floats ? "them" : "it");
   }
   const std::string sky = fmt::format(
       "--env sky:elevation={:g},azimuth={:g} is this sun, --env white, R,G,B or a lat-long picture replaces the sky)",

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ods/denoise/denoise.h"
 #include "ods/render/cpu/render.h"
 #include "tests/support/pictures.h"
 
@@ -68,6 +69,35 @@ TEST(Studio, GroundLooksLikeTheFloor) {
   }
   EXPECT_GT(floor, 0.2);
   EXPECT_LT(floor, 0.5);
+}
+
+// The denoiser takes ground and background for one thing, so no line of noise is left where the ground ends.
+TEST(Studio, DenoisingLeavesNoLineWhereTheGroundEnds) {
+  Scene scene;
+  scene.environment = make_studio();
+  scene.background = make_studio_walls();
+  add_ground(scene, vec3(0, -0.7f, 0), 8.0f, studio_floor());
+  RenderOptions options;
+  options.width = 512;
+  options.samples = 8;
+  options.statistics = true;
+  StereoCamera camera;
+  Picture picture = render_cpu(scene, camera, options);
+  const EyeImage& eye = picture.eyes[0];
+  EXPECT_LT(*eye.depth.at(9, 200), kFarDepth);
+  EXPECT_EQ(eye.albedo.at(9, 200)[0], 0.0f);
+  EXPECT_NEAR(eye.normal.at(9, 200)[1], 0.01f, 0.001f) << "bare sky has none";
+  denoise(picture, camera);
+  const int edge = 128 + static_cast<int>(std::atan2(0.7f, 8.0f) / 3.14159265f * 256.0f);  // its row
+  const float floor = eye.radiance.at(0, 130)[1];
+  const auto noise = [&](int first, int last) {
+    double sum = 0.0;
+    for (int y = first; y <= last; y++) {
+      for (int x = 0; x < 512; x++) sum += std::pow(double{eye.radiance.at(x, y)[1] - floor}, 2.0);
+    }
+    return std::sqrt(sum / (512.0 * (last - first + 1)));
+  };
+  EXPECT_LT(noise(edge - 1, edge + 1), 1.5 * noise(edge + 8, edge + 30));
 }
 
 TEST(Studio, GroundCatchesTheShadowAndIsInvisibleFromBelow) {

@@ -42,6 +42,15 @@ PunctualLight lamp_in(vec3 position, int kind = kLightPoint) {
   return light;
 }
 
+TEST(Supply, FloatingThingsGetAStudioWithoutAGround) {
+  Scene scene = make_space();
+  const size_t instances = scene.instances.size();
+  const LightPlan plan = supplied(scene);
+  EXPECT_EQ(plan.surround, Surround::kStudio) << "under a sky there would be a plain with rocks on both sides of it";
+  EXPECT_TRUE(says(plan, "floating things")) << plan.note;
+  EXPECT_EQ(scene.instances.size(), instances);
+}
+
 TEST(Supply, AnObjectGetsAStudioAndAGround) {
   for (Scene scene : {make_chair(), make_car(), make_ball(0.3f)}) {
     const Bounds bounds = scene_bounds(scene);

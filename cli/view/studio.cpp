@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/studio.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/console/console.h"
+#include "cli/options/camera_options.h"
+#include "cli/view/render_words.h"
+#include "ods/base/json_reader.h"
+#include "ods/camera/camera_fields.h"
+#include "ods/image/format/file_format.h"
+#include "ods/render/cpu/render.h"
+#include "ods/scene/builtin/builtin.h"
+#include "ods/stage/exposure.h"
+#include "ods/view/camera_json.h"
+
+using ods::Json, ods::JsonReader, ods::LiveFrame;
+
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
+constexpr int kMostWidth = 16384;
+constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
+constexpr const char* kQualities[] = {"draft", "preview", "final"};
+
+WebAnswer json_answer(const Json& json) {
+  return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace), "", false};
+}
+
+// What suits the light, as ods render chooses it.
+float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera, bool is_ours) {
+  if (is_ours) return 0.0f;
+  const ods::Picture look = render_cpu(scene, ods::first_look_camera(camera), ods::first_look({}));
+  return ods::suitable_exposure({&look, 1}).value_or(0.0f);
+}
+
+void read_look(JsonReader& reader, ods::LiveView& view) {
+  reader.number("yaw", view.yaw, -360.0f, 360.0f);
+  reader.number("pitch", view.pitch, -90.0f, 90.0f);
+  reader.number("fov", view.fov, 1.0f, 170.0f);
+  reader.number("aspect", view.aspect, 0.1f, 10.0f);
+}
+
+void read_text(JsonReader& reader, const std::string& key, std::string& text) {
+  const Json* const json = reader.find(key);
+  if (json && json->is_string()) text = *json;
+}
+
+template <class Read>
+void read_body(const std::string& body, const Read& read) {
+  const Json json = ods::parse_json(body, "request", "request");
+  std::vector<std::string> warnings;
+  JsonReader reader(json, "request", "request", "", warnings);
+  read(reader);
+}
+
+template <class Names>
+void check_name(const std::string& what, const std::string& name, const Names& names) {
+  if (std::ranges::find(names, name) == std::end(names)) {
+    throw UsageError(fmt::format("there is no {} '{}'", what, name));
+  }
+}
+
+Json ranges_json() {
+  Json json = Json::object();
+  for (const ods::CameraField field : ods::kCameraFields) {
+    const ods::FieldRange range = ods::range_of(field);
+    json[std::string(ods::field_name(field))] = {range.least, range.most};
+  }
+  return json;
+}
+
+}  // namespace
+
+Studio::Studio(const SceneSource& source) : source_(source) {
+  open();
+  usual_.sidecar.camera = place_camera(CameraOptions(), *scene_);
+  usual_.live.camera = usual_.sidecar.camera;
+  usual_.live.exposure = usual_exposure(*scene_, usual_.live.camera, ods::find_builtin(source.name) != nullptr);
+  usual_.environment = source.light.environment.empty() ? "auto" : source.light.environment;
+  usual_.variant = source.variant;
+  settings_ = usual_;
+  live_->set(settings_.live, settings_.look);
+}
+
+void Studio::open() {
+  struct Opened {
+    explicit Opened(ods::Scene wanted) : scene(std::move(wanted)), live(scene, 0) {}
+    ods::Scene scene;
+    ods::LiveRender live;
+  };
+  auto scene = open_lit_scene(source_, false);
+  if (live_) live_->end();
+  const auto opened = std::make_shared<Opened>(std::move(scene));
+  scene_ = {opened, &opened->scene};
+  live_ = {opened, &opened->live};
+  duration_ = length_of(scene_->animation);
+}
+
+std::string Studio::settings_json(const Settings& settings) const {
+  return Json({{"sidecar", Json::parse(write_sidecar(settings.sidecar))},
+               {"exposure", settings.live.exposure},
+               {"tone", ods::tone_curve_name(settings.live.tone)},
+               {"env", settings.environment},
+               {"variant", settings.variant},
+               {"time", settings.live.time},
+               {"width", settings.width}})
+      .dump();
+}
+
+std::string Studio::description() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Json json = {{"scene", std::filesystem::path(source_.name).filename().string()},
+               {"settings", Json::parse(settings_json(usual_))},
+               {"ranges", ranges_json()},
+               {"merges", ods::names_of(ods::kMergeTable)},
+               {"convergences", ods::names_of(ods::kConvergenceTable)},
+               {"projections", Json::array()},
+               {"tones", ods::names_of(ods::kToneCurveTable)},
+               {"envs", kEnvironments},
+               {"qualities", kQualities},
+               {"variants", scene_->variants},
+               {"duration", duration_}};
+  for (const ods::NamedProjection& named : ods::named_projections()) json["projections"].push_back(named.name);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Studio::Settings Studio::read_settings(const std::string& text) const {
+  Settings settings = settings_;
+  read_body(text, [&](JsonReader& reader) {
+    std::vector<std::string> warnings;
+    if (const Json* const camera = reader.find("sidecar")) {
+      settings.sidecar = ods::read_sidecar(camera->dump(), "camera", warnings);
+      settings.live.camera = settings.sidecar.camera;
+    }
+    const std::string fault = camera_fault(settings.live.camera);
+    if (!fault.empty()) throw UsageError("the camera's " + fault);
+    reader.number("exposure", settings.live.exposure, -ods::kMostStops, ods::kMostStops);
+    const std::string tone = reader.word("tone");
+    if (!tone.empty()) {
+      const auto curve = ods::find_in(ods::kToneCurveTable, tone);
+      if (!curve) throw UsageError(fmt::format("there is no tone curve '{}'", tone));
+      settings.live.tone = *curve;
+    }
+    float time = static_cast<float>(settings.live.time);
+    reader.number("time", time, 0.0f, static_cast<float>(std::max(duration_, 0.0)));
+    settings.live.time = static_cast<double>(time);
+    reader.integer("width", settings.width, 64, kMostWidth);
+    read_text(reader, "env", settings.environment);
+    read_text(reader, "variant", settings.variant);
+    reader.part("look", [&](JsonReader& look) { read_look(look, settings.look); });
+  });
+  // Files are named on the command line only: whoever has the page may not read others.
+  if (settings.environment != usual_.environment) check_name("light", settings.environment, kEnvironments);
+  if (settings.variant != usual_.variant) check_name("variant", settings.variant, scene_->variants);
+  return settings;
+}
+
+WebAnswer Studio::set(const std::string& body) {
+  const Settings wanted = read_settings(body);
+  if (wanted.environment != settings_.environment || wanted.variant != settings_.variant) {
+    source_.light.environment = wanted.environment == "auto" ? "" : wanted.environment;
+    source_.variant = wanted.variant;
+    open();
+  }
+  settings_ = wanted;
+  const int revision = live_->set(settings_.live, settings_.look);
+  return json_answer({{"revision", revision}, {"command", shell_line(words("", ""))}});
+}
+
+// The command that renders what the page shows; empty: a name and a quality for people to read.
+std::vector<std::string> Studio::words(const std::string& output, const std::string& quality) const {
+  const std::string stem = std::filesystem::path(source_.name).stem().string();
+  std::vector<std::string> words = {"ods", "render", source_.name};
+  const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
+  if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
+  if (!settings_.variant.empty()) add("--variant", settings_.variant);
+  if (source_.solid_glass) words.emplace_back("--solid-glass");
+  if (source_.unit != "auto") add("--unit", source_.unit);
+  if (!source_.confine.empty()) add("--confine", source_.confine);
+  if (settings_.environment != "auto") add("--env", settings_.environment);
+  if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
+  if (!source_.light.background.empty()) add("--background", source_.light.background);
+  if (source_.light.unlit) words.emplace_back("--unlit");
+  for (const std::string& word : camera_words(settings_.live.camera)) words.push_back(word);
+  if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
+  add("--exposure", fmt::format("{}", settings_.live.exposure));
+  if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
+  if (!quality.empty() && quality != "final") add("--quality", quality);
+  add("--width", fmt::format("{}", settings_.width));
+  add("-o", output.empty() ? stem + "_360_TB.png" : output);
+  return words;
+}
+
+WebAnswer Studio::frame(const WebRequest& request) {
+  const auto after = request.query.find("after");
+  int number = 0;
+  if (after != request.query.end()) {
+    std::from_chars(after->second.data(), after->second.data() + after->second.size(), number);
+  }
+  std::shared_ptr<ods::LiveRender> live;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    live = live_;
+  }
+  const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
+  const std::string fault = live->fault();
+  if (!fault.empty()) throw ods::Error(ods::ErrorKind::kInput, fault);
+  if (!frame) return {204, WebAnswer().type, "", "", false};
+  const std::string head = Json({{"number", frame->number},
+                                 {"revision", frame->revision},
+                                 {"part", frame->is_patch ? "patch" : "base"},
+                                 {"width", frame->eye.width},
+                                 {"height", frame->eye.height},
+                                 {"eyes", 2},
+                                 {"camera", Json::parse(camera_json(make_camera(frame->camera)))},
+                                 {"samples", frame->samples},
+                                 {"seconds", frame->seconds},
+                                 {"done", frame->is_last},
+                                 {"state", "rendering"}})
+                               .dump();
+  std::string body(4, '\0');
+  const auto size = static_cast<uint32_t>(head.size());
+  for (size_t i = 0; i < 4; i++) body[i] = static_cast<char>(size >> (8 * i) & 0xff);
+  body += head;
+  body.append(reinterpret_cast<const char*>(frame->pixels.data()), frame->pixels.size());
+  return {200, "application/octet-stream", std::move(body), "", false};
+}
+
+WebAnswer Studio::pick(const std::string& body) {
+  ods::LiveView at;
+  std::string eye;
+  read_body(body, [&](JsonReader& reader) {
+    read_look(reader, at);
+    eye = reader.word("eye");
+  });
+  const ods::vec3 toward = ods::direction_of(glm::radians(at.yaw), glm::radians(at.pitch));
+  const auto pick = live_->pick(eye == "right" ? ods::kRight : ods::kLeft, toward);
+  if (!pick) return json_answer({{"nothing", true}});
+  Json json = {{"distance", pick->distance},
+               {"disparity", pick->disparity},
+               {"point", {pick->point.x, pick->point.y, pick->point.z}}};
+  const int height = natural_height(settings_.live.camera.projection, settings_.width);
+  for (const int each : {ods::kLeft, ods::kRight}) {
+    if (!pick->places[each]) continue;
+    const ods::vec2 pixel = *pick->places[each] * ods::vec2(settings_.width, height);
+    json[std::string(ods::eye_name(each))] = {pixel.x, pixel.y};
+  }
+  return json_answer(json);
+}
+
+// A file name in the folder where ods view was started; nothing else.
+static void check_output_name(const std::string& name) {
+  const std::string plain = std::filesystem::path(name).filename().string();
+  if (name.empty() || plain != name || name.starts_with('.') || name.starts_with('-')) {
+    throw UsageError("give the picture a name without a folder, like room_360_TB.png");
+  }
+  if (!ods::format_of_path(name)) throw UsageError(fmt::format("end the name in one of {}", ods::known_extensions()));
+  if (std::filesystem::exists(name)) throw UsageError(fmt::format("'{}' exists: give the picture another name", name));
+}
+
+WebAnswer Studio::render(const std::string& body) {
+  std::string name, quality;
+  read_body(body, [&](JsonReader& reader) {
+    name = reader.word("output");
+    quality = reader.word("quality");
+  });
+  check_output_name(name);
+  check_name("quality", quality, kQualities);
+  std::vector<std::string> all = words(name, quality);
+  all.erase(all.begin());
+  all.insert(all.end(), {"--progress", "json"});
+  process_.start(all);
+  output_ = name;
+  return json_answer(Json::object());
+}
+
+WebAnswer Studio::job() {
+  const RenderProcess::Status status = process_.status();
+  if (status.state == "done" && !output_.empty()) result_ = last_ = std::exchange(output_, "");
+  return json_answer({{"state", status.state},
+                      {"done", status.done},
+                      {"left", status.left},
+                      {"text", status.text},
+                      {"file", status.state == "done" ? last_ : ""}});
+}
+
+WebAnswer Studio::save() {
+  const std::string path = std::filesystem::path(source_.name).stem().string() + ".camera.json";
+  ods::Sidecar sidecar = settings_.sidecar;
+  sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
+  save_sidecar(sidecar, path);
+  return json_answer({{"file", path}});
+}
+
+std::string Studio::take_result() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(result_, "");
+}
+
+WebAnswer Studio::answer(const WebRequest& request) {
+  if (request.path == "studio/frame") return frame(request);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (request.path == "studio/job") return job();
+  if (!request.is_post) return {404, WebAnswer().type, "there is nothing of that name\n", "", false};
+  if (request.path == "studio/set") return set(request.body);
+  if (request.path == "studio/pick") return pick(request.body);
+  if (request.path == "studio/render") return render(request.body);
+  if (request.path == "studio/save") return save();
+  if (request.path == "studio/cancel") {
+    process_.cancel();
+    return json_answer(Json::object());
+  }
+  if (request.path == "studio/look") {
+    read_body(request.body, [&](JsonReader& reader) { read_look(reader, settings_.look); });
+    live_->look(settings_.look);
+    return json_answer(Json::object());
+  }
+  return {404, WebAnswer().type, "there is nothing of that name\n", "", false};
+}

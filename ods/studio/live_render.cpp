@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/studio/live_render.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "ods/base/error.h"
+#include "ods/denoise/denoise.h"
+#include "ods/kernel/camera/line.h"
+#include "ods/render/cpu/render.h"
+#include "ods/render/render_target.h"
+#include "ods/scene/motion.h"
+
+namespace ods {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+// What is rendered after a change, one after the other. Two samples are the fewest that can be denoised.
+struct Step {
+  bool is_patch;
+  float size;  // of the base: pixels across; of the patch: over its full width
+  int samples;
+};
+constexpr Step kSteps[] = {
+    {false, 192, 2}, {false, 512, 2},  {true, 0.4f, 2}, {true, 0.7f, 2},  {true, 1, 4},
+    {false, 768, 4}, {true, 1, 8},     {true, 1, 16},   {false, 768, 16}, {true, 1, 32},
+    {true, 1, 64},   {false, 768, 64}, {true, 1, 128},
+};
+constexpr size_t kFirstOfPatch = 2;
+static_assert(kSteps[kFirstOfPatch].is_patch);
+
+constexpr float kScreen = 1280.0f;      // pixels across a view
+constexpr float kMostOfPatch = 0.8e6f;  // pixels of an eye
+constexpr float kLookMargin = 1.15f;    // the patch is larger than the view, so that small turns stay in it
+
+// A picture that gets finer.
+struct Canvas {
+  StereoCamera camera;
+  RenderOptions options;
+  PictureSamples samples;
+  Picture picture;  // as denoised
+  bool is_patch = false;
+};
+
+Canvas make_canvas(const StereoCamera& camera, bool is_patch, Extent size) {
+  Canvas canvas;
+  canvas.camera = camera;
+  canvas.is_patch = is_patch;
+  canvas.options.width = size.width;
+  canvas.options.height = size.height;
+  canvas.options.statistics = true;
+  canvas.options.even_noise = false;
+  canvas.options = with_height(canvas.options, camera);
+  canvas.samples = no_samples(canvas.options);
+  return canvas;
+}
+
+Extent scaled(Extent size, float factor) {
+  const auto pixels = [&](int whole) { return std::max(static_cast<int>(static_cast<float>(whole) * factor), 1); };
+  return {pixels(size.width), pixels(size.height)};
+}
+
+std::vector<uint8_t> display(const Picture& picture, float exposure, ToneCurve tone) {
+  const size_t pixels = picture.eyes[0].radiance.pixels.size() / 3;
+  std::vector<uint8_t> bytes(picture.eyes.size() * pixels * 3);
+  for (size_t eye = 0; eye < picture.eyes.size(); eye++) {
+    const std::vector<float>& light = picture.eyes[eye].radiance.pixels;
+    tbb::parallel_for(size_t{0}, pixels, [&](size_t i) {
+      const vec3 color = tone_map(vec3(light[3 * i], light[3 * i + 1], light[3 * i + 2]), exposure, tone);
+      for (int c = 0; c < 3; c++) {
+        bytes[(eye * pixels + i) * 3 + static_cast<size_t>(c)] =
+            static_cast<uint8_t>(std::lround(255.0f * srgb_encode(color[c])));
+      }
+    });
+  }
+  return bytes;
+}
+
+// The part of the sphere that holds a view whose tangents are larger by the margin, in degrees.
+struct Window {
+  float half_width, low, high;
+};
+
+Window window_of(const LiveView& view, float margin) {
+  const float across = margin * std::tan(0.5f * glm::radians(std::clamp(view.fov, 1.0f, 150.0f)));
+  const float up = across / std::max(view.aspect, 0.1f), pitch = glm::radians(view.pitch);
+  const auto latitude = [&](float x, float y) {
+    return glm::degrees(std::asin((std::sin(pitch) + y * std::cos(pitch)) / std::sqrt(1.0f + x * x + y * y)));
+  };
+  Window window;
+  window.low = std::min(latitude(0.0f, -up), latitude(across, -up));
+  window.high = std::max(latitude(0.0f, up), latitude(across, up));
+  // The corners nearest to a pole reach furthest around; beyond it, all the way.
+  const float ahead = std::cos(pitch) - up * std::sin(std::abs(pitch));
+  window.half_width = ahead > 0.0f ? glm::degrees(std::atan(across / ahead)) : 180.0f;
+  if (ahead <= 0.0f) (view.pitch < 0.0f ? window.low : window.high) = view.pitch < 0.0f ? -90.0f : 90.0f;
+  return window;
+}
+
+bool shows(const StereoCamera& patch, const LiveView& view) {
+  const Window window = window_of(view, 1.0f);
+  const vec2 longitude = patch.projection.longitude, latitude = patch.projection.latitude;
+  const float turned = std::abs(std::remainder(view.yaw - 0.5f * (longitude.x + longitude.y), 360.0f));
+  const float half = 0.5f * (longitude.y - longitude.x);
+  return (half >= 180.0f || turned + window.half_width <= half) && window.low >= latitude.x &&
+         window.high <= latitude.y;
+}
+
+}  // namespace
+
+StereoCamera patch_camera(StereoCamera camera, const LiveView& view) {
+  const Window window = window_of(view, kLookMargin);
+  camera.projection = ProjectionSetting();
+  camera.projection.longitude = vec2(view.yaw - window.half_width, view.yaw + window.half_width);
+  camera.projection.latitude = vec2(window.low, window.high);
+  return camera;
+}
+
+Extent patch_extent(const StereoCamera& patch) {
+  const vec2 longitude = patch.projection.longitude, latitude = patch.projection.latitude;
+  const float width = longitude.y - longitude.x, height = latitude.y - latitude.x;
+  const float wanted = kScreen * kLookMargin / std::min(width, height * 2.0f);  // pixels per degree
+  const float per_degree = std::min(wanted, std::sqrt(kMostOfPatch / (width * height)));
+  const auto pixels = [&](float degrees) { return std::max(static_cast<int>(degrees * per_degree), 1); };
+  return {pixels(width), pixels(height)};
+}
+
+struct LiveRender::State {
+  State(Scene& wanted, int threads) : scene(wanted), renderer(wanted, threads) {}
+
+  // What others set, and what they get.
+  mutable std::mutex mutex;
+  mutable std::condition_variable changed;
+  LiveSettings settings;
+  LiveView view;
+  int revision = 0;  // 0: there are no settings yet
+  bool ended = false;
+  Clock::time_point since;  // when the settings changed
+  int last_number = 0;
+  std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
+  std::shared_ptr<const Canvas> shown[2];      // likewise, without samples
+  std::string fault;
+
+  // The thread's own.
+  Scene& scene;
+  CpuRenderer renderer;
+  double scene_time = 0.0;
+  LiveSettings rendered;  // what the canvases show
+  std::optional<Canvas> base, patch;
+  size_t next = 0;  // step
+  std::thread thread;
+
+  void run();
+  void begin(int mine, const LiveSettings& now);
+  void render_step(int mine);
+  void wait_for_change(int mine);
+  bool refine(Canvas& canvas, int samples, int mine);
+  void publish(const Canvas& canvas, int mine, bool is_last);
+  LiveView view_now() const {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return view;
+  }
+  bool is_old(int mine) const {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return ended || revision != mine;
+  }
+};
+
+// False if it was cancelled: the samples are of no use then.
+bool LiveRender::State::refine(Canvas& canvas, int samples, int mine) {
+  Progress progress;
+  progress.cancelled = [&] { return is_old(mine) || (canvas.is_patch && !shows(canvas.camera, view_now())); };
+  canvas.options.samples = samples;
+  try {
+    renderer.sample({&canvas.camera, 1}, canvas.options, canvas.samples, progress);
+    Picture picture = develop(canvas.samples, canvas.options);
+    denoise(picture, canvas.camera, {}, progress);
+    canvas.picture = std::move(picture);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kCancelled) throw;
+    canvas.samples = no_samples(canvas.options);
+    return false;
+  }
+  return true;
+}
+
+void LiveRender::State::publish(const Canvas& canvas, int mine, bool is_last) {
+  auto frame = std::make_shared<LiveFrame>();
+  frame->revision = mine;
+  frame->is_patch = canvas.is_patch;
+  frame->camera = canvas.camera;
+  frame->eye = {canvas.options.width, canvas.options.height};
+  frame->pixels = display(canvas.picture, rendered.exposure, rendered.tone);
+  frame->samples = canvas.options.samples;
+  frame->is_last = is_last;
+  auto kept = std::make_shared<Canvas>();
+  kept->camera = canvas.camera;
+  kept->options = canvas.options;
+  kept->picture = canvas.picture;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (revision != mine) return;
+  frame->number = ++last_number;
+  frame->seconds = std::chrono::duration<double>(Clock::now() - since).count();
+  frames[canvas.is_patch] = frame;
+  shown[canvas.is_patch] = kept;
+  changed.notify_all();
+}
+
+// Another exposure or tone curve shows what there is in it; all else begins anew.
+void LiveRender::State::begin(int mine, const LiveSettings& now) {
+  LiveSettings but_for_display = now;
+  but_for_display.exposure = rendered.exposure, but_for_display.tone = rendered.tone;
+  const bool same_light = but_for_display == rendered;
+  rendered = now;
+  if (!same_light) {
+    base.reset(), patch.reset();
+    next = 0;
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (auto& frame : frames) frame = nullptr;
+  }
+  if (base && !base->picture.eyes.empty()) publish(*base, mine, false);
+  if (patch && !patch->picture.eyes.empty()) publish(*patch, mine, next == std::size(kSteps));
+  if (now.time != scene_time) renderer.update(set_time(scene, scene_time = now.time));
+}
+
+void LiveRender::State::render_step(int mine) {
+  const LiveView here = view_now();
+  if (patch && !shows(patch->camera, here)) {
+    patch.reset();
+    next = std::min(next, kFirstOfPatch);
+  }
+  if (next == std::size(kSteps)) return wait_for_change(mine);
+  const Step& step = kSteps[next];
+  std::optional<Canvas>& canvas = step.is_patch ? patch : base;
+  const StereoCamera camera = !step.is_patch ? rendered.camera
+                              : patch        ? patch->camera
+                                             : patch_camera(rendered.camera, here);
+  const Extent size = step.is_patch ? scaled(patch_extent(camera), step.size) : Extent{static_cast<int>(step.size), 0};
+  if (!canvas || canvas->options.width < size.width) canvas = make_canvas(camera, step.is_patch, size);
+  if (canvas->samples.done < step.samples) {
+    if (!refine(*canvas, step.samples, mine)) return;
+    publish(*canvas, mine, next + 1 == std::size(kSteps));
+  }
+  next++;
+}
+
+void LiveRender::State::wait_for_change(int mine) {
+  std::unique_lock<std::mutex> lock(mutex);
+  changed.wait(lock, [&] { return ended || revision != mine || !shows(patch->camera, view); });
+}
+
+void LiveRender::State::run() {
+  for (int mine = 0;;) {
+    LiveSettings now;
+    {
+      std::unique_lock<std::mutex> lock(mutex);
+      changed.wait(lock, [&] { return ended || revision != mine; });
+      if (ended) return;
+      mine = revision;
+      now = settings;
+      fault.clear();
+    }
+    try {
+      begin(mine, now);
+      while (!is_old(mine)) render_step(mine);
+    } catch (const std::exception& error) {
+      base.reset(), patch.reset();
+      rendered = LiveSettings();
+      rendered.time = -1.0;  // nothing is rendered with it: the next settings begin anew
+      const std::lock_guard<std::mutex> lock(mutex);
+      fault = error.what();
+      changed.notify_all();
+    }
+  }
+}
+
+LiveRender::LiveRender(Scene& scene, int threads) : state_(std::make_unique<State>(scene, threads)) {
+  state_->rendered.time = -1.0;
+  state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+LiveRender::~LiveRender() {
+  end();
+  state_->thread.join();
+}
+
+void LiveRender::end() {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->ended = true;
+  state_->changed.notify_all();
+}
+
+int LiveRender::set(const LiveSettings& settings, const LiveView& view) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->view = view;
+  if (state_->revision == 0 || !(settings == state_->settings)) {
+    state_->settings = settings;
+    state_->revision++;
+    state_->since = Clock::now();
+  }
+  state_->changed.notify_all();
+  return state_->revision;
+}
+
+void LiveRender::look(const LiveView& view) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->view = view;
+  state_->changed.notify_all();
+}
+
+std::shared_ptr<const LiveFrame> LiveRender::next_frame(int number, std::chrono::milliseconds patience) const {
+  std::unique_lock<std::mutex> lock(state_->mutex);
+  std::shared_ptr<const LiveFrame> found;
+  state_->changed.wait_for(lock, patience, [&] {
+    for (const auto& frame : state_->frames) {
+      if (!found && frame && frame->number > number) found = frame;
+    }
+    return found || state_->ended || !state_->fault.empty();
+  });
+  return found;
+}
+
+std::string LiveRender::fault() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->fault;
+}
+
+std::optional<LivePick> LiveRender::pick(int eye, vec3 direction) const {
+  std::shared_ptr<const Canvas> canvases[2];
+  {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    canvases[0] = state_->shown[1], canvases[1] = state_->shown[0];
+  }
+  for (const auto& canvas : canvases) {
+    if (!canvas) continue;
+    const Camera camera = make_camera(canvas->camera);
+    const ImagePoint place = place_of_line(camera, eye, direction);
+    if (!place.seen) continue;
+    const int width = canvas->options.width, height = canvas->options.height;
+    const int x = std::clamp(static_cast<int>(place.uv.x * float(width)), 0, width - 1);
+    const int y = std::clamp(static_cast<int>(place.uv.y * float(height)), 0, height - 1);
+    const std::vector<EyeImage>& eyes = canvas->picture.eyes;
+    const Image& depth = eyes[std::min(static_cast<size_t>(eye), eyes.size() - 1)].depth;
+    LivePick pick;
+    pick.distance = depth.pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    if (pick.distance >= kFarDepth) return {};
+    const Ray ray = camera_ray(camera, eye, (vec2(x, y) + 0.5f) / vec2(width, height));
+    pick.point = ray.origin + ray.direction * pick.distance;
+    const Camera whole = canvases[1] ? make_camera(canvases[1]->camera) : camera;
+    vec3 toward[2];
+    for (const int each : {kLeft, kRight}) {
+      const ImagePosition position = project_point(whole, each, pick.point);
+      toward[each] = normalize(pick.point - position.origin);
+      if (position.seen) pick.places[each] = position.uv;
+    }
+    const float chord = 0.5f * length(toward[0] - toward[1]);
+    pick.disparity = glm::degrees(2.0f * std::asin(std::min(chord, 1.0f))) * 60.0f;
+    return pick;
+  }
+  return {};
+}
+
+}  // namespace ods

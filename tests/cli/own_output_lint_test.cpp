@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods lint finds no fault in what ods renders by default; above all none at the poles. The pictures are rendered
+// without light, so that a few samples show every texture without noise.
+#include <filesystem>
+
+#include "ods/scene/builtin/builtin.h"
+#include "tests/support/cli_runner.h"
+
+namespace {
+
+class OwnOutput : public Cli {
+ protected:
+  // What lint says of a scene.
+  std::string lint(const std::string& scene, const std::string& options = "") {
+    const std::string picture = folder.path("picture.png");
+    EXPECT_EQ(run("render " + scene + " --unlit --denoise none --width 640 --samples 2 -o " + picture + options), 0)
+        << err;
+    run("lint " + picture);
+    return out;
+  }
+
+  static bool is_silent(const std::string& report) {
+    return report.find("no fault found") != std::string::npos && report.find("warning") == std::string::npos;
+  }
+};
+
+TEST_F(OwnOutput, OfBuiltInScenesHasNoFaultThatLintFinds) {
+  for (const std::string& name : ods::names_of(ods::builtin_scenes())) {
+    if (name == "furnace") continue;  // nothing but one even light: eyes cannot be told apart
+    const std::string report = lint(name);
+    EXPECT_TRUE(is_silent(report)) << name << "\n" << report;
+  }
+}
+
+TEST_F(OwnOutput, OfSharedScenesHasNoFaultThatLintFinds) {
+  const std::string atrium = std::string(SHARED_SCENES) + "/atrium.glb";
+  if (!std::filesystem::exists(atrium)) GTEST_SKIP() << "skipped: no shared scenes";
+  const std::string report = lint(atrium);
+  EXPECT_TRUE(is_silent(report)) << report;
+}
+
+// Else the tests above would say nothing about the poles.
+TEST_F(OwnOutput, WithoutAMergeHasFaultsAtThePoles) {
+  EXPECT_NE(lint("fractal", " --merge none").find("no-pole-merge"), std::string::npos) << out;
+}
+
+}  // namespace

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods view as its user starts it, and as others attack it: by requests byte by byte.
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <optional>
+#include <regex>
+#include <thread>
+
+#include "tests/support/cli_runner.h"
+
+using namespace std::chrono_literals;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A connection to the server. Reading ends after ten seconds.
+class Connection {
+ public:
+  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const timeval patience{10, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  }
+  Connection(Connection&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
+  Connection(const Connection&) = delete;
+  ~Connection() {
+    if (socket_ >= 0) close(socket_);
+  }
+
+  bool send_text(const std::string& text) const {
+    return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+
+  // Until the server closes.
+  std::string read_all() const {
+    std::string text;
+    char piece[65536];
+    for (ssize_t count = 0; (count = recv(socket_, piece, sizeof(piece), 0)) > 0;) {
+      text.append(piece, static_cast<size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  int socket_;
+};
+
+class ViewCommand : public Cli {
+ protected:
+  void SetUp() override {
+    setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
+    picture = folder.path("small_360_TB.png");
+    ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
+    server.emplace(std::vector<std::string>{"view", picture, "--no-browser"});
+    server->wait_for("Ctrl-C ends it");
+    const std::string address = server->out.substr(0, server->out.find('\n'));
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_match(address, parts, std::regex("http://127\\.0\\.0\\.1:([0-9]+)/([0-9a-f]{32})/")))
+        << address;
+    port = std::stoi(parts[1]);
+    secret = parts[2];
+  }
+
+  std::string head(const std::string& path, const std::string& method = "GET", const std::string& more = "") const {
+    return fmt::format("{} {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n{}\r\n", method, path, port, more);
+  }
+
+  // The answer to a request, head and body.
+  std::string ask(const std::string& request) const {
+    const Connection connection(port);
+    connection.send_text(request);
+    return connection.read_all();
+  }
+  std::string get(const std::string& path) const { return ask(head(fmt::format("/{}/{}", secret, path))); }
+
+  // Kilobytes of the server's that are in memory.
+  long resident() const {
+    std::ifstream status(fmt::format("/proc/{}/status", server->process()));
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+    }
+    return 0;
+  }
+
+  std::string picture;
+  std::optional<Ods> server;
+  int port = 0;
+  std::string secret;
+};
+
+int status_of(const std::string& answer) {
+  return answer.starts_with("HTTP/1.1 ") ? std::stoi(answer.substr(9)) : 0;
+}
+
+}  // namespace
+
+TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
+  const std::string page = get("");
+  EXPECT_EQ(status_of(page), 200);
+  EXPECT_NE(page.find("Content-Security-Policy: default-src 'self'"), std::string::npos);
+  EXPECT_EQ(page.find("unsafe-inline"), std::string::npos);
+  EXPECT_EQ(page.find("Access-Control"), std::string::npos);
+  const std::string view = get("view.json");
+  EXPECT_EQ(status_of(view), 200);
+  EXPECT_NE(view.find("\"image\":\"item/0/picture.png\""), std::string::npos);
+  EXPECT_NE(get("item/0/picture.png").find("\x89PNG"), std::string::npos);
+  const std::string part = ask(head("/" + secret + "/item/0/picture.png", "GET", "Range: bytes=1-3\r\n"));
+  EXPECT_EQ(status_of(part), 206);
+  EXPECT_TRUE(part.ends_with("\r\n\r\nPNG"));
+  EXPECT_NE(get("item/0/left.jpg?width=64").find("\xff\xd8\xff"), std::string::npos);
+}
+
+TEST_F(ViewCommand, AnswersNobodyElse) {
+  EXPECT_EQ(status_of(ask(head("/"))), 404);
+  EXPECT_EQ(status_of(ask(head("/view.json"))), 404);
+  EXPECT_EQ(status_of(ask(head(fmt::format("/{}/", std::string(32, 'a'))))), 404);
+  EXPECT_EQ(status_of(ask(head(fmt::format("/{}/", secret.substr(0, 31))))), 404);
+  const std::string path = fmt::format("/{}/view.json", secret);
+  // A site's own name that points here.
+  for (const char* host : {"evil.example", "evil.example:8360", "127.0.0.1", "127.0.0.1.evil.example", ""}) {
+    EXPECT_EQ(status_of(ask(fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", path, host))), 403)
+        << host;
+  }
+  EXPECT_EQ(status_of(ask(fmt::format("GET {} HTTP/1.1\r\nConnection: close\r\n\r\n", path))), 403);
+  for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1", "http://127.0.0.1:1"}) {
+    EXPECT_EQ(status_of(ask(head(path, "GET", fmt::format("Origin: {}\r\n", origin)))), 403) << origin;
+  }
+  EXPECT_EQ(status_of(ask(head(path, "GET", fmt::format("Origin: http://127.0.0.1:{}\r\n", port)))), 200);
+  for (const char* method : {"PUT", "DELETE", "OPTIONS", "PATCH"}) {
+    EXPECT_EQ(status_of(ask(head(path, method))), 405) << method;
+  }
+}
+
+TEST_F(ViewCommand, OpensNoPathThatABrowserSends) {
+  for (const char* path : {"../../../../etc/passwd", "item/0/../../../../etc/passwd", "item/0/%2e%2e/%2e%2e/etc/passwd",
+                           "item/0//etc/passwd", "item/1/picture.png", "item/-1/picture.png", "item/0", "item/0/",
+                           "item/99999999999999999999/left.jpg", "item/0/picture.jpg", "item//left.jpg", "%00", "..%2f",
+                           "item/0/left.jpg%00.png", "index.html/../../view-secret"}) {
+    const std::string answer = get(path);
+    EXPECT_TRUE(status_of(answer) == 404 || status_of(answer) == 400) << path << ": " << answer.substr(0, 60);
+    EXPECT_EQ(answer.find("root:"), std::string::npos) << path;
+  }
+  for (const char* query :
+       {"exposure=1e9", "exposure=x", "width=0", "width=1e10", "layout=none", "projection=%3Cb%3E"}) {
+    EXPECT_EQ(status_of(get(std::string("item/0/left.jpg?") + query)), 400) << query;
+  }
+}
+
+TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
+  const std::string path = fmt::format("/{}/studio/set", secret);
+  const size_t most = size_t{1} << 30;
+  EXPECT_EQ(status_of(ask(head(path, "POST", fmt::format("Content-Length: {}\r\n", most)) + std::string(1 << 20, 'x'))),
+            413);
+  EXPECT_GE(status_of(ask(head("/" + std::string(100'000, 'a')))), 400);
+  std::string many;
+  for (int i = 0; i < 20'000; i++) many += fmt::format("X-{}: y\r\n", i);
+  ask(head("/", "GET", many));
+  ask("\r\n\r\n\r\n");
+  ask("GET\r\n\r\n");
+  ask(std::string(1 << 20, '\xff'));
+  EXPECT_EQ(status_of(get("alive")), 200);
+}
+
+TEST_F(ViewCommand, SlowRequestsHoldNobodyUp) {
+  std::vector<Connection> slow;
+  for (int i = 0; i < 100; i++) {
+    slow.emplace_back(port);
+    slow.back().send_text("GET / HTTP/1.1\r\nHost: ");
+  }
+  const auto began = Clock::now();
+  EXPECT_EQ(status_of(get("alive")), 200);
+  EXPECT_LT(Clock::now() - began, 4s) << "it waited until the others were given up";
+  for (const Connection& connection : slow) connection.read_all();  // they are ended
+}
+
+TEST_F(ViewCommand, ServesTwoHundredAtOnce) {
+  std::vector<std::thread> threads;
+  std::atomic<int> served{0};
+  for (int i = 0; i < 200; i++) {
+    threads.emplace_back([&] { served += status_of(get("item/0/picture.png")) == 200 ? 1 : 0; });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(served, 200);
+}
+
+TEST_F(ViewCommand, ReloadsTakeNoMemory) {
+  const auto reload = [&] {
+    for (const char* path : {"", "view.json", "item/0/left.jpg", "item/0/right.jpg"}) {
+      EXPECT_EQ(status_of(get(path)), 200) << path;
+    }
+  };
+  for (int i = 0; i < 20; i++) reload();
+  const long before = resident();
+  ASSERT_GT(before, 0);
+  for (int i = 0; i < 100; i++) reload();
+  EXPECT_LT(resident() - before, 20'000);
+}
+
+TEST_F(ViewCommand, EndsAtOnceAndKeepsItsAddress) {
+  const Connection idle(port);
+  const auto began = Clock::now();
+  server->kill(SIGINT);
+  EXPECT_EQ(server->finish(), 130);
+  EXPECT_LT(Clock::now() - began, 2s);
+  Ods again({"view", picture, "--no-browser", "--port", std::to_string(port)});
+  again.wait_for("Ctrl-C ends it");
+  EXPECT_NE(again.out.find(secret), std::string::npos);
+  again.kill(SIGINT);
+  again.finish();
+}
+
+class View : public Cli {};
+
+TEST_F(View, ExportIsAFolderOfItsOwn) {
+  const std::string picture = folder.path("a_360_TB.png"), light = folder.path("b.exr"), site = folder.path("site");
+  ASSERT_EQ(run("testcard -q --width 128 -o " + picture), 0) << err;
+  ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
+  EXPECT_EQ(run("view " + picture + " " + light + " --export " + site), 0) << err;
+  EXPECT_EQ(out, site + "/view.json\n");
+  for (const char* file : {"index.html", "view.json", "item/0/picture.png", "item/1/left.jpg", "item/1/right.jpg"}) {
+    EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
+  }
+}
+
+TEST_F(View, SaysWhatItCannotShow) {
+  EXPECT_EQ(run("view " + folder.path("none.png")), 3);
+  EXPECT_EQ(run("view " + folder.path("")), 3);
+  EXPECT_NE(err.find("has no picture and no video"), std::string::npos) << err;
+  EXPECT_EQ(run("view room --export " + folder.path("site")), 2);
+  EXPECT_EQ(run("view"), 2);
+}
