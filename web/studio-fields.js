@@ -86,9 +86,10 @@ export function groupsOf(view) {
   ];
 }
 
-// The range of a row's shown number: the server's, where it names the value.
-export function rangeOf(ranges, { path, range, scale = 1 }) {
-  const name = path.replace('sidecar.', '');
-  const known = ranges?.[name] ?? ranges?.[name.replace(/\.\d+$/, '')];
-  return known ? [Math.max(known[0] * scale, range[0]), Math.min(known[1] * scale, range[1])] : range;
+// What a row's shown number may be: the server's range where it has one of the camera's names for the value
+// (ods/camera/camera_fields.cpp).
+export function limitsOf(ranges, { path, range, scale = 1 }) {
+  const name = path.replace(/^sidecar\.(projection\.)?/, '').replace(/^merge_(top|bottom)/, 'merge').replace('lens.focus_distance', 'focus distance')
+    .replace(/\.\d$/, '').replace('.', ' ');
+  return ranges?.[name]?.slice(0, 2).map((value) => value * scale) ?? range;
 }

@@ -63,9 +63,14 @@ export class VrSteering {
   }
 
   async say(text) {
-    this.until = performance.now() + SHOWN;
-    if (this.text === text || this.painting) return;
-    Object.assign(this, { text, painting: true });
+    this.text = text;
+    if (this.painting) return;
+    this.painting = true;
+    while (this.painted !== this.text) await this.paint(this.text);
+    Object.assign(this, { painting: false, until: performance.now() + SHOWN });
+  }
+
+  async paint(text) {
     const { viewer } = this.studio.page;
     const canvas = new OffscreenCanvas(...TEXT);
     const context = canvas.getContext('2d');
@@ -77,7 +82,7 @@ export class VrSteering {
     await texture.fill(canvas, 0, 0);
     this.label?.eyes[0].free();
     this.label = this.picture(texture);
-    this.painting = false;
+    Object.assign(this, { painted: text, until: performance.now() + SHOWN });
   }
 
   // A window of the sphere, below the middle of the view.

@@ -60,6 +60,11 @@ export class Live {
     for (const part of [base, patch]) if (part?.settings === side.sent) part.meta.revision = side.revision;
   }
 
+  // No number that is known will come again.
+  expire() {
+    for (const { base, patch } of this.sides.values()) for (const part of [base, patch]) if (part) part.meta.revision = -1;
+  }
+
   // A picture of a side for the viewer, which does not own it; null if there is none yet. beside: another side's, that
   // is drawn to the right of the fraction `split` of the view.
   picture(side, beside = null, split = 1) {

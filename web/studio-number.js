@@ -33,10 +33,12 @@ export function textOf(value, step) {
   return String(Number(value.toFixed(fine)));
 }
 
-// spec: { label, unit, step, scale (shown = value * scale), range [low, high] of the shown number }.
+// spec: { label, unit, step, scale (shown = value * scale), of the shown number its range [low, high] for dragging and its
+// limits for typing }.
 // change(value, gesture, dragging) and reset() are called; update(value, standard) shows a value.
 export function numberRow(spec, change, reset) {
-  const { scale = 1, step, range: [low, high] } = spec;
+  const { scale = 1, step, limits: [low, high] } = spec;
+  const reach = [Math.max(low, spec.range[0]), Math.min(high, spec.range[1])];
   const field = make('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off', spellcheck: false, role: 'spinbutton' });
   const { label, back } = row(spec, field, reset);
   const element = make('div', { className: 'row-of number' }, label, field, make('span', { className: 'unit', textContent: spec.unit ?? '' }), back);
@@ -73,7 +75,7 @@ export function numberRow(spec, change, reset) {
     if (!drag.moved && Math.abs(by) < 3) return;
     drag.moved = true;
     drag.x = event.clientX;
-    drag.value = clamp(drag.value + by * step * pace(event), low, high);
+    drag.value = clamp(drag.value + by * step * pace(event), ...reach);
     give(Math.round(drag.value / step) * step, drag, true);
   });
   const end = () => {
@@ -99,7 +101,7 @@ export function numberRow(spec, change, reset) {
   };
 }
 
-// spec: { label, options: [[value, text], ...] }
+// spec: { label, options: [[value, text], ...], names: of values that are none of these }
 export function choiceRow(spec, change, reset) {
   const field = make('select');
   const { label, back } = row(spec, field, reset);
@@ -111,7 +113,7 @@ export function choiceRow(spec, change, reset) {
   return {
     element,
     update(value, standard) {
-      if (![...field.options].some((option) => option.value === value)) fill([...spec.options, [value, value]]);
+      if (![...field.options].some((option) => option.value === value)) fill([...spec.options, [value, spec.names[value] ?? value.split('/').pop()]]);
       field.value = value;
       back.hidden = value === standard;
       const text = [...field.options].find((option) => option.value === standard)?.textContent ?? standard;

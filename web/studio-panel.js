@@ -3,7 +3,7 @@
 //
 // The studio's panel: the rows of studio-fields.js, which follow the session and change it, and the merge's curve.
 import { MergeCurve } from './merge-curve.js';
-import { groupsOf, rangeOf, readValue } from './studio-fields.js';
+import { groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, make, numberRow } from './studio-number.js';
 
 const LINK = /^sidecar\.merge_(top|bottom)\./;
@@ -12,7 +12,7 @@ const numbersOfProjection = ['longitude', 'latitude', 'fov', 'aspect', 'pan', 't
 export class Panel {
   // element: where to build it. view: view.json.
   constructor(element, view, session) {
-    Object.assign(this, { element, view, session, rows: [] });
+    Object.assign(this, { element, view, session, rows: [], names: {} }); // names: what people call a value
     const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
     this.linked = JSON.stringify(top) === JSON.stringify(bottom);
     this.fault = make('p', { className: 'fault', role: 'alert', hidden: true });
@@ -50,8 +50,8 @@ export class Panel {
     }
     const change = (value, gesture = null, dragging = false) => this.change(spec, value, gesture, dragging);
     const reset = () => this.change(spec, this.standard(spec), null, false);
-    const control = spec.options ? choiceRow(spec, change, reset) :
-      numberRow({ ...spec, range: rangeOf(this.view.studio.ranges, spec) }, change, reset);
+    const control = spec.options ? choiceRow({ ...spec, names: this.names }, change, reset) :
+      numberRow({ ...spec, limits: limitsOf(this.view.studio.ranges, spec) }, change, reset);
     if (spec.name) control.element.querySelector('input, select').setAttribute('aria-label', spec.name);
     control.element.dataset.path = spec.path;
     this.rows.push({ spec, control });

@@ -25,7 +25,7 @@ export async function copyText(text) {
 export class RenderFoot {
   // studio: studio.js.
   constructor(element, studio) {
-    Object.assign(this, { element, studio, named: false });
+    Object.assign(this, { element, studio, named: false, taken: new Set() });
     const { page, session } = studio;
     this.command = make('code', { tabIndex: 0, 'aria-label': 'The same picture from the command line' });
     const copy = make('button', { type: 'button', className: 'small', textContent: 'Copy' });
@@ -53,7 +53,7 @@ export class RenderFoot {
     this.cancel = make('button', { type: 'button', className: 'small', textContent: 'Cancel' });
     this.cancel.addEventListener('click', () => this.attempt(() => ask('cancel', {})));
     this.show = make('button', { type: 'button', className: 'small primary', textContent: 'Show' });
-    this.show.addEventListener('click', () => studio.showItem(this.item));
+    this.show.addEventListener('click', () => this.attempt(() => studio.showItem(this.item)));
     this.job = make('div', { className: 'job', hidden: true }, this.bar, this.text, this.cancel, this.show);
     const form = make('form', {},
       make('div', { className: 'out' }, this.name, this.quality),
@@ -65,10 +65,9 @@ export class RenderFoot {
     });
     element.append(make('div', { className: 'command' }, this.command, copy), form, this.job);
     session.addEventListener('accepted', ({ detail }) => {
-      if (detail !== session.side) return;
-      // Lines break between options only.
-      this.command.replaceChildren(...detail.command.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));
+      if (detail === session.side) this.tell();
     });
+    for (const field of [this.name, this.quality]) field.addEventListener('input', () => this.tell());
     session.addEventListener('edit', () => this.update());
     this.update();
     this.watch();
@@ -84,7 +83,25 @@ export class RenderFoot {
     if (![...this.layout.options].some(({ value }) => value === layout)) this.layout.append(make('option', { value: layout, textContent: layout }));
     this.layout.value = layout;
     if (document.activeElement !== this.width) this.width.value = settings.width;
-    if (!this.named) this.name.value = this.studio.fileName();
+    if (!this.named) this.suggest();
+  }
+
+  // The first name that no file has, as far as is known.
+  suggest() {
+    let count = 1;
+    while (this.taken.has(this.studio.fileName(count))) count++;
+    this.name.value = this.studio.fileName(count);
+    this.tell();
+  }
+
+  // Shows the server's command, with the name and the quality from here. Lines break between options only.
+  tell() {
+    const { command } = this.studio.session.side;
+    if (!command) return;
+    const name = this.name.value.trim();
+    const quoted = /^[\w.,/:=+%@-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
+    const whole = command.replace(/ -o .*$/, ` --quality ${this.quality.value} -o ${quoted}`);
+    this.command.replaceChildren(...whole.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));
   }
 
   async attempt(run) {
@@ -105,10 +122,20 @@ export class RenderFoot {
   async render() {
     if (this.watching) return;
     await this.studio.session.settle();
-    await ask('render', { output: this.name.value.trim(), quality: this.quality.value });
+    const output = (this.output = this.name.value.trim());
+    await ask('render', { output, quality: this.quality.value }).catch((error) => {
+      if (/exists/.test(error.message)) this.take(output);
+      throw error;
+    });
     this.bar.value = 0;
     this.say('Starting', 'running');
     this.watch();
+  }
+
+  take(name) {
+    this.taken.add(name);
+    this.named &&= name !== this.name.value.trim();
+    if (!this.named) this.suggest();
   }
 
   // Follows the job that runs, if one does; also after a reload of the page.
@@ -135,8 +162,9 @@ export class RenderFoot {
   }
 
   ended({ state, text, item }) {
-    this.item = state === 'done' ? item : undefined;
+    this.item = item;
+    if (state === 'done') this.take(this.output);
     if (state === 'cancelled') this.say('Cancelled', state);
-    else this.say(text || (state === 'done' ? 'Done' : 'It failed'), state);
+    else this.say(state === 'done' ? this.output ?? 'Done' : text || 'It failed', state);
   }
 }

@@ -44,7 +44,7 @@ export class Session extends EventTarget {
   // look(): { yaw, pitch, fov, aspect } of the view. onFrame(meta, pixels, side): shows it, may be async.
   constructor(settings, look, onFrame) {
     super();
-    Object.assign(this, { look, onFrame, revision: 0, number: 0, alive: true, wanted: false, eager: true, sentAt: 0, shown: 0 });
+    Object.assign(this, { look, onFrame, revision: 0, number: 0, alive: true, wanted: false, eager: true, sentAt: 0, shown: 0, epoch: 0 });
     this.sides = [{ settings: copy(settings), past: [], future: [] }];
     this.active = 0;
     this.target = 0; // the side that is rendered
@@ -146,7 +146,9 @@ export class Session extends EventTarget {
       this.answer = ask('set', { ...settings, look: this.look() });
       try {
         const { revision, command } = await this.answer;
-        this.revision = revision;
+        const { env, variant } = this.sent ?? settings;
+        if (revision < this.revision || env !== settings.env || variant !== settings.variant) this.restart();
+        Object.assign(this, { revision, sent: settings });
         Object.assign(side, { revision, command, sent: settings });
         this.fault = '';
         if (this.missed) this.number = 0;
@@ -177,9 +179,16 @@ export class Session extends EventTarget {
     this.say('lost');
   }
 
-  // The server is back, and knows nothing of us.
+  // The server counts anew: it has opened the scene again, or has been started again.
+  restart() {
+    Object.assign(this, { epoch: this.epoch + 1, revision: 0, number: 0, shown: 0 });
+    for (const side of this.sides) if (side) side.revision = undefined;
+    this.say('restart');
+  }
+
   find() {
-    Object.assign(this, { alive: true, revision: 0, number: 0, shown: 0 });
+    this.alive = true;
+    this.restart();
     this.say('found');
     this.send(true);
   }
@@ -187,11 +196,15 @@ export class Session extends EventTarget {
   async receive() {
     for (;;) {
       try {
+        const { epoch } = this;
         const answer = await fetch(`studio/frame?after=${this.number}`);
-        if (!answer.ok) throw new Error();
-        if (!this.alive) this.find();
-        if (answer.status === 204) this.say('status', await ask('status'));
-        else await this.show(await answer.arrayBuffer());
+        if (!answer.ok) {
+          this.say('status', { fault: (await answer.text()).trim() });
+          await sleep(1000);
+        } else {
+          if (!this.alive) this.find();
+          else if (answer.status === 200 && epoch === this.epoch) await this.show(await answer.arrayBuffer(), epoch);
+        }
       } catch (error) {
         if (error.name === 'FrameError') console.warn(error.message);
         else this.lose();
@@ -200,11 +213,12 @@ export class Session extends EventTarget {
     }
   }
 
-  async show(buffer) {
+  async show(buffer, epoch) {
     const length = new DataView(buffer).getUint32(0, true);
     const meta = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     this.number = meta.number;
     await this.answer?.catch(() => {}); // it may say that this frame is old
+    if (epoch !== this.epoch) return;
     const side = this.sides[this.target];
     if (meta.revision !== side.revision) {
       this.missed ||= meta.revision > this.revision; // the server was faster than its answer

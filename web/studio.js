@@ -87,6 +87,7 @@ class Studio {
     session.addEventListener('edit', () => this.update());
     session.addEventListener('accepted', ({ detail }) => this.live.renumber(detail));
     session.addEventListener('status', ({ detail }) => this.tell(detail));
+    session.addEventListener('restart', () => this.live.expire());
     session.addEventListener('lost', () => page.fail('The server does not answer. Start ods view again; the page goes on by itself.'));
     session.addEventListener('found', () => page.fail(''));
     viewer.addEventListener('change', () => this.watchLook());
@@ -152,19 +153,21 @@ class Studio {
     viewer.say('open');
   }
 
+  // A picture that has been rendered.
   async showItem(item) {
     const { viewer } = this.page;
     viewer.view.items = (await (await fetch('view.json')).json()).items;
     viewer.open(item);
   }
 
-  fileName() {
+  // A name that says what the picture is; count: which of its kind.
+  fileName(count) {
     const { view } = this.page.viewer;
     const { projection, picture } = this.session.settings.sidecar;
     const stem = view.studio.scene.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
     const angle = projection.name === 'vr180' ? '_180' : /^(lat-long|cube|eac)/.test(projection.name) ? '_360' : '';
     const short = view.layouts.find(({ name }) => name === picture.layout)?.short;
-    return `${stem}${angle}${short ? `_${short}` : ''}.png`;
+    return `${stem}${count > 1 ? `_${count}` : ''}${angle}${short ? `_${short}` : ''}.png`;
   }
 
   // --- where one looks ---
@@ -264,6 +267,8 @@ class Studio {
       const { what, settings } = await ask(`drop?name=${encodeURIComponent(file.name)}`, file);
       if (what === 'scene') return location.reload();
       this.showScene();
+      if (what === 'environment') this.panel.names[settings.env] = file.name;
+      this.session.restart();
       this.session.replace(settings);
       this.page.toast(what === 'camera' ? `Camera of ${file.name}` : `Light of ${file.name}`);
     } catch (error) {
