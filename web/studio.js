@@ -15,6 +15,8 @@ import { Session, ask, sleep } from './studio-session.js';
 
 const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
 const SIDES = ['A', 'B'];
+// What names of files say of the layout, for players that go by it.
+const SHORT = { 'top-bottom': 'TB', 'bottom-top': 'BT', 'side-by-side': 'LR', 'cross-eyed': 'RL' };
 const TURN = 2000; // milliseconds of a side's first turn in a comparison
 
 class Studio {
@@ -166,7 +168,7 @@ class Studio {
     const { projection, picture } = this.session.settings.sidecar;
     const stem = view.studio.scene.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
     const angle = projection.name === 'vr180' ? '_180' : /^(lat-long|cube|eac)/.test(projection.name) ? '_360' : '';
-    const short = view.layouts.find(({ name }) => name === picture.layout)?.short;
+    const short = SHORT[picture.layout];
     return `${stem}${count > 1 ? `_${count}` : ''}${angle}${short ? `_${short}` : ''}.png`;
   }
 
