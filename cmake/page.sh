@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # page.sh SOURCE COMPILER OUTPUT: writes the files of web/ as C++, for ods/view/page.h. Shaders include the kernel;
-# WebGL has no #include, so a C preprocessor comes first, and the version line is added before its result.
+# WebGL has no #include, so a C preprocessor comes first, the version line is added before its result, and spaces that
+# GLSL does not need are left out.
 set -eu
 cd "$1"
 compiler=$2
@@ -13,7 +14,7 @@ contents() {
   case $1 in
     *.frag | *.vert)
       echo '#version 300 es'
-      "$compiler" -E -P -x c -I. "$1"
+      "$compiler" -E -P -x c -I. "$1" | sed -E 's/^ +//; s/ *([-+*/=<>!&|?:,;(){}]) */\1/g'
       ;;
     *) cat "$1" ;;
   esac

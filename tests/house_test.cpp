@@ -266,7 +266,7 @@ TEST(House, TheBuildIsShort) {
       if (file.filename() == "CMakeLists.txt" || file.extension() == ".cmake") total += read_lines(file).size();
     }
   }
-  EXPECT_LE(total, 310u);
+  EXPECT_LE(total, 320u);
 }
 
 // Whoever changes ods/ROOM/NAME finds its test, if it has one of its own, as tests/ROOM/NAME_test.cpp.

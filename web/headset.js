@@ -3,7 +3,6 @@
 //
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
 // line of sight that the picture has there, wherever the head is.
-import { EyeLayers, hasLayers } from './layers.js';
 
 // What the buttons do, for the page's help.
 export const BUTTONS = [
@@ -60,7 +59,10 @@ export class Headset {
     Object.assign(this, { session, turn: 0, held: new Map() });
     this.viewer.session = session;
     this.viewer.say('change');
-    if (this.wants.layers && hasLayers(session)) this.layers = new EyeLayers(session, gl, this.space);
+    if (this.wants.layers) {
+      const { EyeLayers, hasLayers } = await import('./layers.js');
+      if (hasLayers(session)) this.layers = new EyeLayers(session, gl, this.space);
+    }
     session.requestAnimationFrame((now, frame) => this.frame(frame));
     return session;
   }

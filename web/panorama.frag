@@ -15,7 +15,6 @@ precision highp sampler2DArray;
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
-#include "ods/kernel/camera/project.h"
 #include "ods/kernel/camera/line.h"
 
 const int kOneEye = 0;

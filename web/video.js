@@ -47,25 +47,23 @@ export async function openVideo(gl, item, form, url, signal) {
   const frames = item.video?.frames || Math.round(video.duration * fps);
   let mediaTime = 0;
   let isNew = true;
+  let wanted = 0; // the frame of a step that is still under way
   const heard = new AbortController();
 
-  // The browser says when it has another frame; where it does not, whenever one may be there.
-  const listen = () => video.requestVideoFrameCallback?.((now, about) => {
-    mediaTime = about.mediaTime;
+  // The browser says when it has another frame; after a seek and at the end, what it has follows from the time.
+  const arrive = (time) => {
+    mediaTime = time;
     isNew = true;
     picture.changed?.();
+  };
+  const listen = () => video.requestVideoFrameCallback?.((now, about) => {
+    arrive(about.mediaTime);
     listen();
   });
-  if (!video.requestVideoFrameCallback) {
-    for (const event of ['seeked', 'timeupdate']) {
-      video.addEventListener(event, () => {
-        mediaTime = video.currentTime;
-        isNew = true;
-        picture.changed?.();
-      }, { signal: heard.signal });
-    }
+  for (const event of ['seeked', 'ended', ...(video.requestVideoFrameCallback ? [] : ['timeupdate'])]) {
+    video.addEventListener(event, () => arrive(Math.floor(video.currentTime * fps + 0.01) / fps), { signal: heard.signal });
   }
-  for (const event of ['play', 'pause', 'ended', 'volumechange', 'ratechange', 'seeked']) {
+  for (const event of ['play', 'pause', 'volumechange', 'ratechange']) {
     video.addEventListener(event, () => picture.changed?.(), { signal: heard.signal });
   }
 
@@ -81,12 +79,14 @@ export async function openVideo(gl, item, form, url, signal) {
     },
     toggle: () => (video.paused ? video.play().catch(() => {}) : video.pause()),
     seek(seconds) {
-      video.currentTime = Math.min(Math.max(seconds, 0), video.duration);
+      wanted = Math.min(Math.max(Math.floor(seconds * fps), 0), frames - 1);
+      video.currentTime = (wanted + 0.5) / fps;
     },
     step(count) {
       video.pause();
-      const to = Math.min(Math.max(picture.frame() + count, 0), frames - 1);
-      video.currentTime = (to + 0.5) / fps;
+      const from = video.seeking ? wanted : picture.frame();
+      wanted = Math.min(Math.max(from + count, 0), frames - 1);
+      video.currentTime = (wanted + 0.5) / fps;
     },
     free() {
       heard.abort();

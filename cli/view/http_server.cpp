@@ -69,6 +69,10 @@ struct HttpServer::State {
     return true;
   }
 
+  static std::string path_of(const httplib::Request& request) {
+    return request.path.substr(request.path.find('/', 1) + 1);
+  }
+
   WebAnswer ask(const WebRequest& request) const {
     try {
       return handler(request);
@@ -83,7 +87,7 @@ struct HttpServer::State {
   void answer(const httplib::Request& from, httplib::Response& response, std::string body) const {
     WebRequest request;
     request.is_post = from.method == "POST";
-    request.path = from.path.substr(from.path.find('/', 1) + 1);
+    request.path = path_of(from);
     for (const auto& [name, value] : from.params) request.query[name] = value;
     request.body = std::move(body);
     const WebAnswer answer = ask(request);
@@ -118,7 +122,7 @@ struct HttpServer::State {
     server->set_keep_alive_max_count(kMostRequests);
     server->set_keep_alive_timeout(kIdleSeconds);
     server->set_read_timeout(kReadSeconds);
-    server->set_payload_max_length(options.most_body);
+    server->set_payload_max_length(std::max(options.most_body, options.upload.empty() ? 0 : options.most_upload));
     server->set_default_headers({{"Content-Security-Policy", kPolicy},
                                  {"X-Content-Type-Options", "nosniff"},
                                  {"Referrer-Policy", "no-referrer"},
@@ -136,9 +140,10 @@ struct HttpServer::State {
         ".*", [this](const httplib::Request& request, httplib::Response& response) { answer(request, response, ""); });
     server->Post(
         ".*", [this](const httplib::Request& request, httplib::Response& response, const httplib::ContentReader& read) {
+          const size_t most = path_of(request) == options.upload ? options.most_upload : options.most_body;
           std::string body;
           const bool whole = read([&](const char* bytes, size_t size) {
-            if (body.size() + size > options.most_body) return false;
+            if (body.size() + size > most) return false;
             body.append(bytes, size);
             return true;
           });

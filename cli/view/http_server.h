@@ -42,6 +42,8 @@ struct WebOptions {
   std::string certificate;                                   // PEM files, for https; empty: http
   std::string key;
   size_t most_body = size_t{64} << 10;  // bytes of a request's body
+  std::string upload;                   // the path whose body may be larger; empty: none
+  size_t most_upload = size_t{512} << 20;
 };
 
 class HttpServer {

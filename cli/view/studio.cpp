@@ -3,6 +3,7 @@
 #include "cli/view/studio.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -14,7 +15,9 @@
 #include "cli/options/camera_options.h"
 #include "cli/view/render_words.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/file_format.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
@@ -61,6 +64,17 @@ void read_body(const std::string& body, const Read& read) {
   read(reader);
 }
 
+// Removes a file of ours, and lets its name be that of another.
+void replace_file(std::string& path, const std::string& by) {
+  if (!path.empty()) {
+    ods::forget_unfinished(path.c_str());
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  path = by;
+  if (!path.empty()) ods::remember_unfinished(path.c_str());
+}
+
 template <class Names>
 void check_name(const std::string& what, const std::string& name, const Names& names) {
   if (std::ranges::find(names, name) == std::end(names)) {
@@ -79,13 +93,25 @@ Json ranges_json() {
 
 }  // namespace
 
-Studio::Studio(const SceneSource& source) : source_(source) {
+Studio::Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item)
+    : source_(source), add_item_(std::move(add_item)) {
   open();
+  begin();
+}
+
+Studio::~Studio() {
+  replace_file(dropped_scene_, "");
+  replace_file(dropped_light_, "");
+}
+
+// The settings that suit a scene.
+void Studio::begin() {
+  usual_ = Settings();
   usual_.sidecar.camera = place_camera(CameraOptions(), *scene_);
   usual_.live.camera = usual_.sidecar.camera;
-  usual_.live.exposure = usual_exposure(*scene_, usual_.live.camera, ods::find_builtin(source.name) != nullptr);
-  usual_.environment = source.light.environment.empty() ? "auto" : source.light.environment;
-  usual_.variant = source.variant;
+  usual_.live.exposure = usual_exposure(*scene_, usual_.live.camera, ods::find_builtin(source_.name) != nullptr);
+  usual_.environment = source_.light.environment.empty() ? "auto" : source_.light.environment;
+  usual_.variant = source_.variant;
   settings_ = usual_;
   live_->set(settings_.live, settings_.look);
 }
@@ -190,6 +216,8 @@ std::vector<std::string> Studio::words(const std::string& output, const std::str
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");
   for (const std::string& word : camera_words(settings_.live.camera)) words.push_back(word);
+  const ods::Layout layout = settings_.sidecar.layout;
+  if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
   if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
@@ -279,17 +307,66 @@ WebAnswer Studio::render(const std::string& body) {
   all.insert(all.end(), {"--progress", "json"});
   process_.start(all);
   output_ = name;
+  item_.reset();
   return json_answer(Json::object());
 }
 
 WebAnswer Studio::job() {
   const RenderProcess::Status status = process_.status();
-  if (status.state == "done" && !output_.empty()) result_ = last_ = std::exchange(output_, "");
-  return json_answer({{"state", status.state},
-                      {"done", status.done},
-                      {"left", status.left},
-                      {"text", status.text},
-                      {"file", status.state == "done" ? last_ : ""}});
+  if (status.state == "done" && !output_.empty()) item_ = add_item_(std::exchange(output_, ""));
+  Json json = {{"state", status.state}, {"done", status.done}, {"left", status.left}, {"text", status.text}};
+  if (status.state == "done" && item_) json["item"] = *item_;
+  return json_answer(json);
+}
+
+WebAnswer Studio::status() const {
+  const std::string fault = live_->fault();
+  return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", fault}});
+}
+
+// A file that was dropped onto the page: another scene, another light, or a camera.
+WebAnswer Studio::drop(const WebRequest& request) {
+  const auto given = request.query.find("name");
+  const std::string name = given == request.query.end() ? "" : std::filesystem::path(given->second).filename().string();
+  const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
+  const auto answer = [&](const char* what) {
+    return json_answer({{"what", what}, {"settings", Json::parse(settings_json(settings_))}});
+  };
+  if (kind == ".json") {
+    std::vector<std::string> warnings;
+    settings_.sidecar = ods::read_sidecar(request.body, name, warnings);
+    settings_.live.camera = settings_.sidecar.camera;
+    live_->set(settings_.live, settings_.look);
+    return answer("camera");
+  }
+  const bool is_scene = kind == ".glb" || kind == ".zip", is_light = kind == ".hdr" || kind == ".exr";
+  if (!is_scene && !is_light) throw UsageError("drop a .glb or .zip, an .hdr or .exr, or a .camera.json");
+  const std::string path =
+      (std::filesystem::temp_directory_path() / fmt::format("ods-view-{}-{}", getpid(), is_scene ? "scene" : "light"))
+          .string() +
+      kind;
+  const SceneSource before = source_;
+  ods::write_file(path, request.body);
+  replace_file(is_scene ? dropped_scene_ : dropped_light_, path);
+  if (is_scene) {
+    source_ = SceneSource();
+    source_.name = path;
+  } else {
+    source_.light.environment = path;
+  }
+  try {
+    open();
+  } catch (const ods::Error&) {
+    source_ = before;
+    throw;
+  }
+  if (is_scene) {
+    begin();
+  } else {
+    settings_.environment = usual_.environment = path;
+    live_->set(settings_.live, settings_.look);
+  }
+  return answer(is_scene ? "scene" : "environment");
 }
 
 WebAnswer Studio::save() {
@@ -300,20 +377,17 @@ WebAnswer Studio::save() {
   return json_answer({{"file", path}});
 }
 
-std::string Studio::take_result() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(result_, "");
-}
-
 WebAnswer Studio::answer(const WebRequest& request) {
   if (request.path == "studio/frame") return frame(request);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (request.path == "studio/job") return job();
+  if (request.path == "studio/status") return status();
   if (!request.is_post) return {404, WebAnswer().type, "there is nothing of that name\n", "", false};
   if (request.path == "studio/set") return set(request.body);
   if (request.path == "studio/pick") return pick(request.body);
   if (request.path == "studio/render") return render(request.body);
   if (request.path == "studio/save") return save();
+  if (request.path == "studio/drop") return drop(request);
   if (request.path == "studio/cancel") {
     process_.cancel();
     return json_answer(Json::object());

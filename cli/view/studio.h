@@ -4,6 +4,7 @@
 // The studio of ods view: a scene that is rendered while somebody looks, with every option of the camera a control.
 // docs/view.md lists its requests.
 #pragma once
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,17 +18,16 @@
 
 class Studio {
  public:
-  // Opens the scene, and notes what was assumed about it. Throws as open_lit_scene().
-  explicit Studio(const SceneSource& source);
+  // Opens the scene, and notes what was assumed about it. add_item: is called with each picture that has been rendered,
+  // and gives it a number. Throws as open_lit_scene().
+  Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item);
+  ~Studio();
 
   // "studio" of view.json: the controls' defaults, their ranges and names.
   std::string description() const;
 
   // A request below studio/. Throws UsageError and Error(kInput) for what makes no sense, in a line for people.
   WebAnswer answer(const WebRequest& request);
-
-  // A picture that has been rendered since the last call; empty: none.
-  std::string take_result();
 
  private:
   // What the page has set.
@@ -50,6 +50,9 @@ class Studio {
   WebAnswer render(const std::string& body);
   WebAnswer job();
   WebAnswer save();
+  WebAnswer status() const;
+  WebAnswer drop(const WebRequest& request);
+  void begin();
 
   mutable std::mutex mutex_;  // of all that follows
   SceneSource source_;
@@ -58,7 +61,8 @@ class Studio {
   std::shared_ptr<const ods::Scene> scene_;  // lives as long as whoever renders it
   std::shared_ptr<ods::LiveRender> live_;
   RenderProcess process_;
-  std::string output_;  // of the process
-  std::string last_;    // rendered
-  std::string result_;  // likewise, until it is taken
+  std::string output_;          // of the process, until it is an item
+  std::optional<size_t> item_;  // what it has rendered
+  std::function<size_t(const std::string& path)> add_item_;
+  std::string dropped_scene_, dropped_light_;  // files of ours; empty: none
 };

@@ -46,18 +46,19 @@ void explain_network(const std::string& address, int port) {
       port, port));
 }
 
-std::unique_ptr<Studio> open_studio(const ViewJob& job) {
-  if (job.scene.empty()) return nullptr;
+std::optional<SceneSource> scene_of(const ViewJob& job) {
+  if (job.scene.empty()) return {};
   SceneSource source;
   source.name = job.scene;
-  return std::make_unique<Studio>(source);
+  return source;
 }
 
 void serve(const ViewJob& job) {
-  ViewSite site(open_items(job), open_studio(job));
+  ViewSite site(open_items(job), scene_of(job));
   const std::string folder = state_folder();
   WebOptions web;
   web.secret = kept_secret(folder);
+  if (!job.scene.empty()) web.upload = "studio/drop";
   web.port = job.port.value_or(kUsualPort);
   std::string shown_host = web.hosts[0];
   if (job.lan) {

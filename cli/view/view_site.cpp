@@ -58,8 +58,15 @@ std::optional<size_t> item_number(const std::string& path) {
 
 }  // namespace
 
-ViewSite::ViewSite(std::vector<ViewItem> items, std::unique_ptr<Studio> studio)
-    : items_(std::move(items)), studio_(std::move(studio)) {}
+ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene) : items_(std::move(items)) {
+  if (!scene) return;
+  studio_ = std::make_unique<Studio>(*scene, [this](const std::string& path) {
+    const ViewItem item = ods::open_view_item(path);
+    const std::lock_guard<std::mutex> lock(of_items_);
+    items_.push_back(item);
+    return items_.size() - 1;
+  });
+}
 
 std::vector<ViewItem> ViewSite::items() const {
   const std::lock_guard<std::mutex> lock(of_items_);
@@ -103,18 +110,8 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   return kNothing;
 }
 
-WebAnswer ViewSite::studio(const WebRequest& request) {
-  WebAnswer answer = studio_->answer(request);
-  const std::string result = studio_->take_result();
-  if (result.empty()) return answer;
-  const ViewItem item = ods::open_view_item(result);
-  const std::lock_guard<std::mutex> lock(of_items_);
-  items_.push_back(item);
-  return answer;
-}
-
 WebAnswer ViewSite::answer(const WebRequest& request) {
-  if (studio_ && request.path.starts_with("studio/")) return studio(request);
+  if (studio_ && request.path.starts_with("studio/")) return studio_->answer(request);
   if (request.is_post) return kNothing;
   if (request.path == "alive") return {200, "application/json", "{}", "", false};
   if (request.path == "view.json") {

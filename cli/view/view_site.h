@@ -6,6 +6,7 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,14 @@
 
 class ViewSite {
  public:
-  // studio: null if no scene is shown.
-  ViewSite(std::vector<ods::ViewItem> items, std::unique_ptr<Studio> studio);
+  // scene: for the studio; none: no scene is shown. Throws as Studio.
+  ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
   // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
   // projection where the page's user knows better. Throws UsageError for a query that makes no sense.
   WebAnswer answer(const WebRequest& request);
 
  private:
-  WebAnswer studio(const WebRequest& request);
   WebAnswer item(const std::string& path, const WebRequest& request);
   // Of the latest item that was asked for: both eyes are, one after the other.
   std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);

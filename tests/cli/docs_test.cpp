@@ -131,7 +131,8 @@ class Pages : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directory(folder.path("home"));
-    setenv("ASAN_OPTIONS", "detect_leaks=0", 0);               // as in cli_runner.h
+    setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // as in cli_runner.h
+    setenv("XDG_STATE_HOME", folder.path("home").c_str(), 1);
     setenv("XDG_CACHE_HOME", folder.path("home").c_str(), 1);  // a program that a test runs has no business elsewhere
   }
 
@@ -291,11 +292,25 @@ class Pages : public ::testing::Test {
       provide(command.line);
       if (command.redirects.starts_with("<")) provide_file(words_of(command.redirects).at(1));
     }
+    if (words_of(command.line).at(1) == "view" && !has(command.line, "--export")) return try_server(command.line);
     const int code = shell(command.line + made_small(command.line) + " " + command.redirects);
     const std::string name = words_of(command.line).at(1);
     const bool judges = name == "lint" || name == "compare";  // of pictures, and ours are odd
     EXPECT_TRUE(!can_run || code == 0 || (judges && code == 1)) << "exit code " << code << ": " << log();
     EXPECT_NE(code, 2) << log();
+  }
+
+  // Serves until it is ended.
+  void try_server(const std::string& line) {
+    const std::string network = has(line, "--lan") ? " || test $? = 3" : "";  // perhaps there is none
+    const std::string words = ODS_COMMAND + line.substr(3) + " --no-browser";
+    EXPECT_EQ(shell("timeout -s TERM 3 " + words +
+                    " >address & while kill -0 $! && ! test -s address; do sleep 0.1; done; "
+                    "wait $! || test $? = 124" +
+                    network),
+              0)
+        << log();
+    EXPECT_TRUE(!network.empty() || has(folder.read("address"), "http://127.0.0.1:")) << log();
   }
 
   ods::TemporaryFolder folder;

@@ -9,8 +9,8 @@ precision highp int;
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
-#include "ods/kernel/camera/project.h"
 #include "ods/kernel/camera/line.h"
+#include "ods/kernel/camera/project.h"
 
 uniform Camera camera;
 uniform sampler2D merge_map;

@@ -6,6 +6,7 @@
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
+#include "ods/kernel/camera/line.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/kernel/scene_data.h"
 #include "ods/kernel/random.h"
