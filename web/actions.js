@@ -76,4 +76,4 @@ export const ACTIONS = [
 ];
 
 const SHOWN = { PageDown: 'Page ↓', PageUp: 'Page ↑' };
-export const keysOf = (action) => (action.shown?.split(' ') ?? action.keys).map((key) => SHOWN[key] ?? key.toUpperCase());
+export const keysOf = (action) => (action.shown?.split(' ') ?? action.keys).map((key) => SHOWN[key] ?? (key.length > 1 ? key : key.toUpperCase()));

@@ -33,7 +33,6 @@ export class Controls {
     Object.assign(this, { page, viewer });
     fill(find('mode'), MODES.map(({ name, label }) => [name, label]));
     fill(find('tone'), viewer.view.tones.map((name) => [name, name]));
-    find('folder').hidden = viewer.view.items.length < 2;
     find('device-row').hidden = !hasDevice();
     this.listen();
     for (const event of ['change', 'open', 'failed']) viewer.addEventListener(event, () => this.update());
@@ -98,7 +97,8 @@ export class Controls {
   // What does not change while an item is open.
   describe() {
     const { view, about, choice, picture, item } = this.viewer;
-    const many = view.items.length > 1 ? `  ${item + 1} / ${view.items.length}` : '';
+    find('folder').hidden = view.items.length < 2;
+    const many = !this.viewer.scene && view.items.length > 1 ? `  ${item + 1} / ${view.items.length}` : '';
     find('name').textContent = about.name + many;
     find('name').title = about.name;
     document.title = `${about.name} – Omnistereo`;
@@ -115,9 +115,9 @@ export class Controls {
     find('exposure').value = exposure;
     this.label('exposure', signed(exposure, 2));
     find('tone').value = choice.tone ?? about.tone;
-    find('film').hidden = !picture.video;
-    document.body.classList.toggle('film', Boolean(picture.video));
-    if (!picture.video) return;
+    find('film').hidden = !picture?.video;
+    document.body.classList.toggle('film', Boolean(picture?.video));
+    if (!picture?.video) return;
     find('seek').max = picture.frames - 1;
     picture.video.playbackRate = Number(find('speed').value);
   }

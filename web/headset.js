@@ -10,6 +10,7 @@ export const BUTTONS = [
   ['Hold trigger or pinch', 'recentre'],
   ['Stick left, right', 'back or ahead by 10 s; with a picture: previous, next'],
   ['Stick up, down', 'exposure (HDR and EXR on the live page)'],
+  ['In the studio', 'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B'],
   ['Press the stick', 'recentre'],
   ['Grip', 'next; of the left hand: previous'],
   ['A or X', 'swap the eyes'],
@@ -81,8 +82,10 @@ export class Headset {
     this.listen();
     this.pose = frame.getViewerPose(this.space) ?? this.pose;
     const { picture, panorama, state } = viewer;
+    const steering = viewer.scene && this.pose ? viewer.steering : null; // the studio's
+    steering?.head(this.pose, this.turn);
     picture?.refresh?.();
-    if (picture && this.layers?.show(frame, viewer, this.turn)) return;
+    if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) return;
     const layer = session.renderState.baseLayer;
     if (!layer || !this.pose) return;
     const { gl } = panorama;
@@ -92,10 +95,12 @@ export class Headset {
     if (!picture) return;
     for (const view of this.pose.views) {
       const { x, y, width, height } = layer.getViewport(view);
-      panorama.draw(picture, {
+      const options = {
         rays: raysOfView(view, this.turn), box: [x, y, width, height], eye: view.eye === 'right' ? 1 : 0,
         swap: state.swap, grid: state.grid, fast: true, target: layer.framebuffer,
-      });
+      };
+      panorama.draw(picture, options);
+      steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
     }
   }
 
@@ -110,7 +115,8 @@ export class Headset {
     const since = this.pressed.get(source) ?? performance.now();
     if (performance.now() - since > HOLD) return this.recentre();
     const { picture } = this.viewer;
-    if (picture?.video) picture.toggle();
+    if (this.viewer.scene) this.viewer.steering.select();
+    else if (picture?.video) picture.toggle();
     else this.viewer.go(1);
   }
 
@@ -122,6 +128,7 @@ export class Headset {
       if (picture?.video) picture.seek(picture.video.currentTime + 10 * by);
       else viewer.go(by);
     };
+    const stick = [0, 0]; // of both hands
     for (const source of this.session.inputSources) {
       const { buttons, axes, mapping } = source.gamepad ?? {};
       if (mapping !== 'xr-standard') continue;
@@ -132,13 +139,19 @@ export class Headset {
       const before = this.held.get(source) ?? {};
       this.held.set(source, now);
       const begins = (name) => now[name] && !before[name];
+      if (begins('leave')) return this.session.end();
       if (begins('press')) this.recentre();
       if (begins('swap')) viewer.set({ swap: !viewer.state.swap });
+      if (viewer.scene) {
+        stick[0] += axes[2];
+        stick[1] += axes[3];
+        continue;
+      }
       if (begins('left')) along(-1);
       if (begins('right')) along(1);
       if (begins('up')) viewer.expose(0.5);
       if (begins('down')) viewer.expose(-0.5);
-      if (begins('leave')) this.session.end();
     }
+    if (viewer.scene) viewer.steering.stick(...stick);
   }
 }

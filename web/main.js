@@ -120,7 +120,7 @@ function watchAddress(page) {
     const to = readState(location.hash);
     viewer.set(to.look);
     page.frame = to.frame;
-    viewer.open(Math.min(to.item, viewer.view.items.length - 1), to.choice);
+    if (!viewer.scene) viewer.open(Math.min(to.item, viewer.view.items.length - 1), to.choice);
   });
 }
 

@@ -31,6 +31,8 @@ struct Eye {
 };
 
 uniform Camera camera;
+uniform bool over;         // the picture is a finer window of one that is drawn already,
+uniform Projection below;  // whose projection this is
 uniform Eye eyes[2];
 uniform sampler2DArray left_tiles;
 uniform sampler2DArray right_tiles;
@@ -65,6 +67,7 @@ struct Place {
   vec2 low;   // the texels that are contiguous in the world: a cube's face, or everything
   vec2 high;
   bool seen;
+  vec3 label;  // the direction under which the picture stores the line of sight
 };
 
 bool wraps() {
@@ -76,6 +79,7 @@ Place place_at(int which, vec3 direction) {
   ImagePoint point = place_of(camera.projection, label);
   vec2 size = eyes[which].size;
   Place place;
+  place.label = label;
   place.at = point.uv * size;
   place.low = vec2(-1e6);
   place.high = vec2(1e6);
@@ -224,13 +228,16 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
 
 // --- colour ---------------------------------------------------------------------------------------------------------
 
-// Linear light of an eye's picture along a direction; dx, dy: the direction's steps from pixel to pixel.
-vec3 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
+// Linear light of an eye's picture along a direction; dx, dy: the direction's steps from pixel to pixel. And how much it
+// covers what is below it: a window fades at its edges, and adds nothing where the picture below ends.
+vec4 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
   Place place = place_at(which, direction);
-  if (!place.seen) return vec3(0.0103);  // a neutral dark grey: the picture has nothing there
+  if (!place.seen) return vec4(vec3(0.0103), over ? 0.0 : 1.0);  // a neutral dark grey: the picture has nothing there
   vec2 moves[2];
   for (int i = 0; i < 2; i++) moves[i] = movement(which, direction, i == 0 ? dx : dy, place);
-  return filtered(which, place, moves[0], moves[1]);
+  vec2 inside = min(place.at, eyes[which].size - place.at);
+  float cover = !over ? 1.0 : place_of(below, place.label).seen ? clamp(min(inside.x, inside.y) / 12.0, 0.0, 1.0) : 0.0;
+  return vec4(filtered(which, place, moves[0], moves[1]), cover);
 }
 
 vec3 encode(vec3 light) {
@@ -267,14 +274,14 @@ void main() {
   vec3 direction = direction_at(screen);
   vec3 dx = direction_at(screen + vec2(2.0 / viewport.x, 0.0)) - direction;
   vec3 dy = direction_at(screen - vec2(0.0, 2.0 / viewport.y)) - direction;
-  vec3 light[2];
+  vec4 light[2];
   for (int i = 0; i < 2; i++) {
     if (mode != kOneEye || i == eye) light[i] = light_of(i, direction, dx, dy);
   }
   vec3 shown;
-  if (mode == kOneEye) shown = encode(light[eye]);
-  if (mode == kAnaglyph) shown = encode(dubois(light[kLeft], light[kRight]));
-  if (mode == kDifference) shown = abs(encode(light[kLeft]) - encode(light[kRight]));
+  if (mode == kOneEye) shown = encode(light[eye].rgb);
+  if (mode == kAnaglyph) shown = encode(dubois(light[kLeft].rgb, light[kRight].rgb));
+  if (mode == kDifference) shown = abs(encode(light[kLeft].rgb) - encode(light[kRight].rgb));
   if (grid) shown = with_grid(shown, direction, dy);
-  color = vec4(shown, 1.0);
+  color = vec4(shown, mode == kOneEye ? light[eye].a : min(light[kLeft].a, light[kRight].a));
 }

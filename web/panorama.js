@@ -105,16 +105,29 @@ export class Panorama {
     }
   }
 
-  // Draws a view of a picture (picture.js): `show` is eye, anaglyph or difference; `eye` is 0 for left, 1 for right.
+  // Draws a view of a picture (picture.js) as drawOne() does, and what belongs to it: `over`, a finer window, and
+  // `beside`, another picture to the right of the fraction `split` of the box.
+  draw(picture, options) {
+    this.drawOne(picture, options);
+    if (picture.over) this.drawOne(picture.over, options);
+    if (!picture.beside || options.target) return;
+    const [x, y, width, height] = options.box;
+    const left = Math.round(picture.split * width);
+    this.draw(picture.beside, { ...options, clip: [x + left, y, width - left, height] });
+  }
+
+  // Draws a view of a picture: `show` is eye, anaglyph or difference; `eye` is 0 for left, 1 for right.
   // rays: as raysOf(). box: x, y, width, height in pixels of the target, from its lower left corner. swap: exchanges
-  // the eyes. target: a framebuffer, or null for the canvas.
-  draw(picture, { rays, box, show = 'eye', eye = 0, swap = false, grid = false, fast = false, target = null, all = false }) {
+  // the eyes. target: a framebuffer, or null for the canvas. clip: a part of the box, for all that is drawn.
+  drawOne(picture, { rays, box, clip = box, show = 'eye', eye = 0, swap = false, grid = false, fast = false, target = null, all = false }) {
     const { gl } = this;
     const eyes = swap ? [picture.eyes[1], picture.eyes[0]] : picture.eyes;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(...box);
-    gl.scissor(...box);
+    gl.scissor(...clip);
     gl.enable(gl.SCISSOR_TEST);
+    if (picture.below) gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.useProgram(this.program);
     eyes.forEach((each, i) => {
       gl.activeTexture(gl.TEXTURE0 + i);
@@ -125,9 +138,11 @@ export class Panorama {
     this.set({
       camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), left_tiles: 0, right_tiles: 1, rays,
       all_around: all, viewport: box.slice(2), mode: MODES[show], eye, mono: picture.mono, fast, grid,
+      over: Boolean(picture.below), below: picture.below ?? picture.camera.projection,
     });
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.disable(gl.SCISSOR_TEST);
+    gl.disable(gl.BLEND);
   }
 
   clear() {

@@ -19,6 +19,7 @@ export class Viewer extends EventTarget {
     super();
     Object.assign(this, { canvas, view, base, picture: null, item: -1, session: null });
     this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false };
+    this.scene = null; // of the studio: what is live instead of an item
     this.choice = {}; // layout, projection, exposure, tone, where they are not the item's own
     this.panorama = new Panorama(canvas, shader);
     this.waiting = false;
@@ -89,7 +90,7 @@ export class Viewer extends EventTarget {
   }
 
   get about() {
-    return this.view.items[this.item];
+    return this.scene ?? this.view.items[this.item];
   }
 
   // Opens an item by its index; a load that is under way is abandoned. Does not throw: says `open` or `failed`.
@@ -98,7 +99,7 @@ export class Viewer extends EventTarget {
     const loading = (this.loading = new AbortController());
     const texels = this.picture?.eyes.reduce((sum, eye) => sum + eye.size[0] * eye.size[1], 0);
     if (item !== this.item && texels > KEEP) this.close();
-    Object.assign(this, { item, choice });
+    Object.assign(this, { item, choice, scene: null });
     this.say('loading', 0);
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {

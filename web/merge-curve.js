@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The merge as a curve: how much of the eye distance is left from straight down to straight up. Its ends can be dragged.
+// The formula is the kernel's, run on the GPU by merge-curve.frag.
+import { compile } from './panorama.js';
+
+// The kernel's numbers of the merges (ods/kernel/camera/merge.h), in order.
+const KERNEL_MERGES = ['none', 'linear', 'cosine', 'smoothstep', 'gaussian', 'power', 'tilt-brush', 'map', 'smootherstep'];
+const COUNT = 181;
+const SIZE = [280, 92]; // of the drawing
+const BOX = [8, 272, 10, 82]; // of the curve in it: left, right, top, bottom
+const SVG = 'http://www.w3.org/2000/svg';
+
+const xOf = (elevation) => BOX[0] + ((elevation + 90) / 180) * (BOX[1] - BOX[0]);
+const yOf = (left) => BOX[3] - left * (BOX[3] - BOX[2]);
+const radians = (angle) => (angle * Math.PI) / 180;
+
+// Fractions for -90 .. 90 degrees, of two merges of a sidecar.
+class Formula {
+  constructor(text) {
+    const gl = (this.gl = new OffscreenCanvas(COUNT, 1).getContext('webgl2', { alpha: false, antialias: false }));
+    this.program = compile(gl, text);
+    gl.useProgram(this.program);
+    gl.bindVertexArray(gl.createVertexArray());
+    gl.disable(gl.DITHER);
+  }
+
+  values(merges) {
+    const { gl, program } = this;
+    merges.forEach(({ mode, start, end, exponent }, i) => {
+      const at = (name) => gl.getUniformLocation(program, `merges[${i}].${name}`);
+      gl.uniform1i(at('mode'), Math.max(KERNEL_MERGES.indexOf(mode), 0));
+      gl.uniform1f(at('start'), radians(start));
+      gl.uniform1f(at('end'), radians(end));
+      gl.uniform1f(at('exponent'), exponent);
+    });
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    const bytes = new Uint8Array(4 * COUNT);
+    gl.readPixels(0, 0, COUNT, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return Array.from({ length: COUNT }, (_, i) => (bytes[4 * i] + bytes[4 * i + 1] / 255) / 255);
+  }
+}
+
+function shape(tag, attributes, parent) {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  parent.append(element);
+  return element;
+}
+
+export class MergeCurve {
+  // onDrag(which, end, elevation, gesture): which is top or bottom, end is start or end; the gesture is null at last.
+  constructor(onDrag) {
+    this.onDrag = onDrag;
+    this.element = document.createElement('figure');
+    this.element.className = 'curve';
+    const svg = shape('svg', { viewBox: `0 0 ${SIZE.join(' ')}`, role: 'img' }, this.element);
+    svg.setAttribute('aria-label', 'Eye distance from straight down to straight up');
+    this.svg = svg;
+    for (const left of [0, 0.5, 1]) shape('line', { class: 'grid', x1: BOX[0], x2: BOX[1], y1: yOf(left), y2: yOf(left) }, svg);
+    for (const at of [-60, -30, 0, 30, 60]) shape('line', { class: 'grid', x1: xOf(at), x2: xOf(at), y1: BOX[2], y2: BOX[3] }, svg);
+    this.fill = shape('polygon', { class: 'fill' }, svg);
+    this.other = shape('polyline', { class: 'other' }, svg);
+    this.line = shape('polyline', { class: 'curve-line' }, svg);
+    const words = shape('text', { x: SIZE[0] / 2, y: yOf(0.7), 'text-anchor': 'middle' }, svg);
+    words.textContent = 'full eye distance';
+    this.gaze = shape('line', { class: 'gaze', y1: BOX[2] - 6, y2: BOX[3] + 6 }, svg);
+    this.handles = [['top', 'start'], ['top', 'end'], ['bottom', 'start'], ['bottom', 'end']].map((names) => this.handle(...names));
+    const caption = document.createElement('figcaption');
+    caption.append(...['straight down', 'horizon', 'straight up'].map((text) => Object.assign(document.createElement('span'), { textContent: text })));
+    this.element.append(caption);
+    fetch('merge-curve.frag').then((answer) => answer.text()).then((text) => {
+      this.formula = new Formula(text);
+      if (this.last) this.draw(...this.last);
+    }).catch((error) => console.warn(error.message));
+  }
+
+  handle(which, end) {
+    const circle = shape('circle', { class: 'handle', r: 6 }, this.svg);
+    const elevation = (event) => {
+      const box = this.svg.getBoundingClientRect();
+      const x = ((event.clientX - box.left) / box.width) * SIZE[0];
+      const at = ((x - BOX[0]) / (BOX[1] - BOX[0])) * 180 - 90;
+      return Math.min(Math.max(Math.round(which === 'top' ? at : -at), 0), 90);
+    };
+    let gesture = null;
+    circle.addEventListener('pointerdown', (event) => {
+      circle.setPointerCapture(event.pointerId);
+      gesture = {};
+      event.preventDefault();
+    });
+    circle.addEventListener('pointermove', (event) => gesture && this.onDrag(which, end, elevation(event), gesture, true));
+    for (const name of ['pointerup', 'pointercancel']) {
+      circle.addEventListener(name, (event) => {
+        if (gesture && name === 'pointerup') this.onDrag(which, end, elevation(event), gesture, false);
+        gesture = null;
+      });
+    }
+    return { circle, which, end };
+  }
+
+  // merges: { top, bottom } of a sidecar; other: the same of the other side, or null.
+  draw(merges, other) {
+    this.last = [merges, other];
+    if (!this.formula) return;
+    const points = ({ top, bottom }) => this.formula.values([top, bottom]).map((left, i) => `${xOf(i - 90).toFixed(1)},${yOf(left).toFixed(1)}`);
+    const line = points(merges);
+    this.line.setAttribute('points', line.join(' '));
+    this.fill.setAttribute('points', [`${BOX[0]},${BOX[3]}`, ...line, `${BOX[1]},${BOX[3]}`].join(' '));
+    this.other.setAttribute('points', other ? points(other).join(' ') : '');
+    const values = line.map((point) => Number(point.split(',')[1]));
+    for (const { circle, which, end } of this.handles) {
+      const merge = merges[which];
+      const at = which === 'top' ? merge[end] : -merge[end];
+      circle.setAttribute('cx', xOf(at));
+      circle.setAttribute('cy', values[Math.round(at) + 90] ?? BOX[3]);
+      circle.toggleAttribute('hidden', merge.mode === 'none' || merge.mode === 'map');
+    }
+  }
+
+  look(pitch) {
+    this.gaze.setAttribute('x1', xOf(pitch));
+    this.gaze.setAttribute('x2', xOf(pitch));
+  }
+}

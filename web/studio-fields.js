@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the studio's panel shows: groups of rows. A row has the path of its value in the settings, its label, and either
+// options or a unit, a step (of the shown number, which is the value times `scale`) and a range for dragging, where the
+// server names none; and `when`, for values that do not always apply.
+import { valueAt } from './studio-session.js';
+
+const camera = (path) => `sidecar.${path}`;
+const degrees = (radians) => Math.round((radians * 180e6) / Math.PI) / 1e6;
+const titled = (name) => name.charAt(0).toUpperCase() + name.slice(1).replace('-', ' ');
+const options = (names, words = {}) => names.map((name) => [name, words[name] ?? titled(name)]);
+
+// The numbers that a projection has where the settings do not say them.
+function standardOf(view, { name }) {
+  const { projection } = view.projections.find((each) => each.name === name)?.camera ?? view.projections[0].camera;
+  const [x, y] = projection.center;
+  const [wide, high] = projection.span;
+  return {
+    longitude: [degrees(x - wide / 2), degrees(x + wide / 2)], latitude: [degrees(y - high / 2), degrees(y + high / 2)],
+    fov: degrees(projection.angle), pan: 0, tilt: degrees(Math.asin(-projection.lens_back[1])), aspect: 1,
+  };
+}
+
+export function readValue(view, settings, path) {
+  const value = valueAt(settings, path);
+  if (value !== undefined || !path.startsWith('sidecar.projection.')) return value;
+  return valueAt(standardOf(view, settings.sidecar.projection), path.replace('sidecar.projection.', ''));
+}
+
+const hasCurve = (which) => (settings) => !['none', 'map'].includes(settings.sidecar[which].mode);
+const projectionIs = (pattern) => (settings) => pattern.test(settings.sidecar.projection.name);
+const isRange = projectionIs(/^(lat-long|vr180|cylinder)$/);
+const hasFov = projectionIs(/^(fisheye|dome|perspective)/);
+const hasLens = projectionIs(/^(fisheye|dome|perspective|eac-face)/);
+
+const mergeRows = (which) => [
+  { path: camera(`${which}.mode`), label: 'Curve', merges: true },
+  { path: camera(`${which}.start`), label: 'Start', unit: '°', step: 0.5, range: [0, 90], when: hasCurve(which), about: 'Elevation up to which the eyes keep their whole distance' },
+  { path: camera(`${which}.end`), label: 'End', unit: '°', step: 0.5, range: [0, 90], when: hasCurve(which), about: 'Elevation from which both eyes see the same' },
+  { path: camera(`${which}.exponent`), label: 'Exponent', step: 0.02, range: [0.05, 8], when: hasCurve(which) },
+];
+
+export function groupsOf(view) {
+  const { studio } = view;
+  const maps = (name) => name !== 'map' || studio.settings.sidecar.merge_map;
+  const merges = options(studio.merges.filter(maps));
+  const merge = (which) => mergeRows(which).map((row) => (row.merges ? { ...row, options: merges } : row));
+  const turns = [-180, 180];
+  return [
+    { name: 'Pole merge', id: 'merge', open: true, top: merge('merge_top'), bottom: merge('merge_bottom') },
+    { name: 'Eyes', open: true, rows: [
+      { path: camera('ipd'), label: 'Eye distance', unit: 'mm', scale: 1000, step: 0.5, range: [0, 1000] },
+      { path: camera('convergence.mode'), label: 'Convergence', options: options(studio.convergences) },
+      { path: camera('convergence.distance'), label: 'Converge at', unit: 'm', step: 0.01, range: [0.01, 1000], when: (s) => s.sidecar.convergence.mode !== 'parallel' },
+      { path: camera('neck'), label: 'Neck to eyes', unit: 'mm', scale: 1000, step: 1, range: [-1000, 1000], about: 'Distance of the eyes in front of the axis they turn about' },
+    ] },
+    { name: 'Camera', open: true, rows: [
+      { label: 'Position', parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`position.${i}`), label, name: `Position ${label}`, unit: 'm', step: 0.01, range: [-1e5, 1e5] })) },
+      { label: 'Direction', parts: [
+        { path: camera('yaw'), label: 'Yaw', unit: '°', step: 0.5, range: turns },
+        { path: camera('pitch'), label: 'Pitch', unit: '°', step: 0.5, range: [-90, 90] },
+        { path: camera('roll'), label: 'Roll', unit: '°', step: 0.5, range: turns },
+      ] },
+    ] },
+    { name: 'Light', open: true, rows: [
+      { path: 'exposure', label: 'Exposure', unit: 'stops', step: 0.05, range: [-20, 20] },
+      { path: 'tone', label: 'Tone', options: options(studio.tones) },
+      { path: 'env', label: 'Environment', options: options(studio.envs, { 0: 'None', auto: 'As it suits' }) },
+      ...(studio.variants.length ? [{ path: 'variant', label: 'Variant', options: [['', 'First'], ...studio.variants.map((name) => [name, name])] }] : []),
+      ...(studio.duration ? [{ path: 'time', label: 'Time', unit: 's', step: 0.02, range: [0, studio.duration] }] : []),
+    ] },
+    { name: 'Projection', rows: [
+      { path: camera('projection.name'), label: 'Projection', options: studio.projections.map((name) => [name, name]), projection: true },
+      { path: camera('projection.fov'), label: 'Field of view', unit: '°', step: 0.5, range: [1, 360], when: hasFov },
+      { path: camera('projection.aspect'), label: 'Aspect', unit: 'w / h', step: 0.01, range: [0.1, 10], when: projectionIs(/^perspective$/) },
+      { path: camera('projection.pan'), label: 'Pan', unit: '°', step: 0.5, range: turns, when: hasLens },
+      { path: camera('projection.tilt'), label: 'Tilt', unit: '°', step: 0.5, range: [-90, 90], when: hasLens },
+      { label: 'Longitude', when: isRange, parts: [['Left', 0], ['Right', 1]].map(([label, i]) => ({ path: camera(`projection.longitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-360, 360] })) },
+      { label: 'Latitude', when: isRange, parts: [['Bottom', 0], ['Top', 1]].map(([label, i]) => ({ path: camera(`projection.latitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-90, 90] })) },
+    ] },
+    { name: 'Lens', rows: [
+      { path: camera('lens.radius'), label: 'Lens radius', unit: 'mm', scale: 1000, step: 0.1, range: [0, 500], about: '0: everything is sharp' },
+      { path: camera('lens.focus_distance'), label: 'Focus at', unit: 'm', step: 0.01, range: [0.01, 1000], when: (s) => s.sidecar.lens.radius > 0 },
+    ] },
+  ];
+}
+
+// What a row's shown number may be: the server's range where it has one of the camera's names for the value
+// (ods/camera/camera_fields.cpp).
+export function limitsOf(ranges, { path, range, scale = 1 }) {
+  const name = path.replace(/^sidecar\.(projection\.)?/, '').replace(/^merge_(top|bottom)/, 'merge').replace('lens.focus_distance', 'focus distance')
+    .replace(/\.\d$/, '').replace('.', ' ');
+  return ranges?.[name]?.slice(0, 2).map((value) => value * scale) ?? range;
+}

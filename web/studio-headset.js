@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio in the headset: the stick moves where the merge starts and ends, the trigger swaps A and B, and a line of
+// text in view says so. headset.js calls it.
+import { EyeTexture } from './tiles.js';
+
+const DEAD = 0.25; // of the stick's way
+const SPEED = 30; // degrees per second, with the stick fully out
+const SHOWN = 2500; // milliseconds
+const TEXT = [512, 96]; // pixels
+const WIDE = 0.5; // radians
+const BELOW = -0.26;
+
+const degrees = (radians) => (radians * 180) / Math.PI;
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const axes = (m) => [m.slice(0, 3), m.slice(4, 7), m.slice(8, 11)];
+
+export class VrSteering {
+  constructor(studio) {
+    Object.assign(this, { studio, last: 0, gesture: null, label: null, until: 0, values: null });
+  }
+
+  // The stick of a controller, right and down positive. Changes are one step to undo until the stick is let go.
+  stick(x = 0, y = 0) {
+    const now = performance.now();
+    const time = Math.min((now - this.last) / 1000, 0.1);
+    this.last = now;
+    const push = (value) => (Math.abs(value) < DEAD ? 0 : (value - Math.sign(value) * DEAD) / (1 - DEAD));
+    const [right, up] = [push(x), -push(y)];
+    const { session } = this.studio;
+    if (!right && !up) {
+      if (this.gesture) session.edit({}, this.gesture);
+      this.gesture = null;
+      return;
+    }
+    const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
+    if (!this.gesture) Object.assign(this, { gesture: {}, values: { start: top.start, end: top.end } });
+    const { values } = this;
+    if (right) values.start = Math.min(Math.max(values.start + right * SPEED * time, 0), values.end - 1);
+    if (up) values.end = Math.max(Math.min(values.end + up * SPEED * time, 90), values.start + 1);
+    const [start, end] = [values.start, values.end].map((value) => Math.round(value * 2) / 2);
+    const edit = {};
+    const mode = top.mode === 'none' ? 'cosine' : top.mode;
+    const linked = this.studio.panel.linked;
+    for (const each of linked ? ['top', 'bottom'] : ['top']) edit[`sidecar.merge_${each}`] = { ...(each === 'top' ? top : bottom), mode, start, end };
+    session.edit(edit, this.gesture, true);
+    this.say(`Merge ${start.toFixed(1)}° – ${end.toFixed(1)}°`);
+  }
+
+  select() {
+    const { session } = this.studio;
+    session.swap();
+    this.say(`Settings ${session.active ? 'B' : 'A'}`);
+  }
+
+  // Where the head looks, for what is refined first. turn: as raysOfView() takes it.
+  head(pose, turn) {
+    const [, , back] = axes(pose.transform.matrix);
+    const yaw = Math.atan2(-back[0], back[2]) + turn;
+    this.studio.headLook = { yaw: ((degrees(yaw) + 540) % 360) - 180, pitch: degrees(Math.asin(-back[1])), fov: 100, aspect: 1 };
+    this.studio.watchLook();
+  }
+
+  async say(text) {
+    this.text = text;
+    if (this.painting) return;
+    this.painting = true;
+    while (this.painted !== this.text) await this.paint(this.text);
+    Object.assign(this, { painting: false, until: performance.now() + SHOWN });
+  }
+
+  async paint(text) {
+    const { viewer } = this.studio.page;
+    const canvas = new OffscreenCanvas(...TEXT);
+    const context = canvas.getContext('2d');
+    context.fillStyle = '#202225';
+    context.fillRect(0, 0, ...TEXT);
+    Object.assign(context, { fillStyle: '#f1f1ef', font: '44px system-ui, sans-serif', textAlign: 'center', textBaseline: 'middle' });
+    context.fillText(text, TEXT[0] / 2, TEXT[1] / 2);
+    const texture = new EyeTexture(viewer.panorama.gl, ...TEXT, false);
+    await texture.fill(canvas, 0, 0);
+    this.label?.eyes[0].free();
+    this.label = this.picture(texture);
+    Object.assign(this, { painted: text, until: performance.now() + SHOWN });
+  }
+
+  // A window of the sphere, below the middle of the view.
+  picture(texture) {
+    const { camera } = this.studio.page.viewer.view.projections.find(({ name }) => name === 'lat-long');
+    const high = (WIDE * TEXT[1]) / TEXT[0];
+    const window = { ...camera, projection: { ...camera.projection, center: [0, BELOW], span: [WIDE, high] } };
+    return { eyes: [texture, texture], camera: window, below: window.projection, mono: true };
+  }
+
+  // Draws the text where it is due. rays: of the view in the room; pose: the head's.
+  draw(panorama, rays, pose, options) {
+    if (!this.label || performance.now() > this.until) return;
+    const head = axes(pose.transform.matrix);
+    const inHead = [0, 3, 6].flatMap((i) => head.map((axis) => dot(axis, rays.slice(i, i + 3))));
+    panorama.draw(this.label, { ...options, rays: inHead, swap: false, grid: false });
+  }
+}

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio's panel: the rows of studio-fields.js, which follow the session and change it, and the merge's curve.
+import { MergeCurve } from './merge-curve.js';
+import { groupsOf, limitsOf, readValue } from './studio-fields.js';
+import { choiceRow, make, numberRow } from './studio-number.js';
+
+const LINK = /^sidecar\.merge_(top|bottom)\./;
+const numbersOfProjection = ['longitude', 'latitude', 'fov', 'aspect', 'pan', 'tilt', 'sensor', 'polynomial'];
+
+export class Panel {
+  // element: where to build it. view: view.json.
+  constructor(element, view, session) {
+    Object.assign(this, { element, view, session, rows: [], names: {} }); // names: what people call a value
+    const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
+    this.linked = JSON.stringify(top) === JSON.stringify(bottom);
+    this.fault = make('p', { className: 'fault', role: 'alert', hidden: true });
+    element.replaceChildren(this.fault, ...groupsOf(view).map((group) => this.group(group)));
+    session.addEventListener('edit', () => this.update());
+    session.addEventListener('accepted', () => this.refuse(''));
+    session.addEventListener('refused', ({ detail }) => this.refuse(detail.text, detail.paths));
+    this.update();
+  }
+
+  group({ name, open = false, rows, top, bottom }) {
+    const body = top ? this.merge(top, bottom) : rows.map((row) => this.row(row));
+    return make('details', { open }, make('summary', { textContent: name }), ...body);
+  }
+
+  merge(top, bottom) {
+    this.curve = new MergeCurve((...drag) => this.dragCurve(...drag));
+    const box = make('input', { type: 'checkbox', checked: this.linked });
+    box.addEventListener('change', () => {
+      this.linked = box.checked;
+      if (this.linked) this.session.edit({ 'sidecar.merge_bottom': this.session.settings.sidecar.merge_top });
+      this.update();
+    });
+    this.box = box;
+    const link = make('label', { className: 'check' }, box, ' Same above and below');
+    this.titles = ['Above', 'Below'].map((textContent) => make('h3', { textContent }));
+    this.below = make('div', {}, this.titles[1], ...bottom.map((row) => this.row({ ...row, name: `Below: ${row.label}` })));
+    return [this.curve.element, link, this.titles[0], ...top.map((row) => this.row(row)), this.below];
+  }
+
+  row(spec) {
+    if (spec.parts) {
+      const parts = make('div', { className: 'parts' }, ...spec.parts.map((part) => this.row({ ...part, when: spec.when })));
+      return make('div', { className: 'many', role: 'group', 'aria-label': spec.label }, make('span', { textContent: spec.label }), parts);
+    }
+    const change = (value, gesture = null, dragging = false) => this.change(spec, value, gesture, dragging);
+    const reset = () => this.change(spec, this.standard(spec), null, false);
+    const control = spec.options ? choiceRow({ ...spec, names: this.names }, change, reset) :
+      numberRow({ ...spec, limits: limitsOf(this.view.studio.ranges, spec) }, change, reset);
+    if (spec.name) control.element.querySelector('input, select').setAttribute('aria-label', spec.name);
+    control.element.dataset.path = spec.path;
+    this.rows.push({ spec, control });
+    return control.element;
+  }
+
+  // Of a row: the settings that the server started with; for numbers of another projection, that projection's.
+  standard({ path }) {
+    const { settings } = this.view.studio;
+    const now = this.session.settings;
+    const other = LINK.test(path) || now.sidecar.projection.name === settings.sidecar.projection.name || !/projection\.[^n]/.test(path);
+    return readValue(this.view, other ? settings : { sidecar: { projection: { name: now.sidecar.projection.name } } }, path);
+  }
+
+  change({ path, projection }, value, gesture, dragging) {
+    const values = { [path]: value };
+    const merge = this.linked && LINK.exec(path);
+    if (merge) values[path.replace('merge_top', 'merge_bottom')] = value;
+    if (projection) {
+      for (const name of numbersOfProjection) values[`sidecar.projection.${name}`] = undefined;
+      values['sidecar.picture.layout'] = value === 'vr180' ? 'side-by-side' : this.view.studio.settings.sidecar.picture.layout;
+    }
+    const index = /^(.*\.(?:longitude|latitude))\.(\d)$/.exec(path);
+    if (index) {
+      const pair = [0, 1].map((i) => readValue(this.view, this.session.settings, `${index[1]}.${i}`));
+      pair[index[2]] = value;
+      delete values[path];
+      values[index[1]] = pair;
+    }
+    this.session.edit(values, gesture, dragging);
+  }
+
+  dragCurve(which, end, elevation, gesture, dragging) {
+    const merge = this.session.settings.sidecar[`merge_${which}`];
+    const value = end === 'start' ? Math.min(elevation, merge.end - 1) : Math.max(elevation, merge.start + 1);
+    const values = {};
+    for (const each of this.linked ? ['top', 'bottom'] : [which]) values[`sidecar.merge_${each}.${end}`] = value;
+    this.session.edit(values, gesture, dragging);
+  }
+
+  update() {
+    const { settings, sides, active } = this.session;
+    const { merge_top: top, merge_bottom: bottom } = settings.sidecar;
+    if (JSON.stringify(top) !== JSON.stringify(bottom)) this.linked = false;
+    this.box.checked = this.linked;
+    this.below.hidden = this.linked;
+    this.titles[0].hidden = this.linked;
+    for (const { spec, control } of this.rows) {
+      const hidden = spec.when ? !spec.when(settings) : false;
+      control.element.hidden = hidden;
+      if (control.element.parentElement.className === 'parts') control.element.parentElement.parentElement.hidden = hidden;
+      if (!hidden) control.update(readValue(this.view, settings, spec.path), this.standard(spec));
+    }
+    const other = sides[1 - active]?.settings.sidecar;
+    this.curve.draw({ top, bottom }, other && { top: other.merge_top, bottom: other.merge_bottom });
+  }
+
+  // Says what the server refuses, at the row that is to blame.
+  refuse(text, paths = []) {
+    const marked = this.rows.filter(({ spec }) => paths.some((path) => path === spec.path || path.startsWith(`${spec.path}.`)));
+    for (const { control } of this.rows) {
+      const is = marked.some((row) => row.control === control);
+      control.element.classList.toggle('wrong', is);
+      control.element.querySelector('input, select').setAttribute('aria-invalid', is);
+    }
+    this.fault.textContent = text;
+    this.fault.hidden = !text;
+    const at = marked.find(({ control }) => !control.element.hidden)?.control.element;
+    if (!at) return this.element.prepend(this.fault);
+    const row = at.closest('.many') ?? at;
+    row.closest('details').open = true;
+    row.after(this.fault);
+  }
+}

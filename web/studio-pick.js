@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A click on the picture says what is there: its distance, its disparity and where each eye's picture has it.
+import { boxOf, modeOf } from './modes.js';
+import { raysOf } from './panorama.js';
+import { make } from './studio-number.js';
+import { ask } from './studio-session.js';
+
+const NEAR = 5; // pixels that a click may move
+const LONG = 500; // milliseconds that it may take
+
+const degrees = (radians) => (radians * 180) / Math.PI;
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const columns = (rays) => [rays.slice(0, 3), rays.slice(3, 6), rays.slice(6, 9)];
+
+// The part of the view under a place of the page, with its box in CSS pixels from the top left.
+function partsOf(viewer) {
+  const { canvas, state } = viewer;
+  const scale = canvas.width / canvas.clientWidth;
+  return modeOf(state.mode).parts(0).map(({ at, eye = 0 }) => {
+    const [x, y, width, height] = boxOf(at, canvas);
+    return { eye: state.swap ? 1 - eye : eye, box: [x, canvas.height - y - height, width, height].map((pixels) => pixels / scale) };
+  });
+}
+
+// The direction at a place of the view; nothing outside.
+export function directionAt(viewer, x, y) {
+  const part = partsOf(viewer).find(({ box }) => x >= box[0] && x < box[0] + box[2] && y >= box[1] && y < box[1] + box[3]);
+  if (!part) return null;
+  const [left, top, width, height] = part.box;
+  const [right, up, ahead] = columns(raysOf(viewer.state, width / height));
+  const [a, b] = [(2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height];
+  const d = ahead.map((value, i) => value + a * right[i] + b * up[i]);
+  return { yaw: degrees(Math.atan2(d[0], -d[2])), pitch: degrees(Math.asin(d[1] / Math.hypot(...d))), eye: part.eye ? 'right' : 'left' };
+}
+
+// Where the first part of the view shows a direction; null behind the viewer.
+function placeOf(viewer, { yaw, pitch }) {
+  const { box: [left, top, width, height] } = partsOf(viewer)[0];
+  const axes = columns(raysOf(viewer.state, width / height));
+  const d = raysOf({ yaw, pitch }, 1).slice(6, 9);
+  const ahead = dot(d, axes[2]);
+  if (ahead <= 0.01) return null;
+  const [x, y] = [0, 1].map((i) => dot(d, axes[i]) / (dot(axes[i], axes[i]) * ahead));
+  return Math.max(Math.abs(x), Math.abs(y)) < 1 ? [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height] : null;
+}
+
+const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `${metres.toFixed(metres < 100 ? 2 : 0)} m`);
+
+export function pickWithClicks(studio) {
+  const { viewer } = studio.page;
+  const { canvas } = viewer;
+  const mark = make('div', { id: 'pick-mark', hidden: true });
+  const card = make('div', { id: 'pick', role: 'status', hidden: true });
+  document.body.append(mark, card);
+  let where = null;
+  let down = null;
+  const hide = () => {
+    where = null;
+    mark.hidden = card.hidden = true;
+  };
+  const follow = () => {
+    const place = where && viewer.scene ? placeOf(viewer, where) : null;
+    mark.hidden = card.hidden = !place;
+    if (!place) return;
+    for (const element of [mark, card]) {
+      element.style.setProperty('--x', `${place[0]}px`);
+      element.style.setProperty('--y', `${place[1]}px`);
+    }
+    card.classList.toggle('flip', place[0] > canvas.clientWidth - 240);
+    card.classList.toggle('above', place[1] > canvas.clientHeight - 190);
+  };
+  const row = (name, value) => make('div', {}, make('dt', { textContent: name }), make('dd', { textContent: value }));
+  const button = (text, run) => {
+    const element = make('button', { type: 'button', className: 'small', textContent: text });
+    element.addEventListener('click', run);
+    return element;
+  };
+  const tell = (found) => {
+    const close = make('button', { type: 'button', className: 'small close', textContent: '×', 'aria-label': 'Close' });
+    close.addEventListener('click', hide);
+    if (found.nothing) return card.replaceChildren(make('p', { textContent: 'Nothing is there: the sky.' }), close);
+    const pixel = (place) => (place ? place.map((value) => value.toFixed(1)).join(', ') : 'not seen');
+    const metres = Number(found.distance.toPrecision(4));
+    card.replaceChildren(
+      make('dl', {}, row('Distance', distance(found.distance)), row('Disparity', `${found.disparity.toFixed(1)}′`),
+        row('Left eye', pixel(found.left)), row('Right eye', pixel(found.right)), row('Point', found.point.map((value) => value.toFixed(2)).join(', '))),
+      make('div', { className: 'row' },
+        button('Converge here', () => {
+          const { mode } = studio.session.settings.sidecar.convergence;
+          studio.session.edit({ 'sidecar.convergence.distance': metres, ...(mode === 'parallel' && { 'sidecar.convergence.mode': 'toe-in' }) });
+        }),
+        button('Focus here', () => studio.session.edit({ 'sidecar.lens.focus_distance': metres }))),
+      close);
+  };
+  canvas.addEventListener('pointerdown', (event) => {
+    down = event.isPrimary && !event.button ? { x: event.clientX, y: event.clientY, at: performance.now() } : null;
+  });
+  canvas.addEventListener('pointerup', async (event) => {
+    const from = down;
+    down = null;
+    if (!from || !viewer.scene || Math.hypot(event.clientX - from.x, event.clientY - from.y) > NEAR || performance.now() - from.at > LONG) return;
+    if (where) return hide();
+    const direction = directionAt(viewer, event.offsetX, event.offsetY);
+    if (!direction) return;
+    where = direction;
+    card.replaceChildren(make('p', { textContent: '…' }));
+    follow();
+    try {
+      await studio.session.settle();
+      const found = await ask('pick', direction);
+      if (where === direction) tell(found);
+    } catch (error) {
+      if (where === direction) card.replaceChildren(make('p', { textContent: error.message }));
+    }
+    follow();
+  });
+  addEventListener('keydown', (event) => event.key === 'Escape' && hide());
+  viewer.addEventListener('change', follow);
+  viewer.addEventListener('open', follow);
+  studio.session.addEventListener('edit', follow);
+}

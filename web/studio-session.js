@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio's talk with the server: settings go out, frames come in. Two sides, A and B, each with settings of its own
+// and a history; the server renders the active one, or the other for a while (refine). Events: `edit` (the settings, the history or the active side),
+// `accepted` (detail: its side), `refused` (detail: { text, paths }), `status` (detail: what a frame or the server says of
+// itself), `lost` and `found` (the server).
+const PAUSE = 30; // milliseconds between two messages
+const PATIENCE = 400; // milliseconds that a drag waits for a picture of what it sent, so that one appears at all
+const HISTORY = 200;
+
+export const sleep = (time) => new Promise((done) => setTimeout(done, time));
+const copy = (value) => structuredClone(value);
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+export const valueAt = (settings, path) => path.split('.').reduce((from, key) => from?.[key], settings);
+
+function put(settings, path, value) {
+  const keys = path.split('.');
+  const last = keys.pop();
+  const parent = keys.reduce((from, key) => (from[key] ??= {}), settings);
+  if (value === undefined) delete parent[last];
+  else parent[last] = value;
+}
+
+// The paths where two settings differ.
+function changes(a, b, at = '') {
+  if (same(a, b)) return [];
+  if (typeof a !== 'object' || typeof b !== 'object' || !a || !b) return [at];
+  return [...new Set([...Object.keys(a), ...Object.keys(b)])].flatMap((key) => changes(a[key], b[key], at ? `${at}.${key}` : key));
+}
+
+// Sends JSON, or a file as it is. Throws an Error with the server's line of text; its `refused` says that the server
+// understood, and will not.
+export async function ask(path, body) {
+  const options = body === undefined ? {} : { method: 'POST', body: body instanceof Blob ? body : JSON.stringify(body) };
+  const answer = await fetch(`studio/${path}`, options);
+  if (answer.ok) return answer.json();
+  const text = (await answer.text()).trim().split('\n')[0];
+  throw Object.assign(new Error(text || `The server answers ${answer.status}`), { refused: answer.status < 500 });
+}
+
+export class Session extends EventTarget {
+  // look(): { yaw, pitch, fov, aspect } of the view. onFrame(meta, pixels, side): shows it, may be async.
+  constructor(settings, look, onFrame) {
+    super();
+    Object.assign(this, { look, onFrame, revision: 0, number: 0, alive: true, wanted: false, eager: true, sentAt: 0, shown: 0, epoch: 0 });
+    this.sides = [{ settings: copy(settings), past: [], future: [] }];
+    this.active = 0;
+    this.target = 0; // the side that is rendered
+  }
+
+  start() {
+    this.send(true);
+    this.receive();
+  }
+
+  get side() {
+    return this.sides[this.active];
+  }
+
+  get settings() {
+    return this.side.settings;
+  }
+
+  say(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+
+  // Changes values by their paths; undefined removes one. Edits with the same gesture (not null) are one step to undo;
+  // `dragging` says that more will follow at once.
+  edit(values, gesture = null, dragging = false) {
+    const { side } = this;
+    const next = copy(side.settings);
+    for (const [path, value] of Object.entries(values)) put(next, path, value);
+    if (same(next, side.settings)) {
+      if (!dragging && !this.eager) this.send(true);
+      return;
+    }
+    if (gesture === null || gesture !== this.gesture) {
+      side.past.push(side.settings);
+      if (side.past.length > HISTORY) side.past.shift();
+      side.future = [];
+    }
+    this.gesture = gesture;
+    this.use(next, !dragging);
+  }
+
+  use(settings, eager = true) {
+    this.side.settings = settings;
+    this.say('edit');
+    this.send(eager);
+  }
+
+  // by: -1 undoes, 1 redoes.
+  step(by) {
+    const [from, to] = by < 0 ? [this.side.past, this.side.future] : [this.side.future, this.side.past];
+    if (!from.length) return false;
+    to.push(this.settings);
+    this.gesture = null;
+    this.use(from.pop());
+    return true;
+  }
+
+  // The other side; at first a copy of this one.
+  swap(to = 1 - this.active) {
+    if (to === this.active) return;
+    this.sides[to] ??= { settings: copy(this.settings), past: [], future: [] };
+    this.active = to;
+    this.gesture = null;
+    this.say('edit');
+    this.send(true);
+  }
+
+  // Has another side than the active one rendered, until something changes.
+  refine(side) {
+    this.send(true, side);
+  }
+
+  // Waits until the server renders the active side as it is now. Throws what it refuses.
+  async settle(patience = 5000) {
+    const { side } = this;
+    if (this.target !== this.active) this.send(true);
+    const end = performance.now() + patience;
+    while ((this.sending || this.wanted) && performance.now() < end) await sleep(10);
+    if (side.sent !== side.settings) throw new Error(this.fault || 'The server does not answer');
+  }
+
+  // Settings that the server made, as after a drop.
+  replace(settings) {
+    this.side.past.push(this.settings);
+    this.side.future = [];
+    this.use(copy(settings));
+  }
+
+  async send(eager, target = this.active) {
+    Object.assign(this, { wanted: true, eager, target });
+    if (this.sending) return;
+    this.sending = true;
+    while (this.wanted) {
+      while (this.mustWait()) await sleep(8);
+      this.wanted = false;
+      const side = this.sides[this.target];
+      const { settings } = side;
+      this.sentAt = performance.now();
+      this.answer = ask('set', { ...settings, look: this.look() });
+      try {
+        const { revision, command } = await this.answer;
+        const { env, variant } = this.sent ?? settings;
+        if (revision < this.revision || env !== settings.env || variant !== settings.variant) this.restart();
+        Object.assign(this, { revision, sent: settings });
+        Object.assign(side, { revision, command, sent: settings });
+        this.fault = '';
+        if (this.missed) this.number = 0;
+        this.missed = false;
+        this.say('accepted', side);
+      } catch (error) {
+        if (error.refused) {
+          this.fault = error.message;
+          this.say('refused', { text: error.message, paths: changes(side.sent ?? settings, settings) });
+        } else {
+          this.lose();
+          await sleep(1000);
+          this.wanted = true;
+        }
+      }
+    }
+    this.sending = false;
+  }
+
+  mustWait() {
+    const since = performance.now() - this.sentAt;
+    return since < PAUSE || (!this.eager && since < PATIENCE && this.shown < this.revision);
+  }
+
+  lose() {
+    if (!this.alive) return;
+    this.alive = false;
+    this.say('lost');
+  }
+
+  // The server counts anew: it has opened the scene again, or has been started again.
+  restart() {
+    Object.assign(this, { epoch: this.epoch + 1, revision: 0, number: 0, shown: 0 });
+    for (const side of this.sides) if (side) side.revision = undefined;
+    this.say('restart');
+  }
+
+  find() {
+    this.alive = true;
+    this.restart();
+    this.say('found');
+    this.send(true);
+  }
+
+  async receive() {
+    for (;;) {
+      try {
+        const { epoch } = this;
+        const answer = await fetch(`studio/frame?after=${this.number}`);
+        if (!answer.ok) {
+          this.say('status', { fault: (await answer.text()).trim() });
+          await sleep(1000);
+        } else {
+          if (!this.alive) this.find();
+          else if (answer.status === 200 && epoch === this.epoch) await this.show(await answer.arrayBuffer(), epoch);
+        }
+      } catch (error) {
+        if (error.name === 'FrameError') console.warn(error.message);
+        else this.lose();
+        await sleep(1000);
+      }
+    }
+  }
+
+  async show(buffer, epoch) {
+    const length = new DataView(buffer).getUint32(0, true);
+    const meta = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+    this.number = meta.number;
+    await this.answer?.catch(() => {}); // it may say that this frame is old
+    if (epoch !== this.epoch) return;
+    const side = this.sides[this.target];
+    if (meta.revision !== side.revision) {
+      this.missed ||= meta.revision > this.revision; // the server was faster than its answer
+      return;
+    }
+    this.shown = meta.revision;
+    const pixels = new Uint8Array(buffer, 4 + length);
+    try {
+      await this.onFrame(meta, pixels, side);
+    } catch (error) {
+      throw Object.assign(error, { name: 'FrameError' });
+    }
+    this.say('status', { ...meta, side });
+  }
+}

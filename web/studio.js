@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio: the viewer shows a scene that the server renders while one looks, and a panel beside it changes every
+// option. Two settings, A and B, can be compared. main.js starts it where view.json has `studio`.
+import { ACTIONS } from './actions.js';
+import { modeOf } from './modes.js';
+import { VrSteering } from './studio-headset.js';
+import { Live } from './studio-live.js';
+import { make } from './studio-number.js';
+import { Panel } from './studio-panel.js';
+import { pickWithClicks } from './studio-pick.js';
+import { RenderFoot } from './studio-render.js';
+import { Session, ask, sleep } from './studio-session.js';
+
+const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
+const SIDES = ['A', 'B'];
+// What names of files say of the layout, for players that go by it.
+const SHORT = { 'top-bottom': 'TB', 'bottom-top': 'BT', 'side-by-side': 'LR', 'cross-eyed': 'RL' };
+const TURN = 2000; // milliseconds of a side's first turn in a comparison
+
+class Studio {
+  constructor(page) {
+    Object.assign(this, { page, split: null });
+    const { viewer } = page;
+    const { studio } = viewer.view;
+    this.live = new Live(viewer.panorama.gl);
+    this.scene = { name: studio.scene, kind: 'scene', projection: 'lat-long', layout: 'live' };
+    this.session = new Session(studio.settings, () => this.look(), (...frame) => this.take(...frame));
+    this.build();
+    this.panel = new Panel(this.rows, viewer.view, this.session);
+    this.foot = new RenderFoot(this.element.querySelector('footer'), this);
+    viewer.steering = new VrSteering(this);
+    this.listen();
+    this.showScene();
+    this.panel.curve.look(viewer.state.pitch);
+    this.session.start();
+  }
+
+  build() {
+    const { viewer } = this.page;
+    const button = (action, label, text) => make('button', { type: 'button', className: 'small', 'data-action': action, 'aria-label': label, title: label, textContent: text });
+    this.sideButtons = SIDES.map((name, i) => {
+      const each = make('button', { type: 'button', className: 'small', textContent: name, title: `Settings ${name}` });
+      each.addEventListener('click', () => this.session.swap(i));
+      return each;
+    });
+    this.back = make('button', { type: 'button', className: 'back', textContent: '← Back to the scene', hidden: true });
+    this.back.addEventListener('click', () => this.showScene());
+    this.status = make('output', { className: 'status' });
+    this.rows = make('div', { className: 'rows' });
+    this.element = make('aside', { id: 'studio', 'aria-label': 'Studio' },
+      make('header', {}, make('button', { type: 'button', className: 'fold', 'data-action': 'panel', title: 'Hide or show the panel (i)', 'aria-label': 'Hide or show the panel' }),
+        make('strong', { textContent: viewer.view.studio.scene, title: viewer.view.studio.scene }),
+        button('undo', 'Undo (Ctrl-Z)', '↶'), button('redo', 'Redo (Ctrl-Shift-Z)', '↷'),
+        make('span', { className: 'sides', role: 'group', 'aria-label': 'Settings A and B' }, ...this.sideButtons, button('split', 'Compare A and B side by side (x)', '◧'))),
+      this.back, this.rows, make('footer', {}), this.status);
+    this.divider = make('div', { id: 'divider', hidden: true, role: 'separator', 'aria-label': 'A to the left, B to the right', 'aria-orientation': 'vertical' },
+      make('span', { textContent: 'A' }), make('span', { textContent: 'B' }));
+    this.shade = make('div', { id: 'drop', hidden: true, textContent: 'Drop a scene (.glb), a light (.hdr, .exr) or a camera (.camera.json)' });
+    document.head.append(make('link', { rel: 'stylesheet', href: 'studio.css' }));
+    document.body.append(this.element, this.divider, this.shade);
+    document.body.classList.add('studio');
+  }
+
+  listen() {
+    const { page, session } = this;
+    const { viewer } = page;
+    const rows = [
+      { id: 'undo', keys: [], shown: 'Ctrl-Z', label: 'undo', run: () => { session.step(-1); } },
+      { id: 'redo', keys: [], shown: 'Ctrl-Shift-Z', label: 'redo', run: () => { session.step(1); } },
+      { id: 'swap-sides', keys: ['b'], label: 'settings A or B', run: () => {
+        session.swap();
+        return `Settings ${SIDES[session.active]}`;
+      } },
+      { id: 'split', keys: ['x'], label: 'A and B side by side', run: () => this.compare() },
+      { id: 'panel', keys: ['i'], label: 'hide or show the panel', run: () => { document.body.classList.toggle('folded'); } },
+    ];
+    ACTIONS.splice(-1, 0, ...rows);
+    this.element.addEventListener('keydown', (event) => {
+      if (event.target.matches('input, select') && !event.ctrlKey && !event.metaKey) event.stopPropagation();
+    });
+    addEventListener('keydown', (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== 'z' || !viewer.scene) return;
+      event.preventDefault();
+      document.activeElement?.matches?.('#studio .number input') && document.activeElement.blur();
+      session.step(event.shiftKey ? 1 : -1);
+    });
+    session.addEventListener('edit', () => this.update());
+    session.addEventListener('accepted', ({ detail }) => this.live.renumber(detail));
+    session.addEventListener('status', ({ detail }) => this.tell(detail));
+    session.addEventListener('restart', () => this.live.expire());
+    session.addEventListener('lost', () => page.fail('The server does not answer. Start ods view again; the page goes on by itself.'));
+    session.addEventListener('found', () => page.fail(''));
+    viewer.addEventListener('change', () => this.watchLook());
+    viewer.addEventListener('open', () => this.update());
+    viewer.canvas.addEventListener('webglcontextlost', () => this.live.forget());
+    viewer.canvas.addEventListener('webglcontextrestored', () => (session.number = 0));
+    this.dragDivider();
+    this.watchDrops();
+    pickWithClicks(this);
+    this.update();
+  }
+
+  update() {
+    const { session } = this;
+    this.sideButtons.forEach((each, i) => each.setAttribute('aria-pressed', i === session.active));
+    const able = (action, is) => (this.element.querySelector(`[data-action="${action}"]`).disabled = !is);
+    able('undo', session.side.past.length);
+    able('redo', session.side.future.length);
+    this.element.querySelector('[data-action="split"]').setAttribute('aria-pressed', this.split !== null);
+    this.back.hidden = Boolean(this.page.viewer.scene);
+    document.body.classList.toggle('live', Boolean(this.page.viewer.scene));
+    this.refresh();
+  }
+
+  tell({ state, samples, seconds, done, fault, side }) {
+    this.takeTurns(done, side);
+    if (fault) this.page.fail(fault);
+    const name = this.split === null || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
+    if (state === 'loading') this.status.textContent = 'Loading the scene …';
+    else if (samples) this.status.textContent = `${name}${samples} ${samples === 1 ? 'sample' : 'samples'}, ${seconds.toFixed(1)} s${done ? ' – finished' : ''}`;
+  }
+
+  // --- what is shown ---
+
+  async take(meta, pixels, side) {
+    await this.live.take(meta, pixels, side);
+    this.refresh();
+  }
+
+  // Puts what is on the GPU before the viewer.
+  refresh() {
+    const { viewer } = this.page;
+    if (!viewer.scene) return;
+    const { sides, active } = this.session;
+    const [left, right] = this.split === null ? [sides[active], null] : [sides[0], sides[1]];
+    const other = sides[1 - active];
+    const has = (side) => (side && this.live.picture(side) ? side : null);
+    const first = has(left) ?? has(other) ?? has(sides[active]);
+    viewer.picture = first ? this.live.picture(first, has(right) ?? (right && first), this.split ?? 1) : null;
+    viewer.redraw();
+    this.placeDivider();
+  }
+
+  showScene() {
+    const { viewer, fail } = this.page;
+    viewer.loading?.abort();
+    viewer.close();
+    viewer.item = -1;
+    viewer.scene = this.scene;
+    fail('');
+    this.refresh();
+    viewer.say('loading', null);
+    viewer.say('open');
+  }
+
+  // A picture that has been rendered.
+  async showItem(item) {
+    const { viewer } = this.page;
+    viewer.view.items = (await (await fetch('view.json')).json()).items;
+    viewer.open(item);
+  }
+
+  // A name that says what the picture is; count: which of its kind.
+  fileName(count) {
+    const { view } = this.page.viewer;
+    const { projection, picture } = this.session.settings.sidecar;
+    const stem = view.studio.scene.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
+    const angle = projection.name === 'vr180' ? '_180' : /^(lat-long|cube|eac)/.test(projection.name) ? '_360' : '';
+    const short = SHORT[picture.layout];
+    return `${stem}${count > 1 ? `_${count}` : ''}${angle}${short ? `_${short}` : ''}.png`;
+  }
+
+  // --- where one looks ---
+
+  // How many views stand side by side.
+  halves() {
+    return modeOf(this.page.viewer.state.mode).parts(0).length;
+  }
+
+  look() {
+    const { state, canvas, session } = this.page.viewer;
+    const aspect = canvas.width / this.halves() / canvas.height;
+    return (session && this.headLook) || { yaw: state.yaw, pitch: state.pitch, fov: state.fov, aspect };
+  }
+
+  async watchLook() {
+    this.panel.curve.look(this.page.viewer.state.pitch);
+    this.placeDivider();
+    if (this.looking) return;
+    this.looking = true;
+    for (let look = this.look(); JSON.stringify(look) !== this.looked; look = this.look()) {
+      this.looked = JSON.stringify(look);
+      await ask('look', look).catch(() => {});
+      await sleep(LOOK_PAUSE);
+    }
+    this.looking = false;
+  }
+
+  // --- A and B ---
+
+  compare() {
+    this.split = this.split === null ? 0.5 : null;
+    if (this.split !== null && !this.session.sides[1]) this.session.swap(1);
+    this.update();
+    return this.split === null ? 'One picture' : 'A left, B right: change B, and drag the line';
+  }
+
+  // While both sides are seen, each is rendered in turn, until it is as good as it gets; turns grow, as a side begins
+  // anew each time.
+  takeTurns(done, side) {
+    const { session } = this;
+    const [a, b] = session.sides;
+    if (this.split === null || !b || JSON.stringify(a.settings) === JSON.stringify(b.settings)) return;
+    const now = performance.now();
+    const both = [a.settings, b.settings];
+    if (this.turn?.both.some((settings, i) => settings !== both[i]) ?? true) this.turn = { both, since: now, length: TURN, done: new Set() };
+    const { turn } = this;
+    if (done && side) turn.done.add(side);
+    const next = 1 - session.target;
+    if (turn.done.has(session.sides[next]) || (!done && now - turn.since < turn.length)) return;
+    Object.assign(turn, { since: now, length: next === session.active ? 2 * turn.length : turn.length });
+    session.refine(next);
+  }
+
+  placeDivider() {
+    const { viewer } = this.page;
+    this.divider.hidden = this.split === null || !viewer.scene;
+    this.divider.style.setProperty('--x', `${((this.split ?? 0.5) * viewer.canvas.clientWidth) / this.halves()}px`);
+    this.divider.dataset.active = SIDES[this.session.active];
+  }
+
+  dragDivider() {
+    const { divider, page: { viewer } } = this;
+    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
+    divider.addEventListener('pointermove', (event) => {
+      if (!divider.hasPointerCapture(event.pointerId)) return;
+      this.split = Math.min(Math.max((event.clientX / viewer.canvas.clientWidth) * this.halves(), 0.02), 0.98);
+      this.refresh();
+    });
+  }
+
+  // --- files dropped on the page ---
+
+  watchDrops() {
+    const hasFiles = (event) => event.dataTransfer?.types.includes('Files');
+    let depth = 0;
+    addEventListener('dragenter', (event) => {
+      if (hasFiles(event)) this.shade.hidden = !++depth;
+    });
+    addEventListener('dragleave', (event) => {
+      if (hasFiles(event)) this.shade.hidden = !(depth = Math.max(depth - 1, 0));
+    });
+    addEventListener('dragover', (event) => hasFiles(event) && event.preventDefault());
+    addEventListener('drop', (event) => {
+      if (!hasFiles(event)) return;
+      event.preventDefault();
+      depth = 0;
+      this.shade.hidden = true;
+      this.drop(event.dataTransfer.files[0]);
+    });
+  }
+
+  async drop(file) {
+    if (!file) return;
+    this.page.toast(`Sending ${file.name} …`);
+    try {
+      const { what, settings } = await ask(`drop?name=${encodeURIComponent(file.name)}`, file);
+      if (what === 'scene') return location.reload();
+      this.showScene();
+      if (what === 'environment') this.panel.names[settings.env] = file.name;
+      this.session.restart();
+      this.session.replace(settings);
+      this.page.toast(what === 'camera' ? `Camera of ${file.name}` : `Light of ${file.name}`);
+    } catch (error) {
+      this.panel.refuse(`${file.name}: ${error.message}`);
+    }
+  }
+}
+
+export function startStudio(page) {
+  page.studio = new Studio(page);
+}
