@@ -127,7 +127,7 @@ TEST_F(StudioCommand, RendersUnderANewNameOnly) {
   asked("set", {{"width", 64}});
   asked("render", {{"output", "small_360_TB.png"}, {"quality", "draft"}});
   EXPECT_EQ(status_of(post("studio/render", R"({"output":"other.png","quality":"draft"})")), 400) << "one at a time";
-  Json job;
+  Json job = Json::object();
   for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
     std::this_thread::sleep_for(100ms);
     job = Json::parse(body_of(get("studio/job")));
