@@ -40,8 +40,8 @@ class StudioCommand : public Served {
     return Json::parse(body_of(answer), nullptr, false);
   }
 
-  // The next frame of this revision and part with so many samples.
-  Frame frame_of(int revision, const std::string& part, int samples) const {
+  // The next frame of this revision and part that is so wide.
+  Frame frame_of(int revision, const std::string& part, int width) const {
     for (int number = 0, tries = 0; tries < 200; tries++) {
       const std::string answer = get(fmt::format("studio/frame?after={}", number)), body = body_of(answer);
       if (status_of(answer) == 204) continue;
@@ -51,7 +51,7 @@ class StudioCommand : public Served {
       for (size_t i = 0; i < 4; i++) size |= static_cast<size_t>(static_cast<unsigned char>(body[i])) << (8 * i);
       Frame frame{Json::parse(body.substr(4, size)), body.substr(4 + size)};
       number = std::max(number, frame.about["number"].get<int>());
-      if (frame.about["revision"] == revision && frame.about["part"] == part && frame.about["samples"] >= samples) {
+      if (frame.about["revision"] == revision && frame.about["part"] == part && frame.about["width"] >= width) {
         return frame;
       }
     }
@@ -90,7 +90,7 @@ TEST_F(StudioCommand, ShowsWhatItsCommandRenders) {
     answer = asked("set", settings);
     std::this_thread::sleep_for(20ms);
   }
-  const Frame frame = frame_of(answer["revision"], "base", 4);
+  const Frame frame = frame_of(answer["revision"], "base", 512);
   ASSERT_FALSE(frame.pixels.empty());
   const std::string command = answer["command"];
   EXPECT_NE(command.find("--yaw 87"), std::string::npos) << command;
@@ -164,7 +164,7 @@ TEST_F(StudioCommand, SavesTheCameraAndTakesItBack) {
 
 TEST_F(StudioCommand, SaysWhatAClickMeets) {
   const Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
-  frame_of(asked("set", settings)["revision"], "base", 2);
+  frame_of(asked("set", settings)["revision"], "base", 192);
   const Json ground = asked("pick", {{"yaw", 0}, {"pitch", -60}, {"eye", "left"}});
   ASSERT_TRUE(ground.contains("distance")) << ground;
   EXPECT_GT(ground["distance"], 0.1);

@@ -68,10 +68,10 @@ TEST_F(LiveRendering, ComesWholeAndCoarseFirstThenFinerWhereOneLooks) {
 TEST_F(LiveRendering, ShowsWhatTheRendererRenders) {
   LiveRender live(scene, 0);
   live.set(settings, {});
-  const Frame base = wait_for(live, 0, [](const LiveFrame& frame) { return !frame.is_patch && frame.samples >= 4; });
+  const Frame base = wait_for(live, 0, [](const LiveFrame& frame) { return !frame.is_patch && frame.eye.width > 192; });
   ASSERT_TRUE(base);
   ods::RenderOptions options;
-  options.width = base->eye.width, options.height = base->eye.height, options.samples = 4, options.layers = false;
+  options.width = base->eye.width, options.height = base->eye.height, options.samples = 16, options.layers = false;
   const ods::Picture picture = ods::render_cpu(scene, settings.camera, options);
   double sum = 0.0;
   for (const ods::EyeImage& eye : picture.eyes) {
