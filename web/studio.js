@@ -95,7 +95,7 @@ class Studio {
     viewer.addEventListener('change', () => this.watchLook());
     viewer.addEventListener('open', () => this.update());
     viewer.canvas.addEventListener('webglcontextlost', () => this.live.forget());
-    viewer.canvas.addEventListener('webglcontextrestored', () => (session.number = 0));
+    viewer.canvas.addEventListener('webglcontextrestored', () => session.fromStart());
     this.dragDivider();
     this.watchDrops();
     pickWithClicks(this);
