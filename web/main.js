@@ -124,6 +124,17 @@ function watchAddress(page) {
   });
 }
 
+// Says when the server has ended, and goes on when the next one is there, which has the same address.
+function watchServer(page) {
+  let lost = false;
+  setInterval(async () => {
+    const there = await fetch('alive').then((answer) => answer.ok, () => false);
+    if (there && lost) location.reload();
+    if (!there && !lost) page.fail('ods view has ended. Start it again, and this page goes on by itself.');
+    lost = !there;
+  }, 2000);
+}
+
 async function start() {
   const answer = await fetch('view.json');
   if (!answer.ok) throw new Error(`view.json did not load (${answer.status}). Open the address that ods view printed.`);
@@ -142,6 +153,7 @@ async function start() {
   watchKeys(page);
   watchIdle();
   watchAddress(page);
+  if (view.live && !view.studio) watchServer(page);
   hasHeadset().then((has) => (document.querySelector('#tools [data-action="headset"]').hidden = !has));
   find('starting').remove();
   find('picture').focus({ preventScroll: true });

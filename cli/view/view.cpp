@@ -36,7 +36,7 @@ std::unique_ptr<HttpServer> listen(WebOptions web, bool any_will_do, ViewSite& s
 }
 
 void explain_network(const std::string& address, int port) {
-  std::fputs(qr_code(address).c_str(), stderr);
+  if (stderr_is_terminal() && !console.quiet) std::fputs(qr_code(address).c_str(), stderr);
   note(
       "open that address in the headset's browser; it warns, as nobody vouches for this machine: choose Advanced, "
       "then Proceed. The page asks for a click to enter the headset");

@@ -134,7 +134,10 @@ Extent patch_extent(const StereoCamera& patch) {
 }
 
 struct LiveRender::State {
-  State(Scene& wanted, int threads) : scene(wanted), renderer(wanted, threads) {}
+  State(Scene& wanted, int threads, Clock::duration rest)
+      : rest_after(rest), scene(wanted), renderer(wanted, threads) {}
+
+  const Clock::duration rest_after;
 
   // What others set, and what they get.
   mutable std::mutex mutex;
@@ -143,7 +146,8 @@ struct LiveRender::State {
   LiveView view;
   int revision = 0;  // 0: there are no settings yet
   bool ended = false;
-  Clock::time_point since;  // when the settings changed
+  Clock::time_point since;                         // when the settings changed
+  mutable Clock::time_point asked = Clock::now();  // when somebody last waited for a frame
   int last_number = 0;
   std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
   std::shared_ptr<const Canvas> shown[2];      // likewise, without samples
@@ -162,6 +166,7 @@ struct LiveRender::State {
   void begin(int mine, const LiveSettings& now);
   void render_step(int mine);
   void wait_for_change(int mine);
+  void wait_for_viewer(int mine) const;
   bool refine(Canvas& canvas, int samples, int mine);
   void publish(const Canvas& canvas, int mine, bool is_last);
   LiveView view_now() const {
@@ -257,6 +262,11 @@ void LiveRender::State::wait_for_change(int mine) {
   changed.wait(lock, [&] { return ended || revision != mine || !shows(patch->camera, view); });
 }
 
+void LiveRender::State::wait_for_viewer(int mine) const {
+  std::unique_lock<std::mutex> lock(mutex);
+  changed.wait(lock, [&] { return ended || revision != mine || Clock::now() - asked < rest_after; });
+}
+
 void LiveRender::State::run() {
   for (int mine = 0;;) {
     LiveSettings now;
@@ -270,7 +280,10 @@ void LiveRender::State::run() {
     }
     try {
       begin(mine, now);
-      while (!is_old(mine)) render_step(mine);
+      while (!is_old(mine)) {
+        render_step(mine);
+        wait_for_viewer(mine);
+      }
     } catch (const std::exception& error) {
       base.reset(), patch.reset();
       rendered = LiveSettings();
@@ -282,7 +295,8 @@ void LiveRender::State::run() {
   }
 }
 
-LiveRender::LiveRender(Scene& scene, int threads) : state_(std::make_unique<State>(scene, threads)) {
+LiveRender::LiveRender(Scene& scene, int threads, std::chrono::milliseconds rest_after)
+    : state_(std::make_unique<State>(scene, threads, rest_after)) {
   state_->rendered.time = -1.0;
   state_->thread = std::thread([state = state_.get()] { state->run(); });
 }
@@ -318,6 +332,8 @@ void LiveRender::look(const LiveView& view) {
 
 std::shared_ptr<const LiveFrame> LiveRender::next_frame(int number, std::chrono::milliseconds patience) const {
   std::unique_lock<std::mutex> lock(state_->mutex);
+  state_->asked = Clock::now();
+  state_->changed.notify_all();
   std::shared_ptr<const LiveFrame> found;
   state_->changed.wait_for(lock, patience, [&] {
     for (const auto& frame : state_->frames) {

@@ -62,9 +62,9 @@ struct LivePick {
 
 class LiveRender {
  public:
-  // Starts a thread that renders with this many threads (0: all processors), which stops with the object. The scene
-  // must outlive it, and nobody else may use it.
-  LiveRender(Scene& scene, int threads);
+  // Starts a thread that renders with this many threads (0: all processors), which stops with the object, and rests
+  // while nobody has waited for a frame for this long. The scene must outlive it, and nobody else may use it.
+  LiveRender(Scene& scene, int threads, std::chrono::milliseconds rest_after = std::chrono::seconds(15));
   ~LiveRender();
   LiveRender(const LiveRender&) = delete;
   LiveRender& operator=(const LiveRender&) = delete;

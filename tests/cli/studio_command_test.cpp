@@ -96,7 +96,7 @@ TEST_F(StudioCommand, ShowsWhatItsCommandRenders) {
   EXPECT_NE(command.find("--yaw 87"), std::string::npos) << command;
   EXPECT_NE(command.find("--merge-top linear,59,85,1"), std::string::npos) << command;
   ASSERT_TRUE(command.starts_with("ods ")) << command;
-  ASSERT_EQ(run(command.substr(4) + " -q --samples 16 --noise 0"), 0) << err;
+  ASSERT_EQ(run(command.substr(4) + " -q --samples 16 --noise none"), 0) << err;
   std::vector<float> shown;
   for (const char c : frame.pixels) shown.push_back(static_cast<float>(static_cast<unsigned char>(c)));
   std::vector<float> rendered;
@@ -114,7 +114,8 @@ TEST_F(StudioCommand, SaysWhatIsWrongWithASetting) {
         R"({"sidecar":{"omnistereo_camera":1,"merge_top":{"mode":"linear","start":90,"end":90}}})"}) {
     const std::string answer = post("studio/set", wrong);
     EXPECT_EQ(status_of(answer), 400) << wrong << answer;
-    EXPECT_EQ(std::count(body_of(answer).begin(), body_of(answer).end(), '\n'), 1) << wrong;
+    const std::string text = body_of(answer);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << wrong << text;
   }
   EXPECT_EQ(status_of(post("studio/set", std::string(1 << 17, ' '))), 413);
 }
@@ -126,7 +127,7 @@ TEST_F(StudioCommand, RendersUnderANewNameOnly) {
   asked("set", {{"width", 64}});
   asked("render", {{"output", "small_360_TB.png"}, {"quality", "draft"}});
   EXPECT_EQ(status_of(post("studio/render", R"({"output":"other.png","quality":"draft"})")), 400) << "one at a time";
-  Json job;
+  Json job = Json::object();
   for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
     std::this_thread::sleep_for(100ms);
     job = Json::parse(body_of(get("studio/job")));

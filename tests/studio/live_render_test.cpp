@@ -183,6 +183,20 @@ TEST(LivePick, SaysDistanceAndDisparity) {
   EXPECT_FALSE(live.pick(ods::kLeft, vec3(0.0f, 0.0f, 1.0f))) << "there is nothing behind";
 }
 
+TEST_F(LiveRendering, RestsWhileNobodyLooks) {
+  LiveRender live(scene, 0, 1ms);
+  live.set(settings, {});
+  const Frame first = live.next_frame(0, 60s);
+  ASSERT_TRUE(first);
+  std::this_thread::sleep_for(1500ms);  // at most one step more was under way
+  const Frame second = live.next_frame(first->number, 60s);
+  ASSERT_TRUE(second);
+  EXPECT_LE(second->number, first->number + 1);
+  const Frame third = live.next_frame(second->number, 60s);
+  ASSERT_TRUE(third);
+  EXPECT_GT(third->number, second->number);
+}
+
 TEST_F(LiveRendering, EndsInTheMiddle) {
   for (int i = 0; i < 5; i++) {
     LiveRender live(scene, 0);
