@@ -50,6 +50,11 @@ export class Session extends EventTarget {
     this.target = 0; // the side that is rendered
   }
 
+  // Whether somebody sees the page.
+  isSeen() {
+    return true;
+  }
+
   start() {
     this.send(true);
     this.receive();
@@ -202,6 +207,7 @@ export class Session extends EventTarget {
   async receive() {
     for (;;) {
       try {
+        while (!this.isSeen()) await sleep(300); // the server rests while nobody asks
         const { epoch } = this;
         this.request = new AbortController();
         const answer = await fetch(`studio/frame?after=${this.number}`, { signal: this.request.signal });
