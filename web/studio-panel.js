@@ -117,7 +117,7 @@ export class Panel {
       control.element.classList.toggle('wrong', is);
       control.element.querySelector('input, select').setAttribute('aria-invalid', is);
     }
-    this.fault.textContent = text;
+    this.fault.textContent = text.replace("'camera' is not a valid camera: ", '');
     this.fault.hidden = !text;
     const at = marked.find(({ control }) => !control.element.hidden)?.control.element;
     if (!at) return this.element.prepend(this.fault);

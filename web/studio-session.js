@@ -50,6 +50,11 @@ export class Session extends EventTarget {
     this.target = 0; // the side that is rendered
   }
 
+  // Whether somebody sees the page.
+  isSeen() {
+    return true;
+  }
+
   start() {
     this.send(true);
     this.receive();
@@ -151,8 +156,7 @@ export class Session extends EventTarget {
         Object.assign(this, { revision, sent: settings });
         Object.assign(side, { revision, command, sent: settings });
         this.fault = '';
-        if (this.missed) this.number = 0;
-        this.missed = false;
+        if (this.missed) this.fromStart();
         this.say('accepted', side);
       } catch (error) {
         if (error.refused) {
@@ -179,9 +183,16 @@ export class Session extends EventTarget {
     this.say('lost');
   }
 
+  // Asks for the latest frames again.
+  fromStart() {
+    Object.assign(this, { number: 0, missed: false });
+    this.request?.abort();
+  }
+
   // The server counts anew: it has opened the scene again, or has been started again.
   restart() {
-    Object.assign(this, { epoch: this.epoch + 1, revision: 0, number: 0, shown: 0 });
+    Object.assign(this, { epoch: this.epoch + 1, revision: 0, shown: 0 });
+    this.fromStart();
     for (const side of this.sides) if (side) side.revision = undefined;
     this.say('restart');
   }
@@ -196,8 +207,10 @@ export class Session extends EventTarget {
   async receive() {
     for (;;) {
       try {
+        while (!this.isSeen()) await sleep(300); // the server rests while nobody asks
         const { epoch } = this;
-        const answer = await fetch(`studio/frame?after=${this.number}`);
+        this.request = new AbortController();
+        const answer = await fetch(`studio/frame?after=${this.number}`, { signal: this.request.signal });
         if (!answer.ok) {
           this.say('status', { fault: (await answer.text()).trim() });
           await sleep(1000);
@@ -206,6 +219,7 @@ export class Session extends EventTarget {
           else if (answer.status === 200 && epoch === this.epoch) await this.show(await answer.arrayBuffer(), epoch);
         }
       } catch (error) {
+        if (error.name === 'AbortError') continue;
         if (error.name === 'FrameError') console.warn(error.message);
         else this.lose();
         await sleep(1000);

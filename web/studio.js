@@ -27,6 +27,7 @@ class Studio {
     this.live = new Live(viewer.panorama.gl);
     this.scene = { name: studio.scene, kind: 'scene', projection: 'lat-long', layout: 'live' };
     this.session = new Session(studio.settings, () => this.look(), (...frame) => this.take(...frame));
+    this.session.isSeen = () => !document.hidden || viewer.session;
     this.build();
     this.panel = new Panel(this.rows, viewer.view, this.session);
     this.foot = new RenderFoot(this.element.querySelector('footer'), this);
@@ -95,7 +96,7 @@ class Studio {
     viewer.addEventListener('change', () => this.watchLook());
     viewer.addEventListener('open', () => this.update());
     viewer.canvas.addEventListener('webglcontextlost', () => this.live.forget());
-    viewer.canvas.addEventListener('webglcontextrestored', () => (session.number = 0));
+    viewer.canvas.addEventListener('webglcontextrestored', () => session.fromStart());
     this.dragDivider();
     this.watchDrops();
     pickWithClicks(this);

@@ -8,6 +8,11 @@
 
 using ods::ViewItem;
 
+// Needs a server that renders.
+static bool is_of_studio(std::string_view name) {
+  return name.starts_with("studio") || name.starts_with("merge-curve");
+}
+
 static void copy_file(const std::string& from, const std::string& to) {
   const ods::FileInput file(from);
   ods::AtomicFile copy(to);
@@ -27,6 +32,7 @@ static void write_eyes(const ViewItem& item, const std::vector<std::string>& fil
 
 std::string export_site(const std::vector<ViewItem>& items, const std::string& folder) {
   for (const ods::PageFile& file : ods::page_files()) {
+    if (is_of_studio(file.name)) continue;
     ods::write_file(folder + "/" + std::string(file.name), file.data);
   }
   for (size_t i = 0; i < items.size(); i++) {

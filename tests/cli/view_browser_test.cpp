@@ -288,7 +288,11 @@ class ViewBrowser : public ::testing::Test {
     } else {
       const std::string harness = std::string(ODS_SOURCE_DIR "/tests/web/") + name;
       answer.file = std::filesystem::exists(harness) ? harness : folder_.path("site/" + name);
-      if (!std::filesystem::exists(answer.file)) answer.status = 404, answer.file.clear();
+      if (std::filesystem::exists(answer.file)) return answer;
+      answer.file.clear();
+      const PageFile* const page = find_page_file(name);  // of the studio, which is not exported
+      if (page) answer.body = page->data;
+      answer.status = page ? 200 : 404;
     }
     return answer;
   }
@@ -363,6 +367,22 @@ TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
   if (end.find("no WebGL 2") != std::string::npos) GTEST_SKIP() << "skipped: this firefox has no WebGL 2";
   ASSERT_EQ(end, "ok");
   for (size_t i = 0; i < names.size(); i++) expect_looks(i, looks_in(projection_named(names[i])), names[i]);
+}
+
+// What the studio's page sends, shows and lets people undo, against a server that the page itself plays.
+TEST_F(ViewBrowser, KeepsTheStudiosSettings) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  jobs_.push_back({{"studio", true}});
+  EXPECT_EQ(run(browser), "ok");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("site/studio.js"))) << "a folder has no server that renders";
+}
+
+// The page finds the kernel's numbers of the merges by a list of their names.
+TEST(StudioPage, KnowsTheKernelsMerges) {
+  std::string list;
+  for (int mode = 0; mode < kMergeCount; mode++) list += fmt::format("{}'{}'", mode ? ", " : "", merge_name(mode));
+  EXPECT_NE(find_page_file("merge-curve.js")->data.find("[" + list + "]"), std::string_view::npos) << list;
 }
 
 // In an emulated headset: each eye has its own picture in the direction in which its view points, wherever the head is.

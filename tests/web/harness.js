@@ -5,7 +5,7 @@
 //   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap }] }, ...]
 // where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
-// have `press` and `stick`: what a hand does to its controller first.
+// have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead.
 import { Headset } from './headset.js';
 import { Panorama, loadShader, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
@@ -90,7 +90,9 @@ async function wear(view, shader, job) {
 }
 
 async function run() {
-  const [view, shader, jobs] = [await json('view.json'), await loadShader(location.href), await json('jobs.json')];
+  const jobs = await json('jobs.json');
+  if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
+  const [view, shader] = [await json('view.json'), await loadShader(location.href)];
   for (const job of jobs) await (job.headset ? wear : draw)(view, shader, job);
 }
 
