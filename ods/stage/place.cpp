@@ -8,60 +8,15 @@
 #include <cmath>
 #include <vector>
 
+#include "ods/stage/facing.h"
+
 namespace ods {
 
 namespace {
 
-constexpr int kAzimuths = 72;
-constexpr float kElevations[] = {-35.0f, -20.0f, -10.0f, 0.0f, 10.0f, 20.0f, 35.0f};
-constexpr int kRows = static_cast<int>(std::size(kElevations));
-
 // In degrees.
 vec3 toward(float yaw, float elevation) {
   return direction_of(glm::radians(yaw), glm::radians(elevation));
-}
-
-// How much there is to see in a direction, compared with the directions beside and below: edges and other things count
-// more than a bare wall, a wall more than the sky.
-float interest(const Sight& sight, const Sight& beside, const Sight& below) {
-  if (sight.leaves() || !sight.front) return 0.0f;
-  const auto differs = [&](const Sight& other) {
-    return other.instance != sight.instance || dot(other.normal, sight.normal) < 0.94f;
-  };
-  return 0.2f + (differs(beside) ? 0.5f : 0.0f) + (differs(below) ? 0.5f : 0.0f);
-}
-
-// The yaw, in degrees, around which there is most to see within 60 degrees to both sides.
-float best_yaw(const SceneRays& rays, vec3 eye) {
-  constexpr float kStep = 360.0f / kAzimuths;
-  std::vector<Sight> sights;
-  for (int i = 0; i < kAzimuths; i++) {
-    for (const float elevation : kElevations) {
-      sights.push_back(rays.look(eye, toward(kStep * static_cast<float>(i), elevation)));
-    }
-  }
-  std::vector<float> columns(kAzimuths);
-  for (int i = 0; i < kAzimuths; i++) {
-    for (int row = 0; row < kRows; row++) {
-      const auto at = [&](int azimuth, int r) -> const Sight& {
-        return sights[static_cast<size_t>(azimuth * kRows + r)];
-      };
-      columns[static_cast<size_t>(i)] +=
-          interest(at(i, row), at((i + kAzimuths - 1) % kAzimuths, row), at(i, std::max(row - 1, 0)));
-    }
-  }
-  float best = -1.0f, yaw = 0.0f;
-  for (int i = 0; i < kAzimuths; i++) {
-    float sum = 0.0f;
-    for (int off = -12; off <= 12; off++) {
-      const float weight = std::cos(glm::radians(kStep * static_cast<float>(off)));
-      sum += weight * columns[static_cast<size_t>((i + off + kAzimuths) % kAzimuths)];
-    }
-    if (sum <= best * 1.001f) continue;  // of equal views, the first to the right of -Z
-    best = sum;
-    yaw = kStep * static_cast<float>(i);
-  }
-  return yaw > 180.0f ? yaw - 360.0f : yaw;
 }
 
 Viewing before_object(const SceneRays& rays, const Survey& survey, float unit) {
