@@ -370,11 +370,15 @@ WebAnswer Studio::drop(const WebRequest& request) {
 }
 
 WebAnswer Studio::save() {
-  const std::string path = std::filesystem::path(source_.name).stem().string() + ".camera.json";
+  const std::string stem = std::filesystem::path(source_.name).stem().string();
+  for (int i = 1; saved_.empty(); i++) {  // a file of somebody else stays
+    const std::string name = stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".camera.json";
+    if (!std::filesystem::exists(name)) saved_ = name;
+  }
   ods::Sidecar sidecar = settings_.sidecar;
   sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
-  save_sidecar(sidecar, path);
-  return json_answer({{"file", path}});
+  save_sidecar(sidecar, saved_);
+  return json_answer({{"file", saved_}});
 }
 
 WebAnswer Studio::answer(const WebRequest& request) {

@@ -64,5 +64,6 @@ class Studio {
   std::string output_;          // of the process, until it is an item
   std::optional<size_t> item_;  // what it has rendered
   std::function<size_t(const std::string& path)> add_item_;
+  std::string saved_;                          // the file of the camera; empty: not yet
   std::string dropped_scene_, dropped_light_;  // files of ours; empty: none
 };

@@ -151,10 +151,13 @@ TEST_F(StudioCommand, SavesTheCameraAndTakesItBack) {
   Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
   settings["sidecar"]["roll"] = 12.5;
   asked("set", settings);
-  EXPECT_EQ(asked("save")["file"], "toys.camera.json");
+  folder.write("toys.camera.json", "of somebody else");
+  EXPECT_EQ(asked("save")["file"], "toys-2.camera.json");
+  EXPECT_EQ(asked("save")["file"], "toys-2.camera.json");
+  EXPECT_EQ(folder.read("toys.camera.json"), "of somebody else");
   settings["sidecar"]["roll"] = 0;
   asked("set", settings);
-  const std::string answer = post("studio/drop?name=toys.camera.json", folder.read("toys.camera.json"));
+  const std::string answer = post("studio/drop?name=toys-2.camera.json", folder.read("toys-2.camera.json"));
   ASSERT_EQ(status_of(answer), 200) << answer;
   EXPECT_EQ(Json::parse(body_of(answer))["settings"]["sidecar"]["roll"], 12.5);
   EXPECT_EQ(status_of(post("studio/drop?name=x.exe", "MZ")), 400);
