@@ -221,7 +221,7 @@ std::vector<std::string> Studio::words(const std::string& output, const std::str
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
   if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
-  if (!quality.empty() && quality != "final") add("--quality", quality);
+  if (!quality.empty()) add("--quality", quality);
   add("--width", fmt::format("{}", settings_.width));
   add("-o", output.empty() ? stem + "_360_TB.png" : output);
   return words;
