@@ -103,7 +103,7 @@ static float rounded(double variance) {
 // How far light is from what a pixel's own samples found, beyond what their variance explains. Both have the same
 // expectation, so the rest is noise that the other eye's paths brought: a bright sample that is not among the squares.
 static double received_variance(double light, double alone, double variance) {
-  constexpr double kExpected = 4.0;  // variances: without outliers the mean of the result grows by 8 %
+  constexpr double kExpected = 9.0;  // variances: three standard deviations
   const double apart = light - alone;
   return std::max(apart * apart - kExpected * variance, 0.0);
 }
