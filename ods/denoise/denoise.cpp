@@ -14,6 +14,7 @@
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/denoise/filter.h"
+#include "ods/denoise/outliers.h"
 
 namespace ods {
 namespace {
@@ -84,6 +85,7 @@ std::vector<Level> first_levels(const NoisyPicture& noisy) {
 void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
   open_noisy(frame.noisy, beside.picture, beside.camera);
   frame.levels = first_levels(frame.noisy);
+  take_outliers(frame.noisy, frame.levels);  // their light is not this frame's
   smooth_variance(frame.noisy, frame.levels);
   frame.beside = &beside;
 }
@@ -97,6 +99,7 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
   if (!options.keep_statistics) {
     for (EyeImage& eye : picture.eyes) eye.variance = eye.samples = Image();
   }
+  const std::vector<Outlier> outliers = take_outliers(noisy, levels);
   smooth_variance(noisy, levels);
   std::vector<Level> next = levels;
   const bool knows_surfaces = has_depth(picture);
@@ -116,6 +119,7 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
     if (steps.stopped()) throw Error(ErrorKind::kCancelled, "denoising was stopped");
     std::swap(levels, next);
   }
+  spread_outliers(noisy, outliers, both, levels);
   put_back(noisy, levels, picture);
   if (progress.report) progress.report(1.0);
 }

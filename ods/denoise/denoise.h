@@ -9,6 +9,9 @@
 // continue over the seam, the poles and the edges of cube faces. Where depth is known, the second set of candidates is
 // the same surface in the other eye's picture: both eyes get the same light, and less noise.
 //
+// Fireflies are replaced by what is around them first, and their light is spread widely at the end
+// (ods/denoise/outliers.h).
+//
 // Frames of a video find a third set of candidates in the frames before and after them: the same surface, followed
 // by the exact motion of camera and scene. So the noise that is left flickers less.
 //

@@ -100,6 +100,14 @@ static float rounded(double variance) {
   return static_cast<float>(std::ldexp(std::rint(std::ldexp(digits, 16)), exponent - 16));
 }
 
+// How far light is from what a pixel's own samples found, beyond what their variance explains. Both have the same
+// expectation, so the rest is noise that the other eye's paths brought: a bright sample that is not among the squares.
+static double received_variance(double light, double alone, double variance) {
+  constexpr double kExpected = 9.0;  // variances: three standard deviations
+  const double apart = light - alone;
+  return std::max(apart * apart - kExpected * variance, 0.0);
+}
+
 // The variance of a sample over their number; with shared paths each sample has a weight, and more of them add up.
 vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
   const double count = eye.count[pixel];
@@ -111,8 +119,10 @@ vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
     const size_t at = 3 * pixel + static_cast<size_t>(c);
     const double mean = static_cast<double>(sums[at]) / (kLightUnit * count);
     const double difference = eye.squares[at] - mean * mean * count;
-    if (difference <= 1e-12 * eye.squares[at]) continue;  // what rounding leaves of samples that are all the same
-    variance[c] = rounded(difference / (count - 1.0) * weights / (count * count));
+    const bool is_noisy = difference > 1e-12 * eye.squares[at];  // else: what rounding leaves of equal samples
+    const double own = is_noisy ? difference / (count - 1.0) * weights / (count * count) : 0.0;
+    const double light = static_cast<double>(eye.light[at]) / (kLightUnit * count);
+    variance[c] = rounded(own + received_variance(light, mean, own));
   }
   return variance;
 }
@@ -125,12 +135,10 @@ static float alpha_of(const EyeSamples& eye, size_t pixel) {
   return static_cast<float>(covered / std::max(eye.count[pixel], 1u));
 }
 
-// light: the eye's, or what its own samples found.
-static void develop_pixel(const EyeSamples& eye, const std::vector<int64_t>& light, size_t pixel, double unit,
-                          EyeImage& image) {
+static void develop_pixel(const EyeSamples& eye, size_t pixel, double unit, EyeImage& image) {
   const double count = std::max(eye.count[pixel], 1u);
   for (size_t at = 3 * pixel; at < 3 * pixel + 3; at++) {
-    image.radiance.pixels[at] = static_cast<float>(static_cast<double>(light[at]) / (kLightUnit * count));
+    image.radiance.pixels[at] = static_cast<float>(static_cast<double>(eye.light[at]) / (kLightUnit * count));
     if (eye.normal.empty()) continue;
     image.normal.pixels[at] = static_cast<float>(eye.normal[at] / (unit * count));
     image.albedo.pixels[at] = static_cast<float>(eye.albedo[at] / (unit * count));
@@ -155,10 +163,10 @@ Picture develop(PictureSamples samples, const RenderOptions& options) {
   for (EyeSamples& eye : samples.eyes) {
     EyeImage& image = picture.eyes.emplace_back(blank_eye(options, eye.eye));
     // In the middle of a pass one eye lacks the light that it has given to the other.
-    const std::vector<int64_t>& light = samples.blocks_done > 0 && !eye.alone.empty() ? eye.alone : eye.light;
+    if (samples.blocks_done > 0 && !eye.alone.empty()) eye.light = std::move(eye.alone), eye.alone.clear();
     tbb::parallel_for(0, samples.height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * width;
-      for (size_t x = 0; x < width; x++) develop_pixel(eye, light, row + x, unit, image);
+      for (size_t x = 0; x < width; x++) develop_pixel(eye, row + x, unit, image);
     });
     eye = {};  // a large picture has no room for both
   }

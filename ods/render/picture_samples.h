@@ -88,7 +88,8 @@ size_t samples_bytes(const RenderOptions& options);
 // paths need `alone`.
 Picture develop(PictureSamples samples, const RenderOptions& options);
 
-// The variance of a pixel's mean, per channel. 0 if it has less than two samples.
+// The variance of a pixel's mean, per channel, with the light that the other eye's paths brought. 0 if the pixel has
+// less than two samples. Not in the middle of a pass: one eye then lacks what it has given to the other.
 vec3 variance_of_mean(const EyeSamples& eye, size_t pixel);
 
 }  // namespace ods

@@ -147,6 +147,95 @@ TEST(Denoise, EnergyIsKept) {
   }
 }
 
+// One sample of 16 has met a lamp.
+void add_firefly(EyeImage& eye, int x, int y, float light) {
+  for (int c = 0; c < 3; c++) eye.radiance.at(x, y)[c] += light, eye.variance.at(x, y)[c] += light * light;
+}
+
+double light_of(const EyeImage& eye) {
+  double sum = 0.0;
+  for (float value : eye.radiance.pixels) sum += double{value};
+  return sum;
+}
+
+// The largest difference between a pixel and the mean of the eight around it.
+float roughest(const EyeImage& eye) {
+  float most = 0.0f;
+  for (int y = 1; y + 1 < eye.radiance.height; y++) {
+    for (int x = 1; x + 1 < eye.radiance.width; x++) {
+      float ring = 0.0f;
+      for (int i = 0; i < 9; i++) {
+        if (i != 4) ring += 0.125f * eye.radiance.at(x + i % 3 - 1, y + i / 3 - 1)[0];
+      }
+      most = std::max(most, std::abs(eye.radiance.at(x, y)[0] - ring));
+    }
+  }
+  return most;
+}
+
+// Neither a lattice nor a blotch, but a faint glow, with all the light; also beside another firefly, at the seam, and
+// on a pixel whose albedo no other has.
+TEST(Denoise, AFireflyLeavesNoPattern) {
+  const Truth one = [](int, int) { return 1.0f; };
+  struct Place {
+    int x, y;
+  };
+  const Place places[][2] = {{{128, 64}, {40, 20}}, {{128, 64}, {129, 65}}, {{0, 64}, {255, 100}}};
+  for (const bool is_edge : {false, true}) {
+    for (const auto& [first, second] : places) {
+      Picture clean = noisy_picture(0.1f, one, 256);
+      EyeImage& eye = clean.eyes[0];
+      eye.albedo = Image(256, 128, 3);
+      std::fill(eye.albedo.pixels.begin(), eye.albedo.pixels.end(), 0.5f);
+      if (is_edge) {  // the same light on it
+        std::fill_n(eye.albedo.at(first.x, first.y), 3, 0.25f);
+        std::fill_n(eye.radiance.at(first.x, first.y), 3, (0.25f + 0.05f) / (0.5f + 0.05f));
+      }
+      clean.eyes[1].albedo = eye.albedo;
+      Picture picture = clean;
+      add_firefly(picture.eyes[0], first.x, first.y, 200.0f);
+      add_firefly(picture.eyes[0], second.x, second.y, 100.0f);
+      denoise(clean, {});
+      denoise(picture, {});
+      const std::string where = "beside " + std::to_string(second.x) + (is_edge ? ", edge" : "");
+      EyeImage glow = picture.eyes[0];
+      for (size_t i = 0; i < glow.radiance.pixels.size(); i++) {
+        glow.radiance.pixels[i] -= clean.eyes[0].radiance.pixels[i];
+      }
+      EXPECT_LT(roughest(glow), 0.05f) << where;
+      EXPECT_LT(*std::max_element(glow.radiance.pixels.begin(), glow.radiance.pixels.end()), 0.15f) << where;
+      EXPECT_NEAR(light_of(glow), 3.0 * 300.0, 9.0) << where;
+    }
+  }
+}
+
+// The other eye sees the same place, and glows as much.
+TEST(Denoise, AFireflyOfOneEyeIsSharedByBoth) {
+  Picture picture = noisy_picture(
+      0.1f, [](int, int) { return 1.0f; }, 256);
+  for (EyeImage& eye : picture.eyes) {
+    eye.depth = Image(256, 128, 1);
+    std::fill(eye.depth.pixels.begin(), eye.depth.pixels.end(), 50.0f);
+  }
+  Picture clean = picture;
+  add_firefly(picture.eyes[0], 128, 64, 300.0f);
+  denoise(clean, {});
+  denoise(picture, {});
+  for (size_t eye : {0, 1}) {
+    EXPECT_NEAR(light_of(picture.eyes[eye]) - light_of(clean.eyes[eye]), 3.0 * 150.0, 9.0) << eye;
+  }
+}
+
+// All samples are bright: that is no firefly, however small the lamp.
+TEST(Denoise, ALampOfOnePixelStays) {
+  Picture picture = noisy_picture(0.1f, [](int x, int y) { return x == 50 && y == 30 ? 50.0f : 1.0f; });
+  for (EyeImage& eye : picture.eyes) {
+    for (int c = 0; c < 3; c++) eye.variance.at(50, 30)[c] = 100.0f;
+  }
+  denoise(picture, {});
+  for (const EyeImage& eye : picture.eyes) EXPECT_NEAR(eye.radiance.at(50, 30)[0], 50.0f, 5.0f);
+}
+
 TEST(Denoise, TexturesInTheAlbedoStay) {
   const Truth texture = [](int x, int y) { return (x + y) % 2 == 0 ? 0.8f : 0.7f; };
   Picture picture = noisy_picture(0.0f, texture);

