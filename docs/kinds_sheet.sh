@@ -19,11 +19,9 @@ for name in chair ring lighthouse still-life glasses asteroids hills far-courtya
   wanted=no
   [ $# -eq 0 ] && wanted=yes
   for only in "$@"; do [ "$only" = $name ] && wanted=yes; done
-  samples=64
-  case $name in room-with-lamps | small-window) samples=256 ;; esac
   if [ $wanted = yes ]; then
     "$build/ods" render "$work/$name.glb" -o "$work/$name.png" --eyes left --projection perspective --fov 90 \
-      --width 576 --height 576 --samples $samples
+      --width 576 --height 576 --samples 64
   fi
   caption=$(echo "$name" | tr - ' ')
   oiiotool "$work/$name.png" --resize 360x360 --cut 360x384+0+0 \
