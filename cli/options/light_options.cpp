@@ -126,7 +126,7 @@ void add_light_options(Options& options, LightOptions& light) {
   options.text(
       "--background", "env|PICTURE", light.background,
       "what the camera sees behind the scene, written as for --env; it lights nothing. By default env, the light "
-      "from all around; of a studio its walls");
+      "from all around; of a studio its walls, or black behind floating things");
 }
 
 std::string environment_file(const std::string& option, const std::string& word) {

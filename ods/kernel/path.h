@@ -133,6 +133,11 @@ struct PathTracer : MediumReader {
     add_light(arriving * weight, arriving * other_weight);
   }
 
+  // A lamp as the camera sees it: beyond display white, its rim would be ragged.
+  inline vec3 dimmed(vec3 emission) {
+    return emission * min(1.0f, kSeenLamp / luminance(emission));
+  }
+
   inline void meet_environment(PathSettings settings) {
     if (path.bounce == 0) {
       meet_light(settings, background_radiance(path.ray.direction), 0.0f);
@@ -426,6 +431,7 @@ struct PathTracer : MediumReader {
         surface.emission =
             surface.emission * emission_below_coat(scene_material(material_index), corners_of(hit), cosine);
       }
+      if (path.bounce == 0 && scene_instance(hit.instance).catcher == 3) surface.emission = dimmed(surface.emission);
       meet_light(settings, surface.emission, hit_light_pdf(hit, path.ray.direction, distance));
     }
     // The wall of a volume inside a denser volume.

@@ -36,8 +36,8 @@ struct Instance {
   int mesh;
   int first_light;  // index of the light of its first triangle, -1 if the mesh does not emit; set by make_lights()
   int motion;       // for an instance that moves while the shutter is open: its first MotionPose; else -1
-  int catcher;  // 1: invisible except for shadows cast on it by non-catchers (ods/kernel/path.h); 2: a ground that goes
-                // over into the background, and as that has no albedo in a picture's layers, and hardly a normal
+  int catcher;  // 1: invisible except for shadows cast on it by non-catchers (ods/kernel/path.h); 2: a ground that, as the
+                // background, has no albedo in layers and hardly a normal; 3: a lamp that the camera sees dimmed
 };
 
 // The transform of an instance, and a vertex of a mesh that deforms, at each of the shutter's keys: evenly spaced times

@@ -25,7 +25,8 @@ Viewing before_object(const SceneRays& rays, const Survey& survey, float unit) {
   Viewing viewing;
   viewing.is_object = true;
   viewing.middle = 0.5f * (core.low + core.high);
-  const float distance = std::max(kObjectDistance / unit, distance_to_see(rays.scene(), core));
+  const float to_see = distance_to_see(rays.scene(), core);
+  const float distance = std::max(to_see, 0.5f * to_see + 1.02f * kElbowRoom / unit);  // its radius is at most the half
   const float above = std::min(0.15f * size.y, 0.15f / unit);
   for (const float turn : {0.0f, 30.0f, -30.0f, 60.0f, -60.0f, 90.0f, -90.0f, 135.0f, -135.0f, 180.0f}) {
     const float yaw = turn;

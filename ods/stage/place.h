@@ -11,13 +11,12 @@
 
 namespace ods {
 
-inline constexpr float kObjectDistance = 1.5f;  // metres from the viewer to the middle of an object, at least
-
 // Where the viewer is put.
 //  - In a place: at Stand::eye, facing things rather than walls, and along the length of a street: best_yaw() in
 //    facing.h.
-//  - Before an object: level with its middle or a little above, at kObjectDistance or as far as is needed to see it 60
-//    degrees wide at most, on its +Z side, which glTF calls the front, unless something is in the way there.
+//  - Before an object: level with its middle or a little above, as near as it is seen 60 degrees wide at most and no
+//    part of it, however it turns, is nearer than kElbowRoom; on its +Z side, which glTF calls the front, unless
+//    something is in the way there.
 // Lengths are in the scene's units. Precondition: survey.kind is not kNothing.
 Viewing place_viewer(const SceneRays& rays, const Survey& survey, float metres_per_unit = 1.0f);
 

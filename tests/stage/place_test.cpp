@@ -94,6 +94,16 @@ TEST(Place, AnObjectIsAtMost60DegreesWideHoweverItTurns) {
   }
 }
 
+// 60 degrees is as near as it may be seen whole; nearer than 0.6 m no part of it may be.
+TEST(Place, AnObjectIsAsNearAsItMayBe) {
+  for (const float radius : {0.25f, 0.3f, 0.5f, 1.0f, 2.0f}) {
+    Scene scene = make_ball(radius);
+    const float nearest = length(viewer_of(scene).position - scene.viewing->middle) - radius;
+    EXPECT_GE(nearest, kElbowRoom) << radius;
+    EXPECT_LT(nearest, std::max(1.1f * kElbowRoom, 1.05f * radius)) << radius;
+  }
+}
+
 TEST(Place, WhatStandsInTheWayIsAvoided) {
   Scene scene = make_ball(0.5f);
   add(scene, make_sphere(0.5f, 100), 0, placed(vec3(0, 0.5f, 0)));

@@ -57,7 +57,7 @@ TEST(Unit, ObjectsTooSmallOrLargeForStereoAreShownAsModels) {
     const Settled settled = settle(scene);
     EXPECT_NE(settled.unit_reason.find("shown as a model"), std::string::npos) << settled.unit_reason;
     EXPECT_NEAR(distance_to_see(scene, core_bounds(scene)), kModelSize, 0.01f);
-    EXPECT_NEAR(length(default_view(scene).position - scene.viewing->middle), kObjectDistance, 0.2f);
+    EXPECT_NEAR(length(default_view(scene).position - scene.viewing->middle), kModelSize, 0.02f) << "60 degrees wide";
   }
   Scene composed = resized(make_chair(), 15.0f);
   composed.view_points.push_back({"own", vec3(0, 5, 30)});

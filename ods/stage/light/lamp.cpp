@@ -97,8 +97,9 @@ void add_lamp(Scene& scene, const CeilingLamp& lamp) {
   const vec3 color(1.0f, 0.96f, 0.9f);
   Material material = glow(color * (kFloor / luminance(color) * reach / (lamp.radius * lamp.radius)));
   material.double_sided = 0;
-  add(scene, make_disc(lamp.radius, 24), add_material(scene, material),
+  add(scene, make_disc(lamp.radius, 48), add_material(scene, material),
       placed(lamp.position) * turned(vec3(1.0f, 0.0f, 0.0f), 180.0f));
+  scene.instances.back().catcher = 3;
   if (!scene.hidden.empty()) scene.hidden.resize(scene.instances.size(), 0);
 }
 

@@ -21,14 +21,15 @@ struct SoftBox {
 };
 
 const SoftBox kBoxes[] = {
-    {-135.0f, 48.0f, {27.0f, 20.0f}, 10.0f, vec3(7.0f, 6.8f, 6.5f)},    // key
-    {118.0f, 22.0f, {34.0f, 26.0f}, 20.0f, vec3(1.35f, 1.40f, 1.48f)},  // fill
+    {-135.0f, 48.0f, {19.0f, 14.0f}, 8.0f, vec3(15.0f, 14.6f, 14.0f)},  // key
+    {118.0f, 22.0f, {34.0f, 26.0f}, 20.0f, vec3(0.95f, 0.98f, 1.04f)},  // fill
     {36.0f, 50.0f, {13.0f, 20.0f}, 9.0f, vec3(5.6f, 5.8f, 6.2f)},       // rim
     {-48.0f, 44.0f, {8.0f, 24.0f}, 7.0f, vec3(3.6f, 3.7f, 3.9f)},       // the other rim
 };
 
 constexpr vec3 kFloor(0.184f, 0.18f, 0.176f);
 constexpr vec3 kHorizon(0.27f);  // what the floor's own tone comes to, more or less
+constexpr float kWallToFloor = 1.9f;
 constexpr int kWidth = 512;
 
 // The direction relative to the box's centre: degrees to its right and above it.
@@ -52,9 +53,12 @@ float elevation_of(vec3 direction) {
   return glm::degrees(std::asin(clamp(direction.y, -1.0f, 1.0f)));
 }
 
-// From the floor's tone at the horizon to a dark ceiling, and down to the floor in that tone.
+// From the floor's tone at the horizon, without a line there, through a brighter band, against which glass and dark
+// things stand out, to a dark ceiling.
 vec3 wall(vec3 horizon, vec3 direction) {
-  return mix(horizon, vec3(0.06f, 0.061f, 0.067f), smoothstep(0.0f, 60.0f, elevation_of(direction)));
+  const float elevation = elevation_of(direction);
+  const vec3 lit = horizon * mix(1.0f, kWallToFloor, smoothstep(0.0f, 8.0f, elevation));
+  return mix(lit, vec3(0.03f, 0.031f, 0.036f), smoothstep(10.0f, 50.0f, elevation));
 }
 
 vec3 with_lights(vec3 light, vec3 direction) {

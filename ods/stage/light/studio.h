@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A photographer's studio for an object on its own: a soft key light from behind the viewer's left shoulder, a larger
-// and weaker fill light on the right, two rim lights behind the object, grey walls that darken upwards, and a floor of
-// the walls' tone. The camera sees it without its lights, which would dazzle.
+// A photographer's studio for an object on its own: a key light from behind the viewer's left shoulder, a larger and
+// much weaker fill light on the right, and two rim lights behind the object. The walls are brighter than the floor just
+// above the horizon and darken upwards, so the horizon shows without a hard line. The camera does not see the lights,
+// which would dazzle.
 #pragma once
 #include "ods/scene/scene.h"
 

@@ -211,7 +211,8 @@ void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, cons
   const size_t before = scene.instances.size();
   if (plan.surround == Surround::kStudio) {
     scene.environment = make_studio(wishes.yaw);
-    scene.background = make_studio_walls();
+    const bool floats = survey.stand && !survey.stand->floor;  // with neither a floor below nor a wall behind
+    scene.background = floats ? Environment{} : make_studio_walls();
   }
   if (plan.surround == Surround::kSky) scene.environment = make_sky(plan.sky);
   if (plan.surround == Surround::kGiven) scene.environment = wishes.given;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The light that a scene lacks. An object on its own gets a studio and a ground that catches its shadow; things that
-// float on all sides get the studio without a ground; a place that is open upwards gets a sky with a sun, and so does a
-// room with windows; a closed room gets a lamp near its ceiling; a scene whose colours hold their light already is
-// shown as it is painted. A scene that has light keeps it as it is.
+// float on all sides get the studio without a ground, before a black background; a place that is open upwards gets a
+// sky with a sun, and so does a room with windows; a closed room gets a lamp near its ceiling; a scene whose colours
+// hold their light already is shown as it is painted. A scene that has light keeps it as it is.
 #pragma once
 #include <optional>
 #include <string>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ods/render/cpu/render.h"
+#include "ods/scene/builtin/builder.h"
 #include "ods/stage/scene_rays.h"
 #include "tests/support/pictures.h"
 
@@ -64,18 +65,41 @@ TEST(Lamp, LightsAWhiteFloorToARadianceOfFourTenths) {
   }
 }
 
-// Red is a little more than luminance: the light is warm, (1, 0.96, 0.9) over its luminance.
-TEST(Lamp, ShinesOnlyDown) {
-  Scene scene;
-  add_lamp(scene, {vec3(0.0f, 2.0f, 0.0f), 0.5f, 2.0f});
-  EXPECT_EQ(seen_below(scene, vec3(0.0f, 3.0f, 0.0f), 1), 0.0) << "invisible from above";
+// The luminance that a camera below the lamp sees straight above itself.
+double seen_above(const Scene& scene) {
   StereoCamera camera;
   camera.pitch = 90.0f;
   camera.projection.kind = kPerspective;
   camera.projection.fov = 4.0f;
   const Picture picture = render_cpu(scene, camera, small_render(4, 1));
   const float* pixel = picture.eyes[0].radiance.at(2, 2);
-  EXPECT_NEAR(0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2], 0.4f * 4.25f / 0.25f, 1e-3f);
+  return 0.2126 * double{pixel[0]} + 0.7152 * double{pixel[1]} + 0.0722 * double{pixel[2]};
+}
+
+TEST(Lamp, ShinesOnlyDown) {
+  Scene scene;
+  add_lamp(scene, {vec3(0.0f, 2.0f, 0.0f), 0.5f, 2.0f});
+  EXPECT_EQ(seen_below(scene, vec3(0.0f, 3.0f, 0.0f), 1), 0.0) << "invisible from above";
+}
+
+// 0.4 x 4.25 / 0.25 without the limit, which other lamps do not have.
+TEST(Lamp, TheCameraSeesItNoBrighterThanDisplayWhite) {
+  Scene scene;
+  add_lamp(scene, {vec3(0.0f, 2.0f, 0.0f), 0.5f, 2.0f});
+  EXPECT_NEAR(seen_above(scene), double{kSeenLamp}, 1e-3);
+  scene.instances.back().catcher = 0;
+  EXPECT_NEAR(seen_above(scene), 6.8, 1e-3);
+  Scene wide;
+  add_lamp(wide, {vec3(0.0f, 2.0f, 0.0f), 2.0f, 2.0f});
+  EXPECT_NEAR(seen_above(wide), 0.8, 1e-3) << "a dim one as it is";
+}
+
+TEST(Lamp, MirrorsShowItInFull) {
+  Scene scene;
+  add_lamp(scene, {vec3(0.0f, 2.0f, 0.0f), 0.5f, 2.0f});
+  Material mirror = metal(vec3(1.0f), 0.0f);
+  add(scene, make_floor(4.0f, 4.0f), add_material(scene, mirror));
+  EXPECT_GT(seen_below(scene, vec3(0.0f, 1.0f, 0.0f), 2), 6.0);
 }
 
 // A beam across the ceiling's middle, a room with two wings, a slanted roof.

@@ -58,6 +58,34 @@ TEST(Studio, TurnsWithTheViewer) {
   }
 }
 
+// The floor is told from the wall behind it, but no line divides them, and the wall darkens upwards.
+TEST(Studio, TheWallIsBrighterThanTheFloor) {
+  Scene scene;
+  scene.environment = make_studio_walls();
+  const auto at = [&](float pitch) { return seen(scene, vec3(0.0f), 0, pitch, 1, 0.5f); };
+  EXPECT_GT(at(10.0f), 1.5 * at(-10.0f));
+  EXPECT_LT(std::abs(at(0.7f) - at(-0.7f)), 0.1 * at(-0.7f));
+  EXPECT_LT(at(50.0f), 0.2 * at(10.0f));
+}
+
+// The shadow of a ball on the ground: its darkest place against the open ground.
+TEST(Studio, TheKeyLightCastsAShadow) {
+  Scene scene;
+  scene.environment = make_studio();
+  add_ground(scene, vec3(0.0f), 8.0f, studio_floor());
+  const double open = seen(scene, vec3(0, 3, 0.01f), 0, -89.9f, 512);
+  add(scene, make_sphere(0.5f, 48), add_material(scene, matte(vec3(0.5f))), placed(vec3(0, 0.6f, 0)));
+  double darkest = open;
+  for (float off = 0.5f; off < 1.2f; off += 0.1f) {  // away from the key light: behind the ball, to its right
+    const vec3 place(off * 0.7071f, 0.0f, -off * 0.7071f), eye = place + vec3(0.9f, 1.0f, -0.9f);
+    const vec3 way = place - eye;
+    const float yaw = glm::degrees(std::atan2(way.x, -way.z));
+    const float pitch = glm::degrees(std::atan2(way.y, std::hypot(way.x, way.z)));
+    darkest = std::min(darkest, seen(scene, eye, yaw, pitch, 512));
+  }
+  EXPECT_LT(darkest, 0.45 * open);
+}
+
 // Far from any shadow the ground looks as the studio's own floor does, so its edge cannot be seen.
 TEST(Studio, GroundLooksLikeTheFloor) {
   Scene scene = target(vec3(0, 1, 0));

@@ -49,6 +49,10 @@ TEST(Supply, FloatingThingsGetAStudioWithoutAGround) {
   EXPECT_EQ(plan.surround, Surround::kStudio) << "under a sky there would be a plain with rocks on both sides of it";
   EXPECT_TRUE(says(plan, "floating things")) << plan.note;
   EXPECT_EQ(scene.instances.size(), instances);
+  ASSERT_TRUE(scene.background);
+  EXPECT_EQ(scene.background->radiance, vec3(0.0f)) << "no grey fog without a floor";
+  EXPECT_EQ(scene.background->width, 0);
+  EXPECT_GT(scene.environment.width, 0) << "the light stays";
 }
 
 TEST(Supply, AnObjectGetsAStudioAndAGround) {
