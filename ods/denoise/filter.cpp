@@ -58,13 +58,21 @@ void begin_sums(const Block& block, int y, Sums& sums) {
   }
 }
 
-void add_neighbours(const RowPair& pair, int count, float share, Sums& sums) {
+// What is still far noisier than the other after the narrowest pass is no sample of the same light: the silhouette of a
+// lamp, of which nobody knows how much a pixel shows. Neither takes from the other, or wide windows would repeat it.
+inline float alike_noise(float own, float theirs) {
+  constexpr float kMostRatio = 1e4f;
+  return std::min(kMostRatio * std::min(own, theirs) / (std::max(own, theirs) + 1e-30f), 1.0f);
+}
+
+void add_neighbours(const RowPair& pair, int count, float share, bool is_wide, Sums& sums) {
   for (int x = 0; x < count; x++) {
     const float own = pair.own[kVariance][x], theirs = pair.next[kVariance][x];
     const float variance = (own >= 0.0f ? own : 1e30f) + theirs;
     const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
     const float weight = share * alike * light_weight(squared_distance(pair, kRed, x), variance);
-    const float used = theirs >= 0.0f ? weight : 0.0f;
+    const float gate = is_wide && own >= 0.0f ? alike_noise(own, theirs) : 1.0f;
+    const float used = theirs >= 0.0f ? weight * gate : 0.0f;
     sums.weight[x] += used;
     sums.light[0][x] += used * pair.next[kRed][x];
     sums.light[1][x] += used * pair.next[kGreen][x];
@@ -236,7 +244,7 @@ void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std
         if (dx == 0 && dy == 0) continue;
         const float share = std::exp(-static_cast<float>(dx * dx + dy * dy) / 4.5f);
         const RowPair pair = pair_rows(block, y, dx * pass.stride * stretch, dy * pass.stride);
-        add_neighbours(pair, block.inside.right - block.inside.left, share, sums);
+        add_neighbours(pair, block.inside.right - block.inside.left, share, pass.stride > 1, sums);
       }
     }
     if (pass.stride == 1) add_beside(block, y, sums);

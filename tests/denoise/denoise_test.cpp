@@ -226,6 +226,39 @@ TEST(Denoise, AFireflyOfOneEyeIsSharedByBoth) {
   }
 }
 
+// The silhouette of a lamp at a rough wall: pixels that one sample of six on the lamp made bright. Wide windows must
+// not repeat them on the wall.
+TEST(Denoise, TheSilhouetteOfALampIsNotRepeated) {
+  const auto is_lamp = [](int x, int y) { return x >= 50 && x < 70 && y >= 25 && y < 40; };
+  Picture picture = noisy_picture(0.004f, [](int, int) { return 0.02f; });
+  for (EyeImage& eye : picture.eyes) {
+    eye.normal = eye.albedo = Image(kWidth, kWidth / 2, 3);
+    for (int y = 0; y < kWidth / 2; y++) {
+      for (int x = 0; x < kWidth; x++) {
+        const bool edge = x == 71 && y == 24;
+        eye.normal.at(x, y)[0] = x % 8 == 7 && y % 8 == 0 ? 0.6f : 0.0f;
+        eye.normal.at(x, y)[1] = -1.0f;
+        for (int c = 0; c < 3; c++) {
+          eye.albedo.at(x, y)[c] = is_lamp(x, y) ? 0.0f : edge ? 0.35f : 0.42f;
+          if (is_lamp(x, y)) eye.radiance.at(x, y)[c] = 40.0f, eye.variance.at(x, y)[c] = 0.0f;
+          if (edge) eye.radiance.at(x, y)[c] = 40.0f / 6.0f, eye.variance.at(x, y)[c] = 44.0f;
+        }
+      }
+    }
+  }
+  denoise(picture, {});
+  float most = 0.0f;
+  for (const EyeImage& eye : picture.eyes) {
+    for (int y = 0; y < kWidth / 2; y++) {
+      for (int x = 0; x < kWidth; x++) {
+        const bool is_far = x < 46 || x > 74 || y < 21 || y >= 44;
+        if (is_far) most = std::max(most, eye.radiance.at(x, y)[0]);
+      }
+    }
+  }
+  EXPECT_LT(most, 0.04f);
+}
+
 // All samples are bright: that is no firefly, however small the lamp.
 TEST(Denoise, ALampOfOnePixelStays) {
   Picture picture = noisy_picture(0.1f, [](int x, int y) { return x == 50 && y == 30 ? 50.0f : 1.0f; });
