@@ -70,9 +70,9 @@ const int kMaxPassed = 1024;
 // enough for what it hits, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
 const float kBroadPdf = 2.0f;
 
-// The luminance at which the camera sees a supplied lamp (Instance::catcher 3), if it is no dimmer: about display
-// white.
-const float kSeenLamp = 1.5f;
+// The camera sees a supplied lamp (Instance::catcher 3) no brighter than this luminance: near display white at the
+// exposure of a room that it lights.
+const float kSeenLamp = 0.6f;
 
 // Paths with a throughput below this may end at random. Lower values cost time, higher ones noise: of 1, 1/2, 1/4 and
 // none, 1/4 reaches a given noise soonest on interiors (./run bench, equal noise).
