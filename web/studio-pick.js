@@ -81,11 +81,11 @@ export function pickWithClicks(studio) {
     const close = make('button', { type: 'button', className: 'small close', textContent: '×', 'aria-label': 'Close' });
     close.addEventListener('click', hide);
     if (found.nothing) return card.replaceChildren(make('p', { textContent: 'Nothing is there: the sky.' }), close);
-    const pixel = (place) => (place ? place.map((value) => value.toFixed(1)).join(', ') : 'not seen');
+    const pixel = (place) => (place ? `${place.map((value) => value.toFixed(1)).join(', ')} px` : 'not seen');
     const metres = Number(found.distance.toPrecision(4));
     card.replaceChildren(
       make('dl', {}, row('Distance', distance(found.distance)), row('Disparity', `${found.disparity.toFixed(1)}′`),
-        row('Left eye', pixel(found.left)), row('Right eye', pixel(found.right)), row('Point', found.point.map((value) => value.toFixed(2)).join(', '))),
+        row('Left eye', pixel(found.left)), row('Right eye', pixel(found.right)), row('Point', found.point.map((value) => (Math.round(100 * value) / 100 + 0).toFixed(2)).join(', '))),
       make('div', { className: 'row' },
         button('Converge here', () => {
           const { mode } = studio.session.settings.sidecar.convergence;

@@ -3,7 +3,7 @@
 //
 // The foot of the studio's panel: the command that makes this picture, rendering it, and keeping the camera.
 import { make } from './studio-number.js';
-import { ask, sleep } from './studio-session.js';
+import { ENDED, ask, sleep } from './studio-session.js';
 
 const POLL = 300; // milliseconds
 const QUALITIES = ['draft', 'preview', 'final'];
@@ -69,6 +69,9 @@ export class RenderFoot {
     });
     for (const field of [this.name, this.quality]) field.addEventListener('input', () => this.tell());
     session.addEventListener('edit', () => this.update());
+    session.addEventListener('found', () => {
+      if (this.text.textContent === ENDED) this.job.hidden = true;
+    });
     this.update();
     this.watch();
   }
@@ -134,8 +137,14 @@ export class RenderFoot {
 
   take(name) {
     this.taken.add(name);
-    this.named &&= name !== this.name.value.trim();
-    if (!this.named) this.suggest();
+    if (!this.named) return this.suggest();
+    if (name !== this.name.value.trim()) return;
+    // The words that players understand stay at the end.
+    const [, stem, end] = /^(.*?)((?:_(?:180|360|TB|BT|LR|RL))*\.\w+)$/.exec(name) ?? [name, name, ''];
+    let count = 2;
+    while (this.taken.has(`${stem}-${count}${end}`)) count++;
+    this.name.value = `${stem}-${count}${end}`;
+    this.tell();
   }
 
   // Follows the job that runs, if one does; also after a reload of the page.

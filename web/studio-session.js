@@ -9,6 +9,8 @@ const PAUSE = 30; // milliseconds between two messages
 const PATIENCE = 400; // milliseconds that a drag waits for a picture of what it sent, so that one appears at all
 const HISTORY = 200;
 
+export const ENDED = 'ods view has ended. Start it again, and this page goes on by itself.';
+
 export const sleep = (time) => new Promise((done) => setTimeout(done, time));
 const copy = (value) => structuredClone(value);
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -34,7 +36,9 @@ function changes(a, b, at = '') {
 // understood, and will not.
 export async function ask(path, body) {
   const options = body === undefined ? {} : { method: 'POST', body: body instanceof Blob ? body : JSON.stringify(body) };
-  const answer = await fetch(`studio/${path}`, options);
+  const answer = await fetch(`studio/${path}`, options).catch(() => {
+    throw new Error(ENDED);
+  });
   if (answer.ok) return answer.json();
   const text = (await answer.text()).trim().split('\n')[0];
   throw Object.assign(new Error(text || `The server answers ${answer.status}`), { refused: answer.status < 500 });
@@ -128,7 +132,7 @@ export class Session extends EventTarget {
     if (this.target !== this.active) this.send(true);
     const end = performance.now() + patience;
     while ((this.sending || this.wanted) && performance.now() < end) await sleep(10);
-    if (side.sent !== side.settings) throw new Error(this.fault || 'The server does not answer');
+    if (side.sent !== side.settings) throw new Error(this.fault || ENDED);
   }
 
   // Settings that the server made, as after a drop.

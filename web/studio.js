@@ -11,7 +11,7 @@ import { make } from './studio-number.js';
 import { Panel } from './studio-panel.js';
 import { pickWithClicks } from './studio-pick.js';
 import { RenderFoot } from './studio-render.js';
-import { Session, ask, sleep } from './studio-session.js';
+import { ENDED, Session, ask, sleep } from './studio-session.js';
 
 const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
 const SIDES = ['A', 'B'];
@@ -91,7 +91,7 @@ class Studio {
     session.addEventListener('accepted', ({ detail }) => this.live.renumber(detail));
     session.addEventListener('status', ({ detail }) => this.tell(detail));
     session.addEventListener('restart', () => this.live.expire());
-    session.addEventListener('lost', () => page.fail('The server does not answer. Start ods view again; the page goes on by itself.'));
+    session.addEventListener('lost', () => page.fail(ENDED));
     session.addEventListener('found', () => page.fail(''));
     viewer.addEventListener('change', () => this.watchLook());
     viewer.addEventListener('open', () => this.update());

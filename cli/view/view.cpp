@@ -20,7 +20,7 @@ namespace {
 constexpr int kUsualPort = 8360;
 
 const char* last_words(int) {
-  return "ods: the viewer has ended";
+  return "ods: the viewer has ended\n";
 }
 
 // At the usual port, so that an open page finds the server again; if another program has it, at any.

@@ -94,6 +94,7 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   options.group("Console");
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;
+  if (job.paths.empty()) throw UsageError("name a picture, a video, a folder or a scene: ods view picture_360_TB.png");
   job.browser = !stay;
   const auto scene = std::ranges::find_if(job.paths, names_scene);
   if (scene != job.paths.end()) {

@@ -177,7 +177,8 @@ class Pages : public ::testing::Test {
     if (option != words.end()) rig = *std::next(option);
     if (!rig.empty() && !fs::exists(folder.path(rig))) make("ods rig --width 64 --nearest 0.8 -o " + rig);
     for (size_t i = 2; i < words.size(); i++) {
-      static const std::set<std::string> outputs = {"-o", "--output", "--report", "--diff", "--for", "--font"};
+      static const std::set<std::string> outputs = {"-o",    "--output", "--report", "--diff",
+                                                    "--for", "--font",   "--export"};
       if (outputs.contains(words[i - 1]) || words[i] == rig) continue;
       if (!rig.empty() && words[i].find_first_of("#%") != std::string::npos) {
         provide_views(words[i], rig);
@@ -199,6 +200,7 @@ class Pages : public ::testing::Test {
   }
 
   void provide_file(const std::string& name) {
+    if (name.ends_with("/")) return provide_file(name + "picture_360_TB.png");
     const std::string kind = fs::path(name).extension().native();
     if (kind.empty() || name.starts_with("-") || fs::exists(folder.path(name)) || !made_.insert(name).second) return;
     fs::create_directories(fs::path(folder.path(name)).parent_path());
