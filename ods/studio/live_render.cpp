@@ -30,7 +30,7 @@ struct Step {
   int samples;
 };
 constexpr Step kSteps[] = {
-    {false, 192, 2}, {false, 512, 2},  {true, 0.4f, 2}, {true, 0.7f, 2},  {true, 1, 4},
+    {false, 160, 2}, {false, 512, 2},  {true, 0.4f, 2}, {true, 0.7f, 2},  {true, 1, 4},
     {false, 768, 4}, {true, 1, 8},     {true, 1, 16},   {false, 768, 16}, {true, 1, 32},
     {true, 1, 64},   {false, 768, 64}, {true, 1, 128},
 };
