@@ -147,7 +147,8 @@ struct LiveRender::State {
   int revision = 0;  // 0: there are no settings yet
   bool ended = false;
   Clock::time_point since;                         // when the settings changed
-  mutable Clock::time_point asked = Clock::now();  // when somebody last waited for a frame
+  mutable int waiting = 0;                         // for a frame, now
+  mutable Clock::time_point asked = Clock::now();  // when somebody last waited for one
   int last_number = 0;
   std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
   std::shared_ptr<const Canvas> shown[2];      // likewise, without samples
@@ -264,7 +265,7 @@ void LiveRender::State::wait_for_change(int mine) {
 
 void LiveRender::State::wait_for_viewer(int mine) const {
   std::unique_lock<std::mutex> lock(mutex);
-  changed.wait(lock, [&] { return ended || revision != mine || Clock::now() - asked < rest_after; });
+  changed.wait(lock, [&] { return ended || revision != mine || waiting > 0 || Clock::now() - asked < rest_after; });
 }
 
 void LiveRender::State::run() {
@@ -332,7 +333,7 @@ void LiveRender::look(const LiveView& view) {
 
 std::shared_ptr<const LiveFrame> LiveRender::next_frame(int number, std::chrono::milliseconds patience) const {
   std::unique_lock<std::mutex> lock(state_->mutex);
-  state_->asked = Clock::now();
+  state_->waiting++;
   state_->changed.notify_all();
   std::shared_ptr<const LiveFrame> found;
   state_->changed.wait_for(lock, patience, [&] {
@@ -341,6 +342,8 @@ std::shared_ptr<const LiveFrame> LiveRender::next_frame(int number, std::chrono:
     }
     return found || state_->ended || !state_->fault.empty();
   });
+  state_->waiting--;
+  state_->asked = Clock::now();
   return found;
 }
 
