@@ -54,10 +54,9 @@ export const ACTIONS = [
   { id: 'step', keys: ['.'], label: 'next frame', when: isFilm, run: film((picture) => picture.step(1)) },
   { id: 'back', keys: ['j'], label: 'back 5 s', when: isFilm, run: film((picture, video) => picture.seek(video.currentTime - 5)) },
   { id: 'ahead', keys: ['k'], label: 'ahead 5 s', when: isFilm, run: film((picture, video) => picture.seek(video.currentTime + 5)) },
-  { id: 'loop', keys: ['l'], label: 'loop', when: isFilm, run: film((picture, video) => {
-    video.loop = !video.loop;
-    picture.changed();
-    return video.loop ? 'Loop' : 'Play once';
+  { id: 'loop', keys: ['l'], label: 'loop', when: isFilm, run: film((picture) => {
+    picture.loop(!picture.loops);
+    return picture.loops ? 'Loop' : 'Play once';
   }) },
   { id: 'sound', keys: ['a'], label: 'sound', when: isFilm, run: film((picture, video) => {
     video.muted = !video.muted;

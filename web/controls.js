@@ -137,13 +137,13 @@ export class Controls {
     for (const button of document.querySelectorAll(`button[data-action="${action}"]`)) button.setAttribute('aria-pressed', is);
   }
 
-  film({ video, fps, frames, frame }) {
+  film({ video, fps, frames, frame, loops }) {
     const play = document.querySelector('[data-action="play"]');
     play.dataset.on = !video.paused;
     play.setAttribute('aria-label', video.paused ? 'Play' : 'Pause');
     document.querySelector('[data-action="sound"]').dataset.on = !video.muted;
     this.press('sound', !video.muted);
-    this.press('loop', video.loop);
+    this.press('loop', loops);
     const at = frame();
     if (document.activeElement !== find('seek') || !video.paused) find('seek').value = at;
     const clock = (seconds) => `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;

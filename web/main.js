@@ -88,19 +88,28 @@ function watchKeys(page) {
   });
 }
 
-// The bar fades while nobody moves, unless something of it is in use.
+// The bar fades while nobody moves, unless something of it is in use or a drag is held still.
 function watchIdle() {
   let timer;
   const wake = () => {
     document.body.classList.remove('idle');
     clearTimeout(timer);
     timer = setTimeout(() => {
-      if (find('settings').matches(':popover-open') || find('help').open) return wake();
+      if (find('settings').matches(':popover-open') || find('help').open || find('picture').matches(':active')) return wake();
       if (!find('bar').matches(':hover, :has(:focus-visible)')) document.body.classList.add('idle');
     }, IDLE);
   };
   for (const event of ['pointermove', 'pointerdown', 'keydown', 'focusin', 'wheel']) addEventListener(event, wake, { passive: true });
   wake();
+}
+
+function watchGrid(viewer) {
+  let loading;
+  const load = () => {
+    if (viewer.state.grid) loading ??= import('./grid-numbers.js').then(({ numberGrid }) => numberGrid(viewer));
+  };
+  viewer.addEventListener('change', load);
+  load();
 }
 
 // Keeps the address up to date, and follows it where somebody changes it.
@@ -152,6 +161,7 @@ async function start() {
   followPointer(viewer);
   watchKeys(page);
   watchIdle();
+  watchGrid(viewer);
   watchAddress(page);
   if (view.live && !view.studio) watchServer(page);
   hasHeadset().then((has) => (document.querySelector('#tools [data-action="headset"]').hidden = !has));

@@ -2,49 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A click on the picture says what is there: its distance, its disparity and where each eye's picture has it.
-import { boxOf, modeOf } from './modes.js';
-import { raysOf } from './panorama.js';
+import { directionAt, partsOf, placeOf } from './places.js';
 import { make } from './studio-number.js';
 import { ask } from './studio-session.js';
 
 const NEAR = 5; // pixels that a click may move
 const LONG = 500; // milliseconds that it may take
-
-const degrees = (radians) => (radians * 180) / Math.PI;
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const columns = (rays) => [rays.slice(0, 3), rays.slice(3, 6), rays.slice(6, 9)];
-
-// The part of the view under a place of the page, with its box in CSS pixels from the top left.
-function partsOf(viewer) {
-  const { canvas, state } = viewer;
-  const scale = canvas.width / canvas.clientWidth;
-  return modeOf(state.mode).parts(0).map(({ at, eye = 0 }) => {
-    const [x, y, width, height] = boxOf(at, canvas);
-    return { eye: state.swap ? 1 - eye : eye, box: [x, canvas.height - y - height, width, height].map((pixels) => pixels / scale) };
-  });
-}
-
-// The direction at a place of the view; nothing outside.
-export function directionAt(viewer, x, y) {
-  const part = partsOf(viewer).find(({ box }) => x >= box[0] && x < box[0] + box[2] && y >= box[1] && y < box[1] + box[3]);
-  if (!part) return null;
-  const [left, top, width, height] = part.box;
-  const [right, up, ahead] = columns(raysOf(viewer.state, width / height));
-  const [a, b] = [(2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height];
-  const d = ahead.map((value, i) => value + a * right[i] + b * up[i]);
-  return { yaw: degrees(Math.atan2(d[0], -d[2])), pitch: degrees(Math.asin(d[1] / Math.hypot(...d))), eye: part.eye ? 'right' : 'left' };
-}
-
-// Where the first part of the view shows a direction; null behind the viewer.
-function placeOf(viewer, { yaw, pitch }) {
-  const { box: [left, top, width, height] } = partsOf(viewer)[0];
-  const axes = columns(raysOf(viewer.state, width / height));
-  const d = raysOf({ yaw, pitch }, 1).slice(6, 9);
-  const ahead = dot(d, axes[2]);
-  if (ahead <= 0.01) return null;
-  const [x, y] = [0, 1].map((i) => dot(d, axes[i]) / (dot(axes[i], axes[i]) * ahead));
-  return Math.max(Math.abs(x), Math.abs(y)) < 1 ? [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height] : null;
-}
+const TALL = 260; // pixels of the card and of the bar below it
 
 const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `${metres.toFixed(metres < 100 ? 2 : 0)} m`);
 
@@ -61,7 +25,7 @@ export function pickWithClicks(studio) {
     mark.hidden = card.hidden = true;
   };
   const follow = () => {
-    const place = where && viewer.scene ? placeOf(viewer, where) : null;
+    const place = where && viewer.scene ? placeOf(viewer, where, partsOf(viewer)[0]) : null;
     mark.hidden = card.hidden = !place;
     if (!place) return;
     for (const element of [mark, card]) {
@@ -69,7 +33,7 @@ export function pickWithClicks(studio) {
       element.style.setProperty('--y', `${place[1]}px`);
     }
     card.classList.toggle('flip', place[0] > canvas.clientWidth - 240);
-    card.classList.toggle('above', place[1] > canvas.clientHeight - 190);
+    card.classList.toggle('above', place[1] > canvas.clientHeight - TALL);
   };
   const row = (name, value) => make('div', {}, make('dt', { textContent: name }), make('dd', { textContent: value }));
   const button = (text, run) => {

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The studio's talk with the server: settings go out, frames come in. Two sides, A and B, each with settings of its own
-// and a history; the server renders the active one, or the other for a while (refine). Events: `edit` (the settings, the history or the active side),
-// `accepted` (detail: its side), `refused` (detail: { text, paths }), `status` (detail: what a frame or the server says of
-// itself), `lost` and `found` (the server).
+// and a history; the server renders the active one, or the other for a while (refine). Events: `edit` (the settings, the
+// history or the active side), `accepted` (detail: its side), `refused` (detail: { text, paths }), `status` (detail: what
+// a frame or the server says of itself; isOthers: another tab has changed what is rendered), `lost` and `found` (the
+// server).
 const PAUSE = 30; // milliseconds between two messages
 const PATIENCE = 400; // milliseconds that a drag waits for a picture of what it sent, so that one appears at all
 const HISTORY = 200;
@@ -129,7 +130,7 @@ export class Session extends EventTarget {
   // Waits until the server renders the active side as it is now. Throws what it refuses.
   async settle(patience = 5000) {
     const { side } = this;
-    if (this.target !== this.active) this.send(true);
+    if (this.target !== this.active || this.isOthers) this.send(true);
     const end = performance.now() + patience;
     while ((this.sending || this.wanted) && performance.now() < end) await sleep(10);
     if (side.sent !== side.settings) throw new Error(this.fault || ENDED);
@@ -157,7 +158,7 @@ export class Session extends EventTarget {
         const { revision, command } = await this.answer;
         const { env, variant } = this.sent ?? settings;
         if (revision < this.revision || env !== settings.env || variant !== settings.variant) this.restart();
-        Object.assign(this, { revision, sent: settings });
+        Object.assign(this, { revision, sent: settings, isOthers: false });
         Object.assign(side, { revision, command, sent: settings });
         this.fault = '';
         if (this.missed) this.fromStart();
@@ -239,7 +240,12 @@ export class Session extends EventTarget {
     if (epoch !== this.epoch) return;
     const side = this.sides[this.target];
     if (meta.revision !== side.revision) {
-      this.missed ||= meta.revision > this.revision; // the server was faster than its answer
+      const isAhead = meta.revision > this.revision;
+      this.missed ||= isAhead; // the server was faster than its answer
+      if (isAhead && !this.sending) {
+        this.isOthers = true;
+        this.say('status', { isOthers: true });
+      }
       return;
     }
     this.shown = meta.revision;

@@ -39,11 +39,11 @@ class Studio {
   }
 
   build() {
-    const { viewer } = this.page;
+    const { page, page: { viewer } } = this;
     const button = (action, label, text) => make('button', { type: 'button', className: 'small', 'data-action': action, 'aria-label': label, title: label, textContent: text });
     this.sideButtons = SIDES.map((name, i) => {
       const each = make('button', { type: 'button', className: 'small', textContent: name, title: `Settings ${name}` });
-      each.addEventListener('click', () => this.session.swap(i));
+      each.addEventListener('click', () => page.toast(this.choose(i)));
       return each;
     });
     this.back = make('button', { type: 'button', className: 'back', textContent: '← Back to the scene', hidden: true });
@@ -68,11 +68,11 @@ class Studio {
     const { page, session } = this;
     const { viewer } = page;
     const rows = [
+      { id: 'pick', keys: [], shown: 'Click', label: 'distance and disparity of a thing', run: () => {} },
       { id: 'undo', keys: [], shown: 'Ctrl-Z', label: 'undo', run: () => { session.step(-1); } },
       { id: 'redo', keys: [], shown: 'Ctrl-Shift-Z', label: 'redo', run: () => { session.step(1); } },
       { id: 'swap-sides', keys: ['b'], label: 'settings A or B', run: () => {
-        session.swap();
-        return `Settings ${SIDES[session.active]}`;
+        return this.choose(1 - session.active);
       } },
       { id: 'split', keys: ['x'], label: 'A and B side by side', run: () => this.compare() },
       { id: 'panel', keys: ['i'], label: 'hide or show the panel', run: () => { document.body.classList.toggle('folded'); } },
@@ -115,12 +115,13 @@ class Studio {
     this.refresh();
   }
 
-  tell({ state, samples, seconds, done, fault, side }) {
+  tell({ state, samples, seconds, done, fault, side, isOthers }) {
     this.takeTurns(done, side);
     if (fault) this.page.fail(fault);
     const name = this.split === null || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
-    if (state === 'loading') this.status.textContent = 'Loading the scene …';
-    else if (samples) this.status.textContent = `${name}${samples} ${samples === 1 ? 'sample' : 'samples'}, ${seconds.toFixed(1)} s${done ? ' – finished' : ''}`;
+    if (isOthers) this.status.textContent = 'Another tab has changed the scene. What you change here counts again.';
+    else if (state === 'loading') this.status.textContent = 'Loading the scene …';
+    else if (samples) this.status.textContent = `${name}${samples} ${samples === 1 ? 'sample' : 'samples'} per pixel after ${seconds.toFixed(1)} s${done ? ', finished' : ''}`;
   }
 
   // --- what is shown ---
@@ -201,11 +202,21 @@ class Studio {
 
   // --- A and B ---
 
+  // Makes a side the active one, and says so.
+  choose(i) {
+    const { session } = this;
+    const isNew = !session.sides[i];
+    session.swap(i);
+    return isNew ? `Settings ${SIDES[i]}: a copy of ${SIDES[1 - i]} to change` : `Settings ${SIDES[i]}`;
+  }
+
   compare() {
     this.split = this.split === null ? 0.5 : null;
-    if (this.split !== null && !this.session.sides[1]) this.session.swap(1);
+    const isNew = !this.session.sides[1];
+    if (this.split !== null && isNew) this.session.swap(1);
     this.update();
-    return this.split === null ? 'One picture' : 'A left, B right: change B, and drag the line';
+    if (this.split === null) return 'One picture';
+    return `A left, B right${isNew ? ': B is a copy of A, change it' : ''}`;
   }
 
   // While both sides are seen, each is rendered in turn, until it is as good as it gets; turns grow, as a side begins

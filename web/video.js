@@ -6,6 +6,7 @@
 import { cropOf, isRound, same } from './picture.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
 
+const SETTLE = 150; // milliseconds
 const REASONS = {
   1: 'stopped loading. Reload the page.',
   2: 'did not load: the connection broke. Is the server still running?',
@@ -24,7 +25,7 @@ function whenLoaded(video, name, signal) {
 
 export async function openVideo(gl, item, form, url, signal) {
   const video = document.createElement('video');
-  Object.assign(video, { src: url.href, preload: 'auto', playsInline: true, loop: true });
+  Object.assign(video, { src: url.href, preload: 'auto', playsInline: true });
   const close = () => {
     video.pause();
     video.removeAttribute('src');
@@ -60,15 +61,21 @@ export async function openVideo(gl, item, form, url, signal) {
     arrive(about.mediaTime);
     listen();
   });
+  // After a seek, browsers say so before the frame is there to be copied: it is copied once more.
+  video.addEventListener('seeked', () => setTimeout(() => arrive(mediaTime), SETTLE), { signal: heard.signal });
   for (const event of ['seeked', 'ended', ...(video.requestVideoFrameCallback ? [] : ['timeupdate'])]) {
     video.addEventListener(event, () => arrive(Math.floor(video.currentTime * fps + 0.01) / fps), { signal: heard.signal });
   }
-  for (const event of ['play', 'pause', 'volumechange', 'ratechange']) {
+  // Only while it plays: a video that rests on its last frame and loops is sent to its first one.
+  for (const event of ['play', 'pause']) {
+    video.addEventListener(event, () => picture.loop(picture.loops), { signal: heard.signal });
+  }
+  for (const event of ['volumechange', 'ratechange']) {
     video.addEventListener(event, () => picture.changed?.(), { signal: heard.signal });
   }
 
   const picture = {
-    eyes, camera: form.camera, mono, video, fps, frames,
+    eyes, camera: form.camera, mono, video, fps, frames, loops: true,
     changed: null, // called when there is something new to draw or to say
     frame: () => Math.min(Math.floor(mediaTime * fps + 0.5), frames - 1),
     // Before it is drawn: puts a new frame into the textures.
@@ -76,6 +83,11 @@ export async function openVideo(gl, item, form, url, signal) {
       if (!isNew || video.readyState < 2) return;
       isNew = false;
       cutter.cut(video, eyes, crops);
+    },
+    loop(is) {
+      picture.loops = is;
+      video.loop = is && !video.paused;
+      picture.changed?.();
     },
     toggle: () => (video.paused ? video.play().catch(() => {}) : video.pause()),
     seek(seconds) {

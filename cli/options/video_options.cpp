@@ -182,6 +182,21 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
   add_apple_option(options, wishes.for_apple);
 }
 
+VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream,
+                        bool has_target) {
+  wishes.rate = stream.rate;
+  const auto own = ods::packing_like(stream, container_for(wishes.output));
+  if (own && !has_target && !wishes.codec && wishes.encoder.empty()) {
+    wishes.codec = own->codec;
+    wishes.bits = wishes.bits.value_or(own->bits);
+    wishes.chroma = wishes.chroma.value_or(own->chroma);
+  }
+  if (!wishes.sound.empty() || !video.has_sound) return wishes;
+  wishes.sound = video.path;
+  wishes.copies_sound = true;
+  return wishes;
+}
+
 ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int threads) {
   const Container container = container_for(wishes.output);
   check_apple(wishes.for_apple, container);

@@ -8,6 +8,7 @@
 
 #include "cli/console/options.h"
 #include "ods/video/make_video.h"
+#include "ods/video/video_input.h"
 
 struct VideoWishes {
   std::string output;
@@ -30,6 +31,11 @@ ods::FrameRate parse_rate(const std::string& text);
 void add_video_options(Options& options, VideoWishes& wishes);
 // Adds the packing options alone, to the group that is open.
 void add_packing_options(Options& options, VideoWishes& wishes);
+
+// What was not asked for is as in the video from which the new one is made: codec, bits, chroma, rate, and its sound,
+// which is copied. has_target: --target was given.
+VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream,
+                        bool has_target);
 
 // Chosen by a video's name. Throws UsageError.
 ods::Container container_for(const std::string& path);

@@ -29,24 +29,14 @@ Range range_of(const OverJob& job) {
   check_rising(*job.frames);
   const Range range{job.frames->front(), job.frames->back()};
   if (static_cast<size_t>(range.last - range.first) + 1 == job.frames->size()) return range;
-  throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, prototype its sound");
+  throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, because its sound is");
 }
 
-VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream, const Range& range) {
+VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
   VideoWishes wishes = job.video;
   wishes.output = job.output;
-  wishes.rate = stream.rate;
-  const auto prototype = packing_like(stream, container_for(job.output));
-  if (prototype && !job.has_target && !wishes.codec && wishes.encoder.empty()) {
-    wishes.codec = prototype->codec;
-    wishes.bits = wishes.bits.value_or(prototype->bits);
-    wishes.chroma = wishes.chroma.value_or(prototype->chroma);
-  }
-  if (!wishes.sound.empty() || !video.has_sound) return wishes;
-  wishes.sound = video.path;
-  wishes.copies_sound = true;
-  wishes.sound_cut = {stream.start + range.first / stream.rate.value(), job.frames.has_value()};
-  return wishes;
+  wishes.sound_cut.is_cut = job.frames.has_value();
+  return wishes_like(wishes, video, stream, job.has_target);
 }
 
 ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
@@ -65,6 +55,12 @@ void check_job(const OverJob& job, const VideoInput& video) {
   if (job.layout && *job.layout != video.prototype.layout) {
     throw UsageError(fmt::format("the video stays {}; --layout needs frames as output (-o 'x.####.png')",
                                  layout_name(video.prototype.layout)));
+  }
+  if (video.metadata.projection == ods::VideoProjection::kOther) {
+    throw UsageError(
+        fmt::format("'{}': titles over a video need one in lat-long or a part of it; ods convert --to "
+                    "lat-long makes one",
+                    video.path));
   }
   refuse_overwriting(job.output, job.background);
   refuse_overwriting(job.output, job.foreground);
@@ -110,7 +106,7 @@ void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressL
                      front.stream().rate.value(), back.stream().rate.value()));
   }
   const Range range = range_of(job);
-  const VideoWishes wishes = wishes_for(job, video, back.stream(), range);
+  const VideoWishes wishes = wishes_for(job, video, back.stream());
   const ods::EncodeOptions options = encode_options(wishes, back.stream().size, job.threads);
   const ods::VideoPlan plan = plan_like(video, back.stream());
   say_what_players_need(wishes, plan, options);

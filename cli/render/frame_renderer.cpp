@@ -113,6 +113,7 @@ std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
 ods::RenderOptions FrameRenderer::options_for(const Frame& frame, const ods::StereoCamera& camera) const {
   ods::RenderOptions options = ods::with_height(options_to_finish(job_), camera);
   options.seed = frame.seed;
+  options.noise_exposure = exposure_;
   return options;
 }
 
@@ -139,7 +140,7 @@ ods::Picture FrameRenderer::first_look(const Frame& frame) {
 
 float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
-    return job_.exposure.value_or(0.0f);
+    return exposure_ = job_.exposure.value_or(0.0f);
   }
   std::set<size_t> chosen;
   for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
@@ -151,7 +152,7 @@ float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
     return 0.0f;
   }
   note(fmt::format("exposure {:+.1f} stops, from a first look at the light (--exposure {:.1f})", *stops, *stops));
-  return *stops;
+  return exposure_ = *stops;
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {

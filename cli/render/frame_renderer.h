@@ -43,6 +43,7 @@ class FrameRenderer {
   // look at some of `frames`: all of the video, whatever exists already, or the one picture. It depends on the job
   // alone, so processes that share the frames or resume them find the same. 0 where files keep the scene's light, and
   // for built-in scenes in their own light, which are made for it. Notes what it chose; warns if all is black.
+  // What is rendered from then on is as clean as asked for when it is shown with that exposure.
   float find_exposure(const std::vector<Frame>& frames);
 
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
@@ -60,4 +61,5 @@ class FrameRenderer {
   ods::Scene& scene_;
   ods::SceneChange change_;  // since renderer_ was updated
   std::optional<ods::CpuRenderer> renderer_;
+  float exposure_ = 0.0f;  // of find_exposure()
 };

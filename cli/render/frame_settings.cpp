@@ -159,8 +159,9 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, noise, time_limit, part, even_noise, bounces, clamp, eyes, share_paths, filter,
-               layers, transparent, statistics, seed, threads, light_sampling, last_tile_first] = options;
+  const auto& [width, height, samples, noise, noise_exposure, time_limit, part, even_noise, bounces, clamp, eyes,
+               share_paths, filter, layers, transparent, statistics, seed, threads, light_sampling, last_tile_first] =
+      options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
   add_number(settings, "--samples", samples);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/view/export_site.h"
 
+#include <nlohmann/json.hpp>
+
 #include "ods/files/atomic_file.h"
 #include "ods/files/file_input.h"
 #include "ods/view/page.h"
@@ -40,6 +42,6 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
     items[i].has_own_file ? copy_file(items[i].path, folder + "/" + files[0]) : write_eyes(items[i], files, folder);
   }
   const std::string view = folder + "/view.json";
-  ods::write_file(view, view_json(items, false));
+  ods::write_file(view, view_json(items, false, {}));
   return view;
 }

@@ -78,9 +78,9 @@ struct HttpServer::State {
       return handler(request);
     } catch (const ods::Error& error) {
       const bool by_user = error.kind() == ods::ErrorKind::kInput || error.kind() == ods::ErrorKind::kUsage;
-      return {by_user ? 400 : 500, WebAnswer().type, std::string(error.what()) + "\n", "", false};
+      return {.status = by_user ? 400 : 500, .body = std::string(error.what()) + "\n"};
     } catch (const std::exception& error) {
-      return {500, WebAnswer().type, std::string(error.what()) + "\n", "", false};
+      return {.status = 500, .body = std::string(error.what()) + "\n"};
     }
   }
 
@@ -92,7 +92,7 @@ struct HttpServer::State {
     request.body = std::move(body);
     const WebAnswer answer = ask(request);
     if (answer.status != 200) response.status = answer.status;  // else the library's: 206 for a part of a file
-    response.set_header("Cache-Control", answer.can_keep ? "private, max-age=3600" : "no-store");
+    response.set_header("Cache-Control", "no-store");
     answer.file.empty() ? response.set_content(answer.body, answer.type) : send_file(response, answer);
   }
 
@@ -151,6 +151,15 @@ struct HttpServer::State {
         });
   }
 };
+
+WebAnswer nothing_there() {
+  return {.status = 404, .body = "there is nothing of that name\n"};
+}
+
+std::string value_of(const WebRequest& request, const std::string& name) {
+  const auto found = request.query.find(name);
+  return found == request.query.end() ? "" : found->second;
+}
 
 HttpServer::HttpServer(const WebOptions& options, WebHandler handler) : state_(std::make_unique<State>()) {
   state_->options = options;

@@ -25,10 +25,15 @@ struct WebRequest {
 struct WebAnswer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
-  std::string body;
-  std::string file;       // is sent in place of the body, in the ranges that the browser asks for
-  bool can_keep = false;  // browsers may keep it; else they ask again
+  std::string body{};
+  std::string file{};  // is sent in place of the body, in the ranges that the browser asks for
 };
+
+// 404, in words.
+WebAnswer nothing_there();
+
+// What the query says under a name; empty if it says nothing.
+std::string value_of(const WebRequest& request, const std::string& name);
 
 // Called from several threads at once. What it throws becomes an answer with a line of text: ods::Error of kind kInput
 // or kUsage 400, all else 500.

@@ -34,7 +34,7 @@ constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
 WebAnswer json_answer(const Json& json) {
-  return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace), "", false};
+  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 
 // What suits the light, as ods render chooses it.
@@ -130,21 +130,20 @@ void Studio::open() {
   duration_ = length_of(scene_->animation);
 }
 
-std::string Studio::settings_json(const Settings& settings) const {
-  return Json({{"sidecar", Json::parse(write_sidecar(settings.sidecar))},
-               {"exposure", settings.live.exposure},
-               {"tone", ods::tone_curve_name(settings.live.tone)},
-               {"env", settings.environment},
-               {"variant", settings.variant},
-               {"time", settings.live.time},
-               {"width", settings.width}})
-      .dump();
+Json Studio::settings_json(const Settings& settings) {
+  return {{"sidecar", Json::parse(write_sidecar(settings.sidecar))},
+          {"exposure", settings.live.exposure},
+          {"tone", ods::tone_curve_name(settings.live.tone)},
+          {"env", settings.environment},
+          {"variant", settings.variant},
+          {"time", settings.live.time},
+          {"width", settings.width}};
 }
 
-std::string Studio::description() const {
+Json Studio::description() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   Json json = {{"scene", std::filesystem::path(source_.name).filename().string()},
-               {"settings", Json::parse(settings_json(usual_))},
+               {"settings", settings_json(usual_)},
                {"ranges", ranges_json()},
                {"merges", ods::names_of(ods::kMergeTable)},
                {"convergences", ods::names_of(ods::kConvergenceTable)},
@@ -155,7 +154,7 @@ std::string Studio::description() const {
                {"variants", scene_->variants},
                {"duration", duration_}};
   for (const ods::NamedProjection& named : ods::named_projections()) json["projections"].push_back(named.name);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json;
 }
 
 Studio::Settings Studio::read_settings(const std::string& text) const {
@@ -228,11 +227,9 @@ std::vector<std::string> Studio::words(const std::string& output, const std::str
 }
 
 WebAnswer Studio::frame(const WebRequest& request) {
-  const auto after = request.query.find("after");
+  const std::string after = value_of(request, "after");
   int number = 0;
-  if (after != request.query.end()) {
-    std::from_chars(after->second.data(), after->second.data() + after->second.size(), number);
-  }
+  std::from_chars(after.data(), after.data() + after.size(), number);
   std::shared_ptr<ods::LiveRender> live;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -241,14 +238,14 @@ WebAnswer Studio::frame(const WebRequest& request) {
   const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
   const std::string fault = live->fault();
   if (!fault.empty()) throw ods::Error(ods::ErrorKind::kInput, fault);
-  if (!frame) return {204, WebAnswer().type, "", "", false};
+  if (!frame) return {.status = 204};
   const std::string head = Json({{"number", frame->number},
                                  {"revision", frame->revision},
                                  {"part", frame->is_patch ? "patch" : "base"},
                                  {"width", frame->eye.width},
                                  {"height", frame->eye.height},
                                  {"eyes", 2},
-                                 {"camera", Json::parse(camera_json(make_camera(frame->camera)))},
+                                 {"camera", camera_json(make_camera(frame->camera))},
                                  {"samples", frame->samples},
                                  {"seconds", frame->seconds},
                                  {"done", frame->is_last},
@@ -259,7 +256,7 @@ WebAnswer Studio::frame(const WebRequest& request) {
   for (size_t i = 0; i < 4; i++) body[i] = static_cast<char>(size >> (8 * i) & 0xff);
   body += head;
   body.append(reinterpret_cast<const char*>(frame->pixels.data()), frame->pixels.size());
-  return {200, "application/octet-stream", std::move(body), "", false};
+  return {.type = "application/octet-stream", .body = std::move(body)};
 }
 
 WebAnswer Studio::pick(const std::string& body) {
@@ -326,11 +323,10 @@ WebAnswer Studio::status() const {
 
 // A file that was dropped onto the page: another scene, another light, or a camera.
 WebAnswer Studio::drop(const WebRequest& request) {
-  const auto given = request.query.find("name");
-  const std::string name = given == request.query.end() ? "" : std::filesystem::path(given->second).filename().string();
+  const std::string name = std::filesystem::path(value_of(request, "name")).filename().string();
   const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
   const auto answer = [&](const char* what) {
-    return json_answer({{"what", what}, {"settings", Json::parse(settings_json(settings_))}});
+    return json_answer({{"what", what}, {"settings", settings_json(settings_)}});
   };
   if (kind == ".json") {
     std::vector<std::string> warnings;
@@ -386,7 +382,7 @@ WebAnswer Studio::answer(const WebRequest& request) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (request.path == "studio/job") return job();
   if (request.path == "studio/status") return status();
-  if (!request.is_post) return {404, WebAnswer().type, "there is nothing of that name\n", "", false};
+  if (!request.is_post) return nothing_there();
   if (request.path == "studio/set") return set(request.body);
   if (request.path == "studio/pick") return pick(request.body);
   if (request.path == "studio/render") return render(request.body);
@@ -401,5 +397,5 @@ WebAnswer Studio::answer(const WebRequest& request) {
     live_->look(settings_.look);
     return json_answer(Json::object());
   }
-  return {404, WebAnswer().type, "there is nothing of that name\n", "", false};
+  return nothing_there();
 }

@@ -13,6 +13,7 @@
 #include "cli/options/scene_source.h"
 #include "cli/view/http_server.h"
 #include "cli/view/render_process.h"
+#include "ods/base/json_reader.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/studio/live_render.h"
 
@@ -24,7 +25,7 @@ class Studio {
   ~Studio();
 
   // "studio" of view.json: the controls' defaults, their ranges and names.
-  std::string description() const;
+  ods::Json description() const;
 
   // A request below studio/. Throws UsageError and Error(kInput) for what makes no sense, in a line for people.
   WebAnswer answer(const WebRequest& request);
@@ -41,7 +42,7 @@ class Studio {
   };
 
   Settings read_settings(const std::string& text) const;
-  std::string settings_json(const Settings& settings) const;
+  static ods::Json settings_json(const Settings& settings);
   void open();
   std::vector<std::string> words(const std::string& output, const std::string& quality) const;
   WebAnswer set(const std::string& body);

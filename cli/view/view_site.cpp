@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
 #include "cli/options/layout_options.h"
@@ -15,13 +16,6 @@
 using ods::ViewItem, ods::StoredPicture;
 
 namespace {
-
-const WebAnswer kNothing{404, WebAnswer().type, "there is nothing of that name\n", "", false};
-
-std::string value_of(const WebRequest& request, const std::string& name) {
-  const auto found = request.query.find(name);
-  return found == request.query.end() ? "" : found->second;
-}
 
 // Nothing if it is not asked for.
 std::optional<float> number_of(const WebRequest& request, const std::string& name, float low, float high) {
@@ -39,10 +33,7 @@ ods::EyeOptions read_eye_options(const WebRequest& request) {
   ods::EyeOptions options;
   options.exposure = number_of(request, "exposure", -30.0f, 30.0f).value_or(0.0f);
   options.most_wide = static_cast<int>(number_of(request, "width", 1.0f, 32768.0f).value_or(0.0f));
-  const std::string tone = value_of(request, "tone");
-  for (const auto& row : ods::kToneCurveTable) {
-    if (row.name == tone) options.tone = row.member;
-  }
+  options.tone = ods::find_in(ods::kToneCurveTable, value_of(request, "tone")).value_or(options.tone);
   return options;
 }
 
@@ -68,9 +59,9 @@ ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>
   });
 }
 
-std::vector<ViewItem> ViewSite::items() const {
+std::optional<ViewItem> ViewSite::item_at(size_t number) const {
   const std::lock_guard<std::mutex> lock(of_items_);
-  return items_;
+  return number < items_.size() ? std::optional(items_[number]) : std::nullopt;
 }
 
 std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const WebRequest& request) {
@@ -94,33 +85,34 @@ std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const 
 
 WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   const std::optional<size_t> number = item_number(path);
-  const std::vector<ViewItem> all = items();
-  if (!number || *number >= all.size()) return kNothing;
-  const ViewItem& item = all[*number];
+  const std::optional<ViewItem> found = number ? item_at(*number) : std::nullopt;
+  if (!found) return nothing_there();
+  const ViewItem& item = *found;
   if (item.has_own_file && path == item_files(item, *number)[0]) {
-    return {200, std::string(ods::media_type(path)), "", item.path, false};
+    return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
-  if (item.is_video) return kNothing;
+  if (item.is_video) return nothing_there();
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
     if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    return {200, std::string(ods::media_type(path)), eye_jpeg(*open(item, request), eye, read_eye_options(request)), "",
-            false};
+    return {.type = std::string(ods::media_type(path)),
+            .body = eye_jpeg(*open(item, request), eye, read_eye_options(request))};
   }
-  return kNothing;
+  return nothing_there();
 }
 
 WebAnswer ViewSite::answer(const WebRequest& request) {
   if (studio_ && request.path.starts_with("studio/")) return studio_->answer(request);
-  if (request.is_post) return kNothing;
-  if (request.path == "alive") return {200, "application/json", "{}", "", false};
+  if (request.is_post) return nothing_there();
+  if (request.path == "alive") return {.type = "application/json", .body = "{}"};
   if (request.path == "view.json") {
-    const std::string studio = studio_ ? studio_->description() : "";
-    return {200, std::string(ods::media_type(request.path)), view_json(items(), true, studio), "", false};
+    const ods::Json studio = studio_ ? studio_->description() : ods::Json();
+    const std::lock_guard<std::mutex> lock(of_items_);
+    return {.type = "application/json", .body = view_json(items_, true, studio)};
   }
   if (request.path.starts_with("item/")) return item(request.path, request);
   const std::string name = request.path.empty() ? "index.html" : request.path;
   const ods::PageFile* const file = ods::find_page_file(name);
-  if (!file) return kNothing;
-  return {200, std::string(ods::media_type(name)), std::string(file->data), "", false};
+  if (!file) return nothing_there();
+  return {.type = std::string(ods::media_type(name)), .body = std::string(file->data)};
 }

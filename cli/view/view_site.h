@@ -28,7 +28,7 @@ class ViewSite {
   // Of the latest item that was asked for: both eyes are, one after the other.
   std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);
 
-  std::vector<ods::ViewItem> items() const;
+  std::optional<ods::ViewItem> item_at(size_t number) const;
 
   mutable std::mutex of_items_;  // what the studio renders becomes one
   std::vector<ods::ViewItem> items_;

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -12,8 +11,8 @@
 #include <cstring>
 
 #include "ods/base/error.h"
-#include "ods/base/memory.h"
-#include "ods/base/pipeline.h"
+#include "ods/video/video_clock.h"
+#include "ods/video/write_video.h"
 
 namespace ods {
 
@@ -181,23 +180,7 @@ void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& 
 
 // --- the video -------------------------------------------------------------------------------------------------------
 
-std::optional<Packing> packing_like(const VideoStream& stream, Container container) {
-  const int bits = stream.bits > 8 ? 10 : 8;
-  if (!stream.codec || !can_hold(container, *stream.codec) || !can_have(*stream.codec, bits, stream.chroma)) {
-    return std::nullopt;
-  }
-  return Packing{*stream.codec, bits, stream.chroma, {}};
-}
-
 namespace {
-
-// A frame on its way from the decoder to the encoder.
-struct Work {
-  int number = 0;
-  DecodedFrame back;
-  std::optional<StoredPicture> front;  // of a video, which is read by one thread at a time
-  std::shared_ptr<VideoFrame> frame;
-};
 
 class VideoOver {
  public:
@@ -206,34 +189,30 @@ class VideoOver {
     if (front_.kind() == FootageKind::kPicture) still_ = cover_of(*front_.picture(0));
   }
 
-  // False at the end of the video.
-  bool decode(int number, Work& work) {
-    std::optional<DecodedFrame> decoded = back_.decode(number);
-    if (!decoded) return false;
-    work.number = number;
-    work.back = std::move(*decoded);
+  // A frame of the background and, of a foreground that is a video, its picture: both are read by one thread at a time.
+  std::function<std::shared_ptr<VideoFrame>()> pending(int number, const DecodedFrame& back) {
+    std::optional<StoredPicture> front;
     if (front_.kind() == FootageKind::kVideo && !front_ended_) {
-      work.front = front_.picture(number);
-      front_ended_ = !work.front;
+      front = front_.picture(number);
+      front_ended_ = !front;
     }
-    return true;
-  }
-
-  void lay(Work& work) const {
-    work.frame = copied_frame(work.back, back_.stream(), back_.video(), packing_);
-    if (front_.kind() == FootageKind::kFrames) work.front = front_.picture(work.number);
-    if (work.front) {
-      lay(cover_of(*work.front), work);
-    } else if (still_) {
-      lay(*still_, work);
-    }
-    work.front.reset();
-    work.back = {};
+    return [this, number, back, front] { return lay(number, back, front); };
   }
 
  private:
-  void lay(const Cover& cover, const Work& work) const {
-    lay_cover(cover, back_.video().prototype, back_.stream().color, work.back.planes, work.frame->planes());
+  std::shared_ptr<VideoFrame> lay(int number, const DecodedFrame& back, std::optional<StoredPicture> front) const {
+    const std::shared_ptr<VideoFrame> frame = copied_frame(back, back_.stream(), back_.video(), packing_);
+    if (front_.kind() == FootageKind::kFrames) front = front_.picture(number);
+    if (front) {
+      lay(cover_of(*front), back, *frame);
+    } else if (still_) {
+      lay(*still_, back, *frame);
+    }
+    return frame;
+  }
+
+  void lay(const Cover& cover, const DecodedFrame& back, const VideoFrame& frame) const {
+    lay_cover(cover, back_.video().prototype, back_.stream().color, back.planes, frame.planes());
   }
 
   Cover cover_of(const StoredPicture& front) const {
@@ -253,49 +232,33 @@ class VideoOver {
 
 }  // namespace
 
-// How many frames may be in memory at once; a foreground frame may take four floats per pixel, and its cover as much.
-static size_t frames_at_once(const VideoStream& stream, FootageKind front) {
-  const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
-  const size_t bytes = pixels * (front == FootageKind::kPicture ? 12 : 12 + 32);
-  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-  return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
-}
-
 int over_video(Footage& back, Footage& front, int first, int last, const OverOptions& over,
                const EncodeOptions& options, const std::string& path, const Progress& progress) {
   assert(back.kind() == FootageKind::kVideo && container_of_path(path) && first <= last);
+  const VideoStream& stream = back.stream();
+  refuse_other_colors(stream, back.path());
   VideoOver job(back, front, over, options.packing);
-  AtomicFile untagged(path);
-  VideoEncoder encoder(untagged, *container_of_path(path), back.stream().size, options);
-  const int expected = std::max(1, std::min(last, back.stream().count - 1) - first + 1);
-  int next = first, done = 0;
-  const auto decode = [&](Work& work) {
-    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    return next <= last && job.decode(next++, work);
-  };
-  const auto lay = [&](Work& work) { job.lay(work); };
-  const auto encode = [&](const Work& work) {
-    encoder.add(work.frame);
-    done++;
-    if (progress.report) progress.report(std::min(1.0, static_cast<double>(done) / expected));
-  };
-  run_pipeline<Work>(frames_at_once(back.stream(), front.kind()), decode, lay, encode);
-  if (done == 0) {
+  int next = first;
+  std::optional<DecodedFrame> decoded = back.decode(next);
+  if (!decoded) {
     const ErrorKind kind = first > 0 ? ErrorKind::kUsage : ErrorKind::kInput;
     throw Error(kind, fmt::format("there is no picture {} in '{}'", first, back.path()));
   }
-  encoder.finish();
-  const VideoFile video = read_video_file(untagged.temporary());
-  std::optional<Ambisonics> ambisonics;
-  if (options.copies_sound) {
-    ambisonics = back.video().ambisonics;
-  } else if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) {
-    ambisonics.emplace();
-  }
-  SphericalMetadata metadata = back.video().metadata;
-  metadata.for_apple = metadata.for_apple || options.for_apple;
-  tag_video(untagged.temporary(), path, choose_track(video, {}, path).id, metadata, ambisonics);
-  return done;
+  NewVideo video;
+  video.size = stream.size, video.options = options, video.metadata = back.video().metadata;
+  const VideoClock clock(stream, decoded->time, options.sound_cut.is_cut);
+  clock.set(video.options);
+  const auto pending = [&]() -> std::optional<PendingFrame> {
+    if (next > first && next <= last) decoded = back.decode(next);
+    if (!decoded || next > last) return std::nullopt;
+    return PendingFrame{clock(decoded->time), job.pending(next++, *decoded)};
+  };
+  // A foreground frame may take four floats per pixel, and its cover as much.
+  const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
+  if (options.copies_sound) video.ambisonics = back.video().ambisonics;
+  video.count = std::max(1, std::min(last, stream.count - 1) - first + 1);
+  video.frame_bytes = pixels * (front.kind() == FootageKind::kPicture ? 6 : 6 + 32);
+  return write_video(video, pending, path, progress).frames;
 }
 
 }  // namespace ods

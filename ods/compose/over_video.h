@@ -39,9 +39,6 @@ std::shared_ptr<VideoFrame> copied_frame(const DecodedFrame& frame, const VideoS
 void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& color, const Planes& from,
                const Planes& to);
 
-// Encoder settings to match a video; nothing if that is not possible.
-std::optional<Packing> packing_like(const VideoStream& stream, Container container);
-
 // Composites `front` over frames first..last of `back`, a video, into a new video of the same format. Frames that
 // `front` does not have stay unchanged. `options` choose the sound. Throws Error as VideoEncoder and VideoDecoder do;
 // kUsage for a foreground that cannot be composited. Returns the number of frames.

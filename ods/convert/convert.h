@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/camera/eye_correction.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
 
@@ -27,10 +28,18 @@ struct ConvertTarget {
   Extent eye;
   std::vector<int> eyes{kLeft, kRight};  // as in EyeImage
   int mono_from = kLeft;                 // the eye of a stereo picture from which a mono one is made
+  EyeCorrection right{};                 // of the picture's right eye
+  // How the picture's camera was turned when the picture was taken, beyond what `camera` of the picture says: degrees,
+  // in the camera's own frame. Each eye's picture is turned back as a whole, which is exact for what is far away.
+  ViewAngles turned{0.0f, 0.0f, 0.0f};
 };
 
 // The target that leaves a picture unchanged.
 ConvertTarget same_format(const StoredPicture& picture);
+
+// Whether every target pixel is the picture's own at the same place. Never of a projection with an image circle, whose
+// edge is made anew.
+bool is_same_picture(const StoredPicture& picture, const ConvertTarget& target);
 
 // A picture's layers as its rows have them: float layers remain float, all others become half.
 std::vector<RowLayer> row_layers(const StoredPicture& picture);

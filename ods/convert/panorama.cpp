@@ -85,7 +85,9 @@ Place place_of_line(const Source& source, int source_eye, vec3 direction) {
   const int which = source.picture->eyes[static_cast<size_t>(source_eye)].eye;
   direction = normalize(direction);
   const vec3 d(dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.back));
-  return find_direction(source, source_eye, line_label(camera, which, d));
+  const vec3 label = line_label(camera, which, d);
+  const bool is_off = which == kRight && source.right;
+  return find_direction(source, source_eye, is_off ? stored_direction(*source.right, label) : label);
 }
 
 Cell cell_of(const Projection& projection, Extent size, vec2 at) {

@@ -8,6 +8,9 @@
 // the circle, by the factor cos(atan(r / (C cos phi))): a reduction by a thousandth at 45 degrees, for r = 32.5 mm and
 // C = 1 m. This is ignored. Above the elevation atan(C / r) toe-in has no lines; the last ones are used instead.
 #pragma once
+#include <optional>
+
+#include "ods/camera/eye_correction.h"
 #include "ods/picture/stored_picture.h"
 
 namespace ods {
@@ -17,6 +20,7 @@ struct Source {
   Camera camera;             // the camera that took it, with its centre at 0
   bool other_above = false;  // the picture continues over this pole in the other eye's: it has no merge there
   bool other_below = false;
+  std::optional<EyeCorrection> right;  // where the right eye's picture has its lines of sight; none: in their places
 };
 
 // The picture must outlive the source and must not move. Precondition: it has eyes.
@@ -36,6 +40,11 @@ struct Cell {
   int right = 0;
   int bottom = 0;
 };
+
+// Of cells of one picture.
+inline bool same_cell(const Cell& a, const Cell& b) {
+  return a.left == b.left && a.top == b.top;
+}
 
 struct Texel {
   int source_eye = 0;  // index in StoredPicture::eyes

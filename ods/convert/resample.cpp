@@ -179,6 +179,7 @@ static ReadNumbers number_reader_of(SampleType sample) {
 // --- layers --------------------------------------------------------------------------------------------------------
 
 struct Resampler::Group {
+  const TexelReader* reader = nullptr;  // instead of all that follows but the channels
   ReadLights read_lights;
   ReadNumbers read_numbers;  // for layers that must not be averaged
   size_t layer;
@@ -191,7 +192,17 @@ struct Resampler::Group {
     const LayerPixels& from = source.picture->eyes[static_cast<size_t>(source_eye)].layers[layer];
     return {from.first + y * from.row_stride + x * from.pixel_stride + offset, from.pixel_stride, from.row_stride};
   }
+
+  void read(const Source& source, int source_eye, const Cell& box, Four* out) const {
+    if (reader != nullptr) return reader->read(source_eye, box, reinterpret_cast<float*>(out));
+    read_lights(block(source, source_eye, box.left, box.top), box.right - box.left, box.bottom - box.top, out);
+  }
 };
+
+Resampler::Resampler(const Source& source, const TexelReader& reader)
+    : source_(source), reader_(&reader), channels_(3) {
+  mixed_.push_back({&reader, nullptr, nullptr, 0, 0, 0, 3, 0});
+}
 
 Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
   const std::vector<LayerPixels>& layers = source.picture->eyes[0].layers;
@@ -202,7 +213,8 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
     const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
     for (int first = 0; first < all; first += 4) {
       const int count = std::min(all - first, 4);
-      const Group group{light_reader_of(layer.sample, count, alpha),
+      const Group group{nullptr,
+                        light_reader_of(layer.sample, count, alpha),
                         number_reader_of(layer.sample),
                         i,
                         first * static_cast<ptrdiff_t>(bytes_of(layer.sample)),
@@ -266,41 +278,62 @@ void Resampler::add(const Place& place, const Cell& cell, float weight, float* s
   }
   for (const Group& group : mixed_) {
     Four texels[16];
-    std::byte gathered[16 * sizeof(Four)];
-    const ptrdiff_t size = group.size;
-    for (int i = 0; i < 16 && !inside; i++) {
-      const Texel& t = around[i];
-      std::memcpy(gathered + i * size, group.block(source_, t.source_eye, t.x, t.y).first, static_cast<size_t>(size));
+    if (inside) {
+      group.read(source_, place.source_eye, {left, top, left + 4, top + 4}, texels);
+    } else {
+      for (int i = 0; i < 16; i++) {
+        const Texel& t = around[i];
+        group.read(source_, t.source_eye, {t.x, t.y, t.x + 1, t.y + 1}, texels + i);
+      }
     }
-    const Block block = inside ? group.block(source_, place.source_eye, left, top) : Block{gathered, size, 4 * size};
-    group.read_lights(block, 4, 4, texels);
     const Four value = mix_texels<4>(texels, 4, filter);
     for (int c = 0; c < group.count; c++) sums[group.first + c] += weight * value[c];
   }
 }
 
+static bool contains(const TexelBlock* block, int source_eye, const Cell& box) {
+  return block != nullptr && block->source_eye == source_eye && box.left >= block->box.left &&
+         box.right <= block->box.right && box.top >= block->box.top && box.bottom <= block->box.bottom;
+}
+
+// `texels` begin at the left top corner of a box of this width.
+static void mix_pixels(std::span<const TexelFilter> filters, const Four* texels, int left, int top, int width,
+                       int count, float* pixel, int stride) {
+  for (const TexelFilter& filter : filters) {
+    const Four* first = texels + (filter.down.first - top) * width + (filter.across.first - left);
+    const Four value =
+        filter.across.count == 4 ? mix_texels<4>(first, width, filter) : mix_texels<0>(first, width, filter);
+    for (int c = 0; c < count; c++) pixel[c] = value[c];
+    pixel += stride;
+  }
+}
+
 // Neighbouring pixels share most of their texels, which are read once for as many pixels as fit a small box.
-void Resampler::fill(int source_eye, std::span<const TexelFilter> filters, float* out) const {
+void Resampler::fill(int source_eye, std::span<const TexelFilter> filters, float* out, const TexelBlock* block) const {
   const int kMaxTexels = 1024;  // of one filter
   const Reach reach = reach_of(filters);
+  if (contains(block, source_eye, reach.box)) {
+    const auto* texels = reinterpret_cast<const Four*>(block->texels.data());
+    const Cell& box = block->box;
+    return mix_pixels(filters, texels, box.left, box.top, box.right - box.left, mixed_[0].count, out, channels_);
+  }
   const int left = reach.box.left, top = reach.box.top, width = reach.box.right - left, height = reach.box.bottom - top;
   if (filters.size() > 1 && width * height > std::min(reach.texels, kMaxTexels)) {
     const size_t half = filters.size() / 2;
-    fill(source_eye, filters.first(half), out);
-    return fill(source_eye, filters.subspan(half), out + half * static_cast<size_t>(channels_));
+    fill(source_eye, filters.first(half), out, block);
+    return fill(source_eye, filters.subspan(half), out + half * static_cast<size_t>(channels_), block);
   }
   Four texels[kMaxTexels];
   for (const Group& group : mixed_) {
-    group.read_lights(group.block(source_, source_eye, left, top), width, height, texels);
-    float* pixel = out + group.first;
-    for (const TexelFilter& filter : filters) {
-      const Four* first = texels + (filter.down.first - top) * width + (filter.across.first - left);
-      const Four value =
-          filter.across.count == 4 ? mix_texels<4>(first, width, filter) : mix_texels<0>(first, width, filter);
-      for (int c = 0; c < group.count; c++) pixel[c] = value[c];
-      pixel += channels_;
-    }
+    group.read(source_, source_eye, reach.box, texels);
+    mix_pixels(filters, texels, left, top, width, group.count, out + group.first, channels_);
   }
+}
+
+void Resampler::read(TexelBlock& block) const {
+  const Cell& box = block.box;
+  block.texels.resize(4 * static_cast<size_t>(box.right - box.left) * static_cast<size_t>(box.bottom - box.top));
+  reader_->read(block.source_eye, box, block.texels.data());
 }
 
 void Resampler::copy(int source_eye, int y, std::span<float> out) const {
@@ -312,7 +345,7 @@ void Resampler::copy(int source_eye, int y, std::span<float> out) const {
     float* pixel = &out[static_cast<size_t>(group.first)];
     for (int x = 0; x < width; x += kAtOnce) {
       const int count = std::min(kAtOnce, width - x);
-      group.read_lights(group.block(source_, source_eye, x, y), count, 1, texels);
+      group.read(source_, source_eye, {x, y, x + count, y + 1}, texels);
       for (int i = 0; i < count; i++, pixel += stride) {
         for (int c = 0; c < group.count; c++) pixel[c] = texels[i][c];
       }
@@ -339,7 +372,7 @@ bool PixelRun::add(const std::optional<TexelTents>& tents, std::span<const vec2>
 }
 
 void PixelRun::fill() {
-  if (waiting_ > 0) resampler_.fill(source_eye_, {filters_, waiting_}, first_);
+  if (waiting_ > 0) resampler_.fill(source_eye_, {filters_, waiting_}, first_, block_);
   waiting_ = 0;
 }
 

@@ -11,9 +11,28 @@
 
 namespace ods {
 
+// A picture whose texels are made when they are read: its colour alone, linear light.
+class TexelReader {
+ public:
+  virtual ~TexelReader() = default;
+  // Writes R, G, B and a number that does not matter for every texel of the box, row by row. May be called
+  // concurrently. Precondition: the box is in the picture.
+  virtual void read(int source_eye, const Cell& box, float* out) const = 0;
+};
+
+// Texels that are read once for many pixels.
+struct TexelBlock {
+  int source_eye = 0;
+  Cell box;
+  std::vector<float> texels;  // four numbers each
+};
+
 // Reads all layers at once; their channels are consecutive.
 class Resampler {
  public:
+  // The picture of `source` gives only the format.
+  Resampler(const Source& source, const TexelReader& reader);
+
   // adds_alpha: adds one channel after the colour's, for a target that sees more than the picture does.
   // Precondition: every eye of the picture has the same layers; adds_alpha: its colour has no alpha.
   explicit Resampler(const Source& source, bool adds_alpha = false);
@@ -28,8 +47,11 @@ class Resampler {
   bool has_all(std::span<const TexelFilter> filters, const Cell& cell) const;
 
   // Sets adjacent pixels to the filtered picture, each with its own filter; `out` is the first pixel. Skips the same
-  // layers. Precondition: has_all() is true.
-  void fill(int source_eye, std::span<const TexelFilter> filters, float* out) const;
+  // layers. Takes texels from the block if it has them; it may be null. Precondition: has_all() is true.
+  void fill(int source_eye, std::span<const TexelFilter> filters, float* out, const TexelBlock* block = nullptr) const;
+
+  // Fills a block for its box. Precondition: made with a TexelReader.
+  void read(TexelBlock& block) const;
 
   // Copies a row of the picture to a row of pixels.
   void copy(int source_eye, int y, std::span<float> out) const;
@@ -45,6 +67,7 @@ class Resampler {
   void set_rest(const Place& place, float* out) const;
 
   const Source& source_;
+  const TexelReader* reader_ = nullptr;
   std::vector<Group> mixed_;
   std::vector<Group> nearest_;
   int channels_ = 0;
@@ -55,8 +78,8 @@ class Resampler {
 // Pixels of a row that are filled together, because neighbours share texels.
 class PixelRun {
  public:
-  PixelRun(const Resampler& resampler, int source_eye, const Cell& cell)
-      : resampler_(resampler), source_eye_(source_eye), cell_(cell) {}
+  PixelRun(const Resampler& resampler, int source_eye, const Cell& cell, const TexelBlock* block = nullptr)
+      : resampler_(resampler), source_eye_(source_eye), cell_(cell), block_(block) {}
 
   // Queues the pixels after the last one, at most kMaxAlike. False: some of their texels are outside the cell, or
   // `tents` is empty; then nothing is queued.
@@ -69,6 +92,7 @@ class PixelRun {
   const Resampler& resampler_;
   int source_eye_;
   Cell cell_;
+  const TexelBlock* block_;
   TexelFilter filters_[32];
   size_t waiting_ = 0;
   float* first_ = nullptr;  // of the queued pixels

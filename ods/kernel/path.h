@@ -15,11 +15,11 @@
 // gathers light in two ways, by a ray towards a sampled light and by a scattered ray that happens to hit one, weighted
 // by the power heuristic (Veach 1997).
 //
-// A catcher (Instance::catcher) is invisible except for the shadows cast on it. If the first surface of a path is a
-// catcher, the path carries no radiance: it continues straight towards a light, whose direction is sampled as for a
-// white Lambert surface. It records how much of that light arrives with the whole scene present (light_with), and how
-// much would arrive if only catchers and emitters were present (light_without). Anything else in between blocks the
-// light completely, even glass. The sums over a pixel's paths give
+// A catcher (an Instance of the role kCatcher) is invisible except for the shadows cast on it. If the first surface of
+// a path is a catcher, the path carries no radiance: it continues straight towards a light, whose direction is sampled
+// as for a white Lambert surface. It records how much of that light arrives with the whole scene present (light_with),
+// and how much would arrive if only catchers and emitters were present (light_without). Anything else in between blocks
+// the light completely, even glass. The sums over a pixel's paths give
 //
 //   alpha = 1 - light_with / light_without
 //
@@ -321,9 +321,8 @@ struct PathTracer : MediumReader {
   // them apart. But some normal, as bare sky is what has none.
   inline void note_first_hit(Surface surface, float t, bool fades) {
     path.depth = path.travelled + t;
-    path.normal = 0.01f * surface.normal;
+    path.normal = fades ? 0.01f * surface.normal : surface.normal;
     if (fades) return;
-    path.normal = surface.normal;
     path.albedo = surface.layered ? albedo_of_layers(surface, path.ray.direction) : surface.base_color;
   }
 
@@ -368,7 +367,8 @@ struct PathTracer : MediumReader {
       path.light_without = luminance(path.shadow_light);
       path.light_with = path.blocked ? 0.0f : path.light_without;
     }
-    path.alive = !arrived && scene_instance(hit.instance).catcher != 1 && scene_instance(hit.instance).first_light < 0;
+    path.alive =
+        !arrived && scene_instance(hit.instance).role != kCatcher && scene_instance(hit.instance).first_light < 0;
     if (!path.alive) return;
     path.blocked = true;
     vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * path.shadow_length;
@@ -405,7 +405,7 @@ struct PathTracer : MediumReader {
       pass_through(surface, hit.t);
       return;
     }
-    if (path.bounce == 0 && scene_instance(hit.instance).catcher == 1) {
+    if (path.bounce == 0 && scene_instance(hit.instance).role == kCatcher) {
       path.depth = path.travelled + hit.t;
       catch_shadows(surface, settings, medium);
       return;
@@ -431,7 +431,8 @@ struct PathTracer : MediumReader {
         surface.emission =
             surface.emission * emission_below_coat(scene_material(material_index), corners_of(hit), cosine);
       }
-      if (path.bounce == 0 && scene_instance(hit.instance).catcher == 3) surface.emission = dimmed(surface.emission);
+      if (path.bounce == 0 && scene_instance(hit.instance).role == kDimmedLamp)
+        surface.emission = dimmed(surface.emission);
       meet_light(settings, surface.emission, hit_light_pdf(hit, path.ray.direction, distance));
     }
     // The wall of a volume inside a denser volume.
@@ -441,7 +442,7 @@ struct PathTracer : MediumReader {
       return;
     }
 
-    if (path.bounce == 0) note_first_hit(surface, hit.t, scene_instance(hit.instance).catcher == 2);
+    if (path.bounce == 0) note_first_hit(surface, hit.t, scene_instance(hit.instance).role == kFadingGround);
     if (unlit) {
       add_light(path.throughput * surface.base_color, path.throughput * surface.base_color);
       path.alive = false;

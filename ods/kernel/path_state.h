@@ -70,7 +70,7 @@ const int kMaxPassed = 1024;
 // enough for what it hits, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
 const float kBroadPdf = 2.0f;
 
-// The camera sees a supplied lamp (Instance::catcher 3) no brighter than this luminance: near display white at the
+// The camera sees a kDimmedLamp no brighter than this luminance: near display white at the
 // exposure of a room that it lights.
 const float kSeenLamp = 0.6f;
 

@@ -28,6 +28,12 @@ struct Mesh {
   int motion;  // for a mesh that deforms while the shutter is open: its first row of MotionVertex; else -1
 };
 
+// What the camera makes of an instance that it sees. In reflections and to light all are ordinary.
+const int kOrdinary = 0;
+const int kCatcher = 1;       // invisible except for the shadows that others cast on it (ods/kernel/path.h)
+const int kFadingGround = 2;  // as the background, it has no albedo in layers and hardly a normal
+const int kDimmedLamp = 3;    // is seen no brighter than kSeenLamp
+
 // A mesh placed in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
 struct Instance {
   vec4 row0;
@@ -36,8 +42,7 @@ struct Instance {
   int mesh;
   int first_light;  // index of the light of its first triangle, -1 if the mesh does not emit; set by make_lights()
   int motion;       // for an instance that moves while the shutter is open: its first MotionPose; else -1
-  int catcher;  // 1: invisible except for shadows cast on it by non-catchers (ods/kernel/path.h); 2: a ground that, as the
-                // background, has no albedo in layers and hardly a normal; 3: a lamp that the camera sees dimmed
+  int role;         // what the camera makes of it: kOrdinary, ...
 };
 
 // The transform of an instance, and a vertex of a mesh that deforms, at each of the shutter's keys: evenly spaced times

@@ -3,25 +3,72 @@
 //
 // The checks of lint(), each in its own file. Each adds to the report its findings, and what it could not judge.
 #pragma once
+#include "ods/disparity/alignment.h"
 #include "ods/image/image_file.h"
 #include "ods/lint/lint.h"
 #include "ods/picture/metadata/sidecar.h"
-#include "ods/picture/metadata/stereo_format.h"
+#include "ods/picture/stored_picture.h"
 
 namespace ods {
 
 struct Subject {
   std::string path;
-  FileInfo info;  // of the left file of a pair
+  bool is_video = false;  // a frame of it
+  FileInfo info;          // of the left file of a pair
   StereoFormat format;
-  std::vector<Image> eyes;  // luminance, scene-linear, 1 channel, as stored
-  Image packed;             // the whole file, if it can be cut in other ways
+  std::vector<Image> eyes;   // luminance, scene-linear, 1 channel, as stored
+  std::vector<Image> small;  // scene-linear colour, 3 channels, averaged to at most kSmallWidth columns
+  Image packed;              // luminance of the whole file, if it can be cut in other ways
   std::optional<Sidecar> sidecar;
   std::optional<Camera> camera;  // if the file or its sidecar states how the eyes converge
+
+  // Of eyes that are large enough; else empty. Views are at most 256, 512 and 1024 wide, coarse to fine.
+  std::vector<std::vector<GrayView>> scales;  // of each eye
+  // Of two eyes that can be compared.
+  Alignment alignment;
+  EyeCorrection correction;      // what of the alignment is significant: the right views have it already
+  std::vector<Matches> matches;  // of each scale
 
   Layout layout() const { return format.layout.layout.value_or(Layout::kSeparate); }
   const ProjectionSetting& projection() const { return format.camera.projection; }
 };
+
+constexpr int kSmallWidth = 1024;
+
+// Opens a file. Throws as lint().
+Subject load_subject(const std::string& path, const LintOptions& options);
+
+// The colours of Subject::small. The file has its eyes in this layout; kSeparate: a file, or an image, for each.
+std::vector<Image> small_colors(const StoredPicture& picture, Layout layout);
+
+// Judges a picture whose eyes are loaded.
+LintReport lint_subject(Subject subject);
+
+// Puts the surest findings first, and checks into the order of kChecks.
+void sort_report(LintReport& report);
+
+// Fills the views. Then, of two eyes, the alignment and what follows from it.
+void make_views(Subject& subject);
+void align(Subject& subject);
+
+// The terms that matter and are no noise; nothing if one of them is unsure.
+EyeCorrection significant_correction(const Alignment& alignment);
+
+// The fraction of the horizon that a view covers.
+double seen_around(const GrayView& view);
+
+// A command that corrects the file: "ods convert IN -o corrected.png --right-pitch 3.5", ready to be run.
+std::string convert_command(const Subject& subject, const std::string& options);
+
+// A difference between the eyes: its size and standard error, and from how many places it was measured.
+struct Difference {
+  double size = 0.0;  // >= 0
+  double error = 0.0;
+  size_t places = 0;
+};
+
+// How certain it is that the difference matters: below `harmless` nobody notices it, above `painful` everybody does.
+double certainty_of(const Difference& difference, double harmless, double painful);
 
 // Every check calls one of them for each Check that it is responsible for.
 void judge(LintReport& report, Check check);
@@ -36,6 +83,12 @@ bool check_layout(const Subject& subject, LintReport& report);
 void check_parallax(const Subject& subject, LintReport& report);
 void check_poles(const Subject& subject, LintReport& report);
 void check_seam(const Subject& subject, LintReport& report);
+void check_alignment(const Subject& subject, LintReport& report);  // height, pitch, roll and size of one eye
+void check_colors(const Subject& subject, LintReport& report);     // of one eye against the other
+void check_sharpness(const Subject& subject, LintReport& report);  // likewise
+void check_horizon(const Subject& subject, LintReport& report);
+void check_dead_poles(const Subject& subject, LintReport& report);
+void check_codes(const Subject& subject, LintReport& report);     // highlights, banding
 void check_shape(const Subject& subject, LintReport& report);     // aspect, video levels
 void check_metadata(const Subject& subject, LintReport& report);  // except the layout, which check_layout() measures
 

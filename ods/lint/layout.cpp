@@ -25,10 +25,12 @@ struct Cut {
   double lopsided = 0.0;  // how much of the parallax has one sign, 0..1
 };
 
-Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes) {
+Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes,
+            const EyeCorrection& correction = {}) {
   Cut cut;
   cut.layout = layout;
-  const std::vector<GrayView> views = make_gray_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
+  std::vector<GrayView> views = make_gray_views(eyes, subject.projection(), subject.info.is_float, kCoarse);
+  if (moves_pixels(correction)) views[1] = corrected_view(views[1], correction);
   Search search;
   search.correlation = 0.7f;
   search.down = subject.format.camera.head_tilt_map ? search.around : 0.04f;
@@ -106,7 +108,7 @@ static bool check_one_eye(const Subject& subject, LintReport& report) {
 bool check_layout(const Subject& subject, LintReport& report) {
   if (subject.eyes.size() == 1) return check_one_eye(subject, report);
   const Layout layout = subject.layout();
-  const Cut read = try_cut(subject, layout, subject.eyes);
+  const Cut read = try_cut(subject, layout, subject.eyes, subject.correction);
   if (read.matches.tiles < kEnoughTiles) {
     skip(report, Check::kLayout, "not enough detail");
     return true;

@@ -6,12 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
-#include "ods/base/error.h"
 #include "ods/lint/checks.h"
-#include "ods/picture/load_eyes.h"
 
 namespace ods {
 
@@ -23,47 +20,17 @@ void skip(LintReport& report, Check check, const std::string& reason) {
   report.not_judged.push_back({check, reason});
 }
 
+double certainty_of(const Difference& difference, double harmless, double painful) {
+  const double size = difference.size, places = static_cast<double>(difference.places);
+  const double matters = std::clamp((size - harmless) / (painful - harmless), 0.0, 1.0);
+  const double sure = size * size / (size * size + 16.0 * difference.error * difference.error);
+  return matters > 0.0 ? matters * sure * places / (places + 10.0) : 0.0;
+}
+
 bool has_finding(const LintReport& report, Severity severity, double certainty) {
   return std::any_of(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
     return severity_of(finding.fault) <= severity && finding.certainty >= certainty;
   });
-}
-
-// --- the subject ---------------------------------------------------------------------------------------------------
-
-// Cuts packed eyes here, so that the file can be cut in other ways too.
-static void load(Subject& subject, const LintOptions& options) {
-  const std::string& path = subject.path;
-  subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
-  OpenOptions open;
-  open.format.layout = options.layout;
-  open.format.projection = options.projection;
-  open.color_only = true;
-  subject.format = find_format(subject.info, path, open.format);
-  if (names_eye(path) || subject.format.is_photo || subject.layout() == Layout::kMultiview) {
-    subject.eyes = grey_eyes(open_picture(path, open));
-    return;
-  }
-  const Extent size{subject.info.width, subject.info.height};
-  if (!unpacked_size(subject.layout(), size)) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
-                                               path, size.width, size.height, layout_name(subject.layout())));
-  }
-  open.format.layout = Layout::kSeparate;
-  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
-  subject.packed = grey_eyes(open_picture(path, open))[0];
-  subject.eyes = unpack(subject.layout(), subject.packed);
-}
-
-static void load_sidecar(Subject& subject) {
-  const std::string path = sidecar_path(subject.path);
-  std::vector<std::string> warnings;
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) subject.sidecar = load_sidecar(path, warnings);
-}
-
-static void find_camera(Subject& subject) {
-  if (subject.format.has_camera) subject.camera = make_camera(subject.format.camera);
 }
 
 static void describe(const Subject& subject, LintReport& report) {
@@ -88,9 +55,26 @@ static void describe(const Subject& subject, LintReport& report) {
 constexpr double kMinAround = 256.0;  // pixels of an eye per 360 degrees
 constexpr int kMinHeight = 32;
 
+static bool is_small(const Subject& subject) {
+  const Image& eye = subject.eyes[0];
+  const double around = 2.0 * std::numbers::pi * pixels_per_radian(subject.projection(), eye.width);
+  return around < kMinAround || eye.height < kMinHeight;
+}
+
+// Whether both eyes are large enough, and show what parallax can be told from.
+static bool is_comparable(const Subject& subject) {
+  return subject.eyes.size() == 2 && !is_small(subject) && !subject.format.camera.head_tilt_map;
+}
+
 static void check_pixels(const Subject& subject, LintReport& report) {
   check_seam(subject, report);
-  if (report.eye_count < 2 || subject.format.camera.head_tilt_map) return;
+  check_horizon(subject, report);
+  check_dead_poles(subject, report);
+  check_codes(subject, report);
+  if (!is_comparable(subject)) return;
+  check_alignment(subject, report);
+  check_colors(subject, report);
+  check_sharpness(subject, report);
   check_parallax(subject, report);
   check_poles(subject, report);
 }
@@ -105,24 +89,24 @@ static void skip_the_rest(LintReport& report, const std::string& reason) {
   for (const Check check : kChecks) {
     if (!is_done(check)) skip(report, check, reason);
   }
-  const auto order = [](const NotJudged& a, const NotJudged& b) { return a.check < b.check; };
-  std::sort(report.judged.begin(), report.judged.end());
-  std::stable_sort(report.not_judged.begin(), report.not_judged.end(), order);
 }
 
-LintReport lint(const std::string& path, const LintOptions& options) {
-  Subject subject;
+void sort_report(LintReport& report) {
+  std::stable_sort(report.findings.begin(), report.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.certainty > b.certainty; });
+  std::sort(report.judged.begin(), report.judged.end());
+  std::stable_sort(report.not_judged.begin(), report.not_judged.end(),
+                   [](const NotJudged& a, const NotJudged& b) { return a.check < b.check; });
+}
+
+LintReport lint_subject(Subject subject) {
   LintReport report;
-  subject.path = path;
-  load(subject, options);
-  load_sidecar(subject);
-  find_camera(subject);
   describe(subject, report);
-  const double around = 2.0 * std::numbers::pi * pixels_per_radian(subject.projection(), report.eye.width);
-  const bool small = around < kMinAround || report.eye.height < kMinHeight;
+  if (!is_small(subject)) make_views(subject);
+  if (is_comparable(subject)) align(subject);
   std::string reason = "there is only one eye";
-  if (report.eye_count > 1) skip(report, Check::kBetweenEyes, "ods lint does not measure them yet");
   if (subject.format.camera.head_tilt_map) reason = "its head-tilt map turns the parallax";
+  const bool small = is_small(subject);
   if (small) reason = fmt::format("an eye of {}x{} pixels is too small", report.eye.width, report.eye.height);
   if (small || check_layout(subject, report)) {
     check_metadata(subject, report);
@@ -131,10 +115,16 @@ LintReport lint(const std::string& path, const LintOptions& options) {
   } else {
     reason = "the layout must be right first";
   }
+  for (const Check check : kChecks) {
+    if (is_of_time(check)) skip(report, check, "one picture has no time");
+  }
   skip_the_rest(report, reason);
-  std::stable_sort(report.findings.begin(), report.findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.certainty > b.certainty; });
+  sort_report(report);
   return report;
+}
+
+LintReport lint(const std::string& path, const LintOptions& options) {
+  return lint_subject(load_subject(path, options));
 }
 
 }  // namespace ods

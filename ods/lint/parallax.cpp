@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/base/median.h"
 #include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
 
@@ -109,12 +110,6 @@ double growth_downwards(const Parallaxes& parallaxes) {
   return depths > 0.0 && angles > 0.0 ? both / std::sqrt(depths * angles) : 0.0;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 // Toed-in rays meet on a sphere: towards the poles they rotate about ever smaller circles.
@@ -206,10 +201,11 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
 
 // --- the signs -----------------------------------------------------------------------------------------------------
 
+constexpr double kConclusive = 0.3;  // of the share of one sign
+
 static void check_swap(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
-  if (upright > -0.1) return;
   const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
-  double certainty = -upright * enough;
+  double certainty = std::max(0.0, -upright * enough);
   std::string evidence = fmt::format("the left eye sees {:.0f} % of {} places farther left than the right eye does",
                                      50.0 - 50.0 * upright, parallaxes.all.size());
   if (!subject.camera) {
@@ -219,6 +215,14 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
     certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
     evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
+  if (std::abs(upright) * enough < kConclusive) {
+    skip(report, Check::kEyeOrder, "too little parallax of one sign");
+  } else if (upright < 0.0 && certainty < 0.5) {
+    skip(report, Check::kEyeOrder, "its parallax is that of swapped eyes, or of eyes that converge close by");
+  } else {
+    judge(report, Check::kEyeOrder);
+  }
+  if (upright > -0.1) return;
   const EyeArrangement eyes = arrangement_of(subject.layout());
   const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
   const char* cure = stacked && !eyes.squeezed
@@ -246,25 +250,11 @@ static void check_waves(const Parallaxes& parallaxes, double upright, LintReport
       "the renderer turns its eyes against its rays: negate one coordinate of the eye's place there, and render again");
 }
 
-// The fraction of the horizon that the picture covers.
-static double seen_around(const GrayView& view) {
-  const float* row = view.at(0, view.height / 2);
-  return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;
-}
-
 void check_parallax(const Subject& subject, LintReport& report) {
   Parallaxes parallaxes;
-  std::vector<Matches> scales;
-  double around = 0.0;
-  for (int width : {256, 512, 1024}) {
-    const std::vector<GrayView> views =
-        make_gray_views(subject.eyes, subject.projection(), subject.info.is_float, width);
-    scales.push_back(match_tiles(views[0], views[1], {}));
-    add_matches(parallaxes, scales.back(), subject);
-    around = seen_around(views[0]);
-    if (views[0].width < width) break;
-  }
-  if (check_twice(subject, scales, report)) {
+  for (const Matches& matches : subject.matches) add_matches(parallaxes, matches, subject);
+  const double around = seen_around(subject.scales.back()[0]);
+  if (check_twice(subject, subject.matches, report)) {
     for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "both eyes see the same picture");
     return;
   }
@@ -274,7 +264,6 @@ void check_parallax(const Subject& subject, LintReport& report) {
     for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "not enough detail with parallax");
     return;
   }
-  judge(report, Check::kEyeOrder);
   check_swap(subject, parallaxes, upright, report);
   if (around < 0.8) {
     skip(report, Check::kCircle, "the picture does not go all around");

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/base/median.h"
 #include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
 
@@ -36,15 +37,13 @@ Band measure(const Subject& subject, const Matches& matches, bool top, double fr
                    std::cos(phi) / kDegree);
   }
   if (arcs.empty()) return {};
-  const auto middle = arcs.begin() + static_cast<ptrdiff_t>(arcs.size() / 2);
-  std::nth_element(arcs.begin(), middle, arcs.end());
-  return {std::abs(*middle), static_cast<int>(arcs.size())};
+  return {std::abs(median(arcs)), static_cast<int>(arcs.size())};
 }
 
 }  // namespace
 
 void check_poles(const Subject& subject, LintReport& report) {
-  const std::vector<GrayView> views = make_gray_views(subject.eyes, subject.projection(), subject.info.is_float, 512);
+  const std::vector<GrayView>& views = subject.scales[1];
   Search search;
   search.rows = std::max(4, views[0].height / 36);
   search.columns = std::max(4, views[0].width / 30);

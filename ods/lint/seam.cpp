@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where a whole turn closes. A step from one column to the next counts by how much it exceeds the steps on either side
-// of it, so that neither slopes nor soft edges count; the step at the seam is compared with all others.
+// of it, so that neither slopes nor soft edges count; the step at the seam is compared with many others. Columns that
+// are missing show as such a step; columns that the picture repeats are found by matching them.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "ods/base/median.h"
 #include "ods/image/tone.h"
 #include "ods/lint/checks.h"
 
@@ -15,86 +18,108 @@ namespace ods {
 
 namespace {
 
-constexpr int kBlocks = 32;  // of rows
-constexpr size_t kWide = 2;  // columns that are averaged on either side, against noise
+constexpr int kBlocks = 128;          // of rows, each averaged
+constexpr double kNoise = 0.003;      // as displayed: breaks below are no structure
+constexpr double kSharpest = 8.0;     // a break counts no more
+constexpr size_t kWidths[] = {2, 6};  // columns that are averaged on either side, against noise and texture
+constexpr double kStructure = 0.1;    // sharpness of columns where there is something that could break
 
 using Columns = std::vector<double>;
 
-// The mean of some rows, for each column around the picture, as a display shows them.
-Columns mean_row(const Image& eye, int from, int to) {
-  Columns mean(static_cast<size_t>(eye.width));
-  for (int y = from; y < to; y++) {
-    for (int x = 0; x < eye.width; x++) {
-      const float light = *eye.at(x, y);
-      const float shown = std::isnan(light) ? 0.0f : srgb_encode(std::clamp(light, 0.0f, 1.0f));
-      mean[static_cast<size_t>(x)] += static_cast<double>(shown) / (to - from);
+// Means of some rows of an eye each, as displays show them; all columns are kept.
+Image squeezed(const Image& eye) {
+  Image rows(eye.width, kBlocks, 1);
+  tbb::parallel_for(0, kBlocks, [&](int i) {
+    const int from = eye.height * i / kBlocks, to = eye.height * (i + 1) / kBlocks;
+    for (int y = from; y < to; y++) {
+      for (int x = 0; x < eye.width; x++) {
+        const float light = *eye.at(x, y);
+        const float shown = std::isnan(light) ? 0.0f : srgb_encode(std::clamp(light, 0.0f, 1.0f));
+        *rows.at(x, i) += shown / static_cast<float>(to - from);
+      }
     }
-  }
-  return mean;
+  });
+  return rows;
 }
 
-// For each column, the step from it to the next columns, minus half the sum of the steps before and after.
-Columns breaks_of(const Columns& row) {
+Columns row_of(const Image& rows, int y) {
+  return {rows.at(0, y), rows.at(0, y) + rows.width};
+}
+
+// For each column, the step from it to the next columns, minus half the sum of the steps before and after; of means of
+// `wide` columns.
+Columns breaks_of(const Columns& row, size_t wide) {
   const size_t n = row.size();
   Columns mean(n), breaks(n);
   for (size_t x = 0; x < n; x++) {
-    for (size_t i = 0; i < kWide; i++) mean[x] += row[(x + i) % n] / static_cast<double>(kWide);
+    for (size_t i = 0; i < wide; i++) mean[x] += row[(x + i) % n] / static_cast<double>(wide);
   }
   for (size_t x = 0; x < n; x++) {
     const auto at = [&](size_t forward, size_t back) { return mean[(x + 1 + forward + n - back) % n]; };
-    const double before = at(0, 2 * kWide), here = at(0, kWide), next = at(0, 0), after = at(kWide, 0);
+    const double before = at(0, 2 * wide), here = at(0, wide), next = at(0, 0), after = at(wide, 0);
     breaks[x] = std::abs((next - here) - 0.5 * ((here - before) + (after - next)));
   }
   return breaks;
 }
 
-// The rank of each value among all, 0..1.
-Columns ranks_of(const Columns& values) {
-  Columns sorted = values;
-  std::sort(sorted.begin(), sorted.end());
-  Columns ranks;
-  for (double value : values) {
-    const auto [low, high] = std::equal_range(sorted.begin(), sorted.end(), value);
-    ranks.push_back(0.5 * static_cast<double>((low - sorted.begin()) + (high - sorted.begin())) /
-                    static_cast<double>(sorted.size()));
-  }
-  return ranks;
+// The columns that a seam is compared with: JPEG's blocks end there, too.
+constexpr size_t kBlock = 8;
+
+// The breaks after those columns, over what is usual in their row. The last is the seam.
+Columns sharpness_of(const Columns& row, size_t wide) {
+  const Columns breaks = breaks_of(row, wide);
+  Columns some;
+  for (size_t x = row.size() % kBlock + kBlock - 1; x < row.size(); x += kBlock) some.push_back(breaks[x]);
+  const double usual = median(some);
+  for (double& each : some) each = std::min(each / (usual + kNoise), kSharpest);
+  return some;
 }
 
-// The rank of each column's break among all columns, 0..1. Rows of all heights have equal weight, and so have both
-// eyes: a vertical edge of the scene is sharp in some rows, and at another column in each eye; a broken seam is sharp
-// in all.
-Columns measure(const std::vector<Image>& eyes) {
-  Columns score(static_cast<size_t>(eyes[0].width));
-  for (const Image& eye : eyes) {
-    for (int i = 0; i < kBlocks; i++) {
-      const Columns row = mean_row(eye, eye.height * i / kBlocks, eye.height * (i + 1) / kBlocks);
-      const Columns ranks = ranks_of(breaks_of(row));
-      for (size_t x = 0; x < score.size(); x++) score[x] += ranks[x] / (kBlocks * static_cast<double>(eyes.size()));
+// How sharply each of those columns breaks in all rows and in both eyes: a vertical edge of the scene is sharp in some
+// rows, and at another column in each eye.
+Columns measure(const std::vector<Image>& eyes, size_t wide) {
+  Columns score;
+  for (int i = 0; i < kBlocks; i++) {
+    Columns both = sharpness_of(row_of(eyes[0], i), wide);
+    for (const Image& eye : eyes) {
+      const Columns one = sharpness_of(row_of(eye, i), wide);
+      for (size_t x = 0; x < both.size(); x++) both[x] = std::min(both[x], one[x]);
     }
+    score.resize(both.size());
+    for (size_t x = 0; x < both.size(); x++) score[x] += both[x] / kBlocks;
   }
   return score;
 }
 
-void check_break(const std::vector<Image>& eyes, LintReport& report) {
-  const Columns score = measure(eyes);
-  const double seam = score.back();
-  const double most = *std::max_element(score.begin() + 2 * kWide, score.end() - 1 - 2 * kWide);
-  const double certainty = std::clamp(0.3 + 10.0 * (seam - most), 0.0, 1.0) * std::clamp(5.0 * (seam - 0.5), 0.0, 1.0);
-  if (certainty < 0.1) return;
-  report.findings.push_back(
-      {Fault::kRaggedSeam, certainty,
-       fmt::format("from the last column to the first, rows break more sharply than at {:.0f} % of all columns, at the "
-                   "worst of the others than at {:.0f} %",
-                   100.0 * seam, 100.0 * most),
-       "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
+// Returns false if there is nothing near the seam that could break.
+bool check_break(const std::vector<Image>& eyes, LintReport& report) {
+  double seam = 0.0, most = 1.0, ratio = 0.0;
+  bool has_structure = false;
+  for (const size_t wide : kWidths) {
+    const Columns score = measure(eyes, wide);
+    const size_t n = score.size();
+    const double others = std::max(1.0, *std::max_element(score.begin(), score.end() - 1));
+    for (const size_t near : {size_t{0}, size_t{1}, n - 3, n - 2}) has_structure |= score[near] > kStructure;
+    if (score.back() <= ratio * others) continue;
+    seam = score.back(), most = others, ratio = seam / others;
+  }
+  const double certainty = std::clamp((ratio - 1.05) / 0.3, 0.0, 1.0) * std::clamp(seam / 0.8, 0.0, 1.0);
+  if (certainty >= 0.1) {
+    report.findings.push_back(
+        {Fault::kRaggedSeam, certainty,
+         fmt::format("from the last column to the first, rows break {:.1f} times as sharply as usual, at the worst of "
+                     "{} other columns {:.1f} times",
+                     seam, eyes[0].width / static_cast<int>(kBlock) - 1, most),
+         "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
+  }
+  return has_structure || certainty >= 0.5;
 }
 
 // Edges at 0 and at 360 degrees are the same direction; if both are rendered, every turn of the head shows it twice.
 void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
   std::vector<double> steps(static_cast<size_t>(eyes[0].width));
   for (int i = 0; i < kBlocks; i++) {
-    const Columns row = mean_row(eyes[0], eyes[0].height * i / kBlocks, eyes[0].height * (i + 1) / kBlocks);
+    const Columns row = row_of(eyes[0], i);
     for (size_t x = 0; x < row.size(); x++) steps[x] += std::abs(row[(x + 1) % row.size()] - row[x]) / kBlocks;
   }
   const double seam = steps.back(), least = *std::min_element(steps.begin(), steps.end() - 1);
@@ -107,6 +132,57 @@ void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
        "leave out the last column, and render the directions of the pixels' middles"});
 }
 
+// --- a repeated strip ------------------------------------------------------------------------------------------------
+
+// How alike the strips of `width` columns are that begin at two columns: their normalised cross-correlation, each row
+// without its mean. Without detail: 0.
+double likeness(const std::vector<Image>& eyes, int one, int other, int width) {
+  double product = 0.0, square = 0.0, square_other = 0.0;
+  for (int k = 0; k < kBlocks * static_cast<int>(eyes.size()); k++) {
+    const Image& rows = eyes[static_cast<size_t>(k / kBlocks)];
+    const int y = k % kBlocks;
+    double mean = 0.0, mean_other = 0.0;
+    for (int i = 0; i < width; i++) {
+      mean += static_cast<double>(*rows.at((one + i) % rows.width, y)) / width;
+      mean_other += static_cast<double>(*rows.at((other + i) % rows.width, y)) / width;
+    }
+    for (int i = 0; i < width; i++) {
+      const double a = static_cast<double>(*rows.at((one + i) % rows.width, y)) - mean;
+      const double b = static_cast<double>(*rows.at((other + i) % rows.width, y)) - mean_other;
+      product += a * b, square += a * a, square_other += b * b;
+    }
+  }
+  const double least = 1e-5 * kBlocks * width;
+  return square > least && square_other > least ? product / std::sqrt(square * square_other) : 0.0;
+}
+
+// The last columns show what the first ones do, as where a stitcher's overlap was left in. The same distance elsewhere
+// in the picture tells how alike neighbours are anyway.
+void check_overlap(const std::vector<Image>& eyes, LintReport& report) {
+  const int width = eyes[0].width, least = std::max(4, width / 200), most = width * 15 / 100;
+  int overlap = 0;
+  double best = 0.0;
+  for (int s = least; s <= most; s++) {
+    const double alike = likeness(eyes, width - s, 0, std::min(s, width / 16));
+    if (alike > best) best = alike, overlap = s;
+  }
+  if (best < 0.5) return;
+  double elsewhere = 0.0;
+  for (int i = 1; i < kBlocks; i++) {
+    const int column = width * i / kBlocks;
+    elsewhere =
+        std::max(elsewhere, likeness(eyes, (column + width - overlap) % width, column, std::min(overlap, width / 16)));
+  }
+  const double certainty = std::clamp((best - 0.7) / 0.15, 0.0, 1.0) * std::clamp((best - elsewhere) / 0.2, 0.0, 1.0);
+  if (certainty < 0.1) return;
+  report.findings.push_back(
+      {Fault::kRaggedSeam, certainty,
+       fmt::format("the last {} columns ({:.1f} %) show what the first ones do: they correlate by {:.2f}, as far apart "
+                   "elsewhere by at most {:.2f}",
+                   overlap, 100.0 * overlap / width, best, elsewhere),
+       fmt::format("cut {} columns off every eye's right side and stretch it to its old width", overlap)});
+}
+
 }  // namespace
 
 void check_seam(const Subject& subject, LintReport& report) {
@@ -116,9 +192,15 @@ void check_seam(const Subject& subject, LintReport& report) {
     skip(report, Check::kSeam, "this projection has none");
     return;
   }
-  judge(report, Check::kSeam);
-  check_break(subject.eyes, report);
-  check_doubled(subject.eyes, report);
+  std::vector<Image> eyes;
+  for (const Image& eye : subject.eyes) eyes.push_back(squeezed(eye));
+  if (check_break(eyes, report)) {
+    judge(report, Check::kSeam);
+  } else {
+    skip(report, Check::kSeam, "nothing is there that could break");
+  }
+  check_doubled(eyes, report);
+  check_overlap(eyes, report);
 }
 
 }  // namespace ods

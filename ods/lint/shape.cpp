@@ -4,6 +4,7 @@
 // Checks a picture's size without its pixels.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ods/camera/codec_level.h"
@@ -48,8 +49,32 @@ static void check_video(LintReport& report) {
                              "as a still it is fine; videos of 5760x5760 or less play (ods sizes lists the levels)"});
 }
 
+// Where WebGL's MAX_TEXTURE_SIZE is smallest (ods/camera/sizes.h).
+constexpr int kTexture = 8192;
+
+static void check_headsets(LintReport& report) {
+  judge(report, Check::kHeadsets);
+  const auto [width, height] = report.file;
+  const auto add = [&](const std::string& evidence, const std::string& cure) {
+    report.findings.push_back({Fault::kHeadsetSize, 1.0, evidence, cure});
+  };
+  if (std::max(width, height) > kTexture) {
+    add(fmt::format("{}x{} is larger than the textures of {} pixels that every browser in a headset has: it is shown "
+                    "smaller, or not at all",
+                    width, height, kTexture),
+        fmt::format(
+            "ods convert --width {} for headsets (ods sizes lists what they take)",
+            std::min(kTexture, static_cast<int>(int64_t{kTexture} * report.eye.width / std::max(width, height)))));
+  }
+  if (width % 2 != 0 || height % 2 != 0) {
+    add(fmt::format("{}x{} has an odd side: no video that headsets play can have it", width, height),
+        "give it even sides");
+  }
+}
+
 void check_shape(const Subject& subject, LintReport& report) {
   check_aspect(subject, report);
+  check_headsets(report);
   check_video(report);
 }
 

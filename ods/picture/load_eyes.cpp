@@ -13,25 +13,57 @@
 
 namespace ods {
 
-// Decodes the first three channels of a layer to linear light and passes each pixel to `put`.
-template <class Put>
-static void read_pixels(const LayerPixels& layer, Extent size, bool is_float, Put put) {
-  const size_t step = bytes_of(layer.sample);
-  const int largest = layer.sample == SampleType::kUint8 ? 255 : 65535;
-  const std::vector<float> light = is_float ? std::vector<float>() : linear_from_encoded(largest);
-  tbb::parallel_for(0, size.height, [&](int y) {
-    const std::byte* in = layer.first + y * layer.row_stride;
-    for (int x = 0; x < size.width; x++, in += layer.pixel_stride) {
+namespace {
+
+// Decodes the first three channels of a layer to linear light.
+class ColorReader {
+ public:
+  ColorReader(const LayerPixels& layer, Extent size, bool is_float)
+      : layer_(layer), width_(size.width), is_float_(is_float) {
+    if (!is_float) light_ = linear_from_encoded(layer.sample == SampleType::kUint8 ? 255 : 65535);
+  }
+
+  // Passes each pixel of a row to `put`.
+  template <class Put>
+  void read(int y, Put put) const {
+    const size_t step = bytes_of(layer_.sample);
+    const std::byte* in = layer_.first + y * layer_.row_stride;
+    for (int x = 0; x < width_; x++, in += layer_.pixel_stride) {
       vec3 rgb;
       for (int c = 0; c < 3; c++) {
         const std::byte* at = in + static_cast<size_t>(c) * step;
         uint16_t code = 0;
-        if (!is_float) std::memcpy(&code, at, step);
-        rgb[c] = is_float ? sample_value(layer.sample, at) : light[code];
+        if (!is_float_) std::memcpy(&code, at, step);
+        rgb[c] = is_float_ ? sample_value(layer_.sample, at) : light_[code];
       }
-      put(x, y, rgb);
+      put(x, rgb);
     }
-  });
+  }
+
+ private:
+  const LayerPixels& layer_;
+  int width_;
+  bool is_float_;
+  std::vector<float> light_;
+};
+
+}  // namespace
+
+// Passes each pixel of a layer to `put`, from several threads.
+template <class Put>
+static void read_pixels(const LayerPixels& layer, Extent size, bool is_float, Put put) {
+  const ColorReader reader(layer, size, is_float);
+  tbb::parallel_for(0, size.height, [&](int y) { reader.read(y, [&](int x, vec3 rgb) { put(x, y, rgb); }); });
+}
+
+void read_colors(const StoredPicture& picture, size_t eye,
+                 const std::function<void(int y, const std::vector<float>& row)>& put) {
+  const ColorReader reader(picture.eyes[eye].layers[0], picture.size, picture.is_float);
+  std::vector<float> row(3 * static_cast<size_t>(picture.size.width));
+  for (int y = 0; y < picture.size.height; y++) {
+    reader.read(y, [&](int x, vec3 rgb) { std::copy_n(&rgb.x, 3, &row[3 * static_cast<size_t>(x)]); });
+    put(y, row);
+  }
 }
 
 static Image linear_image(const LayerPixels& layer, Extent size, bool is_float) {

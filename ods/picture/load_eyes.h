@@ -3,6 +3,7 @@
 //
 // Reads any picture file into one image per eye: the inverse of save.h.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ struct LoadedEyes {
 // A path with %V or %v names two files. If `layout` is given, it is not guessed; kSeparate without %V reads the file as
 // one eye. Squeezed eyes remain squeezed; alpha is dropped. Throws as open_picture() does.
 LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout = {});
+
+// Passes the rows of an eye to `put`, from the top: red, green and blue of each pixel in linear light; NaN and infinity
+// are kept. eye: index in StoredPicture::eyes.
+void read_colors(const StoredPicture& picture, size_t eye,
+                 const std::function<void(int y, const std::vector<float>& row)>& put);
 
 // The luminance of a picture's eyes: 1 channel, linear; NaN and infinity are kept.
 std::vector<Image> grey_eyes(const StoredPicture& picture);

@@ -58,15 +58,16 @@ std::optional<Part> parse_part(const std::string& text);
 std::string part_text(const Part& part);
 
 struct RenderOptions {
-  int width = 2048;         // of one eye
-  int height = 0;           // 0: natural_height() of the camera's projection
-  int samples = 64;         // the most that a pixel gets, 1 .. kMaxSamples
-  float noise = 0.0f;       // blocks of pixels stop when they are as clean as this, in Cycles' measure; 0: none stops
-  double time_limit = 0.0;  // seconds after which no further samples begin; 0: no limit
-  Part part;                // of the samples; needs noise 0 and no time limit
-  bool even_noise = true;   // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
-  int bounces = 8;          // a path has up to bounces + 1 segments
-  float clamp = 0.0f;       // the most that a path's light brings which has met two surfaces or more; 0: any
+  int width = 2048;    // of one eye
+  int height = 0;      // 0: natural_height() of the camera's projection
+  int samples = 64;    // the most that a pixel gets, 1 .. kMaxSamples
+  float noise = 0.0f;  // blocks of pixels stop when they are as clean as this, in Cycles' measure; 0: none stops
+  float noise_exposure = 0.0f;  // stops: noise is judged in the picture as it is shown with this exposure
+  double time_limit = 0.0;      // seconds after which no further samples begin; 0: no limit
+  Part part;                    // of the samples; needs noise 0 and no time limit
+  bool even_noise = true;  // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
+  int bounces = 8;         // a path has up to bounces + 1 segments
+  float clamp = 0.0f;      // the most that a path's light brings which has met two surfaces or more; 0: any
   Eyes eyes = Eyes::kBothEyes;
   bool share_paths = true;  // light that a path of one eye finds goes to both, where both see the first surface
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide

@@ -58,20 +58,22 @@ int samples_of(const SamplingPlan& plan, size_t block, int samples) {
 
 // Cycles' measure: the differences between all samples and half of them have the size of the mean's standard deviation.
 // Dark pixels are judged by the square root of their light, as eyes do.
-static double pixel_noise(const EyeSamples& eye, size_t pixel) {
+static double pixel_noise(const EyeSamples& eye, size_t pixel, double gain) {
   const vec3 variance = variance_of_mean(eye, pixel);
   const double deviation =
       std::sqrt(double{variance.x}) + std::sqrt(double{variance.y}) + std::sqrt(double{variance.z});
   const double count = std::max(eye.count[pixel], 1u);
   double light = 0.0;
   for (size_t c = 0; c < 3; c++) light += static_cast<double>(eye.light[3 * pixel + c]) / (kLightUnit * count);
-  return deviation / (1e-4 + (light < 1.0 ? std::sqrt(std::max(light, 0.0)) : light));
+  light *= gain;
+  return deviation * gain / (1e-4 + (light < 1.0 ? std::sqrt(std::max(light, 0.0)) : light));
 }
 
 // The mean square of the noise of one class of a block's pixels, in both eyes, as if all pixels had the same size on
 // the sphere. A class that has stopped counts as if it had gone on: its own noise stays, and the other class would take
 // samples for ever.
-static double block_noise(const PictureSamples& samples, const SamplingPlan& plan, size_t block, int wanted) {
+static double block_noise(const PictureSamples& samples, const SamplingPlan& plan, double gain, size_t block,
+                          int wanted) {
   const int x0 = static_cast<int>(block) % plan.columns * kBlockSize;
   const int y0 = static_cast<int>(block) / plan.columns * kBlockSize;
   const double now = samples_of(plan, block, samples.done);
@@ -82,7 +84,7 @@ static double block_noise(const PictureSamples& samples, const SamplingPlan& pla
       for (int x = x0; x < std::min(x0 + kBlockSize, samples.width); x++) {
         if (class_of(x, y) != wanted) continue;
         const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(samples.width) + static_cast<size_t>(x);
-        const double noise = pixel_noise(eye, pixel);
+        const double noise = pixel_noise(eye, pixel, gain);
         sum += noise * noise * eye.count[pixel] / now;
         pixels++;
       }
@@ -93,11 +95,12 @@ static double block_noise(const PictureSamples& samples, const SamplingPlan& pla
 
 double judge_noise(const SamplingPlan& plan, const RenderOptions& options, PictureSamples& samples) {
   const double clean = std::pow(5.0 * static_cast<double>(options.noise), 2.0);  // 5: as Cycles scales its threshold
+  const double gain = std::exp2(double{options.noise_exposure});
   std::vector<double> excess(plan.share.size());
   tbb::parallel_for(size_t{0}, samples.noisy.size(), [&](size_t block) {
     for (int one : {0, 1}) {
       if (!(samples.noisy[block] >> one & 1)) continue;
-      const double noise = block_noise(samples, plan, block, 1 - one) / clean;
+      const double noise = block_noise(samples, plan, gain, block, 1 - one) / clean;
       if (noise <= 1.0) samples.noisy[block] = static_cast<uint8_t>(samples.noisy[block] & ~(1 << one));
       excess[block] += 0.5 * std::max(noise - 1.0, 0.0);
     }

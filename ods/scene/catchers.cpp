@@ -15,19 +15,19 @@ bool make_catchers(Scene& scene, const std::string& name) {
   bool found = false;
   for (const NamedObject& object : scene.objects) {
     if (object.name != name) continue;
-    for (size_t i = 0; i < object.count; i++) scene.instances[object.first_instance + i].catcher = 1;
+    for (size_t i = 0; i < object.count; i++) scene.instances[object.first_instance + i].role = kCatcher;
     found = true;
   }
   for (Instance& instance : scene.instances) {
     if (name.empty() || material_name(scene, instance) != name) continue;
-    instance.catcher = 1;
+    instance.role = kCatcher;
     found = true;
   }
   return found;
 }
 
 bool has_catchers(const Scene& scene) {
-  const auto is_one = [](const Instance& instance) { return instance.catcher == 1; };
+  const auto is_one = [](const Instance& instance) { return instance.role == kCatcher; };
   return std::any_of(scene.instances.begin(), scene.instances.end(), is_one);
 }
 

@@ -111,7 +111,7 @@ void add_instance(Scene& scene, int mesh, const glm::mat4& object_to_world) {
   instance.mesh = mesh;
   instance.first_light = -1;
   instance.motion = -1;
-  instance.catcher = 0;
+  instance.role = kOrdinary;
   scene.instances.push_back(instance);
 }
 

@@ -41,7 +41,7 @@ Panorama panorama_around(const SceneRays& rays, vec3 eye) {
   view.sizes.resize(rays.scene().instances.size());
   for (int i = 0; i < kColumns; i++) {
     for (int row = 0; row < kRows; row++) {
-      const vec3 way = direction_of(glm::radians(kStep * static_cast<float>(i)), glm::radians(elevation_of(row)));
+      const vec3 way = direction_at(kStep * static_cast<float>(i), elevation_of(row));
       const Sight sight = rays.look(eye, way);
       view.columns[static_cast<size_t>(i)][static_cast<size_t>(row)] = sight;
       if (sight.leaves()) continue;

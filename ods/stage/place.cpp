@@ -14,11 +14,6 @@ namespace ods {
 
 namespace {
 
-// In degrees.
-vec3 toward(float yaw, float elevation) {
-  return direction_of(glm::radians(yaw), glm::radians(elevation));
-}
-
 Viewing before_object(const SceneRays& rays, const Survey& survey, float unit) {
   const Bounds& core = survey.core;
   const vec3 size = core.high - core.low;
@@ -28,10 +23,9 @@ Viewing before_object(const SceneRays& rays, const Survey& survey, float unit) {
   const float to_see = distance_to_see(rays.scene(), core);
   const float distance = std::max(to_see, 0.5f * to_see + 1.02f * kElbowRoom / unit);  // its radius is at most the half
   const float above = std::min(0.15f * size.y, 0.15f / unit);
-  for (const float turn : {0.0f, 30.0f, -30.0f, 60.0f, -60.0f, 90.0f, -90.0f, 135.0f, -135.0f, 180.0f}) {
-    const float yaw = turn;
-    const vec3 eye = viewing.middle - toward(yaw, 0.0f) * distance + vec3(0.0f, above, 0.0f);
-    if (turn == 0.0f) viewing.view.position = eye;  // if something is in the way everywhere
+  for (const float yaw : {0.0f, 30.0f, -30.0f, 60.0f, -60.0f, 90.0f, -90.0f, 135.0f, -135.0f, 180.0f}) {
+    const vec3 eye = viewing.middle - direction_at(yaw, 0.0f) * distance + vec3(0.0f, above, 0.0f);
+    if (yaw == 0.0f) viewing.view.position = eye;  // if something is in the way everywhere
     if (free_radius(rays, eye) * unit < kElbowRoom) continue;
     viewing.view.position = eye;
     viewing.view.yaw = yaw;

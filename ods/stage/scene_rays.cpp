@@ -57,6 +57,10 @@ bool SceneRays::is_open(vec3 from, vec3 direction) const {
 
 // Source of the spiral: Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-longitude lattices",
 // Mathematical Geosciences 42 (2010).
+vec3 direction_at(float yaw, float elevation) {
+  return direction_of(glm::radians(yaw), glm::radians(elevation));
+}
+
 std::vector<vec3> sphere_directions(int count) {
   std::vector<vec3> directions;
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));

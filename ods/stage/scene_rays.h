@@ -52,6 +52,9 @@ class SceneRays {
   PathTracer tracer_;
 };
 
+// The unit vector at angles in degrees: yaw from -Z towards +X, elevation from the horizon towards +Y.
+vec3 direction_at(float yaw, float elevation);
+
 // Directions spread evenly over the sphere.
 std::vector<vec3> sphere_directions(int count);
 

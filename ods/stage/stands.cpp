@@ -19,11 +19,6 @@ constexpr int kAzimuths = 16;
 constexpr float kLevel = 0.7071f;                                      // the least upward part of a floor's normal
 constexpr float kElevations[] = {-20.0f, -10.0f, 5.0f, 20.0f, 40.0f};  // degrees, of what is seen from a stand
 
-// In degrees.
-vec3 direction_at(float azimuth, float elevation) {
-  return direction_of(glm::radians(azimuth), glm::radians(elevation));
-}
-
 constexpr float kWithinSolid = 1e-3f;  // such a stand is worth less than any other
 
 struct View {

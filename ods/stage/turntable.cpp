@@ -72,7 +72,7 @@ void put_on_table(Scene& scene, int table, const dvec3& middle) {
   }
   for (size_t i = 0; i < scene.instances.size() - scene.supplied; i++) {
     const Instance& instance = scene.instances[i];
-    if (moves[i] || instance.catcher != 0 || is_hidden(scene, i)) continue;
+    if (moves[i] || instance.role != kOrdinary || is_hidden(scene, i)) continue;
     const Bounds box = mesh_bounds(scene, scene.meshes[static_cast<size_t>(instance.mesh)]);
     animation.instances.push_back(
         {static_cast<int>(i), table, -1, moved_by(-middle) * matrix_of(instance), box.low, box.high});

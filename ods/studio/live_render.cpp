@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
@@ -46,8 +47,14 @@ struct Canvas {
   StereoCamera camera;
   RenderOptions options;
   PictureSamples samples;
-  Picture picture;  // as denoised
+  std::shared_ptr<const Picture> picture;  // as denoised; null: not yet
   bool is_patch = false;
+};
+
+// What can be picked from.
+struct Seen {
+  StereoCamera camera;
+  std::shared_ptr<const Picture> picture;
 };
 
 Canvas make_canvas(const StereoCamera& camera, bool is_patch, Extent size) {
@@ -114,6 +121,27 @@ bool shows(const StereoCamera& patch, const LiveView& view) {
          window.high <= latitude.y;
 }
 
+// What an eye sees at a position of its picture. whole: the camera in whose pictures LivePick has its places.
+std::optional<LivePick> pick_at(const Seen& seen, const Camera& camera, int eye, vec2 uv, const Camera& whole) {
+  const Image& depth = seen.picture->eyes[static_cast<size_t>(eye)].depth;
+  const int x = std::clamp(static_cast<int>(uv.x * float(depth.width)), 0, depth.width - 1);
+  const int y = std::clamp(static_cast<int>(uv.y * float(depth.height)), 0, depth.height - 1);
+  LivePick pick;
+  pick.distance = depth.pixels[static_cast<size_t>(y) * static_cast<size_t>(depth.width) + static_cast<size_t>(x)];
+  if (pick.distance >= kFarDepth) return {};
+  const Ray ray = camera_ray(camera, eye, (vec2(x, y) + 0.5f) / vec2(depth.width, depth.height));
+  pick.point = ray.origin + ray.direction * pick.distance;
+  vec3 toward[2];
+  for (const int each : {kLeft, kRight}) {
+    const ImagePosition position = project_point(whole, each, pick.point);
+    toward[each] = normalize(pick.point - position.origin);
+    if (position.seen) pick.places[each] = position.uv;
+  }
+  const float chord = 0.5f * length(toward[0] - toward[1]);
+  pick.disparity = glm::degrees(2.0f * std::asin(std::min(chord, 1.0f))) * 60.0f;
+  return pick;
+}
+
 }  // namespace
 
 StereoCamera patch_camera(StereoCamera camera, const LiveView& view) {
@@ -151,7 +179,7 @@ struct LiveRender::State {
   mutable Clock::time_point asked = Clock::now();  // when somebody last waited for one
   int last_number = 0;
   std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
-  std::shared_ptr<const Canvas> shown[2];      // likewise, without samples
+  Seen seen[2];                                // likewise
   std::string fault;
 
   // The thread's own.
@@ -189,7 +217,7 @@ bool LiveRender::State::refine(Canvas& canvas, int samples, int mine) {
     renderer.sample({&canvas.camera, 1}, canvas.options, canvas.samples, progress);
     Picture picture = develop(canvas.samples, canvas.options);
     denoise(picture, canvas.camera, {}, progress);
-    canvas.picture = std::move(picture);
+    canvas.picture = std::make_shared<const Picture>(std::move(picture));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kCancelled) throw;
     canvas.samples = no_samples(canvas.options);
@@ -204,19 +232,15 @@ void LiveRender::State::publish(const Canvas& canvas, int mine, bool is_last) {
   frame->is_patch = canvas.is_patch;
   frame->camera = canvas.camera;
   frame->eye = {canvas.options.width, canvas.options.height};
-  frame->pixels = display(canvas.picture, rendered.exposure, rendered.tone);
+  frame->pixels = display(*canvas.picture, rendered.exposure, rendered.tone);
   frame->samples = canvas.options.samples;
   frame->is_last = is_last;
-  auto kept = std::make_shared<Canvas>();
-  kept->camera = canvas.camera;
-  kept->options = canvas.options;
-  kept->picture = canvas.picture;
   const std::lock_guard<std::mutex> lock(mutex);
   if (revision != mine) return;
   frame->number = ++last_number;
   frame->seconds = std::chrono::duration<double>(Clock::now() - since).count();
   frames[canvas.is_patch] = frame;
-  shown[canvas.is_patch] = kept;
+  seen[canvas.is_patch] = {canvas.camera, canvas.picture};
   changed.notify_all();
 }
 
@@ -232,8 +256,8 @@ void LiveRender::State::begin(int mine, const LiveSettings& now) {
     const std::lock_guard<std::mutex> lock(mutex);
     for (auto& frame : frames) frame = nullptr;
   }
-  if (base && !base->picture.eyes.empty()) publish(*base, mine, false);
-  if (patch && !patch->picture.eyes.empty()) publish(*patch, mine, next == std::size(kSteps));
+  if (base && base->picture) publish(*base, mine, false);
+  if (patch && patch->picture) publish(*patch, mine, next == std::size(kSteps));
   if (now.time != scene_time) renderer.update(set_time(scene, scene_time = now.time));
 }
 
@@ -353,36 +377,16 @@ std::string LiveRender::fault() const {
 }
 
 std::optional<LivePick> LiveRender::pick(int eye, vec3 direction) const {
-  std::shared_ptr<const Canvas> canvases[2];
+  std::array<Seen, 2> seen;  // the base, the patch
   {
     const std::lock_guard<std::mutex> lock(state_->mutex);
-    canvases[0] = state_->shown[1], canvases[1] = state_->shown[0];
+    std::ranges::copy(state_->seen, seen.begin());
   }
-  for (const auto& canvas : canvases) {
-    if (!canvas) continue;
-    const Camera camera = make_camera(canvas->camera);
+  for (const Seen& each : {seen[1], seen[0]}) {
+    if (!each.picture) continue;
+    const Camera camera = make_camera(each.camera);
     const ImagePoint place = place_of_line(camera, eye, direction);
-    if (!place.seen) continue;
-    const int width = canvas->options.width, height = canvas->options.height;
-    const int x = std::clamp(static_cast<int>(place.uv.x * float(width)), 0, width - 1);
-    const int y = std::clamp(static_cast<int>(place.uv.y * float(height)), 0, height - 1);
-    const std::vector<EyeImage>& eyes = canvas->picture.eyes;
-    const Image& depth = eyes[std::min(static_cast<size_t>(eye), eyes.size() - 1)].depth;
-    LivePick pick;
-    pick.distance = depth.pixels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
-    if (pick.distance >= kFarDepth) return {};
-    const Ray ray = camera_ray(camera, eye, (vec2(x, y) + 0.5f) / vec2(width, height));
-    pick.point = ray.origin + ray.direction * pick.distance;
-    const Camera whole = canvases[1] ? make_camera(canvases[1]->camera) : camera;
-    vec3 toward[2];
-    for (const int each : {kLeft, kRight}) {
-      const ImagePosition position = project_point(whole, each, pick.point);
-      toward[each] = normalize(pick.point - position.origin);
-      if (position.seen) pick.places[each] = position.uv;
-    }
-    const float chord = 0.5f * length(toward[0] - toward[1]);
-    pick.disparity = glm::degrees(2.0f * std::asin(std::min(chord, 1.0f))) * 60.0f;
-    return pick;
+    if (place.seen) return pick_at(each, camera, eye, place.uv, make_camera(seen[0].camera));
   }
   return {};
 }

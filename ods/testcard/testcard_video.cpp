@@ -3,17 +3,14 @@
 #include "ods/testcard/testcard_video.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
-#include "ods/base/error.h"
-#include "ods/base/memory.h"
-#include "ods/base/pipeline.h"
 #include "ods/compose/over_video.h"
+#include "ods/video/write_video.h"
 
 namespace ods {
 
@@ -136,46 +133,22 @@ std::string testcard_sound(int frames, double fps) {
 
 // --- the video -------------------------------------------------------------------------------------------------------
 
-static void encode_frames(const TestcardVideo& video, int frames, VideoEncoder& encoder, const Progress& progress) {
-  struct Work {
-    int number = 0;
-    std::shared_ptr<VideoFrame> frame;
-  };
-  int next = 0, done = 0;
-  const auto number = [&](Work& work) {
-    work.number = next++;
-    return work.number < frames;
-  };
-  const auto draw = [&](Work& work) {
-    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    work.frame = testcard_frame(video, work.number);
-  };
-  const auto encode = [&](const Work& work) {
-    encoder.add(work.frame);
-    done++;
-    if (progress.report) progress.report(static_cast<double>(done) / frames);
-  };
-  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-  const size_t at_once = std::clamp<size_t>(available_memory() / 8 / video.still->bytes(), 1, threads + 1);
-  run_pipeline<Work>(at_once, number, draw, encode);
-}
-
 void write_testcard_video(const TestcardVideo& video, const VideoPlan& plan, int frames, EncodeOptions options,
                           const std::string& path, const Progress& progress) {
-  AtomicFile untagged(path), sound(path + ".wav");
+  AtomicFile sound(path + ".wav");
   if (options.sound.empty()) {
     const std::string wav = testcard_sound(frames, video.rate.value());
     std::fwrite(wav.data(), 1, wav.size(), sound.stream());
     sound.finish();
     options.sound = sound.temporary();  // removed when no longer needed
   }
-  VideoEncoder encoder(untagged, *container_of_path(path), plan.size, options);
-  encode_frames(video, frames, encoder, progress);
-  encoder.finish();
-  const VideoFile made = read_video_file(untagged.temporary());
-  SphericalMetadata metadata = plan.metadata;
-  metadata.for_apple = options.for_apple;
-  tag_video(untagged.temporary(), path, choose_track(made, {}, path).id, metadata);
+  int next = 0;
+  const auto pending = [&]() -> std::optional<PendingFrame> {
+    if (next == frames) return std::nullopt;
+    const int number = next++;
+    return PendingFrame{{number, 1}, [&video, number] { return testcard_frame(video, number); }};
+  };
+  write_video({plan.size, options, plan.metadata, {}, frames, 3 * video.still->bytes()}, pending, path, progress);
 }
 
 }  // namespace ods

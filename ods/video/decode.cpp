@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "ods/base/error.h"
 #include "ods/video/av.h"
@@ -13,6 +16,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/display.h>
+#include <libavutil/frame.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -39,21 +43,42 @@ static std::optional<VideoCodec> codec_of(AVCodecID id) {
   }
 }
 
-static const uint8_t* display_matrix(const AVStream& stream) {
+// Bytes of this kind that the container says of the stream; empty: none.
+static std::string side_data(const AVStream& stream, AVPacketSideDataType kind) {
 #if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(60, 31, 102)
-  const AVPacketSideData* data = av_packet_side_data_get(
-      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
-  return data == nullptr ? nullptr : data->data;
+  const AVPacketSideData* data =
+      av_packet_side_data_get(stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, kind);
+  return data == nullptr ? "" : std::string(reinterpret_cast<const char*>(data->data), data->size);
 #else
-  return av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  size_t size = 0;
+  const uint8_t* data = av_stream_get_side_data(&stream, kind, &size);
+  return data == nullptr ? "" : std::string(reinterpret_cast<const char*>(data), size);
 #endif
 }
 
-static bool is_turned(const AVStream& stream) {
-  const uint8_t* matrix = display_matrix(stream);
-  if (matrix == nullptr) return false;
-  const double angle = av_display_rotation_get(reinterpret_cast<const int32_t*>(matrix));
-  return std::isfinite(angle) && std::abs(angle) > 0.5;
+// Likewise of a picture.
+static std::string side_data(const AVFrame& frame, AVFrameSideDataType kind) {
+  const AVFrameSideData* data = av_frame_get_side_data(&frame, kind);
+  return data == nullptr ? "" : std::string(reinterpret_cast<const char*>(data->data), data->size);
+}
+
+namespace {
+
+// How the picture is to be turned before it is shown.
+enum class Turn { kNone, kHalf, kOther };
+
+}  // namespace
+
+static Turn turn_of(const AVStream& stream) {
+  const std::string bytes = side_data(stream, AV_PKT_DATA_DISPLAYMATRIX);
+  int32_t matrix[9];
+  if (bytes.size() != sizeof matrix) return Turn::kNone;
+  std::memcpy(matrix, bytes.data(), sizeof matrix);
+  const double angle = std::abs(av_display_rotation_get(matrix));
+  const bool is_mirrored = 1.0 * matrix[0] * matrix[4] - 1.0 * matrix[1] * matrix[3] < 0.0;
+  if (!std::isfinite(angle)) return Turn::kNone;
+  if (is_mirrored) return Turn::kOther;
+  return angle < 0.5 ? Turn::kNone : angle > 179.5 ? Turn::kHalf : Turn::kOther;
 }
 
 // Reads the pixel format. Returns why it is unsupported; empty if it is supported.
@@ -74,26 +99,57 @@ static std::string read_format(AVPixelFormat format, VideoStream& stream) {
   return "";
 }
 
-static std::string read_color(const AVCodecParameters& stream, ColorCode& color) {
-  const AVColorTransferCharacteristic curve = stream.color_trc;
-  if (curve == AVCOL_TRC_SMPTE2084 || curve == AVCOL_TRC_ARIB_STD_B67) {
-    return fmt::format("it is HDR ({}); ods supports BT.709", av_color_transfer_name(curve));
-  }
-  const AVColorSpace space = stream.color_space;
-  const bool old = space == AVCOL_SPC_SMPTE170M || space == AVCOL_SPC_BT470BG || space == AVCOL_SPC_FCC;
-  if (space != AVCOL_SPC_UNSPECIFIED && space != AVCOL_SPC_BT709 && !old) {
-    return fmt::format("its colour matrix is {}; ods supports BT.709 and BT.601", av_color_space_name(space));
-  }
+static std::string read_color(const AVCodecParameters& facts, VideoStream& stream) {
+  AVColorSpace space = facts.color_space;
   // Players choose an unspecified matrix by the size.
-  color.is_601 = old || (space == AVCOL_SPC_UNSPECIFIED && stream.height < 720);
-  color.has_full_range = stream.color_range == AVCOL_RANGE_JPEG || stream.format == AV_PIX_FMT_YUVJ420P ||
-                         stream.format == AV_PIX_FMT_YUVJ422P || stream.format == AV_PIX_FMT_YUVJ444P;
+  if (space == AVCOL_SPC_UNSPECIFIED) space = facts.height < 720 ? AVCOL_SPC_SMPTE170M : AVCOL_SPC_BT709;
+  const bool is_601 = space == AVCOL_SPC_SMPTE170M || space == AVCOL_SPC_BT470BG || space == AVCOL_SPC_FCC;
+  if (space != AVCOL_SPC_BT709 && space != AVCOL_SPC_BT2020_NCL && !is_601) {
+    return fmt::format("its colour matrix is {}; ods supports BT.709, BT.601 and BT.2020", av_color_space_name(space));
+  }
+  stream.color.matrix = is_601 ? YcbcrMatrix::k601 : space == AVCOL_SPC_BT709 ? YcbcrMatrix::k709 : YcbcrMatrix::k2020;
+  stream.color.has_full_range = facts.color_range == AVCOL_RANGE_JPEG || facts.format == AV_PIX_FMT_YUVJ420P ||
+                                facts.format == AV_PIX_FMT_YUVJ422P || facts.format == AV_PIX_FMT_YUVJ444P;
+  stream.words.matrix = space;
+  if (facts.color_primaries != AVCOL_PRI_UNSPECIFIED) stream.words.primaries = facts.color_primaries;
+  if (facts.color_trc != AVCOL_TRC_UNSPECIFIED) stream.words.transfer = facts.color_trc;
+  if (facts.chroma_location != AVCHROMA_LOC_UNSPECIFIED) stream.words.chroma_place = facts.chroma_location;
   return "";
 }
 
 static AVRational rate_of(const AVStream& stream) {
   const AVRational rate = stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate;
   return rate.num > 0 && rate.den > 0 && av_q2d(rate) >= 0.1 && av_q2d(rate) <= 1000.0 ? rate : AVRational{0, 1};
+}
+
+// --- upside down -----------------------------------------------------------------------------------------------------
+
+template <typename T>
+static void turn_row(const uint8_t* from, int width, bool is_between, uint8_t* to) {
+  const T* in = reinterpret_cast<const T*>(from);
+  T* out = reinterpret_cast<T*>(to);
+  std::reverse_copy(in, in + width, out);
+  if (!is_between) return;
+  for (int x = width - 1; x > 0; x--) out[x] = static_cast<T>((out[x - 1] + out[x] + 1) / 2);
+}
+
+// Chroma that is sited at the left one of two pixels would be at the right one: it is interpolated.
+static Owned<AVFrame> upright(const AVFrame& from) {
+  const AVPixFmtDescriptor& format = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(from.format));
+  Owned<AVFrame> to(made(av_frame_alloc()));
+  to->width = from.width, to->height = from.height, to->format = from.format;
+  checked(av_frame_get_buffer(to.get(), 0), ErrorKind::kMemory, "cannot turn a picture");
+  for (int i = 0; i < format.nb_components; i++) {
+    const bool is_chroma = i == 1 || i == 2;
+    const int width = is_chroma ? from.width >> format.log2_chroma_w : from.width;
+    const int height = is_chroma ? from.height >> format.log2_chroma_h : from.height;
+    const auto turn = format.comp[0].depth > 8 ? turn_row<uint16_t> : turn_row<uint8_t>;
+    for (int y = 0; y < height; y++) {
+      turn(from.data[i] + y * from.linesize[i], width, is_chroma && format.log2_chroma_w > 0,
+           to->data[i] + (height - 1 - y) * to->linesize[i]);
+    }
+  }
+  return to;
 }
 
 // --- decoding --------------------------------------------------------------------------------------------------------
@@ -105,6 +161,9 @@ struct VideoDecoder::State {
   const AVStream* source = nullptr;
   Owned<AVCodecContext> decoder;
   int64_t count = 0;  // frames so far
+  FrameTime last;     // of the frame before
+  std::shared_ptr<AVFrame> waiting;
+  bool has_skipped = false;
 
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, why));
@@ -134,16 +193,22 @@ struct VideoDecoder::State {
     const AVRational rate = rate_of(*source);
     if (rate.num == 0) fail("it does not state its frame rate");
     stream.rate = {rate.num, rate.den};
-    if (is_turned(*source))
+    const Turn turn = turn_of(*source);
+    if (turn == Turn::kOther)
       fail("its pictures are stored rotated; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them upright");
+    stream.is_turned = turn == Turn::kHalf;
     std::string fault = read_format(static_cast<AVPixelFormat>(facts.format), stream);
-    if (fault.empty()) fault = read_color(facts, stream.color);
+    if (fault.empty()) fault = read_color(facts, stream);
     if (!fault.empty()) fail(fault);
     const Extent block = chroma_block(stream.chroma);
     if (stream.size.width < block.width || stream.size.height < block.height || stream.size.width % block.width != 0 ||
         stream.size.height % block.height != 0) {
       fail(fmt::format("{}x{} pixels with chroma {}: its sides are odd", stream.size.width, stream.size.height,
                        chroma_name(stream.chroma)));
+    }
+    stream.clock = {source->time_base.den, source->time_base.num};
+    if (file->start_time != AV_NOPTS_VALUE) {
+      stream.file_start = static_cast<double>(file->start_time) / AV_TIME_BASE;
     }
     if (source->start_time != AV_NOPTS_VALUE) {
       stream.start = static_cast<double>(source->start_time) * av_q2d(source->time_base);
@@ -199,15 +264,39 @@ struct VideoDecoder::State {
       fail(fmt::format("picture {} has another format than the first", count));
     }
     if (frame.decode_error_flags != 0) fail(fmt::format("picture {} is damaged", count));
-    if (frame.best_effort_timestamp == AV_NOPTS_VALUE) return;
-    const double time = static_cast<double>(frame.best_effort_timestamp) * av_q2d(source->time_base);
-    if (count == 0) stream.start = time;
-    const double due = stream.start + static_cast<double>(count) / stream.rate.value();
-    if (std::abs(time - due) * stream.rate.value() < 0.75) return;
-    fail(
-        fmt::format("its frame times are uneven: frame {} is at {:.3f} s, not {:.3f}; ffmpeg -i VIDEO -r {:.4g} "
-                    "EVEN makes them even",
-                    count, time, due, stream.rate.value()));
+  }
+
+  double ticks() const { return stream.clock.value(); }
+
+  FrameTime time_of(const AVFrame& frame) const {
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 100)
+    const int64_t duration = frame.duration;
+#else
+    const int64_t duration = frame.pkt_duration;
+#endif
+    const int64_t stamp = frame.best_effort_timestamp, usual = std::llround(ticks() / stream.rate.value());
+    FrameTime time{stamp, std::max<int64_t>(duration > 0 ? duration : usual, 1)};
+    if (stamp == AV_NOPTS_VALUE) time.start = count == 0 ? 0 : last.start + last.duration;
+    if (count > 0) time.start = std::max(time.start, last.start + 1);
+    return time;
+  }
+
+  std::shared_ptr<AVFrame> take() {
+    if (waiting) return std::exchange(waiting, nullptr);
+    std::shared_ptr<AVFrame> frame(made(av_frame_alloc()), av::Free());
+    return receive(*frame) ? frame : nullptr;
+  }
+
+  // HEVC says of its light only in its pictures.
+  void read_light() {
+    if (!stream.words.is_hdr()) return;
+    std::string &display = stream.words.mastering_display, &level = stream.words.light_level;
+    display = side_data(*source, AV_PKT_DATA_MASTERING_DISPLAY_METADATA);
+    level = side_data(*source, AV_PKT_DATA_CONTENT_LIGHT_LEVEL);
+    waiting = take();
+    if (!waiting) return;
+    if (display.empty()) display = side_data(*waiting, AV_FRAME_DATA_MASTERING_DISPLAY_METADATA);
+    if (level.empty()) level = side_data(*waiting, AV_FRAME_DATA_CONTENT_LIGHT_LEVEL);
   }
 };
 
@@ -218,6 +307,7 @@ VideoDecoder::VideoDecoder(const std::string& path, uint64_t track, int threads)
   state.find_stream(track);
   state.read_facts();
   state.open_decoder(threads);
+  state.read_light();
 }
 
 VideoDecoder::~VideoDecoder() = default;
@@ -228,11 +318,14 @@ const VideoStream& VideoDecoder::stream() const {
 
 std::optional<DecodedFrame> VideoDecoder::next() {
   State& state = *state_;
-  const std::shared_ptr<AVFrame> frame(made(av_frame_alloc()), av::Free());
-  if (!state.receive(*frame)) return std::nullopt;
+  std::shared_ptr<AVFrame> frame = state.take();
+  if (!frame) return std::nullopt;
   state.check(*frame);
-  state.count++;
   DecodedFrame result;
+  result.time = state.last = state.time_of(*frame);
+  if (state.count++ == 0 && !state.has_skipped)
+    state.stream.start = static_cast<double>(result.time.start) / state.ticks();
+  if (state.stream.is_turned) frame = upright(*frame);
   result.planes.bits = state.stream.bits;
   result.planes.chroma = state.stream.chroma;
   for (size_t i = 0; i < 3; i++) {
@@ -246,6 +339,40 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   }
   result.memory = frame;
   return result;
+}
+
+void VideoDecoder::skip_to(double seconds) {
+  State& state = *state_;
+  const double kReordered = 1.0;  // seconds: a key frame is shown at most so much later than it is decoded
+  const double kRounded = 0.5;    // ticks, by which a time may be off
+  const int64_t wanted = static_cast<int64_t>(std::ceil(seconds * state.ticks() - kRounded));
+  state.has_skipped = true;
+  const int64_t before = static_cast<int64_t>((seconds - kReordered) * state.ticks());
+  if (av_seek_frame(state.file.get(), state.source->index, before, AVSEEK_FLAG_BACKWARD) >= 0) {
+    avcodec_flush_buffers(state.decoder.get());
+    state.waiting.reset();
+  }
+  while (std::shared_ptr<AVFrame> frame = state.take()) {
+    if (state.time_of(*frame).start < wanted) continue;
+    state.waiting = std::move(frame);
+    return;
+  }
+}
+
+void refuse_other_colors(const VideoStream& stream, const std::string& path) {
+  if (!stream.words.is_hdr() && stream.color.matrix != YcbcrMatrix::k2020) return;
+  throw Error(ErrorKind::kInput,
+              fmt::format("cannot use '{}': {}; only ods convert, from video to video, supports other colours than "
+                          "BT.709's",
+                          path, stream.words.is_hdr() ? "it is HDR" : "its colours are BT.2020's"));
+}
+
+std::optional<Packing> packing_like(const VideoStream& stream, Container container) {
+  const int bits = stream.bits > 8 ? 10 : 8;
+  if (!stream.codec || !can_hold(container, *stream.codec) || !can_have(*stream.codec, bits, stream.chroma)) {
+    return std::nullopt;
+  }
+  return Packing{*stream.codec, bits, stream.chroma, {}};
 }
 
 }  // namespace ods

@@ -21,13 +21,18 @@ struct VideoStream {
   int bits = 8;                     // 8 to 16
   Chroma chroma = Chroma::k420;
   ColorCode color;
+  ColorWords words;
   bool has_alpha = false;
-  double start = 0.0;  // when the first picture is shown, in seconds
-  int count = 0;       // number of pictures, as stated or computed from the duration; 0: unknown
+  bool is_turned = false;   // stored upside down: VideoDecoder turns it upright
+  FrameRate clock;          // ticks per second of FrameTime
+  double start = 0.0;       // when the first picture is shown, in seconds
+  double file_start = 0.0;  // when the first picture or sound begins
+  int count = 0;            // number of pictures, as stated or computed from the duration; 0: unknown
 };
 
 // One decoded picture. The planes stay valid while `memory` lives.
 struct DecodedFrame {
+  FrameTime time;
   Planes planes;                     // read only
   const std::byte* alpha = nullptr;  // if VideoStream has alpha: same bit depth, full range
   size_t alpha_stride = 0;
@@ -37,7 +42,8 @@ struct DecodedFrame {
 class VideoDecoder {
  public:
   // track: as in video_file.h. threads: 0 lets the decoder choose. Throws Error(kInput): a damaged video, no decoder
-  // for it, rotated pictures, pixel formats other than planar Y'CbCr, HDR.
+  // for it, pictures stored rotated by 90 degrees, pixel formats other than planar Y'CbCr, matrices other than
+  // ColorCode's.
   VideoDecoder(const std::string& path, uint64_t track, int threads = 0);
   VideoDecoder(const VideoDecoder&) = delete;
   VideoDecoder& operator=(const VideoDecoder&) = delete;
@@ -45,13 +51,22 @@ class VideoDecoder {
 
   const VideoStream& stream() const;
 
-  // The next picture; nothing after the last. Throws Error(kInput): it is damaged, in another format than the first, or
-  // not due at its time: videos of uneven frame times would lose sync with their sound.
+  // The next picture; nothing after the last. Pictures that the file's edit list leaves out are skipped. Times ascend.
+  // Throws Error(kInput): it is damaged, or in another format than the first.
   std::optional<DecodedFrame> next();
+
+  // Makes the first picture at or after this time, in seconds of the file, the next one. Throws as next().
+  void skip_to(double seconds);
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// Throws Error(kInput) if the pictures' numbers mean other light than sRGB's: HDR, BT.2020.
+void refuse_other_colors(const VideoStream& stream, const std::string& path);
+
+// Encoder settings to match a video; nothing if that is not possible.
+std::optional<Packing> packing_like(const VideoStream& stream, Container container);
 
 }  // namespace ods

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <thread>
 
 #include "ods/base/error.h"
@@ -60,7 +61,7 @@ static AVPixelFormat pixel_format(const Packing& packing) {
 
 // Wraps our pixels for libavcodec without copying; released when the library is done with them.
 static Owned<AVFrame> wrapped(const std::shared_ptr<const VideoFrame>& frame, const AVCodecContext& context,
-                              int64_t number) {
+                              const FrameTime& time) {
   Owned<AVFrame> result(made(av_frame_alloc()));
   result->width = context.width;
   result->height = context.height;
@@ -71,7 +72,12 @@ static Owned<AVFrame> wrapped(const std::shared_ptr<const VideoFrame>& frame, co
   result->color_trc = context.color_trc;
   result->chroma_location = context.chroma_sample_location;
   result->sample_aspect_ratio = context.sample_aspect_ratio;
-  result->pts = number;
+  result->pts = time.start;
+#if LIBAVUTIL_VERSION_INT >= AV_VERSION_INT(57, 30, 100)
+  result->duration = time.duration;
+#else
+  result->pkt_duration = time.duration;
+#endif
   for (size_t i = 0; i < 3; i++) {
     result->data[i] = reinterpret_cast<uint8_t*>(frame->planes().first[i]);
     result->linesize[i] = static_cast<int>(frame->planes().stride[i]);
@@ -89,6 +95,26 @@ static Owned<AVFrame> wrapped(const std::shared_ptr<const VideoFrame>& frame, co
 static void set(AVCodecContext& context, std::string_view name, const std::string& value) {
   checked(av_opt_set(context.priv_data, std::string(name).c_str(), value.c_str(), 0), ErrorKind::kUsage,
           fmt::format("{} does not know {}={}", context.codec->name, name, value));
+}
+
+static void set_clock(AVCodecContext& context, const EncodeOptions& options) {
+  const FrameRate &rate = options.rate, clock = options.clock.value_or(rate);
+  context.time_base = {clock.seconds, clock.count};
+  context.framerate = {rate.count, rate.seconds};
+#if LIBAVCODEC_VERSION_MAJOR < 61  // libvpx and libaom take this for the duration of each picture
+  context.ticks_per_frame = std::max(1, static_cast<int>(std::lround(clock.value() / rate.value())));
+#endif
+}
+
+static void set_colors(AVCodecContext& context, const EncodeOptions& options) {
+  const ColorWords& words = options.words;
+  context.color_range = options.color.has_full_range ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+  context.color_primaries = static_cast<AVColorPrimaries>(words.primaries);
+  context.color_trc = static_cast<AVColorTransferCharacteristic>(words.transfer);
+  context.colorspace = static_cast<AVColorSpace>(words.matrix);
+  context.chroma_sample_location = options.packing.chroma == Chroma::k420
+                                       ? static_cast<AVChromaLocation>(words.chroma_place)
+                                       : AVCHROMA_LOC_UNSPECIFIED;
 }
 
 // Closed groups of about a second, so that every seek finds a key frame.
@@ -158,14 +184,8 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   context->height = size.height;
   context->pix_fmt = pixel_format(options.packing);
   context->sample_aspect_ratio = {1, 1};
-  context->time_base = {options.rate.seconds, options.rate.count};
-  context->framerate = {options.rate.count, options.rate.seconds};
-  context->color_range = AVCOL_RANGE_MPEG;
-  context->color_primaries = AVCOL_PRI_BT709;
-  context->color_trc = AVCOL_TRC_BT709;
-  context->colorspace = AVCOL_SPC_BT709;
-  context->chroma_sample_location =
-      options.packing.chroma == Chroma::k420 ? AVCHROMA_LOC_LEFT : AVCHROMA_LOC_UNSPECIFIED;
+  set_clock(*context, options);
+  set_colors(*context, options);
   context->flags |= AV_CODEC_FLAG_BITEXACT;
   if (header_apart) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   set_groups(*context, options);
@@ -185,7 +205,7 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
 static void abandon(AVCodecContext& encoder, const Packing& packing, bool is_new) {
   if (encoder.codec->name != std::string_view("libsvtav1")) return;
   const Extent size{encoder.width, encoder.height};
-  if (is_new) avcodec_send_frame(&encoder, wrapped(std::make_shared<VideoFrame>(size, packing), encoder, 0).get());
+  if (is_new) avcodec_send_frame(&encoder, wrapped(std::make_shared<VideoFrame>(size, packing), encoder, {}).get());
   avcodec_send_frame(&encoder, nullptr);
   const Owned<AVPacket> packet(made(av_packet_alloc()));
   while (avcodec_receive_packet(&encoder, packet.get()) >= 0) {
@@ -198,13 +218,29 @@ void check_encoder(Container container, const EncodeOptions& options) {
   open_sound(options, container);
 }
 
+// What an HDR video says of its light, for the container.
+static void add_light(AVStream& stream, AVPacketSideDataType kind, const std::string& bytes) {
+  if (bytes.empty()) return;
+#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(60, 31, 102)
+  AVCodecParameters& facts = *stream.codecpar;
+  const AVPacketSideData* data =
+      av_packet_side_data_new(&facts.coded_side_data, &facts.nb_coded_side_data, kind, bytes.size(), 0);
+  uint8_t* to = made(data)->data;
+#else
+  uint8_t* to = made(av_stream_new_side_data(&stream, kind, bytes.size()));
+#endif
+  std::copy(bytes.begin(), bytes.end(), to);
+}
+
 struct VideoEncoder::State {
   std::string path;  // for messages
   EncodeOptions options;
   Owned<AVFormatContext> file;
   Owned<AVCodecContext> pictures;
   std::unique_ptr<Sound> sound;
-  int64_t count = 0;  // frames so far
+  int64_t count = 0;                     // frames so far
+  FrameTime last;                        // of them
+  std::map<int64_t, int64_t> durations;  // of the frames in the encoder, by start
   bool finished = false;
 
   ~State() {
@@ -229,6 +265,8 @@ struct VideoEncoder::State {
       const int code = avcodec_receive_packet(&encoder, packet.get());
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
       checked(code, ErrorKind::kOutput, fmt::format("cannot encode '{}'", path));
+      const auto told = durations.find(packet->pts);
+      if (told != durations.end()) packet->duration = told->second, durations.erase(told);
       if (packet->duration == 0) packet->duration = 1;
       packet->stream_index = 0;
       av_packet_rescale_ts(packet.get(), encoder.time_base, file->streams[0]->time_base);
@@ -239,7 +277,8 @@ struct VideoEncoder::State {
   // Adds the sound up to the time of the pictures.
   void add_sound(bool is_end) {
     if (!sound) return;
-    const double until = static_cast<double>(count) / options.rate.value();
+    const double clock = options.clock.value_or(options.rate).value();
+    const double until = static_cast<double>(last.start + last.duration) / clock;
     while (const Owned<AVPacket> packet = sound->next(until, is_end)) {
       packet->stream_index = 1;
       av_packet_rescale_ts(packet.get(), packet->time_base, file->streams[1]->time_base);
@@ -263,6 +302,8 @@ VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent siz
   AVStream& stream = state.add_stream(*state.pictures);
   stream.avg_frame_rate = state.pictures->framerate;
   stream.sample_aspect_ratio = {1, 1};
+  add_light(stream, AV_PKT_DATA_MASTERING_DISPLAY_METADATA, options.words.mastering_display);
+  add_light(stream, AV_PKT_DATA_CONTENT_LIGHT_LEVEL, options.words.light_level);
   if (has_boxes(container) && options.packing.codec == VideoCodec::kHevc) {
     stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // the only tag that Apple plays
   }
@@ -275,9 +316,11 @@ VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent siz
 
 VideoEncoder::~VideoEncoder() = default;
 
-void VideoEncoder::add(std::shared_ptr<const VideoFrame> frame) {
+void VideoEncoder::add(std::shared_ptr<const VideoFrame> frame, const FrameTime& time) {
   State& state = *state_;
-  state.encode(wrapped(frame, *state.pictures, state.count).get());
+  state.last = time;
+  state.durations[time.start] = time.duration;
+  state.encode(wrapped(frame, *state.pictures, time).get());
   state.count++;
   state.add_sound(false);
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Encodes frames and sound into a video file, with libavcodec and libavformat. The available encoders depend on the
-// machine; SVT-AV1 prints to the console unless the environment has SVT_LOG=0. The video is tagged as limited-range
-// BT.709; tag_video() (video_file.h) adds the spherical metadata.
+// machine; SVT-AV1 prints to the console unless the environment has SVT_LOG=0. tag_video() (video_file.h) adds the
+// spherical metadata.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,12 @@ struct FrameRate {
   double value() const { return static_cast<double>(count) / seconds; }
 };
 
+// When a picture is shown, in ticks of a clock.
+struct FrameTime {
+  int64_t start = 0;
+  int64_t duration = 1;
+};
+
 // Which part of a file's sound is copied.
 struct SoundCut {
   double start = 0.0;   // the time in the file at which the video begins, in seconds
@@ -31,10 +38,13 @@ struct SoundCut {
 
 struct EncodeOptions {
   Packing packing;
-  std::string encoder;            // one of known_encoders(); empty: the first available
-  std::string preset;             // the encoder's own preset name; empty: its default
-  std::optional<double> bitrate;  // Mbit/s, replaces packing.quality
-  FrameRate rate;
+  std::string encoder;             // one of known_encoders(); empty: the first available
+  std::string preset;              // the encoder's own preset name; empty: its default
+  std::optional<double> bitrate;   // Mbit/s, replaces packing.quality
+  FrameRate rate;                  // pictures per second, on average
+  std::optional<FrameRate> clock;  // ticks per second of FrameTime; none: a tick per picture
+  ColorCode color;                 // of the frames
+  ColorWords words;
   int threads = 0;            // 0: the encoder chooses
   std::string sound;          // a file with sound; empty: a silent video
   bool copies_sound = false;  // copy its packets, with any number of channels; else encode it anew
@@ -67,8 +77,9 @@ class VideoEncoder {
   VideoEncoder& operator=(const VideoEncoder&) = delete;
   ~VideoEncoder();
 
-  // Adds the next frame. Throws Error(kOutput), and Error(kInput) if the sound cannot be read.
-  void add(std::shared_ptr<const VideoFrame> frame);
+  // Adds the next frame, shown later than the last one. Throws Error(kOutput), and Error(kInput) if the sound cannot be
+  // read.
+  void add(std::shared_ptr<const VideoFrame> frame, const FrameTime& time);
 
   // Writes the rest. Sound ends with the pictures at the latest. Throws as add().
   void finish();

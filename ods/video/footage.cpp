@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/video/footage.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -13,15 +15,17 @@ static bool exists(const std::string& path) {
   return std::filesystem::exists(names_eye(path) ? path_for_eye(path, kLeft) : path, ignored);
 }
 
+FootageKind footage_kind(const std::string& path) {
+  if (frame_names(path)) return FootageKind::kFrames;
+  const bool has_videos_bytes = exists(path) && !names_eye(path) && is_video(path);
+  return container_of_path(path) || has_videos_bytes ? FootageKind::kVideo : FootageKind::kPicture;
+}
+
 Footage::Footage(const std::string& path, const FormatHint& known)
-    : path_(path), known_(known), names_(frame_names(path)) {
-  if (names_) {
-    kind_ = FootageKind::kFrames;
-  } else if (container_of_path(path) || (exists(path) && !names_eye(path) && is_video(path))) {
-    kind_ = FootageKind::kVideo;
-    video_ = open_video(path, known);
-    decoder_ = std::make_unique<VideoDecoder>(path, video_->track);
-  }
+    : path_(path), known_(known), kind_(footage_kind(path)), names_(frame_names(path)) {
+  if (kind_ != FootageKind::kVideo) return;
+  video_ = open_video(path, known);
+  decoder_ = std::make_unique<VideoDecoder>(path, video_->track);
 }
 
 std::vector<int> Footage::frames() const {
@@ -46,10 +50,33 @@ std::optional<DecodedFrame> Footage::decode(int frame) {
   return decoded;
 }
 
+void Footage::choose(const TimeSpan& span) {
+  assert(kind_ == FootageKind::kVideo && next_ == 0);
+  span_ = span;
+  if (span.from > 0.0) decoder_->skip_to(stream().start + span.from);
+}
+
+std::optional<DecodedFrame> Footage::next() {
+  std::optional<DecodedFrame> frame = decode(next_);
+  const double rounded = 0.5 / stream().clock.value();  // a time may be off by half a tick
+  return frame && span_.to && seconds_of(*frame) >= *span_.to - rounded ? std::nullopt : frame;
+}
+
+double Footage::seconds_of(const DecodedFrame& frame) const {
+  return static_cast<double>(frame.time.start) / stream().clock.value() - stream().start;
+}
+
+int Footage::expected_count() const {
+  const double rate = stream().rate.value(), all = stream().count / rate;
+  const double end = std::min(span_.to.value_or(all), all);
+  return std::max(1, static_cast<int>(std::lround((end - span_.from) * rate)));
+}
+
 std::optional<StoredPicture> Footage::picture(int frame) {
   OpenOptions options;
   options.format = known_;
   if (kind_ == FootageKind::kVideo) {
+    refuse_other_colors(stream(), path_);
     const std::optional<DecodedFrame> decoded = decode(frame);
     return decoded ? std::optional(picture_of(*video_, stream(), *decoded)) : std::nullopt;
   }

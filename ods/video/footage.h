@@ -15,10 +15,21 @@ namespace ods {
 
 enum class FootageKind { kPicture, kFrames, kVideo };
 
+// A pattern (shot.####.exr) means frames; a file with a video's first bytes or extension is a video; anything else is a
+// picture.
+FootageKind footage_kind(const std::string& path);
+
+// A part of a video, in seconds from its first picture: the pictures that begin in it.
+struct TimeSpan {
+  double from = 0.0;
+  std::optional<double> to;  // none: to the end
+
+  bool is_part() const { return from > 0.0 || to; }
+};
+
 class Footage {
  public:
-  // A pattern (shot.####.exr) means frames; a file with a video's first bytes or extension is a video; anything else is
-  // a picture, read on demand. Throws Error(kInput): a video that cannot be read.
+  // Of footage_kind(). A picture is read on demand. Throws Error(kInput): a video that cannot be read.
   Footage(const std::string& path, const FormatHint& known);
 
   FootageKind kind() const { return kind_; }
@@ -41,6 +52,16 @@ class Footage {
   // Decodes this frame of the video, skipping those before it.
   std::optional<DecodedFrame> decode(int frame);
 
+  // Restricts the video to this part: frames count from its first one, and next() ends with it. Precondition: no frame
+  // was decoded yet.
+  void choose(const TimeSpan& span);
+  // The next frame of the video.
+  std::optional<DecodedFrame> next();
+  // When it begins, in seconds from the video's first picture, whatever part was chosen.
+  double seconds_of(const DecodedFrame& frame) const;
+  // How many frames the part probably has, at least 1.
+  int expected_count() const;
+
  private:
   std::string path_;
   FormatHint known_;
@@ -49,6 +70,7 @@ class Footage {
   std::optional<StoredPicture> still_;
   std::optional<VideoInput> video_;
   std::unique_ptr<VideoDecoder> decoder_;
+  TimeSpan span_;
   int next_ = 0;  // the next frame to decode
 };
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cassert>
@@ -12,10 +11,9 @@
 
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
-#include "ods/base/memory.h"
-#include "ods/base/pipeline.h"
 #include "ods/files/read_file.h"
 #include "ods/video/container/complete_metadata.h"
+#include "ods/video/write_video.h"
 
 namespace ods {
 
@@ -23,6 +21,10 @@ namespace ods {
 
 static FrameNames names_in(const std::string& pattern) {
   if (const std::optional<FrameNames> names = frame_names(pattern)) return *names;
+  if (container_of_path(pattern)) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("'{}' is a video, not frames; ods convert encodes a video again", pattern));
+  }
   throw Error(ErrorKind::kUsage,
               fmt::format("'{}' has no placeholder for the frame number; write it like shot.####.exr", pattern));
 }
@@ -172,51 +174,21 @@ static std::shared_ptr<VideoFrame> read_frame(const std::string& path, const Vid
   return frame;
 }
 
-// How many frames may be in memory at once; a decoded one takes up to four floats per pixel.
-static size_t frames_ahead(const VideoPlan& plan, const Packing& packing) {
-  const size_t pixels = static_cast<size_t>(plan.size.width) * static_cast<size_t>(plan.size.height);
-  const size_t bytes = pixels * 4 * sizeof(float) + VideoFrame(plan.size, packing).bytes();
-  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-  return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
-}
-
-static void encode_frames(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
-                          const EncodeOptions& options, VideoEncoder& encoder, const Progress& progress) {
-  struct Work {
-    size_t index = 0;
-    std::shared_ptr<VideoFrame> frame;
-  };
-  size_t next = 0, done = 0;
-  const auto number = [&](Work& work) {
-    work.index = next++;
-    return work.index < files.frames.size();
-  };
-  const auto read = [&](Work& work) {
-    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
-    work.frame = read_frame(files.path(work.index), plan, display, options.packing);
-  };
-  const auto encode = [&](const Work& work) {
-    encoder.add(work.frame);
-    done++;
-    if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(files.frames.size()));
-  };
-  run_pipeline<Work>(frames_ahead(plan, options.packing), number, read, encode);
-}
-
 TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const DisplayTransform& display,
                      const EncodeOptions& options, const std::string& path, const Progress& progress) {
   assert(!files.frames.empty() && container_of_path(path));
   check_packing(plan, options.packing);
-  AtomicFile untagged(path);
-  VideoEncoder encoder(untagged, *container_of_path(path), plan.size, options);
-  encode_frames(files, plan, display, options, encoder, progress);
-  encoder.finish();
-  const VideoFile video = read_video_file(untagged.temporary());
-  std::optional<Ambisonics> ambisonics;
-  if (!options.sound.empty() && read_sound_info(options.sound).channels == 4) ambisonics.emplace();
-  SphericalMetadata metadata = plan.metadata;
-  metadata.for_apple = options.for_apple;
-  return tag_video(untagged.temporary(), path, choose_track(video, {}, path).id, metadata, ambisonics);
+  const size_t pixels = static_cast<size_t>(plan.size.width) * static_cast<size_t>(plan.size.height);
+  const size_t decoded = pixels * 4 * sizeof(float);  // a decoded frame takes up to four floats per pixel
+  const NewVideo video{plan.size, options, plan.metadata, {}, static_cast<int>(files.frames.size()), decoded};
+  size_t next = 0;
+  const auto frames = [&]() -> std::optional<PendingFrame> {
+    if (next == files.frames.size()) return std::nullopt;
+    const size_t index = next++;
+    const auto make = [&, index] { return read_frame(files.path(index), plan, display, options.packing); };
+    return PendingFrame{{static_cast<int64_t>(index), 1}, make};
+  };
+  return write_video(video, frames, path, progress).tags;
 }
 
 }  // namespace ods

@@ -38,6 +38,21 @@ std::vector<Container> containers_of(VideoCodec codec);
 // Bits are 8 or 10; prores is always 10-bit, 422 or 444.
 bool can_have(VideoCodec codec, int bits, Chroma chroma);
 
+// What a video says of its colours beside ColorCode. The numbers are those of ITU-T H.273: 1 is BT.709.
+struct ColorWords {
+  int primaries = 1;
+  int transfer = 1;
+  int matrix = 1;
+  int chroma_place = 1;  // H.273's number + 1, as in FFmpeg: 0 is unsaid, 1 is left
+  // What an HDR video says of the display on which it was graded and of its own brightness, in FFmpeg's records
+  // AVMasteringDisplayMetadata and AVContentLightMetadata; empty: unsaid.
+  std::string mastering_display, light_level;
+
+  // PQ or HLG.
+  bool is_hdr() const { return transfer == 16 || transfer == 18; }
+  bool operator==(const ColorWords&) const = default;
+};
+
 // What the video is for.
 enum class VideoTarget { kVrPlayers, kQuest, kYoutube, kMaster };
 inline constexpr NameRow<VideoTarget> kVideoTargetTable[] = {

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <new>
+#include <vector>
 
 namespace ods {
 
@@ -39,7 +40,7 @@ VideoFrame::VideoFrame(Extent size, const Packing& packing) : size_(size) {
 
 namespace {
 
-// srgb_encode() from 2^-12 to 1, accurate to a millionth: a table with 512 steps per octave.
+// srgb_encode() from 2^-12 to 4, accurate to a millionth: a table with 512 steps per octave.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -48,25 +49,79 @@ class SrgbTable {
     }
   }
   float operator()(float linear) const {
+    if (!(linear >= kDarkest)) return linear <= -kDarkest ? -above(-linear) : 12.92f * linear;
+    return above(linear);
+  }
+
+ private:
+  float above(float linear) const {
     const uint32_t bits = std::bit_cast<uint32_t>(linear);
-    if (!(linear >= kDarkest)) return 12.92f * linear;
     const size_t i = std::min<size_t>((bits - kFirst) >> kShift, codes_.size() - 2);
     const float share = static_cast<float>(bits - kFirst - (static_cast<uint32_t>(i) << kShift)) / (1 << kShift);
     return codes_[i] + share * (codes_[i + 1] - codes_[i]);
   }
 
- private:
   static constexpr float kDarkest = 0x1p-12f;
   static constexpr uint32_t kFirst = std::bit_cast<uint32_t>(kDarkest);
   static constexpr int kShift = 14;
-  std::array<float, 12 * 512 + 1> codes_{};
+  std::array<float, 14 * 512 + 1> codes_{};
 };
 
 }  // namespace
 
-float video_code(float linear) {
+static const SrgbTable& srgb_table() {
   static const SrgbTable table;
-  return table(linear);
+  return table;
+}
+
+float video_code(float linear) {
+  return srgb_table()(linear);
+}
+
+void video_codes(std::span<const float> light, float* codes) {
+  const SrgbTable& table = srgb_table();
+  for (size_t i = 0; i < light.size(); i++) codes[i] = table(light[i]);
+}
+
+namespace {
+
+// The light of codes -0.5 to 1.5, in steps of 16 bits.
+class LightTable {
+ public:
+  LightTable() {
+    for (size_t i = 0; i < light_.size(); i++) {
+      const float code = static_cast<float>(static_cast<int>(i) - kZero) / 65535.0f;
+      light_[i] = code < 0.0f ? -srgb_decode(-code) : srgb_decode(code);
+    }
+  }
+  float operator()(float code) const {
+    const float nearest = std::clamp(code, -0.5f, 1.49f) * 65535.0f + 0.5f;
+    return light_[static_cast<size_t>(static_cast<int>(nearest) + kZero)];
+  }
+
+ private:
+  static constexpr int kZero = 32768;
+  std::vector<float> light_ = std::vector<float>(131072);
+};
+
+}  // namespace
+
+static const LightTable& light_table() {
+  static const LightTable table;
+  return table;
+}
+
+float video_light(float code) {
+  return light_table()(code);
+}
+
+void video_lights(std::span<const float> row, float* pixels) {
+  const LightTable& table = light_table();
+  const size_t width = row.size() / 3;
+  const float *red = row.data(), *green = red + width, *blue = green + width;
+  for (size_t x = 0; x < width; x++, pixels += 4) {
+    pixels[0] = table(red[x]), pixels[1] = table(green[x]), pixels[2] = table(blue[x]), pixels[3] = 0.0f;
+  }
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <span>
 
 #include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
@@ -37,8 +38,14 @@ struct DisplayTransform {
   ToneCurve tone = ToneCurve::kNeutral;
 };
 
-// srgb_encode() clamped to 0..1, fast: accurate to a millionth.
+// srgb_encode(), fast: accurate to a millionth. Goes on beyond 1, to 2, and below 0, where it is odd.
 float video_code(float linear);
+// The same of many.
+void video_codes(std::span<const float> light, float* codes);
+// The way back: srgb_decode() of the code rounded to 16 bits, which goes on likewise. Codes are -0.5 to 1.5.
+float video_light(float code);
+// The same of a row laid out as in CodeRows, as R, G, B and 0 for every pixel.
+void video_lights(std::span<const float> row, float* pixels);
 
 // The video layout for a picture: kTopBottom or kSideBySide, squeezed or not.
 Layout video_layout(const StoredPicture& picture);

@@ -47,7 +47,11 @@ static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& 
   SphericalMetadata metadata = track.v2 ? *track.v2 : track.v1.value_or(SphericalMetadata());
   if (known.layout)
     metadata.stereo = *known.layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(*known.layout);
-  if (known.projection) set_projection(metadata, *known.projection);
+  if (known.projection && can_say_projection(*known.projection)) {
+    set_projection(metadata, *known.projection);
+  } else if (known.projection) {
+    metadata.projection = VideoProjection::kOther;
+  }
   return complete_metadata(metadata, track, path, guesses);
 }
 
@@ -64,6 +68,7 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   VideoInput video;
   video.path = path;
   video.track = track.id;
+  video.fps = track.fps;
   video.has_sound = !info.sound.empty();
   if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
   StoredPicture& prototype = video.prototype;
@@ -74,7 +79,7 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   file.is_float = true;  // skips the search for a picture's XMP
   FormatHint all;
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
-  all.projection = projection_of(video.metadata, path);
+  all.projection = known.projection ? *known.projection : projection_of(video.metadata, path);
   prototype.camera = find_format(file, path, all).camera;
   set_orientation(prototype.camera, video.metadata);
   if (video.metadata.ipd > 0.0) {

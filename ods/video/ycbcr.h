@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts display-encoded RGB to a video's limited-range BT.709 Y'CbCr (black 16, white 235 at 8 bits), rounded to
-// nearest. Source: ITU-R BT.709-6, 3.2 to 4.6. Converts back, also from BT.601. Source of its matrix:
-// ITU-R BT.601-7, 2.5.
+// Converts display-encoded RGB to a video's Y'CbCr, rounded to nearest, and back: by the matrix of BT.709, BT.601 or
+// BT.2020 with non-constant luminance, in limited range (black 16, white 235 at 8 bits) or full range.
+// Sources: ITU-R BT.709-6, 3.2 to 4.6; ITU-R BT.601-7, 2.5; ITU-R BT.2020-2, table 4; ITU-R BT.2100-2, tables 6 and 9.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -42,19 +42,26 @@ struct Planes {
   Planes at(int x, int y) const;
 };
 
-// Fills `row` with a row's red, then green, then blue: display-encoded, 0..1. Called concurrently.
+// Fills `row` with a row's red, then green, then blue: display-encoded, black is 0 and white is 1. Called concurrently.
 using CodeRows = std::function<void(int y, std::span<float> row)>;
 
-// Converts an image into its planes; chroma does not filter across its borders. Precondition: `size` is a multiple of
-// the chroma block.
-void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes);
+enum class YcbcrMatrix { k709, k601, k2020 };
 
 // The encoding of a video's numbers.
 struct ColorCode {
-  bool is_601 = false;          // BT.601's matrix, else BT.709's
+  YcbcrMatrix matrix = YcbcrMatrix::k709;
   bool has_full_range = false;  // black is 0, white the largest number
   bool operator==(const ColorCode&) const = default;
 };
+
+// Converts an image into its planes; chroma does not filter across its borders. Values outside 0..1 are kept as far as
+// the numbers reach. Precondition: `size` is a multiple of the chroma block.
+void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes, const ColorCode& color = {});
+
+// The same from several rows at once, at most kMostCodeRows: `rows` are laid out as in CodeRows, one after the other.
+constexpr int kMostCodeRows = 16;
+using CodeBands = std::function<void(int y, int count, std::span<float> rows)>;
+void put_ycbcr_bands(const CodeBands& bands, Extent size, const Planes& planes, const ColorCode& color = {});
 
 // Fills `row`, laid out as in CodeRows, with pixels of row y from column `first` on; values may lie outside 0..1.
 // Chroma is interpolated linearly within the image.

@@ -7,8 +7,6 @@
 
 namespace ods {
 
-using Json = nlohmann::ordered_json;
-
 static Json numbers(vec2 v) {
   return {v.x, v.y};
 }
@@ -45,19 +43,18 @@ static Json projection_json(const Projection& projection) {
           {"lens_back", numbers(projection.lens_back)}};
 }
 
-std::string camera_json(const Camera& camera) {
+Json camera_json(const Camera& camera) {
   const bool has_toe_in = camera.convergence == kToeIn;
-  const Json json = {{"axis", numbers(camera.axis)},
-                     {"ipd", camera.ipd},
-                     {"neck", camera.neck},
-                     {"convergence", camera.convergence},
-                     {"convergence_distance", camera.convergence_distance},
-                     {"top", merge_json(camera.top)},
-                     {"bottom", merge_json(camera.bottom)},
-                     {"projection", projection_json(camera.projection)},
-                     {"merge_map", map_json(camera.merge_map, has_toe_in)},
-                     {"head_tilt_map", map_json(camera.head_tilt_map, has_toe_in)}};
-  return json.dump();
+  return {{"axis", numbers(camera.axis)},
+          {"ipd", camera.ipd},
+          {"neck", camera.neck},
+          {"convergence", camera.convergence},
+          {"convergence_distance", camera.convergence_distance},
+          {"top", merge_json(camera.top)},
+          {"bottom", merge_json(camera.bottom)},
+          {"projection", projection_json(camera.projection)},
+          {"merge_map", map_json(camera.merge_map, has_toe_in)},
+          {"head_tilt_map", map_json(camera.head_tilt_map, has_toe_in)}};
 }
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The files of the viewer's page: those of web/, which the build puts into the program (cmake/page.cmake).
+// The files of the viewer's page: those of web/, which the build puts into the program (cmake/page.sh).
 #pragma once
 #include <span>
 #include <string_view>

@@ -17,8 +17,6 @@
 
 namespace ods {
 
-using Json = nlohmann::ordered_json;
-
 // What browsers decode, with each eye in a rectangle of its own.
 static bool browsers_read(const std::string& path, const StoredPicture& picture) {
   const auto format = format_of_path(path);
@@ -35,9 +33,7 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
     const VideoInput video = open_video(path, known);
     item.is_video = item.has_own_file = true;
     item.picture = video.prototype;
-    for (const VideoTrack& track : read_video_file(path).tracks) {
-      if (track.id == video.track) item.fps = track.fps;
-    }
+    item.fps = video.fps;
     return item;
   }
   OpenOptions options;
@@ -86,8 +82,7 @@ static Json projections() {
   for (const NamedProjection& named : named_projections()) {
     StereoCamera camera;
     camera.projection = named.setting;
-    list.push_back(
-        {{"name", named.name}, {"summary", named.summary}, {"camera", Json::parse(camera_json(make_camera(camera)))}});
+    list.push_back({{"name", named.name}, {"summary", named.summary}, {"camera", camera_json(make_camera(camera))}});
   }
   return list;
 }
@@ -105,7 +100,7 @@ static Json item_json(const ViewItem& item, size_t index) {
   json["layout"] = is_mono ? "mono" : layout_name(item.picture.layout);
   json["layout_reason"] = item.picture.layout_reason;
   json["projection"] = projection_name(item.picture.camera.projection);
-  json["camera"] = Json::parse(camera_json(make_camera(item.picture.camera)));
+  json["camera"] = camera_json(make_camera(item.picture.camera));
   json["size"] = {item.picture.size.width, item.picture.size.height};
   json["notes"] = item.picture.guesses;
   json["live"] = item.is_light;
@@ -114,10 +109,9 @@ static Json item_json(const ViewItem& item, size_t index) {
   return json;
 }
 
-std::string view_json(std::span<const ViewItem> items, bool is_live, const std::string& studio) {
-  Json json = {
-      {"items", Json::array()}, {"layouts", layouts()}, {"projections", projections()},
-      {"tones", Json::array()}, {"live", is_live},      {"studio", studio.empty() ? Json() : Json::parse(studio)}};
+std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio) {
+  Json json = {{"items", Json::array()}, {"layouts", layouts()}, {"projections", projections()},
+               {"tones", Json::array()}, {"live", is_live},      {"studio", studio}};
   for (const ToneCurve tone : kToneCurves) json["tones"].push_back(tone_curve_name(tone));
   for (size_t i = 0; i < items.size(); i++) json["items"].push_back(item_json(items[i], i));
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/json_reader.h"
 #include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
 
@@ -30,8 +31,8 @@ struct ViewItem {
 ViewItem open_view_item(const std::string& path, const FormatHint& known = {});
 
 // The page's view.json: items, and the layouts, projections and tone curves that they can be changed to.
-// is_live: eyes are sent by a server, which can develop them again. studio: JSON of the studio, or empty.
-std::string view_json(std::span<const ViewItem> items, bool is_live, const std::string& studio = "");
+// is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.
+std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio);
 
 // The names under which view.json refers to an item's files, relative to itself: item/0/picture.png, or item/0/left.jpg
 // and item/0/right.jpg.

@@ -460,15 +460,28 @@ TEST_F(Cli, LintTellsByItsExitCode) {
   EXPECT_EQ(run("lint " + picture), 0) << out << err;
   EXPECT_TRUE(out.ends_with("no fault found in what was judged\n")) << out;
   EXPECT_NE(out.find("\njudged: the layout of the eyes, "), std::string::npos) << out;
-  EXPECT_NE(out.find("\nnot judged: height, roll, colour and sharpness between the eyes ("), std::string::npos) << out;
+  EXPECT_NE(out.find(", height, pitch, roll and size between the eyes, "), std::string::npos) << out;
+  EXPECT_NE(out.find("\nnot judged: time between the eyes, cuts, duplicate frames (one picture has no time)\n"),
+            std::string::npos)
+      << out;
   EXPECT_EQ(run("lint --json " + picture), 0) << err;
-  EXPECT_NE(out.find(R"("check": "height, roll, colour and sharpness between the eyes")"), std::string::npos) << out;
+  EXPECT_NE(out.find(R"("check": "time between the eyes")"), std::string::npos) << out;
   const std::string swapped = "lint --layout bottom-top " + picture;
   EXPECT_EQ(run(swapped), 1) << out;
   EXPECT_NE(out.find("fault eyes-swapped: "), std::string::npos) << out;
   EXPECT_EQ(run(swapped + " --json"), 1);
   EXPECT_NE(out.find("\"fault\": \"eyes-swapped\""), std::string::npos) << out;
   EXPECT_EQ(run(swapped + " --min-certainty 1"), 0) << out;
+  // The cure is a command that works.
+  const std::string wrong = folder.path("wrong_TB.png"), cured = folder.path("cured_TB.png");
+  ASSERT_EQ(run("convert " + picture + " -o " + wrong + " --right-raise 2 --right-roll -3"), 0) << err;
+  EXPECT_EQ(run("lint " + wrong), 1) << out;
+  EXPECT_NE(out.find("fault vertical-offset: "), std::string::npos) << out;
+  const size_t cure = out.find("ods convert " + wrong + " -o corrected.png ") + 4;
+  std::string command = out.substr(cure, out.find(".\n", cure) - cure);
+  command.replace(command.find("corrected.png"), 13, cured);
+  ASSERT_EQ(run(command), 0) << command << err;
+  EXPECT_EQ(run("lint " + cured), 0) << command << out;
   EXPECT_EQ(run("lint " + folder.path("absent.png")), 3);
   EXPECT_EQ(run("lint"), 2);
 }

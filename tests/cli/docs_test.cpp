@@ -164,6 +164,7 @@ class Pages : public ::testing::Test {
       more += of_rig ? "" : " --width 96";
     }
     if (has(line, "--frames") || command == "video") more += " --frames 1-4";
+    if (has(line, "--trim")) more += " --trim 0-1";
     if (has(line, "--duration") || has(line, "--video")) more += " --duration 0.2";
     return of_rig && command == "video" ? " --frames 1-4" : more;
   }
@@ -208,6 +209,7 @@ class Pages : public ::testing::Test {
     if (kind == ".zip") return provide_archive(name);
     if (kind == ".wav") return folder.write(name, ods::made::wav(4, 0.2));
     if (kind == ".txt") return folder.write(name, "0,1,-2\n");
+    if (kind == ".keys") return folder.write(name, "0 1.5  # degrees\n0:01 -2\n");
     if (kind == ".unfinished") return provide_unfinished(name);
     if (kind == ".json") return make("ods camera --for json --width 4096 -o " + name);
     if (kind == ".mp4" || kind == ".mov" || kind == ".mkv" || kind == ".webm") {

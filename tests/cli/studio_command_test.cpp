@@ -147,6 +147,30 @@ TEST_F(StudioCommand, CancelsWhatItRenders) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("large_360_TB.png")));
 }
 
+// A tab that is loaded again and again while a picture is rendered: it asks for the page and a frame, and goes.
+TEST_F(StudioCommand, ReloadsWhileRenderingTakeNoMemory) {
+  const Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
+  const auto reload = [&](int i) {
+    for (const char* path : {"", "studio.js", "view.json"}) EXPECT_EQ(status_of(get(path)), 200) << path;
+    Json changed = settings;
+    changed["sidecar"]["yaw"] = i;
+    changed["width"] = 4096;
+    const int revision = asked("set", changed)["revision"];
+    const Connection gone(port);
+    gone.send_text(head(fmt::format("/{}/studio/frame?after=0", secret)));
+    if (i % 20 == 0) frame_of(revision, "base", 160);
+  };
+  asked("set", {{"width", 4096}});
+  asked("render", {{"output", "large_360_TB.png"}, {"quality", "final"}});
+  for (int i = 0; i < 40; i++) reload(i);
+  const long before = resident();
+  ASSERT_GT(before, 0);
+  for (int i = 0; i < 100; i++) reload(i);
+  EXPECT_LT(resident() - before, 30'000);
+  EXPECT_EQ(Json::parse(body_of(get("studio/job")))["state"], "running");
+  asked("cancel");
+}
+
 TEST_F(StudioCommand, SavesTheCameraAndTakesItBack) {
   Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
   settings["sidecar"]["roll"] = 12.5;

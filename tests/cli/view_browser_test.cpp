@@ -21,7 +21,9 @@
 #include "ods/files/file_input.h"
 #include "ods/image/compare.h"
 #include "ods/image/tone.h"
+#include "ods/video/make_video.h"
 #include "ods/view/page.h"
+#include "tests/support/made_frames.h"
 #include "tests/support/picture_rows.h"
 #include "tests/support/stored_pictures.h"
 #include "tests/support/temporary_folder.h"
@@ -113,13 +115,13 @@ Image converted(const StoredPicture& picture, int eye, const Look& look) {
 }
 
 // A part of a browser's PNG, from the column on.
-Image drawn(const std::string& path, int column = 0) {
+Image drawn(const std::string& path, int column = 0, Extent size = {kWindow, kWindow}) {
   OpenOptions options;
   options.format.one_eye = true;
   const StoredPicture picture = open_picture(path, options);
-  Image image(kWindow, kWindow, 3);
-  for (int y = 0; y < kWindow; y++) {
-    for (int x = 0; x < kWindow; x++) {
+  Image image(size.width, size.height, 3);
+  for (int y = 0; y < size.height; y++) {
+    for (int x = 0; x < size.width; x++) {
       for (int c = 0; c < 3; c++) {
         image.at(x, y)[c] = value_at(picture.eyes[0].layers[0], x + column, y, static_cast<size_t>(c));
       }
@@ -353,6 +355,79 @@ TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
   ASSERT_EQ(run(browser), "ok");
   expect_looks(0, looks_in(lens.projection), "lens");
   expect_looks(1, kAround, "toe-in");
+}
+
+// Forwards, backwards, across key frames and by single steps: every frame is as bright as none of its neighbours.
+TEST_F(ViewBrowser, ShowsTheFrameOfAVideo) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  if (!has_encoder("libx264")) GTEST_SKIP() << "skipped: this machine has no libx264";
+  const auto code_of = [](int frame, int eye) { return eye == kRight ? 230 - 8 * frame : 20 + 8 * frame; };
+  for (int frame = 0; frame < 24; frame++) {
+    Picture picture;
+    for (const int eye : kBothEyes) {
+      const auto code = static_cast<float>(code_of(frame, eye));
+      picture.eyes.emplace_back().eye = eye;
+      picture.eyes.back().radiance = made::plain({256, 128}, vec3(code));
+    }
+    SaveOptions save;
+    save.tone = ToneCurve::kLinear;
+    save_picture(picture, save, folder_.path(fmt::format("frame.{:04}.png", frame)));
+  }
+  const FrameFiles files = find_frames(folder_.path("frame.####.png"));
+  EncodeOptions options;
+  options.encoder = "libx264";
+  options.rate = {10, 1};
+  make_video(files, plan_video(files, {}, Layout::kTopBottom), {}, options, folder_.path("video_360_TB.mp4"));
+  items_.push_back(open_view_item(folder_.path("video_360_TB.mp4")));
+  Json looks = Json::array();
+  const auto look_at = [&](int frame, int step) {
+    for (const int eye : kBothEyes) {
+      looks.push_back({{"name", fmt::format("{}_{}", looks.size() / 2, eye)}, {"eye", eye}, {"frame", frame}});
+      if (step && eye == kLeft) looks.back()["step"] = step;
+    }
+  };
+  std::vector<int> frames = {7, 3, 23, 0, 12, 11, 9, 10, 5, 15, 16, 17, 16, 15};
+  for (size_t i = 0; i < frames.size(); i++) look_at(frames[i], i > 9 ? frames[i] - frames[i - 1] : 0);
+  jobs_.push_back({{"item", 0}, {"choice", Json::object()}, {"width", kWindow}, {"height", kWindow}, {"looks", looks}});
+  const std::string end = run(browser);
+  if (end.find("has a codec") != std::string::npos) GTEST_SKIP() << "skipped: this chromium plays no H.264";
+  ASSERT_EQ(end, "ok");
+  for (size_t i = 0; i < frames.size(); i++) {
+    for (const int eye : kBothEyes) {
+      const Image image = drawn(folder_.path(fmt::format("{}_{}", i, eye)));
+      EXPECT_NEAR(255.0f * image.at(kWindow / 2, kWindow / 2)[1], code_of(frames[i], eye), 3.0f) << i << " " << eye;
+    }
+  }
+}
+
+// What a headset's compositor is given: lat-long pictures of both eyes, whatever the file's projection.
+TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const size_t item = add("picture.png", camera_of(projection_named("cube-3x2")), Layout::kTopBottom);
+  jobs_.push_back({{"item", item}, {"layers", "layer"}});
+  ASSERT_EQ(run(browser), "ok");
+  const Json asked = Json::parse(folder_.read("layer.json"));
+  EXPECT_EQ(asked["layout"], "stereo-left-right");
+  EXPECT_NEAR(asked["centralHorizontalAngle"].get<double>(), 2.0 * kPi, 1e-6);
+  EXPECT_NEAR(asked["upperVerticalAngle"].get<double>(), kPi / 2.0, 1e-6);
+  EXPECT_NEAR(asked["lowerVerticalAngle"].get<double>(), -kPi / 2.0, 1e-6);
+  // The layer turns to the left by as much as the shader turns lines of sight to the right.
+  EXPECT_NEAR(asked["orientation"][1].get<double>(), std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(asked["orientation"][3].get<double>(), std::sqrt(0.5), 1e-6);
+  const Extent size{asked["viewPixelWidth"], asked["viewPixelHeight"]};
+  for (const int eye : kBothEyes) {
+    ConvertTarget target = same_format(pictures_[item]);
+    target.camera.projection = projection_named("lat-long");
+    target.eye = size;
+    target.eyes = {kMono};
+    target.mono_from = eye;
+    const Conversion conversion = convert(pictures_[item], target);
+    const Image wanted = shown(images_of(conversion.rows)[0], false);
+    EXPECT_GE(likeness(drawn(folder_.path("layer"), eye * size.width, size), wanted), kAlike) << eye;
+    EXPECT_LT(likeness(drawn(folder_.path("layer"), (1 - eye) * size.width, size), wanted), kAlike) << eye;
+  }
 }
 
 TEST_F(ViewBrowser, ShowsTheSameInFirefox) {

@@ -26,15 +26,6 @@ class ViewCommand : public Served {
     serve({picture});
   }
 
-  // Kilobytes of the server's that are in memory.
-  long resident() const {
-    std::ifstream status(fmt::format("/proc/{}/status", server->process()));
-    for (std::string line; std::getline(status, line);) {
-      if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
-    }
-    return 0;
-  }
-
   std::string picture;
 };
 

@@ -294,7 +294,8 @@ TEST(LayCover, LeavesNumbersThatItDoesNotCover) {
 }
 
 TEST(LayCover, OtherCodesBecomeBt709) {
-  for (const ColorCode color : {ColorCode{true, false}, ColorCode{false, true}, ColorCode{true, true}}) {
+  for (const ColorCode color :
+       {ColorCode{YcbcrMatrix::k601, false}, ColorCode{YcbcrMatrix::k709, true}, ColorCode{YcbcrMatrix::k601, true}}) {
     Bench bench(8, Chroma::k444, color);
     for (size_t i = 0; i < 3; i++) {
       for (int y = 0; y < bench.rows(i); y++) {

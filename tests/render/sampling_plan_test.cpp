@@ -99,6 +99,34 @@ TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
   EXPECT_NEAR(more, std::min(0.5 * excess, 3.0) / 2.0, 1e-3);
 }
 
+// What is judged is what is seen: a sixteenth of the light, shown with four stops, is as noisy as all of it.
+TEST(SamplingPlan, NoiseIsJudgedAtTheExposure) {
+  RenderOptions options = options_of(StereoCamera{}, 8, 64);
+  options.height = 8;
+  options.even_noise = false;
+  options.eyes = Eyes::kMonoEye;
+  options.noise = 0.01f;
+  const SamplingPlan plan = make_plan(StereoCamera{}, options);
+  const auto more_for = [&](double light, float stops) {
+    PictureSamples samples = no_samples(options);
+    samples.done = 16;
+    EyeSamples& eye = samples.eyes[0];
+    for (size_t pixel = 0; pixel < 64; pixel++) {
+      eye.count[pixel] = 16;
+      for (size_t c = 0; c < 3; c++) {
+        // Eight samples of 0 and eight of this light.
+        eye.light[3 * pixel + c] = static_cast<int64_t>(8 * light * kLightUnit);
+        eye.squares[3 * pixel + c] = 8 * light * light;
+      }
+    }
+    options.noise_exposure = stops;
+    return judge_noise(plan, options, samples);
+  };
+  options.samples = kMaxSamples;  // so that nothing limits what more it takes
+  EXPECT_NEAR(more_for(1.0 / 16.0, 4.0f) / more_for(1.0, 0.0f), 1.0, 1e-6);
+  EXPECT_LT(more_for(1.0 / 16.0, 0.0f), 0.2 * more_for(1.0, 0.0f));
+}
+
 // One class has stopped with 16 samples of variance 1/4. Nothing makes it cleaner, but with 64 it would be clean
 // enough: so the other class, which has 64, stops as well.
 TEST(SamplingPlan, AStoppedClassIsJudgedAsIfItHadGoneOn) {

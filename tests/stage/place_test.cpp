@@ -98,7 +98,8 @@ TEST(Place, AnObjectIsAtMost60DegreesWideHoweverItTurns) {
 TEST(Place, AnObjectIsAsNearAsItMayBe) {
   for (const float radius : {0.25f, 0.3f, 0.5f, 1.0f, 2.0f}) {
     Scene scene = make_ball(radius);
-    const float nearest = length(viewer_of(scene).position - scene.viewing->middle) - radius;
+    const ViewPoint view = viewer_of(scene);
+    const float nearest = length(view.position - scene.viewing->middle) - radius;
     EXPECT_GE(nearest, kElbowRoom) << radius;
     EXPECT_LT(nearest, std::max(1.1f * kElbowRoom, 1.05f * radius)) << radius;
   }

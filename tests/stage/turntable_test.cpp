@@ -44,7 +44,7 @@ TEST(Turntable, LightsViewPointsAndCatchersStay) {
   Scene scene = with_materials();
   add(scene, make_box(vec3(0.1f)), 0, placed(vec3(1, 0, 0)));
   add(scene, make_floor(4, 4), 1, placed(vec3(0.5f, 0, 0)));
-  scene.instances[1].catcher = 1;
+  scene.instances[1].role = kCatcher;
   PunctualLight lamp;
   lamp.position = vec3(0, 2, 1);
   scene.lights.push_back(lamp);

@@ -9,6 +9,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <fstream>
 #include <optional>
 #include <regex>
 #include <string>
@@ -96,6 +97,15 @@ class Served : public Cli {
   std::string post(const std::string& path, const std::string& body) const {
     return ask(head(fmt::format("/{}/{}", secret, path), "POST", fmt::format("Content-Length: {}\r\n", body.size())) +
                body);
+  }
+
+  // Kilobytes of the server's that are in memory.
+  long resident() const {
+    std::ifstream status(fmt::format("/proc/{}/status", server->process()));
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+    }
+    return 0;
   }
 
   std::optional<Ods> server;

@@ -167,28 +167,94 @@ TEST(GetCodes, IsTheWayBackOfPutYcbcr) {
   }
 }
 
-// Numbers by the standards' own formulas.
-TEST(GetCodes, KnowsBothMatricesAndRanges) {
+// Numbers by the standards' own formulas, and back.
+TEST(GetCodes, KnowsEveryMatrixAndRange) {
   const vec3 colors[] = {vec3(0.0f), vec3(1.0f), vec3(1.0f, 0.0f, 0.0f), vec3(0.2f, 0.9f, 0.4f),
                          vec3(0.1f, 0.3f, 1.0f)};
-  for (const bool is_601 : {false, true}) {
+  const std::pair<YcbcrMatrix, vec2> kMatrices[] = {{YcbcrMatrix::k709, {0.2126f, 0.0722f}},
+                                                    {YcbcrMatrix::k601, {0.299f, 0.114f}},
+                                                    {YcbcrMatrix::k2020, {0.2627f, 0.0593f}}};
+  for (const auto& [matrix, weights] : kMatrices) {
     for (const bool full : {false, true}) {
       for (const vec3& color : colors) {
-        const float kr = is_601 ? 0.299f : 0.2126f, kb = is_601 ? 0.114f : 0.0722f;
+        const float kr = weights.x, kb = weights.y;
         const float luma = kr * color.x + (1.0f - kr - kb) * color.y + kb * color.z;
         const float cb = (color.z - luma) / (2.0f - 2.0f * kb), cr = (color.x - luma) / (2.0f - 2.0f * kr);
         const float scale = full ? 1023.0f : 876.0f, chroma_scale = full ? 1023.0f : 896.0f;
         uint16_t numbers[3] = {static_cast<uint16_t>(std::lround((full ? 0.0f : 64.0f) + scale * luma)),
                                static_cast<uint16_t>(std::lround(std::min(512.0f + chroma_scale * cb, 1023.0f))),
                                static_cast<uint16_t>(std::lround(std::min(512.0f + chroma_scale * cr, 1023.0f)))};
-        Planes planes;
-        planes.bits = 10;
-        planes.chroma = Chroma::k444;
-        for (size_t i = 0; i < 3; i++)
+        uint16_t back[3] = {};
+        Planes planes, others;
+        planes.bits = others.bits = 10;
+        planes.chroma = others.chroma = Chroma::k444;
+        for (size_t i = 0; i < 3; i++) {
           planes.first[i] = reinterpret_cast<std::byte*>(&numbers[i]), planes.stride[i] = 2;
+          others.first[i] = reinterpret_cast<std::byte*>(&back[i]), others.stride[i] = 2;
+        }
+        const ColorCode code{matrix, full};
         std::vector<float> row(3);
-        get_codes(planes, {1, 1}, {is_601, full}, 0, 0, row);
-        for (int c = 0; c < 3; c++) EXPECT_NEAR(row[static_cast<size_t>(c)], color[c], 2.5e-3f) << is_601 << full << c;
+        get_codes(planes, {1, 1}, code, 0, 0, row);
+        for (int c = 0; c < 3; c++) EXPECT_NEAR(row[static_cast<size_t>(c)], color[c], 2.5e-3f) << full << c;
+        put_ycbcr([&](int, std::span<float> out) { std::copy_n(&color.x, 3, out.begin()); }, {1, 1}, others, code);
+        for (size_t c = 0; c < 3; c++) EXPECT_EQ(back[c], numbers[c]) << full << c;
+      }
+    }
+  }
+}
+
+// Sensors see more than white: what the numbers can hold comes back.
+TEST(GetCodes, ValuesBeyondBlackAndWhiteComeBack) {
+  uint8_t numbers[3] = {245, 128, 128}, back[3] = {};
+  Planes planes, others;
+  planes.chroma = others.chroma = Chroma::k444;
+  for (size_t i = 0; i < 3; i++) {
+    planes.first[i] = reinterpret_cast<std::byte*>(&numbers[i]), planes.stride[i] = 1;
+    others.first[i] = reinterpret_cast<std::byte*>(&back[i]), others.stride[i] = 1;
+  }
+  for (const int luma : {4, 245}) {
+    numbers[0] = static_cast<uint8_t>(luma);
+    const auto rows = [&](int, std::span<float> row) {
+      get_codes(planes, {1, 1}, {}, 0, 0, row);
+      for (float& code : row) code = video_code(video_light(code));
+    };
+    put_ycbcr(rows, {1, 1}, others);
+    EXPECT_EQ(back[0], luma);
+    EXPECT_EQ(back[1], 128);
+  }
+  put_ycbcr([](int, std::span<float> row) { std::fill(row.begin(), row.end(), 9.0f); }, {1, 1}, others);
+  EXPECT_EQ(back[0], 255);
+}
+
+// --- what else a video says ------------------------------------------------------------------------------------------
+
+void set_matrix(std::string& bytes, const uint32_t (&matrix)[9]) {
+  const size_t at = bytes.find("tkhd") + 44;
+  for (size_t i = 0; i < 36; i++) bytes[at + i] = static_cast<char>(matrix[i / 4] >> (24 - 8 * (i % 4)));
+}
+
+TEST_F(Decode, PicturesStoredUpsideDownAreTurned) {
+  made::write_frames(folder.path("a.#.png"), {1, 2});
+  make("video.mp4", {VideoCodec::kH264, 8, Chroma::k420, 4});
+  std::string bytes = folder.read("video.mp4");
+  set_matrix(bytes, {0xffff0000, 0, 0, 0, 0xffff0000, 0, 0, 0, 0x40000000});
+  folder.write("turned.mp4", bytes);
+  VideoDecoder plain(folder.path("video.mp4"), 1), turned(folder.path("turned.mp4"), 1);
+  EXPECT_FALSE(plain.stream().is_turned);
+  ASSERT_TRUE(turned.stream().is_turned);
+  const DecodedFrame a = *plain.next(), b = *turned.next();
+  const Extent size = plain.stream().size, block = chroma_block(Chroma::k420);
+  for (size_t plane = 0; plane < 3; plane++) {
+    const int width = size.width / (plane ? block.width : 1), height = size.height / (plane ? block.height : 1);
+    for (int y = 0; y < height; y++) {
+      for (int x = 1; x < width; x++) {  // at the edge chroma has one neighbour
+        const auto at = [&](const DecodedFrame& frame, int column, int row) {
+          const size_t place = static_cast<size_t>(row) * frame.planes.stride[plane] + static_cast<size_t>(column);
+          return static_cast<int>(frame.planes.first[plane][place]);
+        };
+        const int there = at(a, width - 1 - x, height - 1 - y);
+        const int expected = plane == 0 ? there : (there + at(a, width - x, height - 1 - y) + 1) / 2;
+        ASSERT_EQ(at(b, x, y), expected) << plane << ' ' << x << ' ' << y;
       }
     }
   }
@@ -201,16 +267,11 @@ void expect_refused(const std::string& error, const std::string& words) {
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 
-TEST_F(Decode, TurnedPicturesAreRefused) {
+TEST_F(Decode, PicturesTurnedByAQuarterAreRefused) {
   made::write_frames(folder.path("a.#.png"), {1, 2});
   make("video.mp4", usual(VideoCodec::kH264));
   std::string bytes = folder.read("video.mp4");
-  const auto put = [&](size_t at, uint32_t value) {
-    for (size_t i = 0; i < 4; i++) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
-  };
-  const size_t matrix = bytes.find("tkhd") + 44;
-  const uint32_t turned[] = {0, 0x10000, 0, 0xffff0000, 0, 0, 0, 0, 0x40000000};
-  for (size_t i = 0; i < 9; i++) put(matrix + 4 * i, turned[i]);
+  set_matrix(bytes, {0, 0x10000, 0, 0xffff0000, 0, 0, 0, 0, 0x40000000});
   folder.write("turned.mp4", bytes);
   expect_refused(error_of(folder.path("turned.mp4")), "stored rotated");
 }
@@ -235,17 +296,48 @@ TEST_F(Decode, DamagedVideosAreOneLine) {
   EXPECT_NE(error_of(folder.path("video.mp4")), "");
 }
 
-TEST_F(Decode, UnevenTimesAreRefused) {
+TEST_F(Decode, UnevenTimesAreTheFilesOwn) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
   made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4, 5, 6});
   const std::string video = make("video.mp4", usual(VideoCodec::kH264)), uneven = folder.path("uneven_360_TB.mp4");
   const std::string command = "ffmpeg -v error -i " + video +
                               " -vf 'setpts=PTS+gte(N\\,3)*4/30/TB' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
   if (!output_of(command).empty()) GTEST_SKIP() << "skipped: this ffmpeg makes no uneven video";
-  expect_refused(error_of(uneven), "times are uneven");
+  VideoDecoder decoder(uneven, 1);
+  const double tick = 1.0 / decoder.stream().clock.value();
+  for (int i = 0; i < 6; i++) {
+    const std::optional<DecodedFrame> frame = decoder.next();
+    ASSERT_TRUE(frame);
+    EXPECT_NEAR(static_cast<double>(frame->time.start) * tick, (i + (i >= 3 ? 4 : 0)) / 30.0, 1e-6) << i;
+    if (i != 2) {
+      EXPECT_NEAR(static_cast<double>(frame->time.duration) * tick, 1.0 / 30.0, 1e-6) << i;
+    }
+  }
+  EXPECT_FALSE(decoder.next());
 }
 
-// Their numbers mean other light than BT.709's: shown or laid over as they are they would be wrong.
+TEST_F(Decode, SkippingEndsAtTheFirstPictureAtOrAfterTheTime) {
+  made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4, 5, 6, 7, 8});
+  for (const char* name : {"video.mp4", "video.mkv"}) {
+    const std::string video = make(name, usual(VideoCodec::kH264));
+    for (const int frame : {0, 3, 7}) {
+      for (const double later : {0.0, -0.4}) {  // of a frame
+        Footage footage(video, {});
+        footage.choose({std::max(0.0, (frame + later) / 30.0), {}});
+        const std::optional<DecodedFrame> next = footage.next();
+        ASSERT_TRUE(next) << frame;
+        EXPECT_NEAR(static_cast<double>(next->time.start) / footage.stream().clock.value(), frame / 30.0, 0.001)
+            << name;
+        EXPECT_EQ(footage.next().has_value(), frame < 7);
+      }
+    }
+    Footage footage(video, {});
+    footage.choose({9.0, {}});
+    EXPECT_FALSE(footage.next());
+  }
+}
+
+// Their numbers mean other light than BT.709's: as pictures, or under a title, they would be wrong.
 TEST_F(Decode, HdrIsRefused) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
   if (!can_encode(VideoCodec::kHevc, Chroma::k420)) GTEST_SKIP() << "skipped: this machine encodes no HEVC";
@@ -257,7 +349,10 @@ TEST_F(Decode, HdrIsRefused) {
     const std::string command =
         "ffmpeg -y -v error -i " + video + " -c copy -bsf:v hevc_metadata=transfer_characteristics=";
     ASSERT_EQ(output_of(command + number + " " + hdr + " 2>&1"), "");
-    EXPECT_EQ(error_of(hdr), fmt::format("cannot read '{}': it is HDR ({}); ods supports BT.709", hdr, name));
+    EXPECT_EQ(error_of(hdr), fmt::format("cannot use '{}': it is HDR; only ods convert, from video to video, supports "
+                                         "other colours than BT.709's",
+                                         hdr))
+        << name;
   }
 }
 

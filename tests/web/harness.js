@@ -4,6 +4,8 @@
 // Draws looks with the page's own modules and sends them to the server that asks for them: jobs.json is
 //   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap }] }, ...]
 // where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
+// Looks at a video may have its `frame`, and `step` where it is to be reached by so many steps from the last one.
+// The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
 // have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead.
 import { Headset } from './headset.js';
@@ -32,12 +34,63 @@ async function draw(view, shader, { item, choice, width, height, looks }) {
   const { canvas } = panorama;
   Object.assign(canvas, { width, height });
   const picture = await openPicture(panorama, view, view.items[item], { choice });
-  picture.refresh?.();
-  for (const { name, eye = 0, show, swap, ...look } of looks) {
+  for (const { name, eye = 0, show, swap, frame, step, ...look } of looks) {
+    if (frame !== undefined) await reach(picture, frame, step);
+    picture.refresh?.();
     panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap });
     await sendCanvas(canvas, name);
   }
   picture.free();
+}
+
+// Until the frame is there, and has been copied again as the page does when a seek has settled.
+async function reach(picture, frame, step) {
+  const there = new Promise((done) => {
+    picture.changed = () => picture.frame() === frame && !picture.video.seeking && done();
+  });
+  if (step) picture.step(step);
+  else picture.seek((frame + 0.5) / picture.fps);
+  await there;
+  await new Promise((done) => setTimeout(done, 500));
+}
+
+// Plays the browser's part of the WebXR Layers API, which no browser has without a headset: one texture for both eyes.
+async function layOut(view, shader, { item, layers: name }) {
+  const { EyeLayers } = await import('./layers.js');
+  const panorama = new Panorama(makeCanvas({ width: 64, height: 64 }), shader);
+  const { gl } = panorama;
+  const texture = gl.createTexture();
+  let asked;
+  window.XRRigidTransform = class { constructor(position, orientation) { Object.assign(this, { position, orientation }); } };
+  window.XRWebGLBinding = class {
+    createEquirectLayer(init) {
+      asked = init;
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, 2 * init.viewPixelWidth, init.viewPixelHeight);
+      return { needsRedraw: true };
+    }
+
+    getSubImage(layer, frame, eye) {
+      const { viewPixelWidth: width, viewPixelHeight: height } = asked;
+      return { colorTexture: texture, viewport: { x: eye === 'left' ? 0 : width, y: 0, width, height } };
+    }
+  };
+  const session = { renderState: { baseLayer: null }, updateRenderState: (state) => Object.assign(session.renderState, state) };
+  const picture = await openPicture(panorama, view, view.items[item], {});
+  const layer = new EyeLayers(session, gl, 'local');
+  if (!layer.show(null, { panorama, picture, state: { swap: false, grid: false } }, Math.PI / 2)) throw new Error('no layer');
+  const { x, y, z, w } = session.renderState.layers[0].transform.orientation;
+  await post(`result/${name}.json`, JSON.stringify({ ...asked, orientation: [x, y, z, w] }));
+  const [width, height] = [2 * asked.viewPixelWidth, asked.viewPixelHeight];
+  const pixels = new Uint8ClampedArray(4 * width * height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, layer.target); // has the texture
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));
+  const flat = makeCanvas({ width, height });
+  const rows = flat.getContext('2d');
+  for (let row = 0; row < height; row++) {
+    rows.putImageData(new ImageData(pixels.slice(4 * width * row, 4 * width * (row + 1)), width, 1), 0, height - 1 - row);
+  }
+  await sendCanvas(flat, name);
 }
 
 // As the device's orientation: a turn to the right by yaw, after one up by pitch.
@@ -93,7 +146,7 @@ async function run() {
   const jobs = await json('jobs.json');
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
   const [view, shader] = [await json('view.json'), await loadShader(location.href)];
-  for (const job of jobs) await (job.headset ? wear : draw)(view, shader, job);
+  for (const job of jobs) await (job.headset ? wear : job.layers ? layOut : draw)(view, shader, job);
 }
 
 run().then(() => post('done', 'ok'), (error) => post('done', `${error.message}\n${error.stack}`));

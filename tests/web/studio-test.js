@@ -129,6 +129,19 @@ async function testFrames(server, session, live) {
   expect(live.least === 2, 'shows coarser frames');
 }
 
+// Another tab has set something else: this one says so, and what is rendered, saved or picked here is this one's again.
+async function testOtherTabs(server, session) {
+  await until(() => session.side.sent === session.settings && !session.sending, 'agrees with the server');
+  let told = false;
+  session.addEventListener('status', ({ detail }) => (told ||= detail.isOthers));
+  server.last = 'of another tab';
+  server.send({ revision: ++server.revision });
+  await until(() => told, 'says that another tab has taken over');
+  const before = server.sets.length;
+  await session.settle();
+  expect(server.sets.length > before && session.revision === server.revision, 'settles without sending its settings again');
+}
+
 // The server's frame may come before its answer, and before the question where the page is new to a server.
 async function testFastFrames(server, session, live) {
   server.delay = 200;
@@ -202,6 +215,7 @@ export async function testStudio() {
   await testHistory(server, session);
   await testFrames(server, session, live);
   await testFastFrames(server, session, live);
+  await testOtherTabs(server, session);
   live.least = 6;
   await testSides(server, session, live);
   const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };

@@ -100,10 +100,21 @@ static FileInfo info_of(const OIIO::ImageSpec& spec) {
   return info;
 }
 
+constexpr std::string_view kVideoExtensions[] = {".mp4", ".mov", ".mkv", ".webm"};  // for a message
+
+static bool is_named_as_video(const std::string& name) {
+  const std::string low = small_letters(name);
+  return std::any_of(std::begin(kVideoExtensions), std::end(kVideoExtensions),
+                     [&](std::string_view extension) { return low.ends_with(extension); });
+}
+
 // `start` is that of the file.
 static Reader create_reader(std::span<const std::byte> start, const std::string& name) {
   set_up_openimageio();
   const std::optional<FileFormat> format = format_of_bytes(start);
+  if (!format && is_named_as_video(name)) {
+    throw cannot_read(name, "it is a video; ods convert VIDEO -o 'x.####.png' makes pictures of it");
+  }
   if (!format) throw cannot_read(name, fmt::format("it is none of {}", known_extensions()));
   Reader reader;
   reader.format = *format;

@@ -99,7 +99,7 @@ void add_lamp(Scene& scene, const CeilingLamp& lamp) {
   material.double_sided = 0;
   add(scene, make_disc(lamp.radius, 48), add_material(scene, material),
       placed(lamp.position) * turned(vec3(1.0f, 0.0f, 0.0f), 180.0f));
-  scene.instances.back().catcher = 3;
+  scene.instances.back().role = kDimmedLamp;
   if (!scene.hidden.empty()) scene.hidden.resize(scene.instances.size(), 0);
 }
 

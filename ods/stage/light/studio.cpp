@@ -108,7 +108,7 @@ void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo) {
   Material material = matte(albedo);
   material.double_sided = 0;
   add(scene, make_disc(radius, 192), add_material(scene, material), placed(center));
-  scene.instances.back().catcher = 2;
+  scene.instances.back().role = kFadingGround;
   if (!scene.hidden.empty()) scene.hidden.resize(scene.instances.size(), 0);
 }
 

@@ -166,7 +166,7 @@ SkyOptions best_sun(const SceneRays& rays, vec3 eye) {
   for (const float elevation : {usual.elevation, usual.elevation + kStep, usual.elevation + 2.0f * kStep}) {
     for (float turned = 0.0f; turned < 360.0f; turned += kStep) {
       const float azimuth = std::fmod(usual.azimuth + turned, 360.0f);
-      const vec3 sun = direction_of(glm::radians(azimuth), glm::radians(elevation));
+      const vec3 sun = direction_at(azimuth, elevation);
       const auto is_lit = [&](const auto& place) {
         return dot(place.second, sun) > 0.0f && rays.is_open(place.first, sun);
       };

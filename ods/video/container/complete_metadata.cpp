@@ -21,13 +21,18 @@ VideoStereo video_stereo(Layout layout) {
   return *stereo_with(eyes);
 }
 
+bool can_say_projection(const ProjectionSetting& projection) {
+  if (projection.kind == kPerspective) return true;
+  return projection.kind == kLatLong && projection.longitude.x >= -180.0f && projection.longitude.y <= 180.0f;
+}
+
 void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projection) {
   metadata.bounds = {};
   if (projection.kind == kPerspective) {
     metadata.projection = VideoProjection::kFlat;
     return;
   }
-  if (projection.kind != kLatLong || projection.longitude.x < -180.0f || projection.longitude.y > 180.0f) {
+  if (!can_say_projection(projection)) {
     throw Error(ErrorKind::kUsage,
                 fmt::format("360 metadata of videos has no projection {}, only lat-long, parts of it such as vr180, "
                             "cubemap and flat",

@@ -15,8 +15,10 @@ namespace ods {
 // The video layout for a picture layout; squeezed layouts map to their full ones. Throws Error(kUsage) if videos have
 // no such layout.
 VideoStereo video_stereo(Layout layout);
-// Accepts a lat-long that does not cross the seam, and a flat window; throws Error(kUsage) for all others. (The cubemap
-// of videos orders its faces unlike any in projection.h.)
+// Whether the metadata of videos has a projection: a lat-long that does not cross the seam, and a flat window. (The
+// cubemap of videos orders its faces unlike any in projection.h.)
+bool can_say_projection(const ProjectionSetting& projection);
+// Throws Error(kUsage) unless can_say_projection().
 void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projection);
 
 // All of a video's own metadata combined; nothing if there is none. V2 takes precedence over V1, and V1 over vexu; only

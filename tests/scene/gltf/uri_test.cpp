@@ -4,7 +4,6 @@
 // Names of files as programs write them, whatever the specification says.
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <filesystem>
 
 #include "ods/base/error.h"
@@ -134,18 +133,16 @@ TEST_F(GltfUri, NothingOutsideIsFoundByAnotherSpelling) {
   }
 }
 
-// A file may name a million absent ones: only the first are searched for.
-TEST_F(GltfUri, ManyAbsentFilesTakeNoTime) {
+// Only the first are searched for: a folder that was listed anew for each would outlast the test's time limit.
+TEST_F(GltfUri, ManyFilesMayBeAbsent) {
   GltfBuilder file = make_triangle();
   for (int i = 0; i < 30000; i++) file.json["images"].push_back({{"uri", "Textures\\" + std::to_string(i) + ".png"}});
   folder.write("in/scene.gltf", file.json.dump());
-  for (int i = 0; i < 300; i++) folder.write("in/" + std::to_string(i), "");
+  for (int i = 0; i < 3000; i++) folder.write("in/" + std::to_string(i), "");
   file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "a.bin"}}};
   write("in/a.bin");
   folder.write("in/scene.gltf", file.json.dump());
-  const std::clock_t start = std::clock();
   EXPECT_EQ(load_gltf(folder.path("in/scene.gltf")).triangles.size(), 1u);
-  EXPECT_LT(std::clock() - start, 4 * CLOCKS_PER_SEC);
 }
 
 TEST_F(GltfUri, AbsentFilesAreNamedAsTheFileNamesThem) {

@@ -87,7 +87,7 @@ TEST(Lamp, TheCameraSeesItNoBrighterThanDisplayWhite) {
   Scene scene;
   add_lamp(scene, {vec3(0.0f, 2.0f, 0.0f), 0.5f, 2.0f});
   EXPECT_NEAR(seen_above(scene), double{kSeenLamp}, 1e-3);
-  scene.instances.back().catcher = 0;
+  scene.instances.back().role = kOrdinary;
   EXPECT_NEAR(seen_above(scene), 6.8, 1e-3);
   Scene wide;
   add_lamp(wide, {vec3(0.0f, 2.0f, 0.0f), 4.0f, 2.0f});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods convert: converts a picture to another form.
+// ods convert: converts a picture, frames or a video to another form.
 #include "ods/convert/convert.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,8 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/picture/convert_job.h"
+#include "cli/convert/convert_frames.h"
+#include "cli/convert/convert_job.h"
 
 namespace {
 
@@ -31,16 +32,6 @@ void count_rows(ods::PictureRows& rows, const std::string& output, ProgressLines
   };
 }
 
-void say_what_is_missing(const ods::Conversion& conversion) {
-  const ods::PictureRows& rows = conversion.rows;
-  const double all = 1.0 * rows.eye.width * rows.eye.height * static_cast<double>(rows.eyes.size());
-  const double share = static_cast<double>(*conversion.empty) / all;
-  if (share == 0.0) return;
-  note(fmt::format("{:.3g} % of the pixels are empty: {}", 100.0 * share,
-                   conversion.sees_around ? "what the eyes see there now was hidden, or outside the picture"
-                                          : "the picture does not reach there"));
-}
-
 void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   ods::Conversion conversion = ods::convert(job.picture, job.target);
@@ -53,8 +44,9 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   lines.report(1.0, seconds_since(start), {"convert", 0, 0, job.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
-  say_what_is_missing(conversion);
   const ods::Extent eye = job.target.eye;
+  const double all = 1.0 * eye.width * eye.height * static_cast<double>(job.target.eyes.size());
+  say_what_is_missing(static_cast<double>(*conversion.empty) / all, conversion.sees_around);
   note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.camera.projection), eye.width,
                    eye.height, duration_text(seconds_since(start))));
 }
@@ -63,12 +55,21 @@ void convert(int argc, char** argv) {
   ConvertJob job;
   if (!read_convert_job(job, argc, argv)) return;
   run_long_job(job.progress, job.threads, [&](ProgressLines& lines) {
+    if (ods::container_of_path(job.output)) return convert_to_video(job, lines);
+    if (job.kind != ods::FootageKind::kPicture) return convert_to_frames(job, lines);
     open_input(job);
     convert_to_file(job, lines);
   });
 }
 
 }  // namespace
+
+void say_what_is_missing(double share, bool sees_around) {
+  if (share == 0.0) return;
+  note(fmt::format("{:.3g} % of the pixels are empty: {}", 100.0 * share,
+                   sees_around ? "what the eyes see there now was hidden, or outside the picture"
+                               : "the picture does not reach there"));
+}
 
 int ods_convert(int argc, char** argv) {
   return run_command([=] { convert(argc, argv); });

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/convert_job.h"
+#include "cli/convert/convert_job.h"
 
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/convert/right_eye_options.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/field_option.h"
 #include "cli/options/picture_options.h"
@@ -13,7 +14,7 @@
 #include "ods/files/atomic_file.h"
 #include "ods/picture/metadata/sidecar.h"
 
-using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout;
+using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout, ods::FootageKind;
 
 namespace {
 
@@ -21,14 +22,14 @@ constexpr const char* kExamples =
     "  ods convert picture.png -o cubes.png --to cube-3x2\n"
     "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --width 4096\n"
     "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
-    "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90";
+    "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90\n"
+    "  ods convert video_360_TB.mp4 -o headset_180_LR.mp4 --to vr180 --trim 0:10-0:20\n"
+    "  ods convert 'shot_360_TB.####.png' -o 'cubes.####.png' --to cube-3x2";
 
 constexpr const char* kSummary =
-    "Converts a stereo 360 picture to another projection, layout, size or convergence, or extracts single eyes. "
-    "Pictures\n"
-    "with depth (.exr of ods render) can also get another eye distance or pole merge. Everything that is not given "
-    "stays\n"
-    "as it is.";
+    "Converts a stereo 360 picture, frames or a video to another projection, layout, size or convergence, or to\n"
+    "single eyes. Pictures with depth (.exr of ods render) can also get another eye distance or pole merge. What is\n"
+    "not given stays as it is; a video keeps its codec, times, sound, colours and metadata.";
 
 // What the command line asks for.
 struct Wishes {
@@ -36,6 +37,7 @@ struct Wishes {
   std::optional<Layout> layout;
   CameraOptions camera;  // the input's, with the options applied
   bool mono = false;
+  std::optional<std::vector<int>> frames;
 };
 
 // Opens the input as soon as --from-* options are known; the options after it change what its header says.
@@ -43,8 +45,33 @@ void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
   ods::OpenOptions open;
   open.format = job.known;
-  job.picture = job.reader.emplace(path, open).header();
+  job.kind = ods::footage_kind(path);
+  switch (job.kind) {
+    case FootageKind::kPicture:
+      job.picture = job.reader.emplace(path, open).header();
+      break;
+    case FootageKind::kFrames:
+      job.files = ods::find_frames(path, wishes.frames);
+      job.picture = ods::PictureReader(job.files.path(0), open).header();
+      break;
+    case FootageKind::kVideo:
+      job.picture = job.footage.emplace(path, job.known).video().prototype;
+      break;
+  }
   wishes.camera.stereo = job.picture.camera;
+}
+
+// "0:10-0:20", "10-", "-20.5".
+ods::TimeSpan parse_span(const std::string& text) {
+  const size_t dash = text.find('-');
+  const std::string from = text.substr(0, dash), to = dash == std::string::npos ? "" : text.substr(dash + 1);
+  const std::optional<double> start = from.empty() ? 0.0 : ods::parse_time(from);
+  std::optional<double> end;
+  if (!to.empty()) end = ods::parse_time(to);
+  if (dash == std::string::npos || !start || (!to.empty() && !end) || (end && *end <= *start)) {
+    throw UsageError(fmt::format("--trim is a span of time such as 0:10-0:20, 10- or -20.5, not '{}'", text));
+  }
+  return {*start, end};
 }
 
 void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
@@ -64,15 +91,20 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
         for (const std::string& warning : warnings) note(warning);
       },
       "its camera: a .camera.json file or a picture that carries it");
+  options.custom(
+      "--frames", "RANGE", "", [&](const std::string& text) { wishes.frames = ods::parse_frames(text); },
+      "frames to convert, if the input is frames: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.argument(
       "IN", [&](const std::string& path) { open_header(path, job, wishes); },
-      "input file: .png .jpg .tif .webp .hdr .exr; %V in the name reads one file per eye");
+      "a picture (.png .jpg .tif .webp .hdr .exr), frames (#### in the name is the number) or a video (.mp4 .mov .mkv "
+      ".webm); %V in the name: one file per eye");
 }
 
 void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
   options.group("Output");
   options.text("-o,--output", "FILE", job.output,
-               "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+               "output file: .png .jpg .tif .webp .hdr .exr; #### in the name writes frames, .mp4 .mov .mkv .webm a "
+               "video, %V one file per eye");
   add_size_option(options, wishes.size, layout_of_size);
   options.number("--width", wishes.size.width, 0, 32768, "width of one eye in pixels; 0: keeps the input's resolution");
   options.number("--height", wishes.size.height, 0, 32768,
@@ -98,6 +130,20 @@ void add_camera(Options& options, CameraOptions& camera) {
   add_circle_options(options, camera);
 }
 
+void add_video(Options& options, ConvertJob& job) {
+  options.group("Video (by default encoded like the input)");
+  options.custom(
+      "--trim", "FROM-TO", "", [&](const std::string& text) { job.trim = parse_span(text); },
+      "convert only this part of a video: 0:10-0:20, 10-, -20.5 (seconds, minutes, hours)");
+  options.custom(
+      "--stabilize", "FILE", "", [&](const std::string& path) { job.turns = ods::read_turn_keys(path); },
+      "how the camera was turned, to turn its video back: lines of TIME ROLL or TIME YAW PITCH ROLL");
+  options.custom(
+      "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); },
+      "frames per second, if the input is frames");
+  add_packing_options(options, job.video);
+}
+
 // A mono picture is one of the existing eyes, wherever the eyes are to move.
 void note_unmoved(const ConvertJob& job, StereoCamera wished) {
   const StereoCamera& own = job.picture.camera;
@@ -120,24 +166,52 @@ void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
   job.target.eyes = wished_eyes(job, wishes, options.given("--eyes") || options.given("--size"));
   note_unmoved(job, stereo);
   if (wishes.size.eyes == Eyes::kRightEye) job.target.mono_from = ods::kRight;
-  save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, options.given("--tone"), job.save);
-  if (options.given("--exposure") && keeps_light(job.output))
-    note("--exposure leaves .exr and .hdr as the scene is lit");
+  job.has_exposure = options.given("--exposure"), job.has_tone = options.given("--tone");
+  job.has_layout = wishes.layout.has_value();
+  save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, job.has_tone, job.save);
+  if (job.has_exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
 
   ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, stereo.projection);
   if (wishes.size.width > 0) eye = {wishes.size.width, wishes.size.height};
   finish_projection(stereo.projection, eye.width, eye.height);
+  if (ods::container_of_path(job.output)) return;  // say_what_players_need() does
   note_misleading_name(job.output, job.save, job.target.eyes.size(), stereo.projection);
 }
 
-// Asked of the header, so that nobody waits for pixels in vain, and of the pixels: reading them may leave out a layer
-// of depth that the header promised.
-void refuse_impossible(const ConvertJob& job) {
-  const std::string fault = ods::conversion_fault(job.picture, job.target);
-  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
+// The way from what there is to what is asked for: a picture gives a picture, frames and videos give both.
+void check_kinds(const Options& options, const ConvertJob& job) {
+  const bool to_video = ods::container_of_path(job.output).has_value();
+  const bool to_frames = ods::frame_names(job.output).has_value();
+  if (job.kind == FootageKind::kPicture && (to_video || to_frames)) {
+    throw UsageError(
+        fmt::format("'{}' is one picture; a video and frames are made of frames (shot.####.png) or of a "
+                    "video",
+                    job.input));
+  }
+  if (job.kind != FootageKind::kPicture && !to_video && !to_frames) {
+    throw UsageError(
+        fmt::format("'{}' has many pictures, '{}' would be one: name frames (-o 'shot.####.png') or a "
+                    "video (.mp4 .mov .mkv .webm)",
+                    job.input, job.output));
+  }
+  const bool from_video = job.kind == FootageKind::kVideo;
+  for (const char* name : {"--trim", "--stabilize"}) {
+    if (options.given(name) && !from_video) throw UsageError(fmt::format("{} is for videos", name));
+  }
+  if (options.given("--frames") && job.kind != FootageKind::kFrames) {
+    throw UsageError("--frames is for frames; --trim chooses a part of a video");
+  }
+  if (options.given("--fps") && from_video) throw UsageError("--fps is for frames: a video keeps its own times");
+  if (job.has_packing && !to_video)
+    throw UsageError(fmt::format("'{}' is no video: --codec and the like need one", job.output));
 }
 
 }  // namespace
+
+void refuse_impossible(const ConvertJob& job, const ods::StoredPicture& picture) {
+  const std::string fault = ods::conversion_fault(picture, job.target);
+  if (!fault.empty()) throw UsageError(fmt::format("'{}': {}", job.input, fault));
+}
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   Options options("convert", kSummary, kExamples);
@@ -147,6 +221,8 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   add_input_options(options, job, wishes);
   add_output_options(options, job, wishes, layout_of_size);
   add_camera(options, wishes.camera);
+  add_video(options, job);
+  add_right_eye_options(options, job.target.right);
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
@@ -155,10 +231,17 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   if (options.given("--width") && !options.given("--height")) wishes.size.height = 0;
   if (options.given("--height") && wishes.size.width == 0) throw UsageError("--height goes with --width");
   if (options.given("--size") && !wishes.layout) wishes.layout = layout_of_size;
+  job.has_target = options.given("--target");
+  for (const char* name : {"--target", "--codec", "--encoder", "--preset", "--crf", "--bitrate", "--bits", "--chroma",
+                           "--audio", "--apple"}) {
+    job.has_packing = job.has_packing || options.given(name);
+  }
+  check_kinds(options, job);
   refuse_overwriting(job.output, job.input);
   set_target(options, wishes, job);
+  refuse_impossible(job, job.picture);
+  if (ods::container_of_path(job.output)) return true;  // convert_video.cpp judges the output
   ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
-  refuse_impossible(job);
   return true;
 }
 
@@ -166,5 +249,5 @@ void open_input(ConvertJob& job) {
   job.picture = job.reader->read(ods::existing_folder_of(job.output));
   job.reader.reset();  // it may hold a decoder's memory
   note_guesses(job.input, job.picture);
-  refuse_impossible(job);
+  refuse_impossible(job, job.picture);
 }

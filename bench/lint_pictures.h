@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pictures that lint_bench judges: pairs of scenes, faults planted into them, and what correct pictures may be
+// like.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/convert/convert.h"
+#include "ods/lint/lint.h"
+
+// Both eyes of a scene as a correct renderer makes them.
+struct Pair {
+  std::string name;
+  ods::StoredPicture picture;
+};
+
+// 2048 pixels wide. Renders those that the folder does not hold from an earlier call.
+std::vector<Pair> scene_pairs(const std::string& folder);
+
+// A picture on its way to a file: `target` converts the pair, then `edits` change the eyes' linear light.
+struct Made {
+  const Pair* pair = nullptr;
+  ods::ConvertTarget target;
+  std::vector<std::function<void(std::vector<ods::Image>& eyes)>> edits;
+  ods::SaveOptions save;
+  std::string suffix;  // of the file's name: "_TB"
+  ods::LintOptions lint;
+  uint32_t seed = 0;
+};
+Made make_pair(const Pair& pair, int width, int quality);
+
+// Saves it as a JPEG and returns its path.
+std::string save(const Made& made, const std::string& stem);
+
+struct Plant {
+  std::string name;
+  std::vector<ods::Fault> faults;  // any of them is right; empty: the picture is correct
+  ods::Check check;                // which finds it
+  std::string unit;
+  std::vector<double> strengths;
+  std::function<void(Made& made, double strength)> plant;
+};
+const std::vector<Plant>& planted_faults();
+const std::vector<Plant>& correct_kinds();

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/convert/convert_frames.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/picture_options.h"
+#include "ods/base/error.h"
+#include "ods/base/memory.h"
+#include "ods/base/pipeline.h"
+#include "ods/files/frames.h"
+
+using ods::FootageKind, ods::StoredPicture;
+
+namespace {
+
+// A picture on its way from the input to a file.
+struct Work {
+  size_t index = 0;
+  std::optional<StoredPicture> picture;
+  ods::ViewAngles turned{0.0f, 0.0f, 0.0f};
+  std::vector<std::string> files;
+  double empty = 0.0;  // share of the pixels
+};
+
+class Frames {
+ public:
+  explicit Frames(ConvertJob& job) : job_(job), names_(video_names(job.output)) {
+    if (job_.footage) job_.footage->choose(job_.trim);
+  }
+
+  bool take(Work& work) {
+    work.index = next_;
+    if (job_.kind == FootageKind::kFrames) return next_++ < job_.files.frames.size();
+    const std::optional<ods::DecodedFrame> frame = job_.footage->next();
+    if (!frame) return false;
+    work.picture = picture_of(job_.footage->video(), job_.footage->stream(), *frame);
+    if (!job_.turns.empty()) work.turned = turned_at(job_.turns, job_.footage->seconds_of(*frame));
+    next_++;
+    return true;
+  }
+
+  void convert(Work& work) const {
+    ods::ConvertTarget target = job_.target;
+    target.turned = work.turned;
+    if (!work.picture) {
+      refuse_overwriting(output_of(work.index), job_.files.path(work.index));
+      work.picture = open(job_.files.path(work.index));
+    }
+    ods::Conversion conversion = ods::convert(*work.picture, target);
+    const ods::PictureRows& rows = conversion.rows;
+    work.files = save_picture(rows, &target.camera, job_.save, output_of(work.index));
+    const double pixels = 1.0 * rows.eye.width * rows.eye.height * static_cast<double>(rows.eyes.size());
+    work.empty = static_cast<double>(*conversion.empty) / pixels;
+    work.picture.reset();
+  }
+
+  // Frames keep their numbers; those of a video count from 0.
+  std::string output_of(size_t index) const {
+    return names_.path(job_.kind == FootageKind::kFrames ? job_.files.frames[index] : static_cast<int>(index));
+  }
+
+ private:
+  StoredPicture open(const std::string& path) const {
+    ods::OpenOptions options;
+    options.format.layout = job_.picture.layout;
+    options.format.camera = job_.picture.camera;
+    StoredPicture picture = open_picture(path, options);
+    if (picture.size.width == job_.picture.size.width && picture.size.height == job_.picture.size.height &&
+        picture.eyes.size() == job_.picture.eyes.size()) {
+      refuse_impossible(job_, picture);
+      return picture;
+    }
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' is not like the first frame, '{}'", path, job_.files.path(0)));
+  }
+
+  ConvertJob& job_;
+  ods::FrameNames names_;
+  size_t next_ = 0;
+};
+
+size_t frames_at_once(const ConvertJob& job) {
+  const ods::Extent old = job.picture.size, made = job.target.eye;
+  const size_t pixels = static_cast<size_t>(old.width) * static_cast<size_t>(old.height) +
+                        static_cast<size_t>(made.width) * static_cast<size_t>(made.height);
+  const size_t bytes = 2 * pixels * 4 * sizeof(float);
+  return std::clamp<size_t>(ods::available_memory() / 2 / bytes, 1,
+                            static_cast<size_t>(tbb::this_task_arena::max_concurrency()) + 1);
+}
+
+}  // namespace
+
+void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
+  const auto start = std::chrono::steady_clock::now();
+  note_guesses(job.input, job.picture);
+  const bool from_video = job.kind == FootageKind::kVideo;
+  if (from_video) refuse_other_colors(job.footage->stream(), job.input);
+  Frames frames(job);
+  const size_t expected = from_video ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
+  size_t done = 0;
+  double empty = 0.0;
+  const auto report = [&](const Work& work) {
+    for (const std::string& file : work.files) announce_file(file);
+    empty += work.empty;
+    done++;
+    const size_t all = std::max(expected, done);
+    lines.report(static_cast<double>(done) / static_cast<double>(all), seconds_since(start),
+                 {"convert", static_cast<int>(done), static_cast<int>(all), frames.output_of(work.index)});
+  };
+  ods::run_pipeline<Work>(
+      frames_at_once(job), [&](Work& work) { return frames.take(work); }, [&](Work& work) { frames.convert(work); },
+      report);
+  lines.clear();
+  if (done == 0) throw UsageError(fmt::format("there is no picture in that part of '{}'", job.input));
+  say_what_is_missing(empty / static_cast<double>(done), false);
+  note(fmt::format("{}: {} frames, in {}", job.output, done, duration_text(seconds_since(start))));
+}

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods convert with frames or a video as input.
+#pragma once
+#include "cli/console/progress.h"
+#include "cli/convert/convert_job.h"
+
+// Writes a file per frame.
+void convert_to_frames(ConvertJob& job, ProgressLines& lines);
+// Writes a video.
+void convert_to_video(ConvertJob& job, ProgressLines& lines);
+
+// Says how much of the pictures is empty: `share`, 0..1.
+void say_what_is_missing(double share, bool sees_around);

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods convert has to do.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "cli/console/progress.h"
+#include "cli/options/camera_options.h"
+#include "cli/options/video_options.h"
+#include "ods/convert/convert.h"
+#include "ods/convert/video/convert_video.h"
+#include "ods/render/render_options.h"
+
+struct ConvertJob {
+  std::string input;
+  std::string output;
+  ods::FormatHint known;  // of the input
+  ods::FootageKind kind = ods::FootageKind::kPicture;
+  ods::FrameFiles files;                     // of frames
+  std::optional<ods::Footage> footage;       // of a video
+  std::optional<ods::PictureReader> reader;  // of a picture, until open_input()
+  ods::StoredPicture picture;                // only its header until open_input(); of a video or of the first frame
+  ods::ConvertTarget target;
+  ods::SaveOptions save;
+  bool has_exposure = false, has_tone = false, has_layout = false;
+
+  // Frames and videos.
+  ods::TimeSpan trim;
+  std::vector<ods::TurnKey> turns;
+  VideoWishes video;
+  bool has_packing = false;  // an option says how to encode
+  bool has_target = false;   // --target
+
+  int threads = 0;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+// Values that are not given remain the input's. Returns false if help was asked for. Throws UsageError and ods::Error.
+bool read_convert_job(ConvertJob& job, int argc, char** argv);
+
+// Reads the input's pixels, if it is one picture. Throws UsageError and ods::Error.
+void open_input(ConvertJob& job);
+
+// Asked of the header, so that nobody waits for pixels in vain, and of the pixels: reading them may leave out a layer
+// of depth that the header promised. Throws UsageError.
+void refuse_impossible(const ConvertJob& job, const ods::StoredPicture& picture);

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/convert/convert_frames.h"
+#include "cli/options/picture_options.h"
+#include "ods/base/error.h"
+#include "ods/video/container/apple.h"
+
+using ods::Container, ods::FootageKind, ods::SphericalMetadata, ods::VideoStream;
+
+namespace {
+
+// The layout of the new frames. Videos have both eyes in halves; one that nobody asked for becomes the usual one.
+ods::Layout layout_for(const ConvertJob& job) {
+  const ods::Layout layout = job.save.layout;
+  if (job.target.eyes.size() == 1 || ods::arrangement_of(layout).is_halves()) return layout;
+  if (!job.has_layout) return ods::default_layout(job.target.camera.projection);
+  throw UsageError(
+      fmt::format("a video's layout is top-bottom, bottom-top, side-by-side or cross-eyed, perhaps -half, "
+                  "not {}",
+                  layout_name(layout)));
+}
+
+// What the old video says goes on holding: its angles, its eye distance, and whether it is for Apple's players.
+void keep_words(const ConvertJob& job, ods::VideoPlan& plan) {
+  SphericalMetadata& metadata = plan.metadata;
+  if (job.target.eyes.size() == 2 && job.picture.has_ipd) {
+    metadata.ipd = static_cast<double>(job.target.camera.ipd);
+  }
+  if (!job.footage) return;
+  const SphericalMetadata& old = job.footage->video().metadata;
+  if (metadata.projection && metadata.projection != ods::VideoProjection::kFlat) {
+    metadata.yaw = old.yaw, metadata.pitch = old.pitch, metadata.roll = old.roll;
+  }
+  metadata.for_apple = old.for_apple && fits_vexu(metadata);
+  if (old.for_apple && !metadata.for_apple) {
+    plan.notes.push_back(
+        fmt::format("vexu cannot express {}: Apple's players show a flat video", metadata_text(metadata)));
+  }
+}
+
+ods::VideoPlan plan_for(ConvertJob& job) {
+  const int eyes = static_cast<int>(job.target.eyes.size());
+  const ods::Layout layout = layout_for(job);
+  job.target.eye = ods::squeezed_eye(layout, job.target.eye, eyes);
+  ods::VideoPlan plan = ods::plan_eyes(job.target.eye, job.target.eyes.size(), layout, job.target.camera.projection);
+  keep_words(job, plan);
+  const Container container = container_for(job.output);
+  if (plan.metadata.projection && has_boxes(container) && !fits_v2(plan.metadata)) {
+    throw UsageError(
+        fmt::format("{} cannot express {}; .mkv can", container_name(container), metadata_text(plan.metadata)));
+  }
+  return plan;
+}
+
+// Encoding costs quality and time: what only tags would change is for other commands.
+void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
+  const bool is_same = plan.layout == job.picture.layout || job.picture.eyes.size() == 1;
+  if (job.trim.is_part() || !job.turns.empty() || job.has_packing || !is_same ||
+      !is_same_picture(job.picture, job.target))
+    return;
+  throw UsageError(
+      fmt::format("no pixel of '{}' would change, and encoding it again would cost quality: ods inject "
+                  "changes what it says of itself; --codec or --crf encode it again all the same",
+                  job.input));
+}
+
+VideoWishes wishes_for(const ConvertJob& job) {
+  VideoWishes wishes = job.video;
+  wishes.output = job.output;
+  if (!job.footage) return wishes;
+  const VideoStream& stream = job.footage->stream();
+  wishes.sound_cut.is_cut = job.trim.is_part();
+  wishes = wishes_like(wishes, job.footage->video(), stream, job.has_target);
+  if (!stream.words.is_hdr()) return wishes;
+  if (wishes.bits == 8)
+    throw UsageError(fmt::format("'{}' is HDR, which needs 10 bits: leave out --bits 8", job.input));
+  wishes.bits = 10;
+  return wishes;
+}
+
+void check_job(const ConvertJob& job) {
+  if (!job.footage) return;
+  if (job.has_exposure || job.has_tone) {
+    throw UsageError("--exposure and --tone are for scene-linear frames: a video's curve stays as it is");
+  }
+  if (job.footage->stream().words.is_hdr() && changes_colors(job.target.right)) {
+    throw UsageError(fmt::format(
+        "'{}' is HDR, whose code values are kept: --right-gain and --right-gamma are for others", job.input));
+  }
+  if (job.footage->stream().has_alpha) {
+    throw UsageError(
+        fmt::format("'{}' has alpha, which the encoders here cannot keep: convert it to frames (-o "
+                    "'x.####.png')",
+                    job.input));
+  }
+}
+
+int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::EncodeOptions& options,
+                    const ods::Progress& progress) {
+  if (!job.footage) {
+    const ods::DisplayTransform display{job.save.exposure, job.save.tone};
+    return ods::convert_frames({job.files, job.picture, job.target, plan.layout, plan.metadata, display}, options,
+                               job.output, progress);
+  }
+  return ods::convert_video(*job.footage, {job.target, plan.layout, plan.metadata, job.turns}, options, job.output,
+                            progress);
+}
+
+}  // namespace
+
+void convert_to_video(ConvertJob& job, ProgressLines& lines) {
+  const auto start = std::chrono::steady_clock::now();
+  note_guesses(job.footage ? job.input : job.files.path(0), job.picture);
+  check_job(job);
+  if (job.footage) job.footage->choose(job.trim);
+  const ods::VideoPlan plan = plan_for(job);
+  refuse_copy(job, plan);
+  for (const std::string& each : plan.notes) note(each);
+  const VideoWishes wishes = wishes_for(job);
+  const ods::EncodeOptions options = encode_options(wishes, plan.size, job.threads);
+  ods::check_packing(plan, options.packing);
+  say_what_players_need(wishes, plan, options);
+  const size_t expected = job.footage ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
+  if (!options.copies_sound) say_length_of_sound(options, expected);
+  ods::Progress progress;
+  progress.report = [&](double done) {
+    lines.report(done, seconds_since(start), video_step("convert", done, expected, job.output));
+  };
+  const int count = convert_footage(job, plan, options, progress);
+  lines.clear();
+  announce_file(job.output);
+  note(fmt::format("{}: {}, in {}", job.output, video_text(plan, options, static_cast<size_t>(count)),
+                   duration_text(seconds_since(start))));
+}

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/convert/converter.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace ods {
+
+// --- plans -----------------------------------------------------------------------------------------------------------
+
+ConversionPlan make_plan(const StoredPicture& format, const ConvertTarget& target) {
+  return {make_mapping(format, target), is_same_picture(format, target), {}};
+}
+
+void remember_rows(ConversionPlan& plan) {
+  const int height = plan.mapping.size.height, rows = height * static_cast<int>(plan.mapping.eyes.size());
+  plan.rows.resize(static_cast<size_t>(rows));
+  tbb::parallel_for(0, rows,
+                    [&](int i) { plan.rows[static_cast<size_t>(i)] = plan_row(plan.mapping, i / height, i % height); });
+}
+
+// --- rows ------------------------------------------------------------------------------------------------------------
+
+Converter::Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha)
+    : plan_(plan), mapping_(plan.mapping), resampler_(source, adds_alpha), channels_(resampler_.channels()) {
+  if (moves_eyes) reprojection_ = make_reprojection(source);
+  const StoredPicture& picture = *source.picture;
+  if (const std::optional<size_t> layer = depth_layer(picture)) {
+    depth_channel_ = adds_alpha ? 1 : 0;
+    for (size_t i = 0; i < *layer; i++) depth_channel_ += static_cast<int>(picture.eyes[0].layers[i].channels.size());
+  }
+}
+
+void Converter::fill_stretch(const Row& row, const Stretch& stretch, const TexelBlock* block) const {
+  const int x = stretch.x, count = stretch.count;
+  constexpr int kAlike = static_cast<int>(kMaxAlike);
+  PixelRun run(resampler_, stretch.source_eye, stretch.cell, block);
+  for (int i = 0; i < count; i += kAlike) {
+    const int alike = std::min(kAlike, count - i);
+    vec2 places[kAlike];
+    for (int k = 0; k < alike; k++) places[k] = stretch.at(static_cast<float>(i + k) * stretch.per_pixel);
+    const float middle = static_cast<float>(i) + 0.5f * static_cast<float>(alike - 1);
+    const Footprint footprint = stretch.footprint(middle * stretch.per_pixel);
+    const bool together = run.add(texel_tents(footprint), {places, static_cast<size_t>(alike)}, pixel_of(row, x + i));
+    for (int k = 0; k < alike; k++) {
+      if (!together) fill_alone(run, row, stretch, i + k);
+      resampler_.finish({stretch.source_eye, places[k], true}, pixel_of(row, x + i + k));
+    }
+  }
+  run.fill();
+}
+
+// A pixel whose filter reaches beyond its cell, or has no separate columns and rows.
+void Converter::fill_alone(PixelRun& run, const Row& row, const Stretch& stretch, int i) const {
+  const float t = static_cast<float>(i) * stretch.per_pixel;
+  const Place place{stretch.source_eye, stretch.at(t), true};
+  const Footprint footprint = stretch.footprint(t);
+  const int x = stretch.x + i;
+  float* pixel = pixel_of(row, x);
+  if (run.add(texel_tents(footprint), {&place.at, 1}, pixel)) return;
+  std::vector<FilterPoint> points;
+  filter_points(footprint, points);
+  const bool is_near = points.size() == 1 || stays_in_cell(place, stretch.cell, points);
+  const vec2 home = mapping_.home_of(x, row.y), size = mapping_.uv_of(1.0f, 1.0f);
+  float weight = 0.0f;
+  for (const FilterPoint& point : points) {
+    const Place at = is_near ? Place{place.source_eye, place.at + point.texels, true}
+                             : mapping_.find(row.index, home, home + point.pixels * size);
+    if (!at.seen) continue;
+    resampler_.add(at, is_near ? stretch.cell : mapping_.source_cell(at), point.weight, pixel);
+    weight += point.weight;
+  }
+  if (is_near || weight <= 0.0f || weight > 0.9999f) return;
+  for (int c = 0; c < resampler_.channels(); c++) pixel[c] /= weight;
+}
+
+void Converter::fill_single(const Row& row, const RowPlan& plan, const SinglePixel& single) const {
+  float* pixel = pixel_of(row, single.x);
+  for (size_t i = single.first; i < single.first + single.count; i++) {
+    const WeightedPlace& at = plan.places[i];
+    resampler_.add(at.place, mapping_.source_cell(at.place), at.weight, pixel);
+  }
+  for (int c = 0; c < resampler_.channels() && single.weight != 1.0f; c++) pixel[c] /= single.weight;
+  resampler_.finish(single.middle, pixel);
+}
+
+void Converter::fill_planned(const Row& row, const RowPlan& plan) const {
+  for (const Stretch& stretch : plan.stretches) fill_stretch(row, stretch, nullptr);
+  for (const SinglePixel& single : plan.singles) fill_single(row, plan, single);
+}
+
+// --- bands -----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// The texels that stretches of several rows need, as far as they are of one eye and cell.
+class BlockBounds {
+ public:
+  void add(const Stretch& stretch) {
+    if (is_empty_) eye_ = stretch.source_eye, cell_ = stretch.cell, is_empty_ = false;
+    if (stretch.source_eye != eye_ || !same_cell(stretch.cell, cell_)) return;
+    const float end = static_cast<float>(stretch.count - 1) * stretch.per_pixel;
+    for (const float t : {0.0f, 0.5f * end, end}) {
+      const vec2 at = stretch.at(t);
+      const Footprint footprint = stretch.footprint(t);
+      const vec2 reach = abs(footprint.dx) + abs(footprint.dy) + 3.0f;
+      low_ = min(low_, at - reach), high_ = max(high_, at + reach);
+    }
+  }
+
+  // False if the block would be too large for a cache.
+  bool set(Extent picture, TexelBlock& block) const {
+    const int kMost = 12 * 1024;  // texels
+    if (is_empty_) return false;
+    block.source_eye = eye_;
+    block.box = {std::max(static_cast<int>(low_.x), 0), std::max(static_cast<int>(low_.y), 0),
+                 std::min(static_cast<int>(high_.x) + 1, picture.width),
+                 std::min(static_cast<int>(high_.y) + 1, picture.height)};
+    const int width = block.box.right - block.box.left, height = block.box.bottom - block.box.top;
+    return width > 0 && height > 0 && width <= kMost / height;
+  }
+
+ private:
+  bool is_empty_ = true;
+  int eye_ = 0;
+  Cell cell_;
+  vec2 low_{1e9f}, high_{-1e9f};
+};
+
+}  // namespace
+
+Converter::Converter(const ConversionPlan& plan, const TexelReader& reader)
+    : plan_(plan), mapping_(plan.mapping), resampler_(plan.mapping.source, reader), channels_(resampler_.channels()) {}
+
+void Converter::fill_band(int index, int y, int count, std::span<float> rows) const {
+  constexpr int kColumns = 64;
+  constexpr size_t kMostRows = 32;
+  assert(static_cast<size_t>(count) <= kMostRows);
+  const size_t width = static_cast<size_t>(mapping_.size.width) * static_cast<size_t>(channels_);
+  const auto plan_of = [&](int i) -> const RowPlan& {
+    return plan_.rows[static_cast<size_t>(index * mapping_.size.height + y + i)];
+  };
+  const auto row_of = [&](int i) { return Row{index, y + i, rows.subspan(static_cast<size_t>(i) * width, width)}; };
+  thread_local TexelBlock block;
+  std::array<size_t, kMostRows> begin{}, end{};  // of each row's stretches in the columns
+  std::fill(rows.begin(), rows.end(), 0.0f);
+  for (int column = kColumns; column < mapping_.size.width + kColumns; column += kColumns) {
+    BlockBounds bounds;
+    for (int i = 0; i < count; i++) {
+      const std::vector<Stretch>& stretches = plan_of(i).stretches;
+      size_t& last = end[static_cast<size_t>(i)];
+      begin[static_cast<size_t>(i)] = last;
+      for (; last < stretches.size() && stretches[last].x < column; last++) bounds.add(stretches[last]);
+    }
+    const bool has_block = bounds.set(mapping_.source.picture->size, block);
+    if (has_block) resampler_.read(block);
+    for (int i = 0; i < count; i++) {
+      for (size_t k = begin[static_cast<size_t>(i)]; k < end[static_cast<size_t>(i)]; k++) {
+        fill_stretch(row_of(i), plan_of(i).stretches[k], has_block ? &block : nullptr);
+      }
+    }
+  }
+  for (int i = 0; i < count; i++) {
+    for (const SinglePixel& single : plan_of(i).singles) fill_single(row_of(i), plan_of(i), single);
+  }
+}
+
+// --- moved eyes ------------------------------------------------------------------------------------------------------
+
+SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
+  const Ray ray = mapping_.ray_of(index, home, uv);
+  if (ray.direction == vec3(0.0f)) return {};
+  return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
+}
+
+// The footprint is that of the line of sight alone: parallax changes it little, except at depth edges.
+bool Converter::fill_moved_pixel(const Row& row, int x) const {
+  const vec2 home = mapping_.home_of(x, row.y), size = mapping_.uv_of(1.0f, 1.0f);
+  const SurfaceHit met = meet(row.index, home, home);
+  if (!met.place.seen) return false;
+  const Place unmoved = mapping_.find(row.index, home, home);
+  std::vector<FilterPoint> points;
+  filter_points(unmoved.seen ? find_footprint(mapping_, row.index, x, row.y, unmoved) : Footprint(), points);
+  float* pixel = pixel_of(row, x);
+  float weight = 0.0f;
+  for (const FilterPoint& point : points) {
+    const SurfaceHit there = points.size() == 1 ? met : meet(row.index, home, home + point.pixels * size);
+    if (!there.place.seen) continue;
+    resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, pixel);
+    weight += point.weight;
+  }
+  if (weight <= 0.0f) return false;
+  for (int c = 0; c < channels_; c++) pixel[c] /= weight;
+  resampler_.finish(met.place, pixel);
+  pixel[depth_channel_] = met.depth;
+  return true;
+}
+
+int Converter::fill_moved(const Row& row) const {
+  int empty = 0;
+  for (int x = 0; x < mapping_.size.width; x++) {
+    if (mapping_.wants(x, row.y) && !fill_moved_pixel(row, x)) empty++;
+  }
+  return empty;
+}
+
+int Converter::fill(int index, int y, std::span<float> row) const {
+  if (plan_.is_same) {
+    resampler_.copy(mapping_.from[static_cast<size_t>(index)], y, row);
+    return 0;
+  }
+  std::fill(row.begin(), row.end(), 0.0f);
+  const size_t first = static_cast<size_t>(depth_channel_), step = static_cast<size_t>(channels_);
+  for (size_t i = first; depth_channel_ >= 0 && i < row.size(); i += step) row[i] = kFarDepth;
+  if (reprojection_) return fill_moved({index, y, row});
+  if (plan_.rows.empty()) {
+    const RowPlan plan = plan_row(mapping_, index, y);
+    fill_planned({index, y, row}, plan);
+    return plan.empty;
+  }
+  const RowPlan& plan = plan_.rows[static_cast<size_t>(index * mapping_.size.height + y)];
+  fill_planned({index, y, row}, plan);
+  return plan.empty;
+}
+
+}  // namespace ods

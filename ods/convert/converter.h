@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fills the rows of a conversion.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ods/convert/reproject.h"
+#include "ods/convert/resample.h"
+#include "ods/convert/row_plan.h"
+
+namespace ods {
+
+// Where a conversion looks, for pictures of one format.
+struct ConversionPlan {
+  Mapping mapping;
+  bool is_same = false;       // is_same_picture()
+  std::vector<RowPlan> rows;  // of all eyes, from top to bottom; empty: planned when they are filled
+};
+
+// `format`: a picture or its header; it must outlive the plan and must not move.
+ConversionPlan make_plan(const StoredPicture& format, const ConvertTarget& target);
+
+// Plans all rows at once, for many pictures. Takes about 2 bytes per pixel of the target, more where the pictures are
+// seen at a slant.
+void remember_rows(ConversionPlan& plan);
+
+class Converter {
+ public:
+  // moves_eyes: the target's eyes are in other places than the picture's. Both must outlive the converter.
+  Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha);
+  // Of a picture that is made when it is read; the plan's eyes do not move.
+  Converter(const ConversionPlan& plan, const TexelReader& reader);
+  Converter(const Converter&) = delete;
+  Converter& operator=(const Converter&) = delete;
+
+  int64_t no_depth() const { return reprojection_ ? reprojection_->no_depth : 0; }
+
+  // Returns the number of empty pixels.
+  int fill(int index, int y, std::span<float> row) const;
+
+  // Fills rows y, y + 1, ... with the same numbers, but reads the texels that they share once. Preconditions: made with
+  // a TexelReader; the plan has rows.
+  void fill_band(int index, int y, int count, std::span<float> rows) const;
+
+ private:
+  // A row of the target.
+  struct Row {
+    int index;  // of the eye
+    int y;
+    std::span<float> pixels;
+  };
+
+  void fill_planned(const Row& row, const RowPlan& plan) const;
+  void fill_stretch(const Row& row, const Stretch& stretch, const TexelBlock* block) const;
+  void fill_alone(PixelRun& run, const Row& row, const Stretch& stretch, int i) const;
+  void fill_single(const Row& row, const RowPlan& plan, const SinglePixel& single) const;
+  int fill_moved(const Row& row) const;
+  bool fill_moved_pixel(const Row& row, int x) const;
+  SurfaceHit meet(int index, vec2 home, vec2 uv) const;
+  float* pixel_of(const Row& row, int x) const {
+    return row.pixels.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
+  }
+
+  const ConversionPlan& plan_;
+  const Mapping& mapping_;
+  Resampler resampler_;
+  std::optional<Reprojection> reprojection_;
+  int channels_;
+  int depth_channel_ = -1;  // in a pixel of a row; below 0: there is no depth
+};
+
+}  // namespace ods

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/convert/video/convert_video.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "ods/base/error.h"
+#include "ods/video/video_clock.h"
+
+namespace ods {
+
+int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOptions options, const std::string& path,
+                  const Progress& progress) {
+  assert(footage.kind() == FootageKind::kVideo);
+  const VideoStream& stream = footage.stream();
+  options.rate = stream.rate, options.color = stream.color, options.words = stream.words;
+  std::optional<DecodedFrame> frame = footage.next();
+  if (!frame) throw Error(ErrorKind::kUsage, fmt::format("there is no picture in that part of '{}'", footage.path()));
+  const VideoClock clock(stream, frame->time, options.sound_cut.is_cut);
+  clock.set(options);
+
+  const FrameFormat format{conversion.layout, options.packing, options.color};
+  const FrameConverter converter(footage.video(), stream, conversion.target, format, !conversion.turns.empty());
+  const auto pending = [&]() -> std::optional<PendingFrame> {
+    if (!frame) return std::nullopt;
+    ViewAngles turned{0.0f, 0.0f, 0.0f};
+    if (!conversion.turns.empty()) turned = turned_at(conversion.turns, footage.seconds_of(*frame));
+    PendingFrame result{clock(frame->time),
+                        [&converter, turned, old = *frame] { return converter.convert(old, turned); }};
+    frame = footage.next();
+    return result;
+  };
+  const int eyes = static_cast<int>(conversion.target.eyes.size());
+  NewVideo video;
+  video.size = packed_size(conversion.layout, conversion.target.eye, eyes);
+  video.options = options, video.metadata = conversion.metadata;
+  if (options.copies_sound) video.ambisonics = footage.video().ambisonics;
+  video.count = footage.expected_count();
+  const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
+  video.frame_bytes = pixels * 6;  // the decoded frame
+  return write_video(video, pending, path, progress).frames;
+}
+
+static std::shared_ptr<VideoFrame> convert_file(const FramesConversion& conversion, const std::string& path,
+                                                const FrameFormat& format) {
+  OpenOptions open;
+  open.format.layout = conversion.first.layout;
+  open.format.camera = conversion.first.camera;
+  const StoredPicture picture = open_picture(path, open);
+  const Extent size = picture.size, first = conversion.first.size;
+  if (size.width != first.width || size.height != first.height || picture.eyes.size() != conversion.first.eyes.size()) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' is not like the first frame, '{}'", path, conversion.files.path(0)));
+  }
+  const std::string fault = conversion_fault(picture, conversion.target);
+  if (!fault.empty()) throw Error(ErrorKind::kUsage, fmt::format("'{}': {}", path, fault));
+  std::optional<DisplayTransform> display;
+  if (picture.is_float) display = conversion.display;
+  return frame_of(convert(picture, conversion.target).rows, format, display);
+}
+
+int convert_frames(const FramesConversion& conversion, const EncodeOptions& options, const std::string& path,
+                   const Progress& progress) {
+  const FrameFormat format{conversion.layout, options.packing, options.color};
+  const std::vector<int>& frames = conversion.files.frames;
+  size_t next = 0;
+  const auto pending = [&]() -> std::optional<PendingFrame> {
+    if (next == frames.size()) return std::nullopt;
+    const size_t index = next++;
+    return PendingFrame{{static_cast<int64_t>(index), 1},
+                        [&, index] { return convert_file(conversion, conversion.files.path(index), format); }};
+  };
+  const Extent old = conversion.first.size;
+  const int eyes = static_cast<int>(conversion.target.eyes.size());
+  NewVideo video;
+  video.size = packed_size(conversion.layout, conversion.target.eye, eyes);
+  video.options = options, video.metadata = conversion.metadata;
+  video.count = static_cast<int>(frames.size());
+  video.frame_bytes = static_cast<size_t>(old.width) * static_cast<size_t>(old.height) * conversion.first.eyes.size() *
+                      4 * sizeof(float);
+  return write_video(video, pending, path, progress).frames;
+}
+
+}  // namespace ods

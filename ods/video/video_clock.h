@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The times of a video that is made of another's pictures.
+//
+// A part of a video (SoundCut::is_cut) begins with its first picture; a whole one keeps the distance between the
+// beginnings of picture and sound. Matroska rounds times to milliseconds; where they are those of an even rate, so
+// rounded, they become exact again.
+#pragma once
+#include "ods/video/decode.h"
+
+namespace ods {
+
+class VideoClock {
+ public:
+  // first: of the pictures that are used.
+  VideoClock(const VideoStream& stream, const FrameTime& first, bool is_cut);
+
+  // Sets the clock, and where the copied sound begins.
+  void set(EncodeOptions& options) const;
+
+  // The time of a picture in the new video.
+  FrameTime operator()(const FrameTime& time) const;
+
+ private:
+  int64_t even(int64_t ticks) const;
+
+  FrameRate clock_;     // of the new video
+  double start_ = 0.0;  // of the new video, in seconds of the old one
+  int64_t zero_ = 0;    // the same, in the old clock's ticks
+  int64_t first_ = 0;   // in the old clock's ticks
+  int64_t scale_ = 1;   // new ticks per old one
+  int64_t frame_ = 0;   // new ticks per frame of the even rate; 0: times are exact already
+};
+
+}  // namespace ods

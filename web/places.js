@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where on the page a direction is, and which direction a place of the page shows. Places are CSS pixels from the
+// canvas's upper left corner, directions have yaw and pitch in degrees.
+import { boxOf, modeOf } from './modes.js';
+import { raysOf } from './panorama.js';
+
+const degrees = (radians) => (radians * 180) / Math.PI;
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const columns = (rays) => [rays.slice(0, 3), rays.slice(3, 6), rays.slice(6, 9)];
+
+// The parts of the view, each with its eye and its box: left, top, width, height.
+export function partsOf({ canvas, state }) {
+  const scale = canvas.width / canvas.clientWidth;
+  return modeOf(state.mode).parts(0).map(({ at, eye = 0 }) => {
+    const [x, y, width, height] = boxOf(at, canvas);
+    return { eye: state.swap ? 1 - eye : eye, box: [x, canvas.height - y - height, width, height].map((pixels) => pixels / scale) };
+  });
+}
+
+// The direction at a place, and the eye that sees it; null outside.
+export function directionAt(viewer, x, y) {
+  const part = partsOf(viewer).find(({ box }) => x >= box[0] && x < box[0] + box[2] && y >= box[1] && y < box[1] + box[3]);
+  if (!part) return null;
+  const [left, top, width, height] = part.box;
+  const [right, up, ahead] = columns(raysOf(viewer.state, width / height));
+  const [a, b] = [(2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height];
+  const d = ahead.map((value, i) => value + a * right[i] + b * up[i]);
+  return { yaw: degrees(Math.atan2(d[0], -d[2])), pitch: degrees(Math.asin(d[1] / Math.hypot(...d))), eye: part.eye ? 'right' : 'left' };
+}
+
+// Where a part of the view shows a direction; null where it does not.
+export function placeOf({ state }, { yaw, pitch }, { box: [left, top, width, height] }) {
+  const axes = columns(raysOf(state, width / height));
+  const d = raysOf({ yaw, pitch }, 1).slice(6, 9);
+  const ahead = dot(d, axes[2]);
+  if (ahead <= 0.01) return null;
+  const [x, y] = [0, 1].map((i) => dot(d, axes[i]) / (dot(axes[i], axes[i]) * ahead));
+  return Math.max(Math.abs(x), Math.abs(y)) < 1 ? [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height] : null;
+}
