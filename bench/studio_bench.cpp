@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How soon the studio answers: milliseconds from a change to the first picture, while nothing is rendered and while a
-// finer picture is. The difference is what it takes to cancel. Ratios are to the longest that the studio may take.
+// How soon the studio answers: milliseconds from a change to its first picture while a finer one is rendered, and how
+// long that finer one takes to stop. Ratios are to the longest that the studio may take.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -22,43 +24,67 @@ constexpr Subject kRoom{"room"};
 constexpr double kFirstLight = 300.0, kCancel = 50.0;  // milliseconds
 constexpr int kChanges = 7;
 
-// From a change of the camera to the first picture that has it.
-double milliseconds_to_change(LiveRender& live, LiveSettings& settings) {
-  settings.camera.yaw += 7.0f;
+double milliseconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
-  const int revision = live.set(settings, {});
-  for (int number = 0;;) {
-    const std::shared_ptr<const LiveFrame> frame = live.next_frame(number, 10s);
-    if (frame && frame->revision == revision) break;
-    if (frame) number = frame->number;
-  }
+  work();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The median over changes that come some time after the picture before. rest_after: as LiveRender takes it.
-double first_light(const Subject& subject, std::chrono::milliseconds rest_after, std::chrono::milliseconds pause) {
-  Scene scene = load(subject);
-  LiveSettings settings;
-  settings.camera = camera_of(subject, scene);
-  LiveRender live(scene, 0, rest_after);
-  milliseconds_to_change(live, settings);
+// From a change of the camera to the first picture that has it.
+double milliseconds_to_change(LiveRender& live, LiveSettings& settings) {
+  settings.camera.yaw += 7.0f;
+  return milliseconds_of([&] {
+    const int revision = live.set(settings, {});
+    for (int number = 0;;) {
+      const std::shared_ptr<const LiveFrame> frame = live.next_frame(number, 10s);
+      if (frame && frame->revision == revision) return;
+      if (frame) number = frame->number;
+    }
+  });
+}
+
+constexpr auto kNeverRest = 60s;
+
+// The studio's steps take from milliseconds to seconds: a pause of its own before each change meets several.
+void pause_before(int change) {
+  std::this_thread::sleep_for(500ms + change * 170ms);
+}
+
+double median_of_changes(const std::function<double(int)>& measure) {
   std::vector<double> times;
-  for (int i = 0; i < kChanges; i++) {
-    std::this_thread::sleep_for(pause + i * pause / 3);  // not always at the same place of what is rendered
-    times.push_back(milliseconds_to_change(live, settings));
-  }
+  for (int i = 0; i < kChanges; i++) times.push_back(measure(i));
   std::nth_element(times.begin(), times.begin() + kChanges / 2, times.end());
   return times[kChanges / 2];
 }
 
+double first_light(Scene& scene, LiveSettings settings) {
+  LiveRender live(scene, 0, kNeverRest);
+  milliseconds_to_change(live, settings);
+  return median_of_changes([&](int change) {
+    pause_before(change);
+    return milliseconds_to_change(live, settings);
+  });
+}
+
+// Until the thread has ended, with what it takes to free all that it held: an upper bound.
+double cancel(Scene& scene, LiveSettings settings) {
+  return median_of_changes([&](int change) {
+    std::optional<LiveRender> live(std::in_place, scene, 0, kNeverRest);
+    milliseconds_to_change(*live, settings);
+    pause_before(change);
+    return milliseconds_of([&] { live.reset(); });
+  });
+}
+
 void change_to_first_light(benchmark::State& state, const Subject& subject) {
+  Scene scene = load(subject);
+  LiveSettings settings;
+  settings.camera = camera_of(subject, scene);
   for (auto _ : state) {
-    const double rested = first_light(subject, 0ms, 4s);  // nobody waits, so it rests after the step under way
-    const double busy = first_light(subject, 60s, 500ms);
-    state.counters["first_light_ms"] = busy;
-    state.counters["ratio"] = busy / kFirstLight;
-    state.counters["cancel_ms"] = busy - rested;
-    state.counters["cancel_ratio"] = (busy - rested) / kCancel;
+    state.counters["first_light_ms"] = first_light(scene, settings);
+    state.counters["first_light_ratio"] = state.counters["first_light_ms"] / kFirstLight;
+    state.counters["cancel_ms"] = cancel(scene, settings);
+    state.counters["cancel_ratio"] = state.counters["cancel_ms"] / kCancel;
   }
 }
 
