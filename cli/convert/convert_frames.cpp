@@ -33,6 +33,7 @@ class Frames {
  public:
   explicit Frames(ConvertJob& job) : job_(job), names_(video_names(job.output)) {
     if (job_.footage) job_.footage->choose(job_.trim);
+    for (size_t i = 0; i < job_.files.frames.size(); i++) refuse_overwriting(output_of(i), job_.files.path(i));
   }
 
   bool take(Work& work) {
@@ -50,7 +51,6 @@ class Frames {
     ods::ConvertTarget target = job_.target;
     target.turned = work.turned;
     if (!work.picture) {
-      refuse_overwriting(output_of(work.index), job_.files.path(work.index));
       work.picture = open(job_.files.path(work.index));
     }
     ods::Conversion conversion = ods::convert(*work.picture, target);
@@ -99,10 +99,10 @@ size_t frames_at_once(const ConvertJob& job) {
 
 void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  note_guesses(job.input, job.picture);
   const bool from_video = job.kind == FootageKind::kVideo;
   if (from_video) refuse_other_colors(job.footage->stream(), job.input);
   Frames frames(job);
+  note_guesses(job.input, job.picture);
   const size_t expected = from_video ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
   size_t done = 0;
   double empty = 0.0;

@@ -240,7 +240,7 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   refuse_overwriting(job.output, job.input);
   set_target(options, wishes, job);
   refuse_impossible(job, job.picture);
-  if (ods::container_of_path(job.output)) return true;  // convert_video.cpp judges the output
+  if (ods::container_of_path(job.output)) return true;  // convert_to_video() judges the output
   ods::check_output(job.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
   return true;
 }

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods convert of videos and frames as its users meet it.
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <numeric>
+
+#include "ods/image/image_file.h"
+#include "ods/video/container/video_file.h"
+#include "ods/video/encode.h"
+#include "tests/support/cli_runner.h"
+#include "tests/support/made_frames.h"
+
+namespace {
+
+class ConvertVideoCommand : public Cli {
+ protected:
+  std::string path(const std::string& name) const { return folder.path(name); }
+
+  // Of frames that grow brighter, ten a second; the eyes are 128x64 pixels, one above the other.
+  std::string make(const std::string& name, int frames, const std::string& words = "") {
+    std::vector<int> numbers(static_cast<size_t>(frames));
+    std::iota(numbers.begin(), numbers.end(), 1);
+    ods::made::write_frames(path("made.#.png"), numbers);
+    EXPECT_EQ(run("encode " + path("made.#.png") + " -q --fps 10 --codec h264 --crf 4 -o " + path(name) + " " + words),
+              0)
+        << err;
+    for (const int number : numbers) std::filesystem::remove(path("made." + std::to_string(number) + ".png"));
+    return path(name);
+  }
+
+  int convert(const std::string& from, const std::string& to, const std::string& words = "") {
+    return run("convert " + from + " -o " + path(to) + " " + words);
+  }
+
+  // Which frame of make() this is, the first one is 1: by how red its left eye is. NaN if there is none.
+  double number_of(const std::string& frame) const {
+    if (!std::filesystem::exists(path(frame))) return std::nan("");
+    const double red = static_cast<double>(ods::srgb_encode(ods::read_image(path(frame)).at(20, 20)[0]));
+    return (255.0 * red - ods::made::code_of(0)) / (ods::made::code_of(1) - ods::made::code_of(0));
+  }
+
+  void expect_error(const std::string& words) const {
+    EXPECT_EQ(out, "");
+    EXPECT_TRUE(err.starts_with("ods: error: ")) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find(words), std::string::npos) << err;
+  }
+};
+
+TEST_F(ConvertVideoCommand, TrimTakesWhatBeginsInTheSpan) {
+  const std::string video = make("video_360_TB.mp4", 8);
+  ASSERT_EQ(convert(video, "a.#.png", "-q --trim 0.2-0:00.5"), 0) << err;
+  EXPECT_NEAR(number_of("a.0.png"), 3.0, 0.4);
+  EXPECT_NEAR(number_of("a.2.png"), 5.0, 0.4);
+  EXPECT_FALSE(std::filesystem::exists(path("a.3.png")));
+
+  ASSERT_EQ(convert(video, "part_360_TB.mp4", "--trim 0.35-"), 0) << err;
+  EXPECT_NE(err.find(", 4 frames"), std::string::npos) << err;
+  ASSERT_EQ(convert(path("part_360_TB.mp4"), "b.#.png", "-q"), 0) << err;
+  EXPECT_NEAR(number_of("b.0.png"), 5.0, 0.4);
+  EXPECT_NEAR(number_of("b.3.png"), 8.0, 0.4);
+  EXPECT_FALSE(std::filesystem::exists(path("b.4.png")));
+
+  for (const char* span : {"1", "-", "0.5-0.2", "a-b", "0:75-1"}) {
+    EXPECT_EQ(convert(video, "c.mp4", std::string("--trim ") + span), 2) << span;
+    expect_error(*span == '-' && span[1] == '\0' ? "" : "--trim");
+  }
+  EXPECT_EQ(convert(video, "c_360_TB.mp4", "-q --trim 20-30"), 2);
+  expect_error("there is no picture in that part");
+  EXPECT_FALSE(std::filesystem::exists(path("c_360_TB.mp4")));
+}
+
+// The pictures of a video whose camera was turned by 90 degrees to the right, turned back, are those of one turned to
+// the left: by a quarter of the width, without a change to a pixel.
+TEST_F(ConvertVideoCommand, StabilizingTurnsBack) {
+  const std::string video = make("video_360_TB.mp4", 2);
+  folder.write("turned.keys", "0 90 0 0  # to the right all the time\n");
+  folder.write("broken.keys", "0 90 0 0\n0:01 sideways\n");
+  ASSERT_EQ(run("render room -q --width 64 --samples 1 --merge none -o " + path("room_TB.1.png")), 0) << err;
+  ASSERT_EQ(run("encode " + path("room_TB.#.png") + " -q --codec h264 --crf 4 -o " + path("room_360_TB.mp4")), 0);
+  ASSERT_EQ(convert(path("room_360_TB.mp4"), "as_it_was.#.png", "-q"), 0) << err;
+  ASSERT_EQ(convert(path("room_360_TB.mp4"), "back.#.png", "-q --stabilize " + path("turned.keys")), 0) << err;
+  ASSERT_EQ(convert(path("room_360_TB.mp4"), "left.#.png", "-q --yaw -90"), 0) << err;
+  const std::string compare = "compare " + path("back.0.png") + " ";
+  EXPECT_EQ(run(compare + path("left.0.png") + " --max-error 0"), 0) << err << out;
+  EXPECT_EQ(run(compare + path("as_it_was.0.png") + " --max-error 0.01"), 1) << err << out;
+
+  EXPECT_EQ(convert(video, "a.mp4", "--stabilize " + path("broken.keys")), 3);
+  expect_error("broken.keys");
+  EXPECT_EQ(convert(video, "a.mp4", "--stabilize " + path("absent.keys")), 3);
+  expect_error("absent.keys");
+}
+
+TEST_F(ConvertVideoCommand, FramesKeepTheirNumbersOrBecomeAVideo) {
+  ods::made::write_frames(path("shot_360_TB.##.png"), {3, 4, 5, 6});
+  const std::string shots = path("shot_360_TB.##.png");
+  ASSERT_EQ(convert(shots, "half_180_LR.##.png", "-q --to vr180 --frames 4-6x2"), 0) << err;
+  EXPECT_NEAR(number_of("half_180_LR.04.png"), 4.0, 0.3);
+  EXPECT_NEAR(number_of("half_180_LR.06.png"), 6.0, 0.3);
+  EXPECT_FALSE(std::filesystem::exists(path("half_180_LR.05.png")));
+
+  ASSERT_EQ(convert(shots, "half_180_LR.mp4", "--to vr180 --fps 25 --codec h264"), 0) << err;
+  EXPECT_NE(err.find("4 frames at 25 a second"), std::string::npos) << err;
+  EXPECT_EQ(ods::read_video_file(path("half_180_LR.mp4")).tracks.size(), 1u);
+
+  EXPECT_EQ(convert(shots, "shot_360_TB.##.png"), 2);  // themselves
+  expect_error("overwritten");
+  EXPECT_EQ(convert(shots, "a.##.png", "--frames 10-12"), 3);
+  expect_error("10");
+}
+
+TEST_F(ConvertVideoCommand, AnInterruptLeavesWhatWasThere) {
+  const std::string video = make("video_360_TB.mp4", 40);
+  folder.write("new_360_TB.mp4", "the old one");
+  const std::vector<std::string> before = folder.names();
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    Ods command({"convert", video, "-o", path("new_360_TB.mp4"), "--width", "1024", "--progress", "json"});
+    command.wait_for("\"progress\"");
+    command.kill(signal);
+    const int code = command.finish();
+    if (code == 0) continue;  // the signal came too late
+    EXPECT_EQ(code, signal == SIGKILL ? 1000 + SIGKILL : 128 + signal);
+    EXPECT_EQ(folder.read("new_360_TB.mp4"), "the old one");
+    if (signal != SIGKILL) {
+      EXPECT_EQ(folder.names(), before);
+    }
+  }
+}
+
+TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {
+  const std::string video = make("video_360_TB.mp4", 2);
+  ods::made::write_frames(path("shot_TB.#.png"), {1, 2});
+  const std::string shots = path("shot_TB.#.png"), picture = path("shot_TB.1.png");
+  struct Case {
+    std::string from, to, words, said;
+  };
+  const Case cases[] = {
+      {video, "same_360_TB.mp4", "", "ods inject"},
+      {video, "a.mp4", "--fps 25", "--fps is for frames"},
+      {video, "a.mp4", "--frames 1-2", "--trim"},
+      {video, "a.mp4", "--layout anaglyph", "a video's layout is"},
+      {video, "a.mp4", "--mono --exposure 1", "scene-linear"},
+      {video, "a.png", "", "has many pictures"},
+      {video, "a.#.png", "--crf 20", "is no video"},
+      {shots, "a.png", "", "has many pictures"},
+      {shots, "a.mp4", "--trim 1-2", "--trim is for videos"},
+      {shots, "a.mp4", "--stabilize " + path("none.keys"), "none.keys"},
+      {picture, "a.mp4", "", "is one picture"},
+      {picture, "a.#.png", "", "is one picture"},
+      {picture, "a.png", "--frames 1", "--frames is for frames"},
+  };
+  const std::vector<std::string> before = folder.names();
+  for (const Case& each : cases) {
+    const int code = convert(each.from, each.to, each.words);
+    EXPECT_TRUE(code == 2 || code == 3) << each.to << " " << each.words << ": " << code;
+    expect_error(each.said);
+  }
+  EXPECT_EQ(folder.names(), before);
+}
+
+}  // namespace
