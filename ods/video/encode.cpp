@@ -140,15 +140,20 @@ static void set_quality(AVCodecContext& context, const EncoderFacts& facts, cons
   }
 }
 
+// Of these, x264 keeps a hundred megabytes and more for each picture that it works on or looks ahead at.
+static bool is_large(const AVCodecContext& context) {
+  return static_cast<int64_t>(context.width) * context.height > 6'000'000;
+}
+
 // The output must not depend on the number of threads. x264's depends on its thread count, so that is fixed; x265's on
 // the number of frames in flight. libvpx's and libaom's differ between one thread and several. SVT-AV1's and ProRes's
 // do not depend on it.
 static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
-  constexpr int kX264Threads = 12;
+  const int x264_threads = is_large(context) ? 6 : 12;
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
   const int wanted = options.threads > 0 ? options.threads : std::max(1, processors);
   context.thread_count = options.threads;
-  if (facts.name == "libx264") context.thread_count = kX264Threads;
+  if (facts.name == "libx264") context.thread_count = x264_threads;
   if (facts.name == "libx265") {
     constexpr int kFrames = 3, kBlock = 64;  // of its largest block; a frame trails the one before it by some rows
     const int rows = (context.height + kBlock - 1) / kBlock;
@@ -163,6 +168,7 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
   if (name == "libx264" && smallest_level(Codec::kH264, size, options.rate.value()) > "5.2") {
     set(context, "x264-params", "mvrange=511");  // otherwise the decoders of early headsets show garbage
   }
+  if (name == "libx264" && options.preset.empty() && is_large(context)) set(context, "rc-lookahead", "20");
   if (name == "libx265") {                                   // logs to the console on its own
     std::string words = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
     if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
