@@ -31,11 +31,11 @@ float value_at(const Planes& planes, int x, int y) {
   return static_cast<float>(value) / most;
 }
 
-std::string time_text(int frame, double fps) {
-  return fps > 0.0 ? fmt::format("{:.2f} s", frame / fps) : fmt::format("frame {}", frame);
-}
-
 }  // namespace
+
+std::string FrameTrace::time_text(int frame) const {
+  return fmt::format("{:.2f} s", times_[static_cast<size_t>(frame)]);
+}
 
 FrameTrace::FrameTrace(Extent frame, Layout layout) : eye_(*unpacked_size(layout, frame)), layout_(layout) {
   const size_t count = layout == Layout::kSeparate ? 1 : 2;
@@ -87,19 +87,20 @@ void FrameTrace::find_cut(size_t eye) {
   if (is_sudden) cuts_[eye].push_back(frames_);
 }
 
-void FrameTrace::add(const DecodedFrame& frame) {
+void FrameTrace::add(const DecodedFrame& frame, double seconds) {
   for (size_t eye = 0; eye < last_.size(); eye++) {
     const Small now = small_of(frame, static_cast<int>(eye));
     if (frames_ > 0) changes_[eye].push_back(change_of(last_[eye], now));
     last_[eye] = now;
     find_cut(eye);
   }
+  times_.push_back(seconds);
   frames_++;
 }
 
 // --- cuts ------------------------------------------------------------------------------------------------------------
 
-void FrameTrace::check_cuts(double fps, LintReport& report) const {
+void FrameTrace::check_cuts(LintReport& report) const {
   if (cuts_.size() < 2) return skip(report, Check::kCuts, "there is only one eye");
   if (cuts_[0].empty() && cuts_[1].empty()) return skip(report, Check::kCuts, "there are no cuts");
   judge(report, Check::kCuts);
@@ -108,7 +109,7 @@ void FrameTrace::check_cuts(double fps, LintReport& report) const {
     for (const int cut : cuts_[eye]) {
       const auto& other = cuts_[1 - eye];
       if (std::find(other.begin(), other.end(), cut) != other.end()) continue;
-      apart.push_back(fmt::format("{} eye at {} (frame {})", eye == 0 ? "left" : "right", time_text(cut, fps), cut));
+      apart.push_back(fmt::format("{} eye at {} (frame {})", eye == 0 ? "left" : "right", time_text(cut), cut));
     }
   }
   if (apart.empty()) return;
@@ -121,7 +122,7 @@ void FrameTrace::check_cuts(double fps, LintReport& report) const {
 
 // --- duplicates ------------------------------------------------------------------------------------------------------
 
-void FrameTrace::check_duplicates(double fps, LintReport& report) const {
+void FrameTrace::check_duplicates(LintReport& report) const {
   std::vector<int> duplicates;
   const std::vector<Change>& changes = changes_[0];
   const int count = static_cast<int>(changes.size());
@@ -140,7 +141,7 @@ void FrameTrace::check_duplicates(double fps, LintReport& report) const {
   judge(report, Check::kDuplicates);
   if (duplicates.empty()) return;
   std::vector<std::string> times;
-  for (size_t i = 0; i < std::min<size_t>(6, duplicates.size()); i++) times.push_back(time_text(duplicates[i], fps));
+  for (size_t i = 0; i < std::min<size_t>(6, duplicates.size()); i++) times.push_back(time_text(duplicates[i]));
   report.findings.push_back(
       {Fault::kDuplicateFrames, 0.9,
        fmt::format("{} of {} moving frames show what the frame before them did, at {}{}", duplicates.size(), moving,
@@ -169,7 +170,7 @@ double FrameTrace::correlation(int lag) const {
   return product / std::sqrt(square * square_other);
 }
 
-void FrameTrace::check_time(double fps, LintReport& report) const {
+void FrameTrace::check_time(LintReport& report) const {
   if (changes_.size() < 2) return skip(report, Check::kEyeTime, "there is only one eye");
   if (changes_[0].size() < kEnough) return skip(report, Check::kEyeTime, "the video is too short");
   int best = 0;
@@ -184,18 +185,19 @@ void FrameTrace::check_time(double fps, LintReport& report) const {
   if (best == 0 || certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kEyeLate, certainty,
-       fmt::format("motion is seen {} frames{} {} by the right eye than by the left one: changes correlate by {:.2f} "
-                   "then, and by {:.2f} at the same frame",
-                   std::abs(best), fps > 0.0 ? fmt::format(" ({:.3f} s)", std::abs(best) / fps) : "",
-                   best > 0 ? "later" : "earlier", most, here),
+       fmt::format(
+           "motion is seen {} frames ({:.3f} s) {} by the right eye than by the left one: changes correlate by {:.2f} "
+           "then, and by {:.2f} at the same frame",
+           std::abs(best), std::abs(best) * (times_.back() - times_.front()) / (frames_ - 1),
+           best > 0 ? "later" : "earlier", most, here),
        fmt::format("drop the first {} frames of the {} eye's video before the eyes are put together", std::abs(best),
                    best > 0 ? "right" : "left")});
 }
 
-void FrameTrace::report(double fps, LintReport& report) const {
-  check_time(fps, report);
-  check_cuts(fps, report);
-  check_duplicates(fps, report);
+void FrameTrace::report(LintReport& report) const {
+  check_time(report);
+  check_cuts(report);
+  check_duplicates(report);
 }
 
 }  // namespace ods

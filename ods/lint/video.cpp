@@ -93,10 +93,10 @@ class VideoJudge {
       if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "interrupted");
       const std::optional<DecodedFrame> frame = decoder_.next();
       if (!frame) break;
-      trace_.add(*frame);
+      trace_.add(*frame, seconds_of(*frame));
       const bool is_cut = trace_.is_cut();
       if (is_cut) end_shot();
-      if (i % every_ == 0 || (is_cut && options_.every == 0)) look_at(*frame, i);
+      if (i % every_ == 0 || (is_cut && options_.every == 0)) look_at(*frame);
       const int count = decoder_.stream().count;
       if (progress.report && count > 0) progress.report(std::min(1.0, (i + 1.0) / count));
     }
@@ -111,15 +111,14 @@ class VideoJudge {
     return known;
   }
 
-  double fps() const { return decoder_.stream().rate.value(); }
+  double seconds_of(const DecodedFrame& frame) const { return decoder_.stream().seconds_at(frame.time); }
 
-  void look_at(const DecodedFrame& frame, int index) {
+  void look_at(const DecodedFrame& frame) {
     const StoredPicture picture = picture_of(video_, decoder_.stream(), frame);
     LintReport report = lint_subject(subject_of(video_, decoder_.stream(), picture, options_.picture));
     shot_.judged++, frames_++;
     for (Finding& finding : report.findings) {
-      const double time = index / fps();
-      shot_.found[finding.fault].emplace_back(time, std::move(finding));
+      shot_.found[finding.fault].emplace_back(seconds_of(frame), std::move(finding));
     }
     for (const Check check : report.judged) judged_[check]++;
     for (const NotJudged& each : report.not_judged) why_not_[each.check] = each.reason;
@@ -154,7 +153,7 @@ class VideoJudge {
       }
       report.findings.push_back(std::move(finding));
     }
-    trace_.report(fps(), report);
+    trace_.report(report);
     add_container(report);
     sort_report(report);
     return report;

@@ -28,6 +28,9 @@ struct VideoStream {
   double start = 0.0;       // when the first picture is shown, in seconds
   double file_start = 0.0;  // when the first picture or sound begins
   int count = 0;            // number of pictures, as stated or computed from the duration; 0: unknown
+
+  // From the first picture on.
+  double seconds_at(const FrameTime& time) const { return static_cast<double>(time.start) / clock.value() - start; }
 };
 
 // One decoded picture. The planes stay valid while `memory` lives.

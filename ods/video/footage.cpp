@@ -63,7 +63,7 @@ std::optional<DecodedFrame> Footage::next() {
 }
 
 double Footage::seconds_of(const DecodedFrame& frame) const {
-  return static_cast<double>(frame.time.start) / stream().clock.value() - stream().start;
+  return stream().seconds_at(frame.time);
 }
 
 int Footage::expected_count() const {

@@ -50,11 +50,11 @@ LintReport report_of(const std::vector<Moment>& moments) {
     DecodedFrame frame;
     frame.planes.first[0] = luma.data();
     frame.planes.stride[0] = static_cast<size_t>(kFrame.width);
-    trace.add(frame);
+    trace.add(frame, trace.frames() / kRate);
   }
   EXPECT_EQ(trace.frames(), static_cast<int>(moments.size()));
   LintReport report;
-  trace.report(kRate, report);
+  trace.report(report);
   return report;
 }
 
