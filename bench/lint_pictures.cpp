@@ -102,7 +102,7 @@ std::string save(const Made& made, const std::string& stem) {
   for (size_t i = 0; i < eyes.size(); i++)
     picture.eyes.push_back({eyes.size() == 1 ? kMono : static_cast<int>(i), eyes[i], {}, {}, {}});
   if (eyes.size() == 2) picture.eyes[0].eye = kLeft, picture.eyes[1].eye = kRight;
-  const std::string path = stem + made.suffix + ".jpg";
+  const std::string path = stem + made.suffix + made.extension;
   save_picture(picture, made.save, path);
   return path;
 }
@@ -159,6 +159,30 @@ Image blurred(const Image& image, double sigma) {
     }
   }
   return both;
+}
+
+// More or fewer pixels, as an editor makes them that knows of no seam: each the mean of nine places in its area.
+Image resized(const Image& image, double scale) {
+  Image result(static_cast<int>(image.width * scale) / 2 * 2, static_cast<int>(image.height * scale), 3);
+  for (int y = 0; y < result.height; y++) {
+    for (int x = 0; x < result.width; x++) {
+      for (int i = 0; i < 9 * 3; i++) {
+        const double column = std::clamp((x + 0.5) / scale - 0.5 + (i / 9 - 1) * 0.4, 0.0, image.width - 1.001);
+        const int row = std::min(static_cast<int>(y / scale + (i / 3 % 3) * 0.4), image.height - 1);
+        result.at(x, y)[i % 3] += at_column(image, column, row, i % 3) / 9.0f;
+      }
+    }
+  }
+  return result;
+}
+
+Image sharpened(const Image& image, float amount) {
+  Image result = image;
+  const Image soft = blurred(image, 1.0);
+  for (size_t i = 0; i < result.pixels.size(); i++) {
+    result.pixels[i] = std::max(0.0f, image.pixels[i] + amount * (image.pixels[i] - soft.pixels[i]));
+  }
+  return result;
 }
 
 // Grain as displays show it, of its own in each eye.
@@ -410,6 +434,15 @@ void add_developed(std::vector<Plant>& kinds) {
   kinds.push_back(correct_edit("blurred in both eyes", {1.0, 3.0}, [](std::vector<Image>& eyes, double s, uint32_t) {
     for (Image& eye : eyes) eye = blurred(eye, s);
   }));
+  kinds.push_back(correct_edit("sharpened", {0.5, 1.0}, [](std::vector<Image>& eyes, double s, uint32_t) {
+    for (Image& eye : eyes) eye = sharpened(eye, static_cast<float>(s));
+  }));
+  kinds.push_back(correct_edit("resized by an editor", {0.7, 1.4}, [](std::vector<Image>& eyes, double s, uint32_t) {
+    for (Image& eye : eyes) eye = resized(eye, s);
+  }));
+  kinds.push_back({"WebP, of two qualities", {}, Check::kLayout, "", {60.0, 90.0}, [](Made& made, double s) {
+                     made.extension = ".webp", made.save.jpeg_quality = static_cast<int>(s);
+                   }});
   kinds.push_back(correct_edit("under a plain sky", {0.3, 0.5}, [](std::vector<Image>& eyes, double s, uint32_t) {
     for (Image& eye : eyes) cover_with_sky(eye, s);
   }));
@@ -418,6 +451,9 @@ void add_developed(std::vector<Plant>& kinds) {
 void add_formed(std::vector<Plant>& kinds) {
   kinds.push_back({"turned by yaw", {}, Check::kLayout, "", {30.0, 97.0, 180.0, 260.0}, [](Made& made, double s) {
                      made.target.camera.yaw += static_cast<float>(s);
+                   }});
+  kinds.push_back({"of other sizes", {}, Check::kLayout, "", {1536.0, 2048.0}, [](Made& made, double s) {
+                     made.target.eye = {static_cast<int>(s), static_cast<int>(s) / 2};
                    }});
   kinds.push_back({"side by side and half height", {}, Check::kLayout, "", {0.0, 1.0}, [](Made& made, double s) {
                      made.save.layout = s > 0.0 ? Layout::kSideBySide : Layout::kTopBottomHalf;

@@ -28,12 +28,13 @@ struct Made {
   std::vector<std::function<void(std::vector<ods::Image>& eyes)>> edits;
   ods::SaveOptions save;
   std::string suffix;  // of the file's name: "_TB"
+  std::string extension = ".jpg";
   ods::LintOptions lint;
   uint32_t seed = 0;
 };
 Made make_pair(const Pair& pair, int width, int quality);
 
-// Saves it as a JPEG and returns its path.
+// Saves it and returns its path.
 std::string save(const Made& made, const std::string& stem);
 
 struct Plant {

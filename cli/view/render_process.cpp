@@ -83,9 +83,11 @@ void RenderProcess::read_lines(int from) {
     }
   }
   close(from);
+  siginfo_t ended;
+  waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT);  // its number stays its own for cancel()
+  const std::lock_guard<std::mutex> lock(mutex_);
   int result = 0;
   waitpid(child_, &result, 0);
-  const std::lock_guard<std::mutex> lock(mutex_);
   if (status_.state == "running") status_.state = WIFEXITED(result) && WEXITSTATUS(result) == 0 ? "done" : "failed";
   if (status_.state == "done") status_.done = 1.0, status_.left = 0.0;
 }
