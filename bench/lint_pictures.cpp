@@ -161,13 +161,14 @@ Image blurred(const Image& image, double sigma) {
   return both;
 }
 
-// More or fewer pixels, as an editor makes them that knows of no seam: each the mean of nine places in its area.
+// As an editor resizes that knows of no seam: each pixel is the mean of nine places.
 Image resized(const Image& image, double scale) {
   Image result(static_cast<int>(image.width * scale) / 2 * 2, static_cast<int>(image.height * scale), 3);
   for (int y = 0; y < result.height; y++) {
     for (int x = 0; x < result.width; x++) {
+      const double middle = (x + 0.5) * image.width / result.width - 0.5;
       for (int i = 0; i < 9 * 3; i++) {
-        const double column = std::clamp((x + 0.5) / scale - 0.5 + (i / 9 - 1) * 0.4, 0.0, image.width - 1.001);
+        const double column = std::clamp(middle + (i / 9 - 1) * 0.4, 0.0, image.width - 1.001);
         const int row = std::min(static_cast<int>(y / scale + (i / 3 % 3) * 0.4), image.height - 1);
         result.at(x, y)[i % 3] += at_column(image, column, row, i % 3) / 9.0f;
       }
@@ -179,9 +180,7 @@ Image resized(const Image& image, double scale) {
 Image sharpened(const Image& image, float amount) {
   Image result = image;
   const Image soft = blurred(image, 1.0);
-  for (size_t i = 0; i < result.pixels.size(); i++) {
-    result.pixels[i] = std::max(0.0f, image.pixels[i] + amount * (image.pixels[i] - soft.pixels[i]));
-  }
+  for (size_t i = 0; i < result.pixels.size(); i++) result.pixels[i] += amount * (image.pixels[i] - soft.pixels[i]);
   return result;
 }
 

@@ -5,9 +5,9 @@
 // of it, so that neither slopes nor soft edges count; the step at the seam is compared with many others. Columns that
 // are missing show as such a step; columns that the picture repeats are found by matching them.
 //
-// Steps are measured twice. From one pixel to the next, a seam is sharper than edges of the scene, which cover parts of
-// pixels; but codecs that smooth their blocks' borders leave the picture's edges as the only sharp ones. Between means
-// of some columns they show more than what a codec adds.
+// In pictures the steps are those from pixel to pixel: a seam is sharper than edges of the scene, which cover parts of
+// pixels. Codecs that smooth the borders of their blocks leave the picture's edges as the only sharp ones, so for them
+// the steps are those between means of some columns, which a narrow cut changes less.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -32,6 +32,7 @@ constexpr double kStructure = 0.1;    // sharpness of columns where there is som
 constexpr size_t kNear = 8;           // columns on either side that tell how much a row varies there
 constexpr double kGrain = 0.015;      // as displayed: what a row varies anyway
 constexpr double kMostExcess = 3.0;   // a step counts no more
+constexpr double kHalfPixel = 2.5;    // times the steps beside it: so much if a picture was resized without its seam
 
 using Columns = std::vector<double>;
 
@@ -71,16 +72,17 @@ Columns breaks_of(const Columns& row, size_t wide) {
   return breaks;
 }
 
-// The columns that a seam is compared with: JPEG's blocks end there, too.
+// A seam is compared with the columns where JPEG's blocks end, as it does. The last of them is the seam.
 constexpr size_t kBlock = 8;
 
 Columns compared_columns(const Columns& columns) {
   Columns some;
-  for (size_t x = columns.size() % kBlock + kBlock - 1; x < columns.size(); x += kBlock) some.push_back(columns[x]);
+  for (size_t x = kBlock - 1; x + 1 < columns.size(); x += kBlock) some.push_back(columns[x]);
+  some.push_back(columns.back());
   return some;
 }
 
-// The breaks after those columns, over what is usual in their row. The last is the seam.
+// The breaks after those columns, over what is usual in their row.
 Columns sharpness_of(const Columns& row, size_t wide) {
   Columns some = compared_columns(breaks_of(row, wide));
   const double usual = median(some);
@@ -88,7 +90,8 @@ Columns sharpness_of(const Columns& row, size_t wide) {
   return some;
 }
 
-// By how much the steps after those columns exceed the ones right before and after them, over those farther off.
+// By how much the steps after those columns exceed what the ones right before and after them allow, over those farther
+// off.
 Columns excess_of(const Columns& row) {
   const size_t n = row.size();
   Columns step(n), excess(n);
@@ -97,7 +100,7 @@ Columns excess_of(const Columns& row) {
     double near = 0.0;
     for (size_t i = 2; i < 2 + kNear; i++) near += (step[(x + i) % n] + step[(x + n - i) % n]) / (2.0 * kNear);
     const double beside = std::max(step[(x + 1) % n], step[(x + n - 1) % n]);
-    excess[x] = std::min(std::max(step[x] - beside, 0.0) / (near + kGrain), kMostExcess);
+    excess[x] = std::min(std::max(step[x] - kHalfPixel * beside, 0.0) / (near + kGrain), kMostExcess);
   }
   return compared_columns(excess);
 }
@@ -132,36 +135,39 @@ double ramp(double value, double from, double to) {
   return std::clamp((value - from) / (to - from), 0.0, 1.0);
 }
 
-// Returns false if there is nothing near the seam that could break.
-bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& report) {
-  Break coarse;
-  bool has_structure = false;
+// The seam's break between means of columns, as far as it exceeds the others. near: the greatest score beside the seam.
+Break coarse_break(const std::vector<Image>& eyes, double& near) {
+  Break found;
   for (const size_t wide : kWidths) {
     const Columns score = measure(eyes, [&](const Columns& row) { return sharpness_of(row, wide); });
     const size_t n = score.size();
-    for (const size_t near : {size_t{0}, size_t{1}, n - 3, n - 2}) has_structure |= score[near] > kStructure;
+    near = std::max({near, score[0], score[1], score[n - 3], score[n - 2]});
     const Break here = break_of(score, 1.0);
-    if (here.ratio() > coarse.ratio()) coarse = here;
+    if (here.ratio() > found.ratio()) found = here;
   }
-  const Break fine = is_smoothed ? Break() : break_of(measure(eyes, excess_of), 0.02);
-  const double coarsely = ramp(coarse.ratio(), 1.05, 1.35) * ramp(coarse.seam, 0.0, 0.8);
-  const double finely = ramp(fine.ratio(), 2.0, 3.0) * ramp(fine.seam, 0.1, 0.25);
-  if (std::max(coarsely, finely) < 0.1) return has_structure;
-  const int others = eyes[0].width / static_cast<int>(kBlock) - 1;
-  const std::string evidence =
-      finely > coarsely
-          ? fmt::format(
-                "steps from the last column to the first exceed those beside them by {:.2f} of what rows vary "
-                "there, at the worst of {} other columns by {:.2f}",
-                fine.seam, others, fine.others)
-          : fmt::format(
-                "from the last column to the first, rows break {:.1f} times as sharply as usual, at the worst of "
-                "{} other columns {:.1f} times",
-                coarse.seam, others, coarse.others);
-  report.findings.push_back(
-      {Fault::kRaggedSeam, std::max(coarsely, finely), evidence,
-       "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
-  return has_structure || std::max(coarsely, finely) >= 0.5;
+  return found;
+}
+
+// Returns false if there is nothing near the seam that could break.
+bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& report) {
+  double near = 0.0;
+  Break found = coarse_break(eyes, near);
+  double certainty = ramp(found.ratio(), 1.05, 1.35) * ramp(found.seam, 0.0, 0.8);
+  if (!is_smoothed) {
+    found = break_of(measure(eyes, excess_of), 0.02);
+    certainty = ramp(found.ratio(), 2.5, 3.5) * ramp(found.seam, 0.03, 0.09);
+  }
+  if (certainty >= 0.1) {
+    report.findings.push_back(
+        {Fault::kRaggedSeam, certainty,
+         fmt::format(
+             "from the last column to the first, {} break by {:.2g} of what rows vary there, at the worst of {} "
+             "other columns by {:.2g}",
+             is_smoothed ? "means of columns" : "pixels", found.seam, eyes[0].width / static_cast<int>(kBlock) - 1,
+             found.others),
+         "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
+  }
+  return near > kStructure || certainty >= 0.5;
 }
 
 // Codecs of videos, and WebP, smooth the borders of their blocks.
