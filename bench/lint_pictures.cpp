@@ -373,6 +373,10 @@ void add_warnings(std::vector<Plant>& plants) {
        }});
 }
 
+// What a wrong layout shows as: another one, two places instead of two eyes, or eyes of a wrong shape.
+const std::vector<Fault> kWrongLayout = {Fault::kLayoutMisread, Fault::kMetadata, Fault::kMonoAsStereo,
+                                         Fault::kWrongAspect};
+
 void add_layout_faults(std::vector<Plant>& plants) {
   plants.push_back(
       {"swapped eyes", {Fault::kEyesSwapped, Fault::kRightOnTop}, Check::kEyeOrder, "", {1.0}, [](Made& made, double) {
@@ -381,26 +385,17 @@ void add_layout_faults(std::vector<Plant>& plants) {
   plants.push_back({"one eye twice", {Fault::kOneEyeTwice}, Check::kTwoEyes, "", {1.0}, [](Made& made, double) {
                       made.edits.push_back([](std::vector<Image>& eyes) { eyes[1] = eyes[0]; });
                     }});
-  plants.push_back({"side by side read as top-bottom",
-                    {Fault::kLayoutMisread, Fault::kMetadata},
-                    Check::kLayout,
-                    "",
-                    {1.0},
-                    [](Made& made, double) {
+  plants.push_back({"side by side read as top-bottom", kWrongLayout, Check::kLayout, "", {1.0}, [](Made& made, double) {
                       made.save.layout = Layout::kSideBySide, made.lint.layout = Layout::kTopBottom;
                       made.suffix.clear();
                     }});
-  plants.push_back({"top-bottom read as side by side",
-                    {Fault::kLayoutMisread, Fault::kMetadata},
-                    Check::kLayout,
-                    "",
-                    {1.0},
-                    [](Made& made, double) { made.lint.layout = Layout::kSideBySide, made.suffix.clear(); }});
-  plants.push_back(
-      {"one eye named top-bottom", {Fault::kMonoAsStereo}, Check::kLayout, "", {1.0}, [](Made& made, double) {
-         made.target.eyes = {kMono};
-         made.target.mono_from = made.seed % 2 == 0 ? kLeft : kRight;
-       }});
+  plants.push_back({"top-bottom read as side by side", kWrongLayout, Check::kLayout, "", {1.0}, [](Made& made, double) {
+                      made.lint.layout = Layout::kSideBySide, made.suffix.clear();
+                    }});
+  plants.push_back({"one eye named top-bottom", kWrongLayout, Check::kLayout, "", {1.0}, [](Made& made, double) {
+                      made.target.eyes = {kMono};
+                      made.target.mono_from = made.seed % 2 == 0 ? kLeft : kRight;
+                    }});
 }
 
 using Edit = void (*)(std::vector<Image>& eyes, double strength, uint32_t seed);
