@@ -12,6 +12,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 #include "ods/files/atomic_file.h"
+#include "ods/identify/identify.h"
 #include "ods/picture/metadata/sidecar.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout, ods::FootageKind;
@@ -40,22 +41,31 @@ struct Wishes {
   std::optional<std::vector<int>> frames;
 };
 
+// What is known of the input, with what its pixels show where no word tells.
+ods::FormatHint looked_at(const ConvertJob& job) {
+  const std::string path = job.kind == FootageKind::kFrames ? job.files.path(0) : job.input;
+  if (job.kind == FootageKind::kVideo && !ods::is_video(path)) return job.known;  // opening it says what is wrong
+  std::vector<std::string> doubts;
+  const ods::FormatHint format = ods::identified(path, job.known, doubts, "--from-layout and --from-projection");
+  for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", path, doubt));
+  return format;
+}
+
 // Opens the input as soon as --from-* options are known; the options after it change what its header says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
-  ods::OpenOptions open;
-  open.format = job.known;
   job.kind = ods::footage_kind(path);
+  if (job.kind == FootageKind::kFrames) job.files = ods::find_frames(path, wishes.frames);
+  const ods::OpenOptions open{looked_at(job)};
   switch (job.kind) {
     case FootageKind::kPicture:
       job.picture = job.reader.emplace(path, open).header();
       break;
     case FootageKind::kFrames:
-      job.files = ods::find_frames(path, wishes.frames);
       job.picture = ods::PictureReader(job.files.path(0), open).header();
       break;
     case FootageKind::kVideo:
-      job.picture = job.footage.emplace(path, job.known).video().prototype;
+      job.picture = job.footage.emplace(path, open.format).video().prototype;
       break;
   }
   wishes.camera.stereo = job.picture.camera;

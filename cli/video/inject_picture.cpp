@@ -4,6 +4,7 @@
 
 #include "cli/console/console.h"
 #include "cli/video/inject_job.h"
+#include "cli/video/wordless.h"
 #include "ods/base/error.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
@@ -25,6 +26,17 @@ ods::FormatHint known_format(const InjectJob& job) {
   return known;
 }
 
+// Where only the shape would tell, the pixels must agree.
+ods::FormatHint looked_at(const InjectJob& job, ods::FormatHint known) {
+  const std::optional<Wordless> seen = look_at_pixels(known, job.file);
+  if (seen && !seen->reading) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("cannot tag '{}': no word tells what it shows, and {}", job.file, seen->text));
+  }
+  if (seen) known.seen = ods::SeenFormat{seen->reading->layout, seen->reading->projection, seen->text};
+  return known;
+}
+
 // If a picture's name contradicts its metadata, the user must decide.
 void settle_name(const InjectJob& job, const ods::PictureTag& tag) {
   const std::string fault = ods::name_fault(job.file, tag.layout, tag.camera.projection);
@@ -42,7 +54,7 @@ void inject_picture(const InjectJob& job) {
     throw UsageError(fmt::format("--track, --ambisonics and --apple are for videos, but '{}' is a picture", job.file));
   if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
   std::vector<std::string> guesses;
-  ods::PictureTag tag = ods::complete_tag(known_format(job), job.file, guesses);
+  ods::PictureTag tag = ods::complete_tag(looked_at(job, known_format(job)), job.file, guesses);
   settle_name(job, tag);
   tag.camera.yaw = job.yaw.value_or(tag.camera.yaw);
   tag.camera.pitch = job.pitch.value_or(tag.camera.pitch);

@@ -7,6 +7,7 @@
 #include "cli/console/long_job.h"
 #include "cli/options/apple_option.h"
 #include "cli/video/inject_job.h"
+#include "cli/video/wordless.h"
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/video/container/apple.h"
@@ -54,6 +55,20 @@ bool asks_for_something(const InjectJob& job) {
          job.for_apple;
 }
 
+// Where only the shape would tell, the frames must agree.
+void take_what_frames_show(const InjectJob& job, const ods::VideoTrack& track, SphericalMetadata& known,
+                           std::vector<std::string>& guesses) {
+  const std::optional<Wordless> seen = look_at_frames(known, track, job.file);
+  if (!seen) return;
+  guesses.push_back(seen->text);
+  if (!seen->reading) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("cannot tag '{}': no word tells what it shows, and {}", job.file, seen->text));
+  }
+  known.stereo = seen->reading->layout ? ods::video_stereo(*seen->reading->layout) : ods::VideoStereo::kOneView;
+  set_projection(known, seen->reading->projection);
+}
+
 // If a video's name or shape contradicts its metadata, the user must decide.
 void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, const ods::VideoTrack& track,
                       bool matters) {
@@ -76,7 +91,10 @@ SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container
   if (job.layout) known.stereo = ods::video_stereo(*job.layout);
   if (!job.projection.empty()) parse_projection(job.projection, known);
   known.for_apple = job.for_apple;
+  std::vector<std::string> seen;
+  take_what_frames_show(job, track, known, seen);
   SphericalMetadata metadata = complete_metadata(known, track, job.file, guesses);
+  guesses.insert(guesses.end(), seen.begin(), seen.end());
   set_angles(job, metadata);
   const ods::TagPlan plan = plan_tag(container, track, metadata);
   settle_conflicts(job, known, track, plan.says_more || !asks_for_something(job));

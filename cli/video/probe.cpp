@@ -8,6 +8,7 @@
 #include "cli/console/interrupt.h"
 #include "cli/console/options.h"
 #include "cli/video/probe_report.h"
+#include "cli/video/wordless.h"
 #include "ods/base/error.h"
 #include "ods/files/memory_file.h"
 #include "ods/image/format/xmp_file.h"
@@ -42,6 +43,13 @@ void probe_right_eye(PictureReport& report, const std::string& path, std::vector
   }
 }
 
+// What ods inject would do.
+void add_wordless(const std::optional<Wordless>& seen, std::vector<std::string>& warnings) {
+  if (!seen) return;
+  warnings.push_back(fmt::format("no word tells what it shows, and {}{}", seen->text,
+                                 seen->reading ? " (ods inject tags it so)" : ""));
+}
+
 ProbeReport probe(const std::string& path) {
   ProbeReport report;
   report.path = path;
@@ -50,17 +58,24 @@ ProbeReport probe(const std::string& path) {
     for (const ods::VideoTrack& track : report.video->tracks) {
       report.views.push_back(video_views(*report.video, track, path));
       report.warnings.push_back(video_warnings(*report.video, track, path));
+      const std::optional<Wordless> seen = look_at_frames({}, track, path);
+      add_wordless(seen, report.warnings.back());
+      report.seen.push_back(seen ? std::optional(seen->identity) : std::nullopt);
     }
     return report;
   }
   const ods::FileInfo info = ods::read_info(path);
-  const ods::StereoFormat format = find_format(info, path, {});
+  const std::optional<ods::Identity> identity = ods::identify_if_open(path);
+  ods::StereoFormat format = find_format(info, path, {});
+  if (identity) format = find_format(info, path, with_seen({}, format, *identity));
   const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
   report.picture = PictureReport{info, format, ods::gpano_camera(xmp), ""};
   const bool has_gpano = report.picture->gpano.has_value();
   report.views.push_back(picture_views(info, format, has_gpano, path));
+  report.seen.push_back(identity);
   report.warnings.push_back(picture_warnings(info, format, has_gpano, path));
   if (!info.color_fault.empty()) report.warnings[0].push_back(info.color_fault);
+  add_wordless(judged_picture(identity), report.warnings[0]);
   if (format.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
   return report;
 }

@@ -101,8 +101,23 @@ Json to_json(const std::optional<SphericalMetadata>& metadata) {
   return json;
 }
 
+// How the pixels may be read; null where words tell it.
+Json readings_to_json(const std::optional<ods::Identity>& identity) {
+  if (!identity) return nullptr;
+  Json json = Json::array();
+  for (const ods::Reading& reading : identity->readings) {
+    if (reading.certainty < 0.01) continue;
+    json.push_back(
+        {{"layout", nullptr}, {"projection", projection_name(reading.projection)}, {"certainty", reading.certainty}});
+    if (reading.layout) json.back()["layout"] = layout_name(*reading.layout);
+  }
+  return json;
+}
+
 Json views_to_json(const ProbeReport& report, size_t index) {
-  Json json = {{"players", Json::array()}, {"warnings", report.warnings[index]}};
+  Json json = {{"readings", readings_to_json(report.seen[index])},
+               {"players", Json::array()},
+               {"warnings", report.warnings[index]}};
   for (const ods::PlayerView& view : report.views[index]) {
     json["players"].push_back({{"player", view.player}, {"takes_it_for", view.takes_it_for}, {"reason", view.reason}});
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/identify/identify.h"
 #include "ods/lint/players.h"
 
 struct PictureReport {
@@ -23,6 +24,7 @@ struct ProbeReport {
   std::optional<PictureReport> picture;
   std::vector<std::vector<ods::PlayerView>> views;  // per video track, or of the picture
   std::vector<std::vector<std::string>> warnings;   // likewise
+  std::vector<std::optional<ods::Identity>> seen;   // likewise: what its pixels show, if no word tells
 };
 
 void print_text(const ProbeReport& report);

@@ -34,4 +34,18 @@ std::string did_you_mean(const std::string& typed, const std::vector<std::string
   return nearest == words.size() ? "" : "; did you mean '" + words[nearest] + "'?";
 }
 
+std::string taken_by(std::string_view start) {
+  using namespace std::string_view_literals;
+  const auto begins = [&](std::string_view bytes) { return start.starts_with(bytes); };
+  if (start.substr(std::min<size_t>(4, start.size())).starts_with("ftyp") || begins("\x1a\x45\xdf\xa3"sv)) {
+    return "; it is a video: ods probe, lint, convert, inject, view and over take videos";
+  }
+  if (begins("glTF")) return "; it is a scene: ods render, video, info and view take scenes";
+  for (const std::string_view picture :
+       {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "RIFF"sv, "#?R"sv, "\x76\x2f\x31\x01"sv}) {
+    if (begins(picture)) return "; it is a picture: ods probe, lint, convert, inject and view take pictures";
+  }
+  return {};
+}
+
 }  // namespace ods

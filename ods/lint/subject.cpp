@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/identify/identify.h"
 #include "ods/lint/checks.h"
 #include "ods/picture/load_eyes.h"
 
@@ -45,6 +47,34 @@ std::vector<Image> small_colors(const StoredPicture& picture, Layout layout) {
   return small;
 }
 
+// Lint sees the eyes in the order that players do: whether it is the right one, it finds out itself.
+static Identity left_first(Identity identity) {
+  std::vector<Reading>& readings = identity.readings;
+  for (size_t i = 0; i < readings.size(); i++) {
+    if (!readings[i].layout) continue;
+    EyeArrangement eyes = arrangement_of(*readings[i].layout);
+    eyes.right_first = false;
+    readings[i].layout = layout_with(eyes);
+    for (size_t k = 0; k < i; k++) {
+      if (readings[k].layout != readings[i].layout || !(readings[k].projection == readings[i].projection)) continue;
+      readings[k].certainty += std::exchange(readings[i].certainty, 0.0);
+    }
+  }
+  std::stable_sort(readings.begin(), readings.end(),
+                   [](const Reading& a, const Reading& b) { return a.certainty > b.certainty; });
+  return identity;
+}
+
+// Players go by a shape, and what is wrong with that is to be found. Where there is none the pixels tell; so they do if
+// they show what no shape tells, such as fisheyes.
+static void look_at_pixels(Subject& subject, const StoredPicture& whole, const FormatHint& known) {
+  if (!subject.format.is_open) return;
+  const Identity identity = left_first(identify(whole, with_words(known, subject.format)));
+  const bool has_shape = subject.format.layout.source == LayoutSource::kShape;
+  if (identity.readings.empty() || (has_shape && has_range(identity.best().projection.kind))) return;
+  subject.format = find_format(subject.info, subject.path, with_seen(known, subject.format, identity));
+}
+
 // Cuts packed eyes here, so that the file can be cut in other ways too.
 static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
@@ -53,21 +83,23 @@ static void load(Subject& subject, const LintOptions& options) {
   open.format.layout = options.layout;
   open.format.projection = options.projection;
   open.color_only = true;
-  subject.format = find_format(subject.info, path, open.format);
+  const FormatHint known = open.format;
+  subject.format = find_format(subject.info, path, known);
   if (names_eye(path) || subject.format.is_photo || subject.layout() == Layout::kMultiview) {
     const StoredPicture picture = open_picture(path, open);
     subject.eyes = grey_eyes(picture);
     subject.small = small_colors(picture, Layout::kSeparate);
     return;
   }
+  open.format.layout = Layout::kSeparate;
+  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
+  const StoredPicture picture = open_picture(path, open);
+  look_at_pixels(subject, picture, known);
   const Extent size{subject.info.width, subject.info.height};
   if (!unpacked_size(subject.layout(), size)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
                                                path, size.width, size.height, layout_name(subject.layout())));
   }
-  open.format.layout = Layout::kSeparate;
-  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
-  const StoredPicture picture = open_picture(path, open);
   subject.packed = grey_eyes(picture)[0];
   subject.eyes = unpack(subject.layout(), subject.packed);
   subject.small = small_colors(picture, subject.layout());

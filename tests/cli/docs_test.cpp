@@ -251,7 +251,9 @@ class Pages : public ::testing::Test {
     if (has(name, "other")) return provide_halves(name);
     if (has(name, "panorama") || has(name, "left.") || has(name, "sky")) words += " --eyes mono";
     if (has(name, "#") || has(name, "%0")) words += " --frames 1-4";
-    make(words + " --width 96 -o " + quoted(name));
+    const bool of_lenses = has(name, "camera.");  // large enough to be recognised
+    if (of_lenses) words += " --projection fisheye --layout side-by-side";
+    make(words + (of_lenses ? " --width 256" : " --width 96") + " -o " + quoted(name));
   }
 
   // As another renderer writes it: two pictures of half of the samples each, and a variance of one channel.

@@ -217,7 +217,7 @@ inline void add_side_data(AVStream* stream, AVPacketSideDataType type, uint8_t* 
 
 // A video that libavformat wrote, of one packet that nobody decodes.
 inline std::string muxed(const std::string& path, int width, int height, AVStereo3DType eyes, bool has_sphere,
-                         AVSphericalProjection sphere) {
+                         AVSphericalProjection sphere, bool has_stereo = true) {
   AVFormatContext* video = nullptr;
   avformat_alloc_output_context2(&video, nullptr, nullptr, path.c_str());
   video->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;
@@ -229,7 +229,11 @@ inline std::string muxed(const std::string& path, int width, int height, AVStere
   stream->codecpar->height = height;
   AVStereo3D* stereo = av_stereo3d_alloc();
   stereo->type = eyes;
-  add_side_data(stream, AV_PKT_DATA_STEREO3D, reinterpret_cast<uint8_t*>(stereo), sizeof(*stereo));
+  if (has_stereo) {
+    add_side_data(stream, AV_PKT_DATA_STEREO3D, reinterpret_cast<uint8_t*>(stereo), sizeof(*stereo));
+  } else {
+    av_free(stereo);
+  }
   size_t size = 0;
   AVSphericalMapping* mapping = av_spherical_alloc(&size);
   mapping->projection = sphere;
@@ -269,6 +273,49 @@ inline std::vector<Tagged> videos_of_ffmpeg(const TemporaryFolder& folder) {
     add("a half", 512, 256, AV_STEREO3D_SIDEBYSIDE, true, AV_SPHERICAL_EQUIRECTANGULAR_TILE);
     add("a cubemap", 384, 256, AV_STEREO3D_2D, true, AV_SPHERICAL_CUBEMAP);
     add("flat stereo", 512, 256, AV_STEREO3D_SIDEBYSIDE, false, AV_SPHERICAL_EQUIRECTANGULAR);
+  }
+  return cases;
+}
+
+// --- videos that others' programs have tagged
+// --------------------------------------------------------------------------
+
+inline bool runs(const std::string& words) {
+  return std::system((words + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+// As exiftool and mkvpropedit leave them; none of a program that is not installed.
+inline std::vector<Tagged> videos_of_tools(const TemporaryFolder& folder) {
+  std::vector<Tagged> cases;
+  const auto add = [&](const std::string& title, const std::string& name, int width, int height,
+                       const std::string& words) {
+    muxed(folder.path(name), width, height, AV_STEREO3D_2D, false, AV_SPHERICAL_EQUIRECTANGULAR, false);
+    EXPECT_TRUE(runs(words + " " + folder.path(name))) << words;
+    cases.push_back({title, name, folder.read(name), {}});
+  };
+  if (runs("exiftool -ver")) {
+    const std::string sphere =
+        "exiftool -overwrite_original -XMP-GSpherical:Spherical=true -XMP-GSpherical:Stitched=true "
+        "-XMP-GSpherical:StitchingSoftware=Camera -XMP-GSpherical:ProjectionType=equirectangular";
+    add("exiftool: top-bottom", "ffmpeg.mp4", 256, 256, sphere + " -XMP-GSpherical:StereoMode=top-bottom");
+    add("exiftool: mono with a heading", "ffmpeg.mp4", 512, 256,
+        sphere + " -XMP-GSpherical:StereoMode=mono -XMP-GSpherical:InitialViewHeadingDegrees=90");
+  }
+  if (runs("mkvpropedit --version")) {
+    // Options come after the file.
+    const auto edit = [&](const std::string& title, int width, int height, const std::string& sets) {
+      muxed(folder.path("ffmpeg.mkv"), width, height, AV_STEREO3D_2D, false, AV_SPHERICAL_EQUIRECTANGULAR, false);
+      EXPECT_TRUE(runs("mkvpropedit " + folder.path("ffmpeg.mkv") + " --edit track:v1 " + sets)) << sets;
+      cases.push_back({title, "ffmpeg.mkv", folder.read("ffmpeg.mkv"), {}});
+    };
+    const std::string whole(40, '0');
+    edit("mkvpropedit: top-bottom", 256, 256,
+         "--set stereo-mode=3 --set projection-type=1 --set projection-private=" + whole);
+    edit("mkvpropedit: a turned half", 512, 256,
+         "--set stereo-mode=1 --set projection-type=1 --set projection-pose-yaw=30 --set "
+         "projection-private=000000000000000000000000" +
+             std::string("4000000040000000"));
+    edit("mkvpropedit: stereo alone", 512, 256, "--set stereo-mode=1");
   }
   return cases;
 }

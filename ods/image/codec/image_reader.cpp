@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "ods/base/error.h"
+#include "ods/base/suggest.h"
 #include "ods/base/text.h"
 #include "ods/files/read_file.h"
 #include "ods/image/codec/exr_rows.h"
@@ -113,9 +114,14 @@ static Reader create_reader(std::span<const std::byte> start, const std::string&
   set_up_openimageio();
   const std::optional<FileFormat> format = format_of_bytes(start);
   if (!format && is_named_as_video(name)) {
-    throw cannot_read(name, "it is a video; ods convert VIDEO -o 'x.####.png' makes pictures of it");
+    throw cannot_read(name,
+                      "it is a video; ods convert VIDEO -o 'x.####.png' makes pictures of it; ods "
+                      "probe, lint, inject, view and over take videos, too");
   }
-  if (!format) throw cannot_read(name, fmt::format("it is none of {}", known_extensions()));
+  if (!format) {
+    const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
+    throw cannot_read(name, fmt::format("it is none of {}{}", known_extensions(), taken_by(bytes)));
+  }
   Reader reader;
   reader.format = *format;
   reader.input = OIIO::ImageInput::create(plugin_name(*format));

@@ -186,7 +186,11 @@ static LayoutGuess find_layout(const FileInfo& info, const std::string& path, co
     const bool is_one = sidecar->eyes.size() == 1;
     return {is_one ? std::nullopt : std::optional(sidecar->layout), LayoutSource::kSidecar, "its sidecar says so"};
   }
-  return guess_layout(info, path, known.projection);
+  const LayoutGuess guess = guess_layout(info, path, known.projection);
+  if (known.seen && guess.source > LayoutSource::kPixels) {
+    return {known.seen->layout, LayoutSource::kPixels, known.seen->reason};
+  }
+  return guess;
 }
 
 static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar) {
@@ -218,17 +222,27 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
   return std::nullopt;
 }
 
-// By the name, else by the shape of an eye before squeezing.
-static ProjectionSetting guess_projection(Extent eye, const std::string& path, std::vector<std::string>& guesses) {
+static const NamedProjection* projection_of_shape(Extent eye) {
+  for (const NamedProjection* shape : shapes()) {
+    if (has_shape(shape->setting, eye)) return shape;
+  }
+  return nullptr;
+}
+
+// By the name, else by the pixels, else by the shape of an eye before squeezing.
+static ProjectionSetting guess_projection(Extent eye, const std::string& path, const FormatHint& known,
+                                          std::vector<std::string>& guesses) {
   const NameWords words = read_name(path);
   const auto guess = [&](const NamedProjection& named, const std::string& reason) {
     guesses.push_back(fmt::format("{}: {}", named.name, reason));
     return named.setting;
   };
   if (words.projection) return guess(*words.projection, fmt::format("its name ends in {}", words.projection_word));
-  for (const NamedProjection* shape : shapes()) {
-    if (has_shape(shape->setting, eye)) return guess(*shape, "an eye has that shape");
+  if (known.seen) {
+    guesses.push_back(fmt::format("{}: its pixels look like it", projection_name(known.seen->projection)));
+    return known.seen->projection;
   }
+  if (const NamedProjection* shape = projection_of_shape(eye)) return guess(*shape, "an eye has that shape");
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
@@ -269,7 +283,9 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
     format.camera.projection = *known.projection;
   } else if (!camera) {
     const Extent eye = whole_eye(layout, {info.width, info.height}).value_or(Extent{1, 1});
-    format.camera.projection = guess_projection(eye, path, format.guesses);
+    format.camera.projection = guess_projection(eye, path, known, format.guesses);
+    format.is_open = read_name(path).projection == nullptr && !known.seen &&
+                     (format.layout.source >= LayoutSource::kShape || projection_of_shape(eye) == nullptr);
   }
   return format;
 }

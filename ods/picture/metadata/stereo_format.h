@@ -3,7 +3,7 @@
 //
 // Finds the format of a picture file: layout, projection, camera. In order of precedence: what the caller knows; the
 // sidecar beside it (NAME.camera.json); the file's own metadata (ods:*, GPano, envmap, the channels of two views, a
-// second eye); its name; its shape. Names end in words after _ or . : those of layout_of() (_TB, _LR, _SBS, _OU ...),
+// second eye); its name; what its pixels show, if the caller has looked (ods/identify); its shape. Names end in words after _ or . : those of layout_of() (_TB, _LR, _SBS, _OU ...),
 // mono, 180, vr180, 360 and the names of projections, in upper or lower case, possibly followed by numbers.
 #pragma once
 #include <optional>
@@ -32,7 +32,7 @@ NameWords read_name(const std::string& path);
 std::string renamed(const std::string& path, const std::string& words);
 
 // Where the layout comes from; those after kFile are guesses.
-enum class LayoutSource { kPair, kCaller, kSidecar, kFile, kName, kShape, kNothing };
+enum class LayoutSource { kPair, kCaller, kSidecar, kFile, kName, kPixels, kShape, kNothing };
 
 struct LayoutGuess {
   std::optional<Layout> layout;  // none: the file holds one eye
@@ -47,12 +47,20 @@ bool is_guess(const LayoutGuess& guess);
 LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
                          const std::optional<ProjectionSetting>& projection = {});
 
+// What a picture's pixels show.
+struct SeenFormat {
+  std::optional<Layout> layout;  // none: one eye
+  ProjectionSetting projection;
+  std::string reason;  // for messages
+};
+
 // What the caller knows. It takes precedence over everything in the file.
 struct FormatHint {
   bool one_eye = false;  // whatever its shape and name suggest
   std::optional<Layout> layout;
   std::optional<StereoCamera> camera;
   std::optional<ProjectionSetting> projection;  // of the camera, too
+  std::optional<SeenFormat> seen;               // this alone does not take precedence, but over the shape
 };
 
 struct StereoFormat {
@@ -62,6 +70,7 @@ struct StereoFormat {
   StereoCamera camera;
   bool has_camera = false;           // known from caller, file or sidecar; else only its projection is guessed
   bool has_ipd = false;              // likewise; GPano and envmap do not give one
+  bool is_open = false;              // no word tells the layout and the projection: its shape or nothing does
   std::vector<std::string> guesses;  // for messages: "top-bottom: its name ends in _TB"
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "ods/base/error.h"
+#include "ods/base/suggest.h"
 #include "ods/image/format/exr_header.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
@@ -24,9 +25,11 @@ static Error unusable(const std::string& path, const std::string& why) {
 static FileFormat format_of(const FileInput& file) {
   const std::optional<FileFormat> format = format_of_file(file);
   if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
-    throw unusable(file.path(),
-                   "it is neither a video (mp4, mov, mkv, webm) nor a picture with room for 360 metadata "
-                   "(jpg, png, tif, exr)");
+    throw unusable(
+        file.path(),
+        "it is neither a video (mp4, mov, mkv, webm) nor a picture with room for 360 metadata "
+        "(jpg, png, tif, exr)" +
+            (format ? "; ods convert makes one of it" : taken_by(file.read(0, std::min<uint64_t>(file.size(), 64)))));
   }
   return *format;
 }
@@ -72,7 +75,7 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
     throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}: give another --layout", info.width,
                                      info.height, layout_name(*tag.layout)));
   }
-  const bool is_told = known.projection || format.has_camera || read_name(path).projection != nullptr;
+  const bool is_told = known.projection || known.seen || format.has_camera || read_name(path).projection != nullptr;
   if (!is_told && natural_height(format.camera.projection, eye->width) != eye->height) {
     throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
                                      "shows: give --layout and --projection",

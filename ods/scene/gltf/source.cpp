@@ -11,6 +11,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/suggest.h"
 #include "ods/base/text.h"
 #include "ods/files/confined_file.h"
 #include "ods/files/read_file.h"
@@ -234,7 +235,9 @@ static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
     if (is_container(start)) return read_start(opened, start.size() < 12 ? start.size() : read_uint32(start, 8));
     const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
     const size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-    if (first != std::string_view::npos && text[first] != '{') fail(file, "is not a glTF file");
+    if (first != std::string_view::npos && text[first] != '{') {
+      fail(file, "is not a glTF file" + taken_by(text));
+    }
     return read_file(opened, kLongestText);
   });
 }

@@ -140,6 +140,10 @@ SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& t
   return known;
 }
 
+bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, const std::string& path) {
+  return !said_metadata(track) && found_format(known, track, path).is_open;
+}
+
 // --- contradictions --------------------------------------------------------------------------------------------------
 
 // Squeezed eyes are square.

@@ -33,6 +33,9 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track);
 SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& track, const std::string& path,
                                     std::vector<std::string>& guesses);
 
+// Whether complete_metadata() would have to go by the shape alone: nobody says the layout and the projection.
+bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, const std::string& path);
+
 // A contradiction to the video's own metadata.
 struct MetadataConflict {
   std::string text;     // "it says top-bottom, but its name ends in _LR"

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Words first, pixels last.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "ods/base/error.h"
+#include "ods/identify/identify.h"
+#include "ods/video/container/complete_metadata.h"
+#include "ods/video/video_input.h"
+
+namespace ods {
+
+static StoredPicture open_whole(const std::string& path) {
+  OpenOptions open;
+  open.color_only = true;
+  open.format.layout = Layout::kSeparate;
+  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
+  open.scratch_folder = std::filesystem::temp_directory_path().string();
+  return open_picture(path, open);
+}
+
+FormatHint with_words(const FormatHint& known, const StereoFormat& format) {
+  FormatHint all = known;
+  if (format.layout.source < LayoutSource::kPixels) {
+    all.one_eye = !format.layout.layout;
+    all.layout = format.layout.layout;
+  }
+  return all;
+}
+
+// Whether the pixels speak against what the shape of the file suggests.
+static bool excludes_shape(const Identity& identity, const StereoFormat& format) {
+  constexpr double kExcluded = 0.05;
+  double certainty = 0.0;
+  for (const Reading& reading : identity.readings) {
+    const bool same = reading.layout == format.layout.layout &&
+                      projection_name(reading.projection) == projection_name(format.camera.projection);
+    certainty += same ? reading.certainty : 0.0;
+  }
+  return certainty < kExcluded;
+}
+
+FormatHint with_seen(const FormatHint& known, const StereoFormat& format, const Identity& identity) {
+  FormatHint all = known;
+  if (!identity.is_likely()) return all;
+  const bool has_shape = format.layout.source == LayoutSource::kShape;
+  if (has_shape && !identity.is_sure() && !excludes_shape(identity, format)) return all;
+  const Reading& best = identity.best();
+  all.seen = SeenFormat{best.layout, best.projection, fmt::format("{} ({:.2f})", identity.reason, best.certainty)};
+  return all;
+}
+
+std::optional<Identity> identify_if_open(const std::string& path, const FormatHint& known) {
+  if (names_eye(path)) return std::nullopt;
+  const StereoFormat format = find_format(read_info(path), path, known);
+  if (!format.is_open) return std::nullopt;
+  return identify(open_whole(path), with_words(known, format));
+}
+
+std::optional<Identity> identify_video(const std::string& path, uint64_t track, const FormatHint& known) {
+  constexpr int kMostFrames = 61, kStep = 20;  // films begin in the dark
+  std::optional<Identity> best;
+  try {
+    VideoDecoder decoder(path, track);
+    VideoInput video;
+    video.prototype.size = decoder.stream().size;
+    video.prototype.eyes.resize(1);
+    for (int i = 0; i < kMostFrames; i++) {
+      const std::optional<DecodedFrame> frame = decoder.next();
+      if (!frame) break;
+      if (i % kStep != 0) continue;
+      Identity identity = identify(picture_of(video, decoder.stream(), *frame), known);
+      const bool is_better = !best || best->readings.empty() ||
+                             (!identity.readings.empty() && identity.best().certainty > best->best().certainty);
+      if (is_better) best = std::move(identity);
+      if (best->is_sure()) break;
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+  }
+  return best;
+}
+
+static FormatHint identified_picture(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
+                                     std::string_view options) {
+  const std::optional<Identity> identity = identify_if_open(path, known);
+  if (!identity) return known;
+  if (const std::string doubt = doubt_text(*identity, options); !doubt.empty()) notes.push_back(doubt);
+  return with_seen(known, find_format(read_info(path), path, known), *identity);
+}
+
+static FormatHint identified_film(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
+                                  std::string_view options) {
+  const VideoFile info = read_video_file(path);
+  const VideoTrack& track = choose_track(info, {}, path);
+  SphericalMetadata told;
+  if (known.layout) {
+    told.stereo = *known.layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(*known.layout);
+  }
+  if (known.projection) told.projection = VideoProjection::kOther;
+  if (!is_told_by_shape(told, track, path)) return known;
+  const std::optional<Identity> identity = identify_video(path, track.id, known);
+  if (!identity || identity->readings.empty()) return known;
+  if (!identity->is_sure()) {
+    notes.push_back(doubt_text(*identity, options));
+    return known;
+  }
+  const Reading& best = identity->best();
+  notes.push_back(fmt::format("{}: {} ({:.2f})", reading_text(best), identity->reason, best.certainty));
+  FormatHint all = known;
+  all.layout = best.layout.value_or(Layout::kSeparate);
+  all.projection = best.projection;
+  return all;
+}
+
+FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
+                      std::string_view options) {
+  const bool is_film = !names_eye(path) && is_video(path);
+  return (is_film ? identified_film : identified_picture)(path, known, notes, options);
+}
+
+}  // namespace ods

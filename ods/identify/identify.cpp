@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every layout is tried with every projection that its eyes have the shape of. The marks of the pixels speak for some
+// readings and against others; what they say adds up as logarithms of odds.
+#include "ods/identify/identify.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ods/identify/eye_match.h"
+#include "ods/identify/marks.h"
+#include "ods/identify/pairs.h"
+#include "ods/identify/thumbnail.h"
+
+namespace ods {
+
+namespace {
+
+constexpr double kSure = 0.9, kLikely = 0.5;
+constexpr int kLeastSide = 128;         // pixels of the file
+constexpr double kLeastDetail = 0.001;  // the mean difference of neighbours
+
+// How the file may be cut, and what is then seen. Squeezed layouts cut it as full ones do.
+struct Cut {
+  EyePacking how = EyePacking::kAlone;
+  double two_eyes = 0.0;  // as EyeMatch::mark(); of one eye: that no other cut shows two
+  std::string reason;
+  std::vector<Image> eyes;  // linear
+  Image shown;              // of the first
+  Marks marks;              // likewise
+  PointPairs pairs;         // of both
+};
+
+struct Candidate {
+  Reading reading;
+  double odds = 0.0;  // logarithm
+  std::string reason;
+};
+
+// --- the eyes --------------------------------------------------------------------------------------------------------
+
+Cut one_eye(const Thumbnail& thumbnail) {
+  Cut cut;
+  cut.eyes = {thumbnail.light};
+  return cut;
+}
+
+Cut two_halves(const Thumbnail& thumbnail, EyePacking how) {
+  Cut cut;
+  cut.how = how;
+  cut.eyes = unpack(*layout_with({how}), thumbnail.light);
+  const EyeMatch match = match_eyes(cut.eyes);
+  cut.two_eyes = match.mark();
+  const char* halves = how == EyePacking::kStacked ? "its upper and lower half" : "its left and right half";
+  cut.reason = fmt::format("{} match at {:.0f} % of {} places", halves, 100.0 * match.share, match.places);
+  return cut;
+}
+
+double between(double value, double no, double yes) {
+  return std::clamp(2.0 * (value - no) / (yes - no) - 1.0, -1.0, 1.0);
+}
+
+// How surely rows or columns alternate between the eyes: there neighbours differ more than every other one, and more
+// than along the other direction. Noise differs as much everywhere.
+double alternate(double along, double across) {
+  if (along <= 0.0 || across <= 0.0) return -1.0;
+  return std::min(between(along, 0.85, 1.0), between(along / across, 1.1, 1.5));
+}
+
+// Of a checkerboard the diagonals differ more than neighbours in a row or a column; in other pictures less, and as much
+// where there is noise.
+double alternate_both_ways(const Thumbnail& thumbnail) {
+  const auto [less, more] = std::minmax(thumbnail.other_rows, thumbnail.other_columns);
+  if (less <= 0.0) return -1.0;
+  const double crossed = thumbnail.crossed;
+  const double as_much_as_both = std::max(between(crossed / more, 0.8, 0.95), between(crossed, 1.2, 1.6));
+  return std::min({between(crossed, 0.65, 0.95), as_much_as_both, between(crossed / less, 1.05, 1.3)});
+}
+
+Cut interleaved(const StoredPicture& whole, const Thumbnail& thumbnail, EyePacking how) {
+  Cut cut;
+  cut.how = how;
+  const double rows = thumbnail.other_rows, columns = thumbnail.other_columns, both = alternate_both_ways(thumbnail);
+  cut.two_eyes = how == EyePacking::kRows      ? alternate(rows, columns)
+                 : how == EyePacking::kColumns ? alternate(columns, rows)
+                                               : both;
+  if (how != EyePacking::kCheckerboard && both > 0.0) cut.two_eyes = -1.0;
+  cut.reason = "every other pixel is more alike than neighbours";
+  cut.eyes = cut.two_eyes > 0.0 ? interleaved_eyes(whole, *layout_with({how})) : std::vector<Image>{thumbnail.light};
+  return cut;
+}
+
+std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail) {
+  std::vector<Cut> cuts{one_eye(thumbnail)};
+  for (const EyePacking how : {EyePacking::kStacked, EyePacking::kBeside}) {
+    const Extent small{thumbnail.light.width, thumbnail.light.height};
+    const Layout layout = *layout_with({how});
+    if (unpacked_size(layout, thumbnail.file) && unpacked_size(layout, small))
+      cuts.push_back(two_halves(thumbnail, how));
+  }
+  for (const EyePacking how : {EyePacking::kRows, EyePacking::kColumns, EyePacking::kCheckerboard}) {
+    if (unpacked_size(*layout_with({how}), thumbnail.file)) cuts.push_back(interleaved(whole, thumbnail, how));
+  }
+  double most = 0.0;
+  for (const Cut& cut : cuts) most = std::max(most, cut.two_eyes);
+  cuts[0].two_eyes = -most;
+  cuts[0].reason = "no two parts of it match";
+  for (Cut& cut : cuts) {
+    cut.shown = shown(cut.eyes[0]);
+    cut.marks = marks_of(cut.shown);
+    if (cut.two_eyes > 0.0 && cut.eyes.size() == 2) cut.pairs = find_pairs(cut.shown, shown(cut.eyes[1]));
+  }
+  return cuts;
+}
+
+// --- the projection --------------------------------------------------------------------------------------------------
+
+// A mark speaks for a reading or against it: as much as this, at most.
+constexpr double kEyes = 6.0, kCircle = 5.0, kBall = 2.5, kDome = 1.6, kPoles = 2.5, kSeam = 2.5, kFaces = 4.0;
+constexpr double kLevel = 0.25;  // of the likelihood of parallax: its pairs are not independent
+constexpr double kMostLevel = 12.0;
+constexpr int kManyPairs = 120;
+constexpr double kLeftFirst = 2.0;  // nearly everybody has the left eye first
+constexpr double kOrder = 7.0;
+constexpr double kOther = -3.0;  // a projection that is not ours
+
+// How usual it is, as a logarithm. eac-face, fisheye-polynomial: nobody's files are, without saying so.
+double usual(std::string_view projection) {
+  constexpr std::pair<std::string_view, double> kUsual[] = {{"lat-long", 0.0},
+                                                            {"vr180", -0.5},
+                                                            {"fisheye", -0.5},
+                                                            {"fisheye-equisolid", -1.7},
+                                                            {"fisheye-polynomial", -4.0},
+                                                            {"mirror-ball", -1.5},
+                                                            {"dome", -1.5},
+                                                            {"perspective", -1.5},
+                                                            {"cube-3x2", -1.0},
+                                                            {"cube-6x1", -1.0},
+                                                            {"cube-1x6", -1.0},
+                                                            {"eac", -1.0},
+                                                            {"eac-face", -3.0},
+                                                            {"cylinder", -1.0}};
+  for (const auto& [name, odds] : kUsual) {
+    if (name == projection) return odds;
+  }
+  return -4.0;
+}
+
+bool fits_shape(const ProjectionSetting& setting, Extent eye) {
+  const int natural = natural_height(setting, eye.width);
+  return std::abs(eye.height - natural) <= std::max(1.0, 0.012 * natural);
+}
+
+void add_reason(Candidate& candidate, double mark, double weight, const char* reason) {
+  candidate.odds += mark * weight;
+  if (mark * weight < 1.0) return;
+  candidate.reason += (candidate.reason.empty() ? "" : ", ") + std::string(reason);
+}
+
+void judge_circle(const Cut& cut, Candidate& candidate) {
+  const Marks& marks = cut.marks;
+  const ProjectionSetting& setting = candidate.reading.projection;
+  const bool is_ball = setting.fov > 300.0f && setting.kind == kFisheyeEquisolid, is_dome = setting.tilt > 45.0f;
+  add_reason(candidate, marks.circle, kCircle, "it is a circle with empty corners");
+  if (is_ball) {
+    add_reason(candidate, marks.ball, kBall, "all of its rim is one point");
+  } else {
+    candidate.odds -= marks.ball * kBall;
+    add_reason(candidate, is_dome ? marks.dome : -marks.dome, kDome,
+               is_dome ? "it is bright in the middle" : "it is bright above");
+  }
+}
+
+// What the marks of an eye say of a projection: each speaks for those that have it and against all others.
+void judge_projection(const Cut& cut, Extent whole, Candidate& candidate) {
+  const Marks& marks = cut.marks;
+  const ProjectionSetting& setting = candidate.reading.projection;
+  const int kind = setting.kind;
+  if (is_fisheye(kind)) return judge_circle(cut, candidate);
+  candidate.odds -= std::max(0.0, marks.circle) * kCircle;
+  for (const NamedProjection& named : named_projections()) {
+    if (!is_cube(named.setting.kind) || !fits_shape(named.setting, whole)) continue;
+    const double joins = faces_join(cut.shown, named.setting);
+    if (named.setting.kind == kind) {
+      add_reason(candidate, joins, kFaces, "its faces join as a cube's");
+    } else {  // also of a cube whose faces have another order
+      const int columns = width_step(named.setting);
+      const double breaks = columns > 1 ? breaks_at_grid(cut.shown, columns, 1) : breaks_at_grid(cut.shown, 1, 6);
+      candidate.odds -= std::max({0.0, joins, is_cube(kind) ? 0.0 : breaks}) * kFaces;
+    }
+  }
+  const bool is_half = is_vr180(setting);
+  if (is_half || is_full_lat_long(setting)) {
+    add_reason(candidate, marks.poles, kPoles, "its top and bottom rows are each one point");
+  } else {
+    candidate.odds -= marks.poles * kPoles;
+  }
+  if (has_range(kind) && !is_half) {
+    add_reason(candidate, marks.closes, kSeam, "its right edge continues at its left one");
+  } else {
+    add_reason(candidate, -marks.closes, kSeam, "its right edge does not continue at its left one");
+  }
+}
+
+// --- all readings ----------------------------------------------------------------------------------------------------
+
+// kSeparate is one eye.
+bool allows(const FormatHint& known, Layout layout) {
+  if (known.one_eye) return layout == Layout::kSeparate;
+  return !known.layout || arrangement_of(*known.layout) == arrangement_of(layout);
+}
+
+std::vector<ProjectionSetting> settings_for(const FormatHint& known, double aspect) {
+  if (known.projection) return {*known.projection};
+  if (known.camera) return {known.camera->projection};
+  std::vector<ProjectionSetting> settings;
+  for (const NamedProjection& named : named_projections()) settings.push_back(named.setting);
+  if (aspect > 2.05 && aspect < 6.0) {  // all around, but not up to the poles
+    settings.emplace_back().latitude = vec2(-1.0f, 1.0f) * static_cast<float>(180.0 / aspect);
+  }
+  return settings;
+}
+
+// The layouts that cut a file in this way; kSeparate stands for one eye.
+std::vector<Layout> layouts_of(EyePacking how) {
+  if (how == EyePacking::kAlone) return {Layout::kSeparate};
+  std::vector<Layout> layouts;
+  for (const Layout layout : kLayouts) {
+    if (arrangement_of(layout).how == how) layouts.push_back(layout);
+  }
+  return layouts;
+}
+
+// Windows are square or somewhat wide, as a rule.
+double window_odds(double aspect) {
+  constexpr double kNarrow = 0.9, kWide = 1.9;
+  const double beyond = std::max({0.0, std::log(kNarrow / aspect), std::log(aspect / kWide)});
+  return beyond > 0.0 ? -1.5 - 2.0 * beyond : 0.0;
+}
+
+void add_candidates(const Cut& cut, Layout layout, const FormatHint& known, Extent file,
+                    std::vector<Candidate>& candidates) {
+  const std::optional<Extent> eye = whole_eye(layout, file);
+  if (!eye || !allows(known, layout)) return;
+  const double aspect = static_cast<double>(eye->width) / eye->height;
+  for (ProjectionSetting setting : settings_for(known, aspect)) {
+    const std::string_view name = projection_name(setting);
+    Candidate candidate;
+    if (setting.kind == kPerspective) {
+      setting.aspect = static_cast<float>(aspect);
+      candidate.odds += window_odds(aspect);
+    } else if (!known.projection && !fits_shape(setting, *eye)) {
+      continue;
+    }
+    const bool has_room = cut.marks.circle > 0.0 && cut.marks.radius < 0.97;  // the circle does not touch the edges
+    if (setting.kind == kFisheye && has_room && !known.projection) {
+      setting.fov = std::min(360.0f, setting.fov / static_cast<float>(cut.marks.radius));
+    }
+    candidate.reading.projection = setting;
+    if (layout != Layout::kSeparate) candidate.reading.layout = layout;
+    const bool is_part = setting.kind == kLatLong && !is_full_lat_long(setting) && !is_vr180(setting);
+    candidate.odds += (is_part ? -4.0 : usual(name)) + kEyes * cut.two_eyes;
+    if (arrangement_of(layout).squeezed) candidate.odds -= 1.0;
+    if (cut.two_eyes > 0.3 || layout == Layout::kSeparate) candidate.reason = cut.reason;
+    judge_projection(cut, *eye, candidate);
+    candidates.push_back(candidate);
+  }
+}
+
+// The eyes in the wrong order have parallax below 0.
+double order_odds(const Parallax& parallax, bool right_first) {
+  const double left = kLeftFirst + kOrder * parallax.order;
+  return -std::log1p(std::exp(right_first ? left : -left));
+}
+
+// In the right projection parallax is level.
+void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
+  for (const Cut& cut : cuts) {
+    std::vector<std::pair<Candidate*, double>> judged;
+    double best = -1e9;
+    for (Candidate& each : candidates) {
+      const EyeArrangement eyes = each.reading.layout ? arrangement_of(*each.reading.layout) : EyeArrangement();
+      if (eyes.how != cut.how || eyes.how == EyePacking::kAlone) continue;
+      const Parallax parallax = parallax_in(cut.pairs, each.reading.projection);
+      if (eyes.is_halves()) each.odds += order_odds(parallax, eyes.right_first);
+      judged.emplace_back(&each, parallax.level * std::min(parallax.count, kManyPairs));
+      best = std::max(best, judged.back().second);
+    }
+    for (const auto& [candidate, level] : judged) candidate->odds += std::max(kLevel * (level - best), -kMostLevel);
+  }
+}
+
+// Something else is always possible: a projection that nobody here knows.
+void share_certainty(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.odds > b.odds; });
+  double sum = 0.0;
+  for (const Cut& cut : cuts) sum += std::exp(kOther + kEyes * cut.two_eyes - candidates[0].odds);
+  for (const Candidate& each : candidates) sum += std::exp(each.odds - candidates[0].odds);
+  for (Candidate& each : candidates) each.reading.certainty = std::exp(each.odds - candidates[0].odds) / sum;
+}
+
+}  // namespace
+
+bool Identity::is_sure() const {
+  return !readings.empty() && best().certainty >= kSure;
+}
+
+bool Identity::is_likely() const {
+  return !readings.empty() && best().certainty >= kLikely;
+}
+
+std::string reading_text(const Reading& reading) {
+  return fmt::format("{}, {}", reading.layout ? layout_name(*reading.layout) : "one eye",
+                     projection_name(reading.projection));
+}
+
+Identity identify(const StoredPicture& whole, const FormatHint& known) {
+  if (std::min(whole.size.width, whole.size.height) < kLeastSide) return {};
+  const Thumbnail thumbnail = make_thumbnail(whole);
+  std::vector<Candidate> candidates;
+  const std::vector<Cut> cuts = all_cuts(whole, thumbnail);
+  Identity identity;
+  if (cuts[0].marks.detail < kLeastDetail) return identity;
+  for (const Cut& cut : cuts) {
+    for (const Layout layout : layouts_of(cut.how)) add_candidates(cut, layout, known, thumbnail.file, candidates);
+  }
+  if (candidates.empty()) return identity;
+  judge_parallax(cuts, candidates);
+  share_certainty(cuts, candidates);
+  identity.reason = candidates[0].reason;
+  for (const Candidate& each : candidates) identity.readings.push_back(each.reading);
+  return identity;
+}
+
+std::string doubt_text(const Identity& identity, std::string_view options) {
+  constexpr double kNamed = 0.05;
+  constexpr size_t kMostNamed = 3;
+  if (identity.readings.empty() || identity.is_sure()) return {};
+  std::vector<std::string> texts;
+  for (const Reading& reading : identity.readings) {
+    if ((reading.certainty < kNamed && texts.size() >= 2) || texts.size() == kMostNamed) break;
+    texts.push_back(fmt::format("{} ({:.2f})", reading_text(reading), reading.certainty));
+  }
+  return fmt::format("{}: say which with {}", fmt::join(texts, " or "), options);
+}
+
+}  // namespace ods

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/identify/thumbnail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "ods/image/tone.h"
+#include "ods/kernel/surface.h"
+
+namespace ods {
+
+namespace {
+
+// Fills a row of the file with luminance; NaN and light below 0 count as black.
+using Rows = std::function<void(int y, std::vector<float>& row)>;
+
+Rows rows_of(const StoredPicture& whole) {
+  const LayerPixels& layer = whole.eyes[0].layers[0];
+  const size_t step = bytes_of(layer.sample);
+  const bool is_float = whole.is_float;
+  const int largest = layer.sample == SampleType::kUint8 ? 255 : 65535;
+  const std::vector<float> light = is_float ? std::vector<float>() : linear_from_encoded(largest);
+  return [=, width = whole.size.width](int y, std::vector<float>& row) {
+    const std::byte* at = layer.first + y * layer.row_stride;
+    row.resize(static_cast<size_t>(width));
+    for (float& value : row) {
+      vec3 rgb;
+      for (int c = 0; c < 3; c++) {
+        const float sample = sample_value(layer.sample, at + static_cast<size_t>(c) * step);
+        const float code = sample * static_cast<float>(largest) + 0.5f;
+        rgb[c] = is_float ? sample : light[static_cast<size_t>(code)];
+      }
+      value = std::max(0.0f, luminance(rgb));
+      if (!std::isfinite(value)) value = 0.0f;
+      at += layer.pixel_stride;
+    }
+  };
+}
+
+// The largest size up to `most` that keeps halves, thirds and sixths of a side on borders of pixels.
+int reduced(int side, int most) {
+  constexpr int kParts = 12;
+  return side <= most ? side : most / kParts * kParts;
+}
+
+Image reduce(const Rows& rows, Extent file, Extent size) {
+  Image small(size.width, size.height, 1);
+  std::vector<float> row, sums(static_cast<size_t>(size.width));
+  std::vector<int> counts(static_cast<size_t>(size.width));
+  int begin = 0;
+  for (int y = 0; y < size.height; y++) {
+    const int end = static_cast<int>(static_cast<int64_t>(y + 1) * file.height / size.height);
+    std::fill(sums.begin(), sums.end(), 0.0f);
+    std::fill(counts.begin(), counts.end(), 0);
+    for (; begin < end; begin++) {
+      rows(begin, row);
+      for (int x = 0; x < file.width; x++) {
+        const auto to = static_cast<size_t>(static_cast<int64_t>(x) * size.width / file.width);
+        sums[to] += row[static_cast<size_t>(x)];
+        counts[to]++;
+      }
+    }
+    for (int x = 0; x < size.width; x++) {
+      *small.at(x, y) = sums[static_cast<size_t>(x)] / static_cast<float>(counts[static_cast<size_t>(x)]);
+    }
+  }
+  return small;
+}
+
+void expose(std::vector<Image*> images) {
+  double sum = 0.0, count = 0.0;
+  for (const Image* light : images) {
+    for (float value : light->pixels) {
+      if (value > 0.0f) sum += std::log(static_cast<double>(value)), count += 1.0;
+    }
+  }
+  if (count == 0.0) return;
+  const float scale = static_cast<float>(0.25 / std::exp(sum / count));
+  for (Image* light : images) {
+    for (float& value : light->pixels) value *= scale;
+  }
+}
+
+// About.
+float as_shown(float light) {
+  return std::sqrt(std::min(light, 1.0f));
+}
+
+float difference(float a, float b) {
+  return std::abs(as_shown(a) - as_shown(b));
+}
+
+// At some places all over the file, in its own pixels.
+void compare_neighbours(const Rows& rows, Thumbnail& thumbnail) {
+  constexpr int kRows = 96;
+  double beside[2] = {}, below[2] = {};  // of neighbours, and of every other one
+  double along = 0.0, down = 0.0, diagonal = 0.0;
+  std::vector<float> here, next, other;
+  for (int i = 0; i < kRows; i++) {
+    const int y = static_cast<int>(static_cast<int64_t>(thumbnail.file.height - 2) * i / kRows);
+    if (y < 0) continue;
+    rows(y, here), rows(y + 1, next), rows(std::min(y + 2, thumbnail.file.height - 1), other);
+    for (size_t x = 0; x + 2 < here.size(); x++) {
+      beside[0] += static_cast<double>(difference(here[x], here[x + 1]));
+      beside[1] += static_cast<double>(difference(here[x], here[x + 2]));
+      below[0] += static_cast<double>(difference(here[x], next[x]));
+      below[1] += static_cast<double>(difference(here[x], other[x]));
+      const float a = as_shown(here[x]), b = as_shown(here[x + 1]), c = as_shown(next[x]), d = as_shown(next[x + 1]);
+      along += static_cast<double>(std::abs(a - b + c - d)), down += static_cast<double>(std::abs(a + b - c - d));
+      diagonal += static_cast<double>(std::abs(a - b - c + d));
+    }
+  }
+  if (beside[1] > 0.0) thumbnail.other_columns = beside[0] / beside[1];
+  if (below[1] > 0.0) thumbnail.other_rows = below[0] / below[1];
+  if (std::min(along, down) > 0.0) thumbnail.crossed = diagonal / std::min(along, down);
+}
+
+}  // namespace
+
+Thumbnail make_thumbnail(const StoredPicture& whole) {
+  Thumbnail thumbnail;
+  thumbnail.file = whole.size;
+  const Rows rows = rows_of(whole);
+  thumbnail.light =
+      reduce(rows, thumbnail.file,
+             {reduced(thumbnail.file.width, kThumbnailSide), reduced(thumbnail.file.height, kThumbnailSide)});
+  if (whole.is_float) expose({&thumbnail.light});
+  compare_neighbours(rows, thumbnail);
+  return thumbnail;
+}
+
+std::vector<Image> interleaved_eyes(const StoredPicture& whole, Layout layout) {
+  const EyePacking how = arrangement_of(layout).how;
+  const int across = how == EyePacking::kRows ? 1 : 2, down = how == EyePacking::kRows ? 2 : 1;
+  const Rows rows = rows_of(whole);
+  std::vector<Image> eyes;
+  for (int eye = 0; eye < 2; eye++) {
+    const Extent all{whole.size.width / across, whole.size.height / down};
+    const Rows rows_of_eye = [&, row = std::vector<float>()](int y, std::vector<float>& own) mutable {
+      const int first = how == EyePacking::kCheckerboard ? (y + eye) % 2 : across == 2 ? eye : 0;
+      rows(down * y + (down == 2 ? eye : 0), row);
+      own.resize(static_cast<size_t>(all.width));
+      for (size_t x = 0; x < own.size(); x++)
+        own[x] = row[static_cast<size_t>(across) * x + static_cast<size_t>(first)];
+    };
+    const int high = how == EyePacking::kCheckerboard ? all.height / 2 : all.height;  // as reduced as its rows are
+    eyes.push_back(reduce(rows_of_eye, all, {reduced(all.width, kThumbnailSide), reduced(high, kThumbnailSide)}));
+  }
+  if (whole.is_float) expose({&eyes[0], &eyes[1]});
+  return eyes;
+}
+
+Image shown(const Image& light) {
+  Image result = light;
+  for (float& value : result.pixels) value = srgb_encode(std::clamp(value, 0.0f, 1.0f));
+  return result;
+}
+
+}  // namespace ods

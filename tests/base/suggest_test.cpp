@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/suggest.h"
+
+#include <gtest/gtest.h>
+
+namespace ods {
+namespace {
+
+using namespace std::string_view_literals;
+
+TEST(TakenBy, AFileOfAnotherKindLeadsToItsCommands) {
+  for (const std::string_view video : {"\0\0\0\x18"
+                                       "ftypisom"sv,
+                                       "\x1a\x45\xdf\xa3\x9f"sv}) {
+    EXPECT_NE(taken_by(video).find("it is a video: ods probe"), std::string::npos);
+  }
+  EXPECT_NE(taken_by("glTF\2"sv).find("it is a scene: ods render"), std::string::npos);
+  for (const std::string_view picture : {"\x89PNG\r\n"sv, "\xff\xd8\xff\xe0"sv, "II*\0"sv, "\x76\x2f\x31\x01"sv}) {
+    EXPECT_NE(taken_by(picture).find("it is a picture: ods probe, lint, convert"), std::string::npos);
+  }
+  for (const std::string_view other : {""sv, "ft"sv, "hello, world"sv, "{}"sv}) EXPECT_EQ(taken_by(other), "");
+}
+
+}  // namespace
+}  // namespace ods

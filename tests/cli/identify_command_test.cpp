@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files without words and names, given to the commands: they take them for what their pixels show, or say what is in
+// doubt and which options decide.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/cli_runner.h"
+#include "tests/support/unknown_files.h"
+
+namespace {
+
+using ods::Layout, ods::Truth;
+
+class Wordless : public Cli {
+ protected:
+  // As a camera with two lenses writes it.
+  void write(const std::string& name, std::optional<Layout> layout, const char* projection) const {
+    const ods::TwoEyes eyes = [](int eye, const ods::ProjectionSetting& setting, ods::Extent size) {
+      ods::StereoCamera camera;
+      camera.projection = setting;
+      return seen_in(ods::World::kHall, camera, eye, size, true);
+    };
+    const ods::ProjectionSetting setting = ods::find_projection(projection)->setting;
+    write_unknown(folder.path(name), {layout, setting}, eyes, ods::unknown_eye(setting, 512));
+  }
+
+  nlohmann::json probe(const std::string& name) {
+    EXPECT_EQ(run("probe " + folder.path(name) + " --json"), 0) << err;
+    return nlohmann::json::parse(out).at("picture");
+  }
+};
+
+// A public VR180 photo of two square eyes, one above the other, was taken for one eye.
+TEST_F(Wordless, AVr180PhotoOfTwoSquaresIsRecognised) {
+  write("photo.jpg", Layout::kTopBottom, "vr180");
+  const nlohmann::json picture = probe("photo.jpg");
+  EXPECT_EQ(picture.at("layout"), "top-bottom");
+  EXPECT_EQ(picture.at("projection"), "vr180");
+  ASSERT_FALSE(picture.at("readings").empty());
+  EXPECT_EQ(picture.at("readings").at(0).at("layout"), "top-bottom");
+  EXPECT_GT(picture.at("readings").at(0).at("certainty").get<double>(), 0.5);
+
+  EXPECT_EQ(run("convert " + folder.path("photo.jpg") + " -o " + folder.path("to.png") + " --to fisheye"), 0) << err;
+  EXPECT_NE(err.find("vr180: its pixels look like it"), std::string::npos) << err;
+  EXPECT_NE(err.find("top-bottom"), std::string::npos) << err;
+
+  const int code = run("lint " + folder.path("photo.jpg") + " --json");
+  EXPECT_TRUE(code == 0 || code == 1) << err;
+  EXPECT_EQ(nlohmann::json::parse(out).at("layout"), "top-bottom") << out;
+  EXPECT_EQ(run("view " + folder.path("photo.jpg") + " --export " + folder.path("site")), 0) << err;
+  EXPECT_NE(err.find("vr180: its pixels look like it"), std::string::npos) << err;
+}
+
+// A public pair of fisheyes, side by side, was taken for one eye of a wrong shape.
+TEST_F(Wordless, APairOfFisheyesIsRecognised) {
+  write("lenses.jpg", Layout::kSideBySide, "fisheye");
+  const nlohmann::json picture = probe("lenses.jpg");
+  EXPECT_EQ(picture.at("layout"), "side-by-side");
+  EXPECT_EQ(picture.at("projection"), "fisheye");
+
+  EXPECT_EQ(run("convert " + folder.path("lenses.jpg") + " -o " + folder.path("to.png") + " --to vr180"), 0) << err;
+  EXPECT_NE(err.find("fisheye: its pixels look like it"), std::string::npos) << err;
+  const int code = run("lint " + folder.path("lenses.jpg") + " --json");
+  EXPECT_TRUE(code == 0 || code == 1) << err;
+  EXPECT_EQ(nlohmann::json::parse(out).at("layout"), "side-by-side") << out;
+  EXPECT_EQ(run("view " + folder.path("lenses.jpg") + " --export " + folder.path("site")), 0) << err;
+  EXPECT_NE(err.find("fisheye: its pixels look like it"), std::string::npos) << err;
+}
+
+// Each command names the readings, and its own options.
+TEST_F(Wordless, DoubtNamesTheReadingsAndTheOptions) {
+  write("lens.jpg", std::nullopt, "fisheye-equisolid");
+  ASSERT_EQ(run("probe " + folder.path("lens.jpg")), 0) << err;
+  for (const char* part : {"one eye, fisheye (", "one eye, fisheye-equisolid (", "--layout and --projection"}) {
+    EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
+  }
+  ASSERT_EQ(run("convert " + folder.path("lens.jpg") + " -o " + folder.path("to.png") + " --to vr180"), 0) << err;
+  for (const char* part :
+       {"one eye, fisheye (", "one eye, fisheye-equisolid (", "--from-layout and --from-projection"}) {
+    EXPECT_NE(err.find(part), std::string::npos) << part << "\n" << err;
+  }
+  EXPECT_EQ(run("inject " + folder.path("lens.jpg")), 3) << err;
+  EXPECT_NE(err.find("one eye, fisheye-equisolid ("), std::string::npos) << err;
+  EXPECT_EQ(run("inject " + folder.path("lens.jpg") + " --layout mono --projection vr180"), 0) << err;
+}
+
+// Words, names and options count more than pixels; then nothing is looked at.
+TEST_F(Wordless, NamesAndOptionsDecide) {
+  write("lenses_360_TB.jpg", Layout::kSideBySide, "fisheye");
+  const nlohmann::json picture = probe("lenses_360_TB.jpg");
+  EXPECT_EQ(picture.at("layout"), "top-bottom");
+  EXPECT_EQ(picture.at("projection"), "lat-long");
+  EXPECT_TRUE(picture.at("readings").is_null());
+}
+
+// A file of another kind leads to the commands that take it.
+TEST_F(Wordless, FilesOfAnotherKindLeadToTheirCommands) {
+  folder.write("scene.glb", "glTF\2");
+  folder.write("film.mp4", std::string("\0\0\0\x18"
+                                       "ftypisom",
+                                       12));
+  write("photo.jpg", std::nullopt, "lat-long");
+  EXPECT_EQ(run("lint " + folder.path("scene.glb")), 3);
+  EXPECT_NE(err.find("it is a scene: ods render"), std::string::npos) << err;
+  EXPECT_EQ(run("denoise " + folder.path("film.mp4") + " -o " + folder.path("a.exr")), 3);
+  EXPECT_NE(err.find("it is a video"), std::string::npos) << err;
+  EXPECT_NE(err.find("lint"), std::string::npos) << err;
+  EXPECT_EQ(run("render " + folder.path("photo.jpg") + " -o " + folder.path("a.png")), 3);
+  EXPECT_NE(err.find("it is a picture"), std::string::npos) << err;
+}
+
+}  // namespace

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods inject and pictures that say something already: each form with each option, and nothing changes that was not
+// asked for, field by field.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "ods/image/format/xmp_file.h"
+#include "ods/picture/metadata/metadata.h"
+#include "ods/picture/save.h"
+#include "tests/support/cli_runner.h"
+
+namespace {
+
+using ods::StereoCamera;
+
+struct Form {
+  std::string name;   // of the file
+  std::string title;  // who wrote its words
+};
+
+class InjectPicture : public Cli {
+ protected:
+  // One eye; its name says nothing.
+  void write(const std::string& name, ods::Extent size) const {
+    ods::Picture picture;
+    ods::EyeImage eye;
+    eye.radiance = ods::Image(size.width, size.height, 3);
+    for (size_t i = 0; i < eye.radiance.pixels.size(); i++) {
+      eye.radiance.pixels[i] = static_cast<float>(i * 7919 % 251) / 250.0f;
+    }
+    picture.eyes.push_back(std::move(eye));
+    save_picture(picture, {}, folder.path(name));
+  }
+
+  std::vector<Form> forms() {
+    std::vector<Form> all;
+    const bool has_exiftool = std::system("exiftool -ver >/dev/null 2>&1") == 0;
+    for (const std::string kind : {"jpg", "png", "tif"}) {
+      write("whole." + kind, {256, 128});
+      EXPECT_EQ(run("inject " + folder.path("whole." + kind) +
+                    " --layout mono --projection lat-long --yaw 20 --pitch 5 --roll -3"),
+                0)
+          << err;
+      all.push_back({"whole." + kind, "ours: the whole sphere"});
+      write("half." + kind, {128, 128});
+      EXPECT_EQ(run("inject " + folder.path("half." + kind) + " --layout mono --projection vr180 --yaw -15"), 0) << err;
+      all.push_back({"half." + kind, "ours: its front half"});
+      if (!has_exiftool) continue;
+      write("other." + kind, {256, 128});
+      const std::string words =
+          "exiftool -overwrite_original -XMP-GPano:ProjectionType=equirectangular -XMP-GPano:PoseHeadingDegrees=90 "
+          "-XMP-GPano:CroppedAreaImageWidthPixels=256 -XMP-GPano:CroppedAreaImageHeightPixels=128 "
+          "-XMP-GPano:FullPanoWidthPixels=256 -XMP-GPano:FullPanoHeightPixels=128 "
+          "-XMP-GPano:CroppedAreaLeftPixels=0 -XMP-GPano:CroppedAreaTopPixels=0 -XMP-dc:Creator=Somebody ";
+      EXPECT_EQ(std::system((words + folder.path("other." + kind) + " >/dev/null 2>&1").c_str()), 0);
+      all.push_back({"other." + kind, "exiftool"});
+    }
+    return all;
+  }
+};
+
+// Each option, and what it changes.
+const std::pair<const char*, void (*)(StereoCamera&)> kOptions[] = {
+    {"", [](StereoCamera&) {}},
+    {"--yaw 30", [](StereoCamera& camera) { camera.yaw = 30.0f; }},
+    {"--pitch -10", [](StereoCamera& camera) { camera.pitch = -10.0f; }},
+    {"--roll 4.5", [](StereoCamera& camera) { camera.roll = 4.5f; }},
+    {"--yaw 0 --pitch 0 --roll 0", [](StereoCamera& camera) { camera.yaw = camera.pitch = camera.roll = 0.0f; }},
+};
+
+TEST_F(InjectPicture, WhatIsNotAskedForStays) {
+  for (const Form& form : forms()) {
+    const std::string path = folder.path(form.name), to = folder.path("to_" + form.name);
+    const std::optional<StereoCamera> said = ods::gpano_camera(ods::read_xmp(path));
+    ASSERT_TRUE(said) << form.name << " " << form.title;
+    for (const auto& [words, ask] : kOptions) {
+      SCOPED_TRACE(form.title + " (" + form.name + "): inject " + words);
+      // A square is taken for two eyes unless somebody says otherwise.
+      const std::string one_eye = form.name.starts_with("half") ? " --layout mono " : " ";
+      ASSERT_EQ(run("inject " + path + " -o " + to + one_eye + words), 0) << err;
+      const std::string xmp = ods::read_xmp(to);
+      const std::optional<StereoCamera> now = ods::gpano_camera(xmp);
+      ASSERT_TRUE(now);
+      StereoCamera wished = *said;
+      ask(wished);
+      EXPECT_NEAR(std::remainder(now->yaw - wished.yaw, 360.0f), 0.0f, 1e-3f);
+      EXPECT_NEAR(now->pitch, wished.pitch, 1e-3f);
+      EXPECT_NEAR(now->roll, wished.roll, 1e-3f);
+      EXPECT_EQ(now->projection, wished.projection);
+      if (form.title == "exiftool") EXPECT_NE(xmp.find("Somebody"), std::string::npos) << "others' words stay";
+    }
+  }
+}
+
+// The projection that is asked for, and only that.
+TEST_F(InjectPicture, AProjectionThatIsAskedForKeepsTheOrientation) {
+  for (const Form& form : forms()) {
+    if (form.name.starts_with("half")) continue;
+    SCOPED_TRACE(form.title + " " + form.name);
+    const std::string path = folder.path(form.name);
+    const std::optional<StereoCamera> said = ods::gpano_camera(ods::read_xmp(path));
+    ASSERT_TRUE(said);
+    ASSERT_EQ(run("inject " + path + " --projection vr180"), 0) << err;
+    const std::optional<StereoCamera> now = ods::gpano_camera(ods::read_xmp(path));
+    ASSERT_TRUE(now);
+    EXPECT_TRUE(ods::is_vr180(now->projection));
+    EXPECT_NEAR(std::remainder(now->yaw - said->yaw, 360.0f), 0.0f, 1e-3f);
+    EXPECT_NEAR(now->pitch, said->pitch, 1e-3f);
+    EXPECT_NEAR(now->roll, said->roll, 1e-3f);
+  }
+}
+
+}  // namespace

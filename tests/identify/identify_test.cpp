@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures that say nothing of themselves are recognised by their pixels; bench/identify_bench.cpp measures how often.
+#include "ods/identify/identify.h"
+
+#include <gtest/gtest.h>
+
+#include "ods/identify/eye_match.h"
+#include "ods/identify/marks.h"
+#include "ods/identify/pairs.h"
+#include "ods/identify/thumbnail.h"
+#include "ods/image/tone.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/unknown_files.h"
+
+namespace ods {
+namespace {
+
+ProjectionSetting named(const char* name) {
+  return find_projection(name)->setting;
+}
+
+Image eye_of(World world, const ProjectionSetting& projection, int eye = kMono, int pixels = 448) {
+  StereoCamera camera;
+  camera.projection = projection;
+  return seen_in(world, camera, eye, unknown_eye(projection, pixels));
+}
+
+Image grey(const Image& image) {
+  Image result(image.width, image.height, 1);
+  for (size_t i = 0; i < result.pixels.size(); i++) {
+    result.pixels[i] =
+        0.2126f * image.pixels[3 * i] + 0.7152f * image.pixels[3 * i + 1] + 0.0722f * image.pixels[3 * i + 2];
+  }
+  return result;
+}
+
+// --- marks -----------------------------------------------------------------------------------------------------------
+
+class MarksOfWorlds : public testing::TestWithParam<World> {};
+
+TEST_P(MarksOfWorlds, OnlyFisheyesHaveAnEmptyCircle) {
+  for (const NamedProjection& each : named_projections()) {
+    if (each.name == "fisheye-polynomial") continue;
+    const Marks marks = marks_of(shown(grey(eye_of(GetParam(), each.setting, kMono, 256))));
+    EXPECT_EQ(marks.circle > 0.5, is_fisheye(each.setting.kind)) << each.name << " " << marks.circle;
+    EXPECT_EQ(marks.circle < -0.5, !is_fisheye(each.setting.kind)) << each.name << " " << marks.circle;
+  }
+}
+
+TEST_P(MarksOfWorlds, OnlyLatLongsHavePoles) {
+  for (const char* name : {"lat-long", "vr180"}) {
+    EXPECT_GT(marks_of(shown(grey(eye_of(GetParam(), named(name))))).poles, 0.5) << name;
+  }
+  for (const char* name : {"perspective", "eac-face", "cylinder"}) {
+    EXPECT_LT(marks_of(shown(grey(eye_of(GetParam(), named(name))))).poles, 0.2) << name;
+  }
+}
+
+TEST_P(MarksOfWorlds, OnlyWholeTurnsClose) {
+  for (const char* name : {"lat-long", "cylinder"}) {
+    EXPECT_GT(marks_of(shown(grey(eye_of(GetParam(), named(name))))).closes, 0.5) << name;
+  }
+  for (const char* name : {"vr180", "perspective", "eac-face"}) {
+    EXPECT_LT(marks_of(shown(grey(eye_of(GetParam(), named(name))))).closes, -0.3) << name;
+  }
+}
+
+TEST_P(MarksOfWorlds, FacesJoinAsTheirCubeHasThem) {
+  for (const char* name : {"cube-3x2", "cube-6x1", "cube-1x6", "eac"}) {
+    const Image eye = shown(grey(eye_of(GetParam(), named(name))));
+    EXPECT_GT(faces_join(eye, named(name)), 0.5) << name;
+  }
+  const Image cube = shown(grey(eye_of(GetParam(), named("cube-3x2"))));
+  EXPECT_LT(faces_join(cube, named("eac")), 0.0);
+  EXPECT_GT(breaks_at_grid(cube, 3, 2), 0.3);
+  if (GetParam() == World::kField) return;  // whose horizon is such a line
+  EXPECT_LT(breaks_at_grid(shown(grey(eye_of(GetParam(), named("lat-long")))), 3, 2), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, MarksOfWorlds, testing::ValuesIn(kWorlds),
+                         [](const auto& world) { return world_name(world.param); });
+
+// --- eyes ------------------------------------------------------------------------------------------------------------
+
+TEST(MatchEyes, TwoEyesMatchAndTwoPlacesDoNot) {
+  for (const World world : kWorlds) {
+    const Image left = grey(eye_of(world, named("vr180"), kLeft, 320)),
+                right = grey(eye_of(world, named("vr180"), kRight, 320));
+    EXPECT_GT(match_eyes({left, right}).mark(), 0.5) << world_name(world);
+    StereoCamera behind;
+    behind.projection = named("vr180");
+    behind.yaw = 180.0f;
+    const Image other = grey(seen_in(world, behind, kMono, {left.width, left.height}));
+    EXPECT_LT(match_eyes({left, other}).mark(), -0.5) << world_name(world);
+  }
+}
+
+TEST(ParallaxIn, IsLevelInTheRightProjectionAndTellsWhichEyeIsFirst) {
+  for (const World world : {World::kHall, World::kCave}) {
+    for (const char* name : {"fisheye", "dome"}) {
+      const Image left = shown(grey(eye_of(world, named(name), kLeft)));
+      const Image right = shown(grey(eye_of(world, named(name), kRight)));
+      const Parallax parallax = parallax_in(find_pairs(left, right), named(name));
+      EXPECT_GT(parallax.order, 0.3) << world_name(world) << " " << name;
+      EXPECT_LT(parallax_in(find_pairs(right, left), named(name)).order, -0.3) << world_name(world) << " " << name;
+      for (const char* other : {"mirror-ball", "eac", "cube-1x6"}) {
+        EXPECT_LT(parallax_in(find_pairs(left, right), named(other)).level, parallax.level - 0.2)
+            << world_name(world) << " " << name << " as " << other;
+      }
+    }
+  }
+}
+
+// --- files -----------------------------------------------------------------------------------------------------------
+
+class Unknown : public testing::Test {
+ protected:
+  Identity identity_of(World world, const Truth& truth, bool is_pair = false) {
+    const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
+      StereoCamera camera;
+      camera.projection = projection;
+      return seen_in(world, camera, eye, size, is_pair);
+    };
+    const std::string path = folder.path(unknown_name(truth));
+    write_unknown(path, truth, eyes, unknown_eye(truth.projection, 512));
+    return identify(open_unknown(path));
+  }
+
+  TemporaryFolder folder;
+};
+
+// The two that were public and read wrongly: two square halves of the sphere one above the other, and two fisheyes
+// side by side; each from two cameras.
+TEST_F(Unknown, PhotosOfTwoLensesAreRecognised) {
+  for (const World world : kWorlds) {
+    for (const Truth& truth : {Truth{Layout::kTopBottom, named("vr180")}, Truth{Layout::kSideBySide, named("vr180")},
+                               Truth{Layout::kSideBySide, named("fisheye")}}) {
+      const Identity identity = identity_of(world, truth, true);
+      ASSERT_FALSE(identity.readings.empty());
+      EXPECT_TRUE(is_right(identity.best(), truth)) << world_name(world) << ": " << truth_text(truth) << ", but "
+                                                    << reading_text(identity.best()) << " " << identity.reason;
+    }
+  }
+}
+
+// What pixels do not tell is not said surely.
+TEST_F(Unknown, ALensIsNotSure) {
+  const Identity identity = identity_of(World::kCave, {std::nullopt, named("fisheye-equisolid")});
+  ASSERT_GE(identity.readings.size(), 2u);
+  EXPECT_FALSE(identity.is_sure());
+  EXPECT_EQ(verdict_on(identity, {std::nullopt, named("fisheye-equisolid")}), Verdict::kNamed);
+  const std::string doubt = doubt_text(identity);
+  EXPECT_NE(doubt.find("one eye, fisheye ("), std::string::npos) << doubt;
+  EXPECT_NE(doubt.find("one eye, fisheye-equisolid ("), std::string::npos) << doubt;
+  EXPECT_NE(doubt.find("--layout and --projection"), std::string::npos) << doubt;
+}
+
+TEST_F(Unknown, WhatIsKnownCountsMoreThanPixels) {
+  const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
+    StereoCamera camera;
+    camera.projection = projection;
+    return seen_in(World::kHall, camera, eye, size);
+  };
+  const std::string path = folder.path("file.jpg");
+  write_unknown(path, {Layout::kTopBottom, named("lat-long")}, eyes, {512, 256});
+  FormatHint known;
+  known.layout = Layout::kBottomTop;
+  for (const Reading& reading : identify(open_unknown(path), known).readings) {
+    EXPECT_EQ(reading.layout, Layout::kBottomTop);
+  }
+  known.layout.reset(), known.projection = named("cylinder");
+  for (const Reading& reading : identify(open_unknown(path), known).readings) {
+    EXPECT_EQ(reading.projection, named("cylinder"));
+  }
+}
+
+}  // namespace
+}  // namespace ods
