@@ -19,9 +19,9 @@ namespace {
 
 constexpr const char* kExamples =
     "  ods submit --to slurm -- video scene.glb -o scene_360_TB.mp4 --quality final\n"
-    "  ods submit --to slurm -- render scene.glb -o huge.exr --width 16384 --parts 64\n"
+    "  ods submit --to slurm -- render scene.glb -o huge.exr --width 16384 --samples 1024 --parts 64\n"
     "  ods submit --to slurm --chunk 25 -- stitch rig.json 'views/####/####.exr' --frames 1-500 -o 'out.####.exr'\n"
-    "  ods submit --to openjd -o bundle --chunk 10 -- video scene.glb -o scene_360_TB.mp4\n"
+    "  ods submit --to openjd -o bundle --chunk 10 -- video scene.glb -o film_360_TB.mp4\n"
     "  ods submit --to slurm --dry-run --chunk 10 -- video scene.glb -o scene_360_TB.mp4";
 
 constexpr const char* kSummary =
