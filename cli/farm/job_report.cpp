@@ -88,7 +88,7 @@ GroupReport report_group(const ods::TaskGroup& group, const KnownTasks& known, c
     const std::string log = fmt::format("{}/logs/{}.{}.log", folder, group.name, number);
     report.failed.push_back({number, task.why, report.failed.size() < 20 ? last_line(log) : ""});
   }
-  report.unknown = group.tasks - report.done - report.running - report.waiting - static_cast<int>(report.failed.size());
+  report.lost = group.tasks - report.done - report.running - report.waiting - static_cast<int>(report.failed.size());
   return report;
 }
 
@@ -112,8 +112,8 @@ bool JobReport::is_over() const {
   return std::ranges::all_of(groups, [](const GroupReport& g) { return g.running + g.waiting == 0; });
 }
 
-bool JobReport::has_failed() const {
-  return std::ranges::any_of(groups, [](const GroupReport& g) { return !g.failed.empty(); });
+bool JobReport::is_done() const {
+  return is_over() && std::ranges::all_of(groups, [](const GroupReport& g) { return g.failed.empty() && g.lost == 0; });
 }
 
 JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& queued) {
@@ -151,6 +151,10 @@ std::string report_text(const std::vector<JobReport>& jobs) {
   }
   for (const JobReport& job : jobs) {
     for (const GroupReport& group : job.groups) {
+      if (group.lost > 0) {
+        text += fmt::format("{} {}: {} neither ended nor in the queue; submit it again\n", job.name, group.name,
+                            group.lost);
+      }
       for (const FailedTask& task : group.failed) {
         text += fmt::format("{} {} {}: {}{}{}\n", job.name, group.name, task.number, task.why,
                             task.last.empty() ? "" : ": ", task.last);

@@ -17,7 +17,8 @@ struct FailedTask {
 
 struct GroupReport {
   std::string name;
-  int done = 0, running = 0, waiting = 0, unknown = 0;
+  int done = 0, running = 0, waiting = 0;
+  int lost = 0;  // neither ended nor in the queue: cancelled long ago, or never sent
   std::vector<FailedTask> failed;
   std::optional<double> seconds_left;
 };
@@ -26,7 +27,7 @@ struct JobReport {
   std::string name, folder;
   std::vector<GroupReport> groups;
   bool is_over() const;  // nothing runs or waits
-  bool has_failed() const;
+  bool is_done() const;  // all tasks are
 };
 
 // tasks: of Slurm's queue, of any job. The tasks of jobs that Slurm has forgotten are known by what they left in the

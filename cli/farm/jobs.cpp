@@ -79,7 +79,7 @@ void jobs(int argc, char** argv) {
                   kExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
-               "show it again every five seconds until all is over; exit code 1 if a task failed");
+               "show it again every five seconds until all is over; exit code 1 if not all is done");
   options.group("Console");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
@@ -98,8 +98,8 @@ void jobs(int argc, char** argv) {
   }
   if (!wishes.follow) return;
   for (const JobReport& job : found) {
-    if (job.has_failed())
-      throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' has tasks that failed", job.name));
+    if (!job.is_done())
+      throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' is over, and not all of it is done", job.name));
   }
 }
 

@@ -19,6 +19,8 @@
 #include "cli/video/video_journal.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
+#include "ods/files/frames.h"
+#include "ods/render/part_file.h"
 #include "ods/render/render_target.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/gltf/gltf.h"
@@ -139,6 +141,22 @@ Split split_video(const Words& words) {
 // Options that decide what becomes of the samples: the merge has them.
 const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone", "-q"};
 
+// Parts of another picture would be taken for finished, and refused by the merge.
+void check_parts(const RenderJob& first, const ods::FrameNames& names) {
+  const fs::path folder = fs::path(names.before).parent_path();
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return;
+  for (const int number : ods::frames_on_disk(names)) {
+    const std::vector<Setting> then = parse_settings(ods::read_part_header(names.path(number)).settings);
+    std::vector<Setting> now = sample_settings(first);
+    now.back().value = fmt::format("{}/{}", number, first.part->count);
+    const std::string difference = settings_difference(then, now);
+    if (difference.empty()) continue;
+    throw UsageError(fmt::format("'{}' was rendered with other options: {}; remove '{}', or choose another -o",
+                                 names.path(number), difference, folder.native()));
+  }
+}
+
 void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
   refuse(given, {"--noise", "--time-limit", "--save-unfinished"},
          "parts are exact shares of a fixed number of samples (--samples)");
@@ -147,7 +165,7 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   count(split, "part", parts);
   const std::string pattern = split.output + ".parts/part_####.exr";
   std::vector<GivenWord> of_part =
-      without(without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise"});
+      without(without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar"});
   of_part.push_back({"-o", pattern});
   const Words render = command_words("render", of_part, {"--skip-existing", "--resume"});
   RenderJob checked;
@@ -155,6 +173,7 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   first.insert(first.end(), {"--part", fmt::format("1/{}", job.parts)});
   Arguments arguments(first);
   read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
+  check_parts(checked, *ods::frame_names(pattern));
   std::vector<GivenWord> of_merge = {{"", pattern}, {"-o", split.output}};
   for (const GivenWord& word : only(given, kOfMerge)) {
     if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);

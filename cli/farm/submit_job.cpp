@@ -69,7 +69,9 @@ bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   const auto end = std::find_if(argv, argv + argc, is_end);
   Options options("submit", kSummary, kExamples);
   std::vector<std::string> extras;
-  options.arguments("-- COMMAND...", extras, "ods video, render or stitch, without the word ods");
+  options.arguments(
+      "COMMAND", extras,
+      "behind all options of ods submit, and two dashes: ods video, render or stitch, without the word ods");
   add_options(options, job);
   if (!options.parse(static_cast<int>(end - argv), argv)) return false;
   if (!extras.empty()) {

@@ -48,7 +48,8 @@ void make_video(VideoJob job, ProgressLines& lines) {
   say_what_players_need(job.video, expected, options);
   VideoJournal journal(job.video.output,
                        rig ? stitch_settings(job.rig, render.scene.name, render.save) : frame_settings(render),
-                       job.restart, render.time.only.empty() ? JournalUse::kAlone : JournalUse::kShared);
+                       job.restart, render.time.only.empty() ? JournalUse::kAlone : JournalUse::kShared,
+                       std::chrono::seconds(static_cast<int>(render.wait)));
   job.render.output = journal.pattern();
   const auto rendered = [&](double done, const ProgressStep& step) {
     journal.check();

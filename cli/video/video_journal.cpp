@@ -44,8 +44,11 @@ bool is_empty(const std::string& folder) {
 
 }  // namespace
 
-VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart, JournalUse use)
-    : claim_(use == JournalUse::kAlone ? ods::claim(video) : nullptr), folder_(video + ".frames"), settings_(settings) {
+VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart, JournalUse use,
+                           std::chrono::seconds patience)
+    : claim_(use == JournalUse::kAlone ? ods::claim(video, patience) : nullptr),
+      folder_(video + ".frames"),
+      settings_(settings) {
   const fs::file_type type = type_of(folder_);
   if (type != fs::file_type::directory && type != fs::file_type::not_found) {
     throw UsageError(fmt::format("the frames belong in '{}', but it is {}; remove it, or choose another -o", folder_,

@@ -8,6 +8,7 @@
 //
 // The folder must be a real one, not a link. Only files listed in the note are ever used or removed.
 #pragma once
+#include <chrono>
 #include <memory>
 #include <set>
 #include <string>
@@ -22,9 +23,9 @@ class VideoJournal {
  public:
   // Opens the frames of this video, or starts anew. `restart` removes existing frames. Throws UsageError if the folder
   // holds frames made with other settings or is not ours; ods::Error(kOutput), also if another process is working on
-  // the video.
+  // the video, and does not end within `patience`.
   VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart,
-               JournalUse use = JournalUse::kAlone);
+               JournalUse use = JournalUse::kAlone, std::chrono::seconds patience = std::chrono::seconds(0));
 
   VideoJournal(const VideoJournal&) = delete;
   VideoJournal& operator=(const VideoJournal&) = delete;

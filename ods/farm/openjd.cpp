@@ -73,7 +73,8 @@ Json step_of(const FarmPlan& plan, const TaskGroup& group, const std::vector<Pat
   Json step = {{"name", group.name.substr(0, kLongestName)}};
   if (!group.option.empty()) {
     words.insert(words.end(), {group.option, fmt::format("{{{{Task.Param.Task}}}}/{}", group.tasks)});
-    const Json task = {{"name", "Task"}, {"type", "INT"}, {"range", fmt::format("1-{}", group.tasks)}};
+    const Json task = {
+        {"name", "Task"}, {"type", "INT"}, {"range", group.tasks == 1 ? "1" : fmt::format("1-{}", group.tasks)}};
     step["parameterSpace"]["taskParameterDefinitions"] = Json::array({task});
   }
   Json amounts = Json::array();

@@ -211,6 +211,32 @@ TEST_F(Farm, ALineBreakInANameIsRefused) {
   EXPECT_EQ(files(), 0u);
 }
 
+TEST_F(Farm, PartsOfAnotherPictureAreNotTakenForOurs) {
+  const std::string still = "submit -q --to openjd -- render toys --width 32 --parts 2 -o " + folder.path("p.exr");
+  ASSERT_EQ(run(still + " --samples 4"), 0) << err;
+  run_task(plan("p")["groups"][0], 2);
+  ASSERT_EQ(run(still + " --samples 4"), 0) << err;
+  EXPECT_EQ(run(still + " --samples 8"), 2);
+  EXPECT_NE(err.find("part_0002.exr' was rendered with other options: --samples was 4, now 8"), std::string::npos)
+      << err;
+}
+
+// The last command of a video, on another machine than its frames.
+TEST_F(Farm, FramesThatAreLateAreWaitedFor) {
+  ASSERT_EQ(run("submit -q --to openjd --chunk 1 -- " + video() + " --denoise none --frames 1-2 --keep-frames"), 0)
+      << err;
+  const json groups = plan("a")["groups"];
+  run_task(groups[0], 1);
+  std::vector<std::string> last = groups[1]["command"];
+  EXPECT_EQ(last.at(last.size() - 2), "--wait");
+  last.back() = "3600";
+  Ods whole(last);
+  whole.wait_for("waiting up to 3600 s for 1 frames that are not there yet");
+  run_task(groups[0], 2);
+  EXPECT_EQ(whole.finish(), 0) << whole.err;
+  EXPECT_NE(whole.err.find("2 of 2 frames exist already"), std::string::npos) << whole.err;
+}
+
 TEST_F(Farm, WithoutSlurmItIsSaid) {
   program("squeue", "exit 1");
   EXPECT_EQ(run("submit --to slurm -- " + video()), 3);
@@ -269,10 +295,11 @@ TEST_F(Farm, AFailedTaskIsShownWithItsLastLine) {
   program("squeue", "exit 1");  // Slurm has forgotten it, and is down
   ASSERT_EQ(run("jobs " + folder.path("a.farm")), 0) << err;
   EXPECT_NE(out.find("frames         1        0        0       1  \n"), std::string::npos) << out;
+  EXPECT_NE(out.find("a frames: 1 neither ended nor in the queue; submit it again\n"), std::string::npos) << out;
   EXPECT_NE(out.find("a frames 2: exit code 3: ods: error: cannot read 'x.glb': no such file\n"), std::string::npos)
       << out;
   EXPECT_EQ(run("jobs --follow " + folder.path("a.farm")), 1);
-  EXPECT_NE(err.find("'a' has tasks that failed"), std::string::npos) << err;
+  EXPECT_NE(err.find("'a' is over, and not all of it is done"), std::string::npos) << err;
 }
 
 TEST_F(Farm, NoJobsIsNoError) {
