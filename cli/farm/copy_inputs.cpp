@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/console/console.h"
@@ -51,6 +52,9 @@ void copy(const std::string& from, const std::string& to) {
 }  // namespace
 
 FileCopies move_inputs(SplitCommand& split, const std::string& folder) {
+  if (std::ranges::find(split.groups.front().command, "--confine") != split.groups.front().command.end()) {
+    throw UsageError("--copy-scene and --confine exclude each other: the copies lie in another folder");
+  }
   const FileCopies moves = plan_moves(split, fs::path(folder) / "inputs");
   const auto move = [&](std::string& path) {
     const auto found = moves.find(path);

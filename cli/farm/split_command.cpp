@@ -116,7 +116,7 @@ Split split_video(const Words& words) {
     if (!job.render.has_layout) job.render.save.layout = rig.layout;
     const ods::VideoPlan plan = expect_video(job.render.save.layout, rig.eyes.size(), rig.eye, rig.camera.projection);
     encode_options(job.video, plan.size, 0);
-    settings = stitch_settings(job.rig, job.render.scene.name, job.render.save);
+    settings = stitch_settings(job.rig, given.front().value, job.render.save);
     if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
     frames = ods::parse_frames(job.render.time.frames);
   } else {

@@ -27,9 +27,9 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
   stitch.skip_existing = true, stitch.says_files = false;
   stitch.claims = !job.render.time.only.empty();  // else the video has it
   if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
-  const std::vector<int> all = ods::parse_frames(job.render.time.frames);
-  journal.plan(all);
-  stitch.frames = ods::frames_text(own_frames(job.render.time.only, all));
+  journal.plan(ods::parse_frames(job.render.time.frames));
+  stitch.frames = job.render.time.frames;
+  stitch.only = job.render.time.only;
   return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
 }
 

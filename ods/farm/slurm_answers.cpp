@@ -74,6 +74,15 @@ SlurmTask task_of(std::string_view job, const SlurmArray& array, int index, std:
           state_of(word),   std::string(word), seconds};
 }
 
+// A job has a hundred keys, and there are many jobs.
+bool keep_what_is_read(int depth, json::parse_event_t event, json& parsed) {
+  constexpr int kDepthOfJob = 3;
+  constexpr std::array<std::string_view, 8> kKeys = {"array_job_id", "array_task_id", "array_task_string", "comment",
+                                                     "job_id",       "job_state",     "start_time",        "end_time"};
+  if (event != json::parse_event_t::key || depth != kDepthOfJob) return true;
+  return std::ranges::find(kKeys, parsed.get_ref<const std::string&>()) != kKeys.end();
+}
+
 // A number stood alone until version 23, since then in {"set": true, "number": 5}.
 std::optional<double> number_in(const json& job, const char* key) {
   const auto found = job.find(key);
@@ -135,7 +144,7 @@ std::vector<SlurmTask> read_queue(std::string_view text) {
 }
 
 std::optional<std::vector<SlurmTask>> read_queue_json(std::string_view text, double now) {
-  const json answer = json::parse(text, nullptr, false);
+  const json answer = json::parse(text, keep_what_is_read, false);
   if (!answer.is_object() || !answer.contains("jobs") || !answer["jobs"].is_array()) return std::nullopt;
   std::vector<SlurmTask> tasks;
   for (const json& job : answer["jobs"]) {

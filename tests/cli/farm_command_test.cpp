@@ -111,6 +111,14 @@ TEST_F(Farm, FramesAndViewsAreShared) {
       << err;
   run_all(plan("st"));
   EXPECT_GT(folder.read("st.0007.exr").size(), 100u);
+  const std::string stitched = "submit -q --to openjd --chunk 1 -- video " + folder.path("./views/####/####.exr") +
+                               " --rig " + folder.path("rig.json") + " --frames 7-7 -o " + folder.path("v.mp4");
+  ASSERT_EQ(run(stitched), 0) << err;
+  run_task(plan("v")["groups"][0], 1);
+  ASSERT_EQ(run(stitched), 0) << err;  // the frame is that of this video
+  EXPECT_GT(folder.read("v.mp4.frames/frame.000007.exr").size(), 100u);
+  run_all(plan("v"));
+  EXPECT_GT(folder.read("v.mp4").size(), 100u);
 }
 
 TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
@@ -190,6 +198,7 @@ TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
       {"submit --to slurm -- render toys --parts 9 --samples 4 -o " + at + "a.png", 2, "4 samples cannot be 9 parts"},
       {"submit --to slurm --sbatch partition -- render toys --parts 4 -o " + at + "a.png", 2, "--sbatch"},
       {"submit --to kubernetes --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
+      {"submit --to openjd --copy-scene -- video toys --confine / --frames 1-2 -o " + at + "a.mp4", 2, "--confine"},
       {"render toys --parts 4 -o " + at + "a.png", 2, "ods submit"},
       {"jobs nothing", 3, "no job 'nothing'"},
   };
