@@ -23,6 +23,7 @@ int ods_denoise(int argc, char** argv);
 int ods_encode(int argc, char** argv);
 int ods_info(int argc, char** argv);
 int ods_inject(int argc, char** argv);
+int ods_jobs(int argc, char** argv);
 int ods_lint(int argc, char** argv);
 int ods_merge(int argc, char** argv);
 int ods_over(int argc, char** argv);
@@ -33,6 +34,7 @@ int ods_rig(int argc, char** argv);
 int ods_scenes(int argc, char** argv);
 int ods_sizes(int argc, char** argv);
 int ods_stitch(int argc, char** argv);
+int ods_submit(int argc, char** argv);
 int ods_testcard(int argc, char** argv);
 int ods_title(int argc, char** argv);
 int ods_video(int argc, char** argv);
@@ -54,6 +56,8 @@ constexpr Command kCommands[] = {
     {"view", "look at pictures and videos in the browser and in the headset", ods_view},
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
+    {"submit", "send a video, a picture or stitching to a render farm", ods_submit},
+    {"jobs", "show how what was sent to Slurm gets on", ods_jobs},
     {"title", "make a title with depth for stereo 360", ods_title},
     {"over", "composite a picture or video over another", ods_over},
     {"rig", "plan perspective cameras for other renderers", ods_rig},

@@ -178,6 +178,23 @@ bool Options::given(const std::string& name) const {
   return app_->count(name) > 0;
 }
 
+std::vector<GivenWord> Options::given_words() const {
+  std::vector<GivenWord> arguments, words;
+  for (const CLI::Option* option : app_->get_options()) {
+    if (option->count() == 0) continue;
+    const bool is_argument = option->get_positional();
+    const auto& short_names = option->get_snames();
+    std::string name;
+    if (!is_argument) name = short_names.empty() ? "--" + option->get_lnames().front() : "-" + short_names.front();
+    std::vector<std::string> values = option->results();
+    if (option->get_items_expected_max() == 0) values = {""};
+    if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeLast) values = {values.back()};
+    for (const std::string& value : values) (is_argument ? arguments : words).push_back({name, value});
+  }
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  return arguments;
+}
+
 std::string Options::describe_extras() const {
   std::string first = app_->remaining().front();
   std::vector<std::string> names;

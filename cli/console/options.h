@@ -20,6 +20,12 @@ namespace CLI {
 class App;
 }
 
+// One word of a command line as parse() understood it.
+struct GivenWord {
+  std::string name;   // "-o", "--width"; empty: an argument
+  std::string value;  // empty: a flag
+};
+
 class Options {
  public:
   // examples: lines that help prints first.
@@ -78,6 +84,9 @@ class Options {
   void at_once(const std::string& name);
 
   bool given(const std::string& name) const;
+
+  // What was given, in the order in which it was added, arguments first: the same command line without repetitions.
+  std::vector<GivenWord> given_words() const;
 
   // False if help was requested; it has been printed, in the format of --help=FORMAT. A request anywhere before "--"
   // wins over all else on the line: nothing is set, no file is opened. Throws UsageError.

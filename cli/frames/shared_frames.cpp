@@ -53,6 +53,24 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::strin
   }
 }
 
+void wait_for_frames(const std::vector<SharedFrame>& frames, const std::string& noun, float seconds) {
+  if (seconds <= 0.0f) return;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<float>(seconds);
+  std::vector<SharedFrame> missing = frames;
+  bool said = false;
+  while (true) {
+    std::erase_if(missing, [](const SharedFrame& frame) { return ods::is_saved(frame.path); });
+    if (missing.empty() || std::chrono::steady_clock::now() >= end) return;
+    if (!said)
+      note(fmt::format("waiting up to {:g} s for {} {}s that are not there yet", seconds, missing.size(), noun));
+    said = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    std::error_code ignored;  // reading the folder makes a client of NFS look again
+    const std::filesystem::path folder = std::filesystem::absolute(missing.front().path, ignored).parent_path();
+    std::filesystem::directory_iterator(folder, ignored);
+  }
+}
+
 void remove_dead_claim(const std::string& path) {
   std::error_code ignored;
   std::string holder;

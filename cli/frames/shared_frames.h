@@ -19,5 +19,9 @@ struct SharedFrame {
 void make_shared_frames(const std::vector<SharedFrame>& frames, const std::string& noun,
                         const std::function<void(size_t index)>& make);
 
+// Waits until all frames are saved, at most so many seconds: network disks show other machines' files late. Says what
+// it waits for.
+void wait_for_frames(const std::vector<SharedFrame>& frames, const std::string& noun, float seconds);
+
 // Removes a stale claim from a frame whose process was killed just after saving it.
 void remove_dead_claim(const std::string& path);

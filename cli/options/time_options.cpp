@@ -6,13 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <unordered_set>
 
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/files/frames.h"
+#include "ods/render/render_options.h"
 #include "ods/stage/turntable.h"
 
 namespace {
@@ -51,6 +54,10 @@ void add_time_options(Options& options, TimeOptions& time) {
                "frames to render: 1-100, 1-100x2 (every other one), 1,5,10-20, or all. Frame N shows the scene at N / "
                "fps seconds. "
                "ods render writes a file per frame: -o shot.####.exr or shot.%04d.exr");
+  options.text(
+      "--only", "LIST|I/N", time.only,
+      "make only these of the frames, or the I-th of N shares of them, as one process of several; exposure and "
+      "denoising still look at all");
   options.number("--fps", time.fps, 0.01f, 1000.0f, "frames per second");
   options.number("--duration", time.duration, 0.01f, 1e6f,
                  "length of the video and of camera moves, seconds; by default the animation's length, or 10");
@@ -71,7 +78,7 @@ void add_time_options(Options& options, TimeOptions& time) {
                  "noise pattern: the same in every frame, or different in each; by default changing where --turntable "
                  "or --fly-to moves the camera, else fixed");
   options.flag("--skip-existing", time.skip_existing,
-               "do not render frames whose files exist; several processes with this option share the rest");
+               "do not render files that exist; several processes with this option share the rest");
 }
 
 bool asks_for_video(const TimeOptions& time) {
@@ -85,6 +92,36 @@ Grain grain_of(const TimeOptions& time) {
 void check_time_options(const TimeOptions& time) {
   if (time.time && asks_for_video(time)) throw UsageError("--time is for one picture, --frames for a video; give one");
   if (names_frames(time)) ods::parse_frames(time.frames);
+  check_only(time.only);
+}
+
+void check_only(const std::string& only) {
+  if (only.find('/') == std::string::npos) {
+    if (!only.empty()) ods::parse_frames(only);
+  } else if (!ods::parse_part(only)) {
+    throw UsageError(fmt::format("--only is a list of frames or a share of them, such as 3/8, not '{}'", only));
+  }
+}
+
+// The I-th of N shares.
+static std::vector<int> share_of(const std::vector<int>& all, ods::Part share) {
+  const auto border = [&](size_t i) {
+    return all.begin() + static_cast<ptrdiff_t>(all.size() * i / static_cast<size_t>(share.count));
+  };
+  return {border(static_cast<size_t>(share.number) - 1), border(static_cast<size_t>(share.number))};
+}
+
+std::vector<int> own_frames(const std::string& only, const std::vector<int>& all) {
+  if (only.empty()) return all;
+  if (const auto share = ods::parse_part(only)) return share_of(all, *share);
+  const std::vector<int> chosen = ods::parse_frames(only);
+  const std::unordered_set<int> wanted(chosen.begin(), chosen.end());
+  std::vector<int> own;
+  std::ranges::copy_if(all, std::back_inserter(own), [&](int frame) { return wanted.contains(frame); });
+  if (own.empty()) {
+    throw UsageError(fmt::format("--only: none of {} is among {}", only, ods::frames_text(all)));
+  }
+  return own;
 }
 
 // An object on its own turns itself, before a viewer who stays where a file's or our own view point is.

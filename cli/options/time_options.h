@@ -29,6 +29,7 @@ struct TimeOptions {
   std::optional<float> time;  // seconds
   std::string animation;      // empty: what ods::play() chooses
   std::string frames;         // empty or "all": the whole duration
+  std::string only;           // those of the frames that this process makes, or its share, "3/8"; empty: all
   float fps = 30.0f;
   std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
@@ -53,6 +54,13 @@ void check_time_options(const TimeOptions& time);
 // camera, the object's turning becomes a part of the scene's animation, and time.move no longer has it. Throws
 // UsageError.
 void start_clock(TimeOptions& time, ods::Scene& scene);
+
+// Checks the value of --only. Throws UsageError and ods::Error(kUsage).
+void check_only(const std::string& only);
+
+// Those of `all` that --only names, by their numbers (a farm may name some beyond the end) or as one of N shares that
+// lie one behind the other. All of them without --only. Throws UsageError if a list names none.
+std::vector<int> own_frames(const std::string& only, const std::vector<int>& all);
 
 // The frames of the video; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.
 std::vector<int> video_frames(const TimeOptions& time);

@@ -47,6 +47,7 @@ void DenoisedFrames::render(size_t index, const std::function<void(double done)>
 
 Rendered DenoisedFrames::make(size_t index, const std::function<void(double done)>& report) {
   const auto [first, last] = reach_of(index, all_.size());
+  if (!window_.empty() && first < window_.begin()->first) window_.clear();  // back to a frame that others left
   window_.erase(window_.begin(), window_.lower_bound(first));
   for (size_t i = first; i <= last; i++) {
     if (!window_.contains(i)) render(i, report);

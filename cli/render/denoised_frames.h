@@ -18,7 +18,7 @@ class DenoisedFrames {
                  const std::set<size_t>& wanted);
 
   // Makes the frame all[index], and renders it and those beside it first, unless an earlier call did. A frame has the
-  // same bits whatever was made before. To be called with rising indices. report: gets the fraction of the whole.
+  // same bits whatever was made before. Rising indices are the fastest. report: gets the fraction of the whole.
   Rendered make(size_t index, const std::function<void(double done)>& report);
 
  private:

@@ -143,7 +143,8 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
 }
 
 void add_time(Settings& settings, const TimeOptions& options) {
-  const auto& [time, animation, frames, fps, duration, move, shutter, own_grain, skip_existing, is_video] = options;
+  const auto& [time, animation, frames, only, fps, duration, move, shutter, own_grain, skip_existing, is_video] =
+      options;
   const auto& [seconds, turns, pivot, fly_to] = move;
   add(settings, "--time", time ? fmt::format("{}", *time) : "0");
   add(settings, "--animation", animation.empty() ? "all" : animation);

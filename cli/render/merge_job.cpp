@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
+#include <thread>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
@@ -115,6 +117,24 @@ void open_pictures(MergeJob& job, bool incomplete) {
   job.layout = sidecar.layout;
 }
 
+// Opens what the words name. Until the wait is over, what is missing may be late.
+void open_words(MergeJob& job, const std::vector<std::string>& words, bool incomplete) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<float>(job.render.wait);
+  bool said = false;
+  while (true) {
+    try {
+      job.parts = files_of(words);
+      for (const std::string& part : job.parts) refuse_overwriting(job.render.output, part);
+      return open_pictures(job, incomplete && std::chrono::steady_clock::now() >= end);
+    } catch (const ods::Error& error) {
+      if (error.kind() != ods::ErrorKind::kInput || std::chrono::steady_clock::now() >= end) throw;
+      if (!said) note(fmt::format("waiting up to {:g} s: {}", job.render.wait, error.what()));
+      said = true;
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+}
+
 void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& layout, bool& incomplete) {
   RenderJob& render = job.render;
   options.arguments("PART", job.parts, "the parts; # in a name stands for any number");
@@ -122,6 +142,7 @@ void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& la
   options.text("-o,--output", "FILE", render.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   options.flag("--incomplete", incomplete, "make the picture even if parts are missing; it is noisier");
+  add_wait_option(options, render.wait, "parts");
   add_layout_option(options, layout, "how both eyes share the file; by default as rendered", "--layout");
   options.flag("--sidecar", render.save.sidecar, "also write the camera as JSON beside the picture");
   options.flag("--statistics", render.render.statistics,
@@ -165,9 +186,7 @@ bool read_merge_job(MergeJob& job, int argc, char** argv) {
   const std::string& output = job.render.output;
   if (output.empty()) throw UsageError("no output file: add -o picture.exr");
   if (job.parts.empty()) throw UsageError("no parts: name the files that ods render --part has made");
-  job.parts = files_of(job.parts);
-  for (const std::string& part : job.parts) refuse_overwriting(output, part);
-  open_pictures(job, incomplete);
+  open_words(job, std::vector<std::string>(job.parts), incomplete);
   finish_options(job, layout);
   if (!options.given("--exposure")) job.render.save.exposure = job.picture.exposure;
   if (!options.given("--tone")) job.render.save.tone = job.picture.tone;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <map>
 #include <set>
 
 #include "cli/console/console.h"
@@ -31,17 +32,22 @@ std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time) {
 
 // Those that are to be rendered.
 std::vector<Frame> choose_frames(const TimeOptions& time, const std::vector<Frame>& all) {
-  if (!asks_for_video(time)) return all;
+  std::vector<int> numbers;
+  for (const Frame& frame : all) numbers.push_back(frame.number);
+  const std::vector<int> chosen = own_frames(time.only, numbers);
+  const std::set<int> own(chosen.begin(), chosen.end());
   std::vector<Frame> frames;
   for (const Frame& frame : all) {
+    if (!own.contains(frame.number)) continue;
     if (time.skip_existing && ods::is_saved(frame.path)) {
       remove_dead_claim(frame.path);
     } else {
       frames.push_back(frame);
     }
   }
-  const size_t skipped = all.size() - frames.size();
-  if (skipped > 0) note(fmt::format("{} of {} frames exist already", skipped, all.size()));
+  const size_t skipped = own.size() - frames.size();
+  if (skipped > 0 && asks_for_video(time)) note(fmt::format("{} of {} frames exist already", skipped, own.size()));
+  if (skipped > 0 && !asks_for_video(time)) note(fmt::format("'{}' exists already", all.front().path));
   return frames;
 }
 
@@ -64,6 +70,12 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
 
 using Saved = std::function<void(const Rendered& frame)>;
 
+std::vector<SharedFrame> files_of(const std::vector<Frame>& frames) {
+  std::vector<SharedFrame> files;
+  for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
+  return files;
+}
+
 // Renders and saves the frames; `shared`: except those claimed by other processes. Returns how many it rendered.
 size_t render_all(FrameRenderer& renderer, const TimeOptions& time, const std::vector<Frame>& frames, bool shared,
                   const StepReport& report, const Saved& saved) {
@@ -78,26 +90,33 @@ size_t render_all(FrameRenderer& renderer, const TimeOptions& time, const std::v
     for (size_t i = 0; i < frames.size(); i++) render(i);
     return rendered;
   }
-  std::vector<SharedFrame> files;
-  for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
-  make_shared_frames(files, "frame", render);
+  make_shared_frames(files_of(frames), asks_for_video(time) ? "frame" : "part", render);
   return rendered;
 }
 
-// Renders and saves those of a video's frames that are missing, each denoised together with those beside it.
+// Renders and saves those of a video's frames that are missing, each denoised together with those beside it; `shared`:
+// as in render_all().
 void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all,
-                     const std::vector<Frame>& missing, const StepReport& report) {
-  std::set<int> missing_numbers;
-  for (const Frame& frame : missing) missing_numbers.insert(frame.number);
+                     const std::vector<Frame>& missing, bool shared, const StepReport& report) {
+  std::map<int, size_t> places;  // in `all`, of the missing ones
+  for (const Frame& frame : missing) places[frame.number] = 0;
   std::set<size_t> wanted;
   for (size_t i = 0; i < all.size(); i++) {
-    if (missing_numbers.contains(all[i].number)) wanted.insert(i);
+    const auto found = places.find(all[i].number);
+    if (found == places.end()) continue;
+    found->second = i;
+    wanted.insert(i);
   }
   DenoisedFrames frames(job, renderer, all, wanted);
   int made = 0;
-  for (const size_t index : wanted) {
+  const auto make = [&](size_t index) {
     const ProgressStep step{"render", ++made, static_cast<int>(wanted.size()), all[index].path};
     frames.make(index, [&](double done) { report(done, step); });
+  };
+  if (shared) {
+    make_shared_frames(files_of(missing), "frame", [&](size_t i) { make(places.at(missing[i].number)); });
+  } else {
+    for (const size_t index : wanted) make(index);
   }
 }
 
@@ -128,10 +147,27 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
     samples += frame.samples;
     for (const std::string& file : frame.files) announce_file(file);
   };
-  const bool shared = asks_for_video(time) && time.skip_existing;
+  const bool shared = time.skip_existing;
   const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
   const size_t rendered = render_all(renderer, time, frames, shared, report, saved);
   if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
+}
+
+// A video of what does not move needs a length.
+static void check_length(const ods::Scene& scene, const TimeOptions& time) {
+  const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);
+  if (!is_still || !time.frames.empty() || time.duration) return;
+  throw UsageError(
+      "the scene has no animation: add --duration SECONDS, or move the camera with --turntable or --fly-to");
+}
+
+std::vector<int> frames_of(const RenderJob& job) {
+  TimeOptions time = job.time;
+  if (!time.frames.empty() && time.frames != "all") return video_frames(time);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
+  start_clock(time, scene);
+  check_length(scene, time);
+  return video_frames(time);
 }
 
 RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
@@ -140,14 +176,13 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, scene);
-  const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);
-  if (is_still && time.frames.empty() && !time.duration) {
-    throw UsageError(
-        "the scene has no animation: add --duration SECONDS, or move the camera with --turntable or --fly-to");
-  }
+  check_length(scene, time);
   const std::vector<int> numbers = video_frames(time);
   planned(numbers);
-  const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
+  const std::vector<Frame> all = all_frames(job, time);
+  wait_for_frames(files_of(all), "frame", job.wait);
+  const std::vector<Frame> frames = choose_frames(time, all);
+  const bool shared = !time.only.empty();
   FrameRenderer renderer(job, time, scene);
   const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
@@ -155,9 +190,9 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     say_room(job, frames);
     if (draws_on_neighbours(job)) {
-      render_denoised(job, renderer, all, frames, report);
+      render_denoised(job, renderer, all, frames, shared, report);
     } else {
-      render_all(renderer, time, frames, false, report, [](const Rendered&) {});
+      render_all(renderer, time, frames, shared, report, [](const Rendered&) {});
     }
   }
   return {numbers, exposure};

@@ -14,6 +14,10 @@
 // frames (cli/frames/shared_frames.h).
 void render_job(const RenderJob& job, ProgressLines& lines);
 
+// The frames that the job asks for. Loads the scene if their number depends on it. Throws UsageError if nothing moves
+// and no length was given.
+std::vector<int> frames_of(const RenderJob& job);
+
 struct RenderedFrames {
   std::vector<int> numbers;  // of all frames, including those that existed
   float exposure = 0.0f;     // stops, to show them with

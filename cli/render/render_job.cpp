@@ -7,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "ods/files/frames.h"
 #include "ods/stage/exposure.h"
 
 namespace {
@@ -59,13 +60,14 @@ void add_long_options(Options& options, RenderJob& job) {
   options.flag("--save-unfinished", job.save_unfinished, "when interrupted (Ctrl-C, kill), save the picture as it is");
   options.custom(
       "--part", "I/N", "", [&](const std::string& word) { read_part(word, job); },
-      "render one of N parts of the samples as an .exr, for ods merge: 3/8");
+      "render one of N parts of the samples as an .exr, for ods merge: 3/8; # in the file's name is the part");
+  options.number("--parts", job.parts, 2, 4096, "with ods submit: render this many parts, and merge them");
 }
 
 // Parts are exact shares of a fixed number of samples.
 void check_long_job(const Options& options, const RenderJob& job) {
   const bool is_part = job.part.has_value();
-  for (const char* own : {"--resume", "--save-unfinished", "--part"}) {
+  for (const char* own : {"--resume", "--save-unfinished", "--part", "--parts"}) {
     if (!options.given(own)) continue;
     if (asks_for_video(job.time)) {
       throw UsageError(fmt::format("{} is for one picture; frames go on with --skip-existing", own));
@@ -104,8 +106,17 @@ void add_exposure_option(Options& options, RenderJob& job) {
       ".hdr and .exr stay scene-linear and ignore it");
 }
 
+void add_wait_option(Options& options, float& seconds, const char* noun) {
+  options.number("--wait", seconds, 0.0f, 3600.0f,
+                 fmt::format("seconds to wait for {} of other machines that a shared disk does not show yet", noun));
+}
+
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
   check_time_options(job.time);
+  if (!job.time.only.empty() && !asks_for_video(job.time) && job.rig.empty()) {
+    throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
+  }
+  job.given = options.given_words();
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   finish_quality(options, quality, job);
@@ -114,7 +125,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
   finish_camera_options(job.camera, job.render.width, job.render.height);
 }
 
-bool read_render_job(RenderJob& job, int argc, char** argv) {
+bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   Quality quality;
   Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
   add_scene_argument(options, job.scene);
@@ -128,6 +139,9 @@ bool read_render_job(RenderJob& job, int argc, char** argv) {
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
+  if (job.parts > 0 && !for_farm) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
+  const auto part_names = job.part ? ods::frame_names(job.output) : std::nullopt;
+  if (part_names) job.output = part_names->path(job.part->number);
   if (job.exposure && !job.part && keeps_light(job.output))
     note("--exposure does not change .exr and .hdr, which are scene-linear");
   if (job.render.transparent && !ods::has_alpha(job.output)) {

@@ -27,6 +27,9 @@ struct RenderJob {
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
   std::optional<ods::Part> part;  // of the samples
+  int parts = 0;                  // --parts, for ods submit
+  float wait = 0.0f;              // seconds: for files that other machines have written
+  std::vector<GivenWord> given;   // the command line
   bool resume = false;            // a still picture goes on from what an interrupted run has kept
   bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
@@ -38,5 +41,9 @@ void add_exposure_option(Options& options, RenderJob& job);
 // What remains to be done after parsing, for ods video, too.
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_render_job(RenderJob& job, int argc, char** argv);
+// Adds --wait SECONDS.
+void add_wait_option(Options& options, float& seconds, const char* noun);
+
+// False if help was requested. for_farm: ods submit reads the line, which may have --parts. Throws UsageError and
+// ods::Error.
+bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm = false);

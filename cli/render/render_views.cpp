@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/frames/shared_frames.h"
@@ -47,12 +49,17 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
     lines.clear();
     announce_file(path);
   };
+  std::vector<int> all(rig.views.size());
+  std::iota(all.begin(), all.end(), 1);
   std::vector<SharedFrame> views;
-  for (size_t i = 0; i < rig.views.size(); i++) views.push_back({static_cast<int>(i) + 1, view_path(rig, files, i)});
-  if (time.skip_existing) {
-    make_shared_frames(views, "view", render_view);
-  } else {
-    for (size_t i = 0; i < views.size(); i++) render_view(i);
+  for (const int number : own_frames(time.only, all)) {
+    views.push_back({number, view_path(rig, files, static_cast<size_t>(number - 1))});
   }
-  note(fmt::format("{} views in {}", rig.views.size(), duration_text(seconds_since(start))));
+  const auto render_own = [&](size_t i) { render_view(static_cast<size_t>(views[i].number - 1)); };
+  if (time.skip_existing) {
+    make_shared_frames(views, "view", render_own);
+  } else {
+    for (size_t i = 0; i < views.size(); i++) render_own(i);
+  }
+  note(fmt::format("{} views in {}", views.size(), duration_text(seconds_since(start))));
 }

@@ -13,6 +13,7 @@
 #include "cli/frames/disk_room.h"
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
+#include "cli/options/time_options.h"
 #include "ods/base/error.h"
 #include "ods/files/claim.h"
 #include "ods/stitch/rig_mark.h"
@@ -120,7 +121,7 @@ static void say_room(const StitchJob& job, const ods::SlitRig& rig, const std::v
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report) {
   const FrameNames folders = folder_names(job.views.names), outputs = video_names(job.output);
   const std::string file = std::filesystem::path(job.views.names).filename().string();
-  const std::vector<int> frames = ods::parse_frames(job.frames);
+  const std::vector<int> frames = own_frames(job.only, ods::parse_frames(job.frames));
   StitchJob each = job;
   const auto stitch_frame = [&](size_t i) {
     ViewFiles views = job.views;

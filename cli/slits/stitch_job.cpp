@@ -7,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/options/time_options.h"
 
 static constexpr const char* kExamples =
     "  ods stitch rig.json 'views/####.exr' -o picture.exr\n"
@@ -36,6 +37,8 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.group("Views");
   options.text("--frames", "RANGE", job.frames,
                "frames to stitch; the views' folder has the frame's number: 'views/####/####.exr'");
+  options.text("--only", "LIST|I/N", job.only,
+               "stitch only these of the frames, or the I-th of N shares of them, as one process of several");
   options.flag("--skip-existing", job.skip_existing,
                "do not stitch frames whose files exist; several processes with this option share the rest");
   options.custom(
@@ -55,5 +58,8 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   job.has_tone = options.given("--tone");
   if (job.output.empty() && !job.list_missing) throw UsageError("no output file: add -o picture.exr");
   if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing needs --frames");
+  if (!job.only.empty() && job.frames.empty()) throw UsageError("--only needs --frames");
+  check_only(job.only);
+  job.given = options.given_words();
   return true;
 }

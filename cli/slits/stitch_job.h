@@ -5,7 +5,9 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "cli/console/options.h"
 #include "cli/console/progress.h"
 #include "ods/picture/save.h"
 #include "ods/stitch/view_files.h"
@@ -18,6 +20,7 @@ struct StitchJob {
   ods::SaveOptions save;              // except its layout
   std::optional<ods::Layout> layout;  // none: default_layout() of the rig's projection
   std::string frames;
+  std::string only;  // as TimeOptions::only
   bool has_tone = false;
   bool partial = false;
   bool says_files = true;
@@ -25,6 +28,7 @@ struct StitchJob {
   bool claims = true;         // false: the caller already holds a claim
   bool list_missing = false;
   bool skip_existing = false;
+  std::vector<GivenWord> given;  // the command line
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods video: renders a scene as a video.
+// ods video: renders a scene as a video, or some of its frames.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,63 +9,12 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/picture_options.h"
-#include "cli/options/video_options.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
+#include "cli/video/video_job.h"
 #include "cli/video/video_journal.h"
 
 namespace {
-
-constexpr const char* kExamples =
-    "  ods video scene.glb -o video_360_TB.mp4\n"
-    "  ods video scene.glb -o video_360_TB.mp4 --target quest --width 4096 --fps 60 --audio sound.wav\n"
-    "  ods video room -o room_360_TB.mp4 --quality draft --turntable 1 --duration 20\n"
-    "  ods video scene.glb -o master.mov --target master --frames 1-250 --keep-frames\n"
-    "  ods video 'views/####/####.exr' --rig rig.json -o video_360_TB.mp4 --frames 1-250   as ods stitch";
-
-constexpr const char* kSummary =
-    "Renders a scene frame by frame, encodes the frames and writes the 360 metadata that players need. The frames are\n"
-    "kept in VIDEO.frames until the video is complete: after an interruption, give the same command again to continue.";
-
-struct VideoJob {
-  RenderJob render;
-  ods::DisplayTransform display;
-  VideoWishes video;
-  std::string rig;  // a slit rig: stitch its views instead of rendering
-  bool keep_frames = false, restart = false;
-};
-
-bool read_options(VideoJob& job, int argc, char** argv) {
-  RenderJob& render = job.render;
-  Quality quality;
-  Options options("video", kSummary, kExamples);
-  add_scene_argument(options, render.scene);
-  add_light_options(options, render.scene.light);
-  add_video_options(options, job.video);
-  options.text("--rig", "FILE", job.rig,
-               "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
-  options.flag("--keep-frames", job.keep_frames, "keep VIDEO.frames, which ods encode can read");
-  options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
-  options.group("Picture");
-  add_picture_options(options, render.render, render.save);
-  add_exposure_option(options, render);
-  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
-  add_camera_options(options, render.camera);
-  add_time_options(options, render.time);
-  add_quality_options(options, render, quality);
-  options.group("Console");
-  add_progress_options(options, render.progress);
-  if (!options.parse(argc, argv)) return false;
-  if (render.time.time) throw UsageError("--time is for single pictures; choose a video's frames with --frames");
-  if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a video carries its own metadata");
-  finish_render_job(options, quality, render);
-  render.render.layers = false;
-  render.time.is_video = render.time.skip_existing = true;
-  job.video.rate = parse_rate(fmt::format("{}", render.time.fps));
-  render.time.fps = static_cast<float>(job.video.rate.value());
-  return true;
-}
 
 // Stitches frames from the views of a rig.
 RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
@@ -73,12 +22,14 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
   StitchJob stitch;
   stitch.views.names = job.render.scene.name;
   stitch.output = job.render.output;
-  stitch.frames = job.render.time.frames;
   stitch.save = job.render.save;
   stitch.layout = job.render.save.layout;
-  stitch.skip_existing = true, stitch.claims = false, stitch.says_files = false;
-  if (stitch.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
-  journal.plan(ods::parse_frames(stitch.frames));
+  stitch.skip_existing = true, stitch.says_files = false;
+  stitch.claims = !job.render.time.only.empty();  // else the video has it
+  if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
+  journal.plan(ods::parse_frames(job.render.time.frames));
+  stitch.frames = job.render.time.frames;
+  stitch.only = job.render.time.only;
   return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
 }
 
@@ -97,7 +48,8 @@ void make_video(VideoJob job, ProgressLines& lines) {
   say_what_players_need(job.video, expected, options);
   VideoJournal journal(job.video.output,
                        rig ? stitch_settings(job.rig, render.scene.name, render.save) : frame_settings(render),
-                       job.restart);
+                       job.restart, render.time.only.empty() ? JournalUse::kAlone : JournalUse::kShared,
+                       std::chrono::seconds(static_cast<int>(render.wait)));
   job.render.output = journal.pattern();
   const auto rendered = [&](double done, const ProgressStep& step) {
     journal.check();
@@ -106,6 +58,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
   const auto planned = [&](const std::vector<int>& numbers) { journal.plan(numbers); };
   const RenderedFrames made =
       rig ? stitch_views(job, *rig, journal, rendered) : render_frames(render, rendered, planned);
+  if (!render.time.only.empty()) return lines.clear();
   const std::vector<int>& frames = made.numbers;
   job.display.exposure = made.exposure;
 
@@ -128,7 +81,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
 
 void video(int argc, char** argv) {
   VideoJob job;
-  if (!read_options(job, argc, argv)) return;
+  if (!read_video_job(job, argc, argv)) return;
   run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { make_video(job, lines); });
 }
 

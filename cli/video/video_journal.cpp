@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "cli/console/console.h"
 #include "ods/files/atomic_file.h"
@@ -42,8 +44,11 @@ bool is_empty(const std::string& folder) {
 
 }  // namespace
 
-VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart)
-    : claim_(ods::claim(video)), folder_(video + ".frames"), settings_(settings) {
+VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart, JournalUse use,
+                           std::chrono::seconds patience)
+    : claim_(use == JournalUse::kAlone ? ods::claim(video, patience) : nullptr),
+      folder_(video + ".frames"),
+      settings_(settings) {
   const fs::file_type type = type_of(folder_);
   if (type != fs::file_type::directory && type != fs::file_type::not_found) {
     throw UsageError(fmt::format("the frames belong in '{}', but it is {}; remove it, or choose another -o", folder_,
@@ -55,7 +60,12 @@ VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>&
 
 void VideoJournal::begin(bool restart) {
   std::vector<Setting> then;
-  if (!read_note(then)) {
+  bool is_known = read_note(then);
+  for (int i = 0; i < 20 && !is_known && !claim_ && type_of(folder_) == fs::file_type::directory; i++) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // another process is about to write it
+    is_known = read_note(then);
+  }
+  if (!is_known) {
     if (type_of(note_path()) != fs::file_type::not_found) {
       throw UsageError(
           fmt::format("'{}' was not written by this version of ods video; remove '{}', or choose another -o",
@@ -77,7 +87,8 @@ void VideoJournal::begin(bool restart) {
 }
 
 VideoJournal::~VideoJournal() {
-  if (!has_frames()) remove();
+  const bool is_over = claim_ ? !has_frames() : type_of(note_path()) == fs::file_type::not_found;
+  if (is_over) remove();
 }
 
 std::string VideoJournal::note_path() const {
@@ -138,7 +149,7 @@ bool VideoJournal::has_frames() const {
 }
 
 void VideoJournal::remove() const {
-  if (claim_->is_lost()) return;  // it now belongs to another process
+  if (claim_ && claim_->is_lost()) return;  // it now belongs to another process
   const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (folder < 0) return;
   const std::set<std::string> own = frame_files();

@@ -4,9 +4,11 @@
 // The frames of an unfinished video: a folder beside it, VIDEO.frames, with a note (job.txt) that lists the settings
 // that they were made with and their numbers. After an interruption the next job resumes from them; frames made with
 // other settings are never mixed in. The job holds the claim on the video (ods/files/claim.h) from start to end.
+// Several processes may also share the frames: each claims a frame before it makes it, and none makes the video.
 //
 // The folder must be a real one, not a link. Only files listed in the note are ever used or removed.
 #pragma once
+#include <chrono>
 #include <memory>
 #include <set>
 #include <string>
@@ -15,16 +17,20 @@
 #include "cli/render/frame_settings.h"
 #include "ods/files/claim.h"
 
+enum class JournalUse { kAlone, kShared };
+
 class VideoJournal {
  public:
   // Opens the frames of this video, or starts anew. `restart` removes existing frames. Throws UsageError if the folder
   // holds frames made with other settings or is not ours; ods::Error(kOutput), also if another process is working on
-  // the video.
-  VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart);
+  // the video, and does not end within `patience`.
+  VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart,
+               JournalUse use = JournalUse::kAlone, std::chrono::seconds patience = std::chrono::seconds(0));
 
   VideoJournal(const VideoJournal&) = delete;
   VideoJournal& operator=(const VideoJournal&) = delete;
-  // Removes the folder if it has no frames.
+  // Removes the folder if it has no frames. Shared: only if another process has finished the video meanwhile, and then
+  // with the frames that came too late.
   ~VideoJournal();
 
   const std::string& folder() const { return folder_; }
@@ -35,7 +41,9 @@ class VideoJournal {
   void plan(const std::vector<int>& frames);
 
   // Throws ods::Error(kOutput) if another machine has taken the video over. Call it regularly.
-  void check() const { claim_->check(); }
+  void check() const {
+    if (claim_) claim_->check();
+  }
 
   // Removes its own files, and the folder if nothing else is in it.
   void remove() const;
@@ -48,7 +56,7 @@ class VideoJournal {
   std::string note_path() const;
   void begin(bool restart);
 
-  std::unique_ptr<ods::Claim> claim_;  // released last
+  std::unique_ptr<ods::Claim> claim_;  // released last; null where the frames are shared
   std::string folder_;
   std::vector<Setting> settings_;
   std::set<int> frames_;  // that this job and earlier ones made, or were going to make

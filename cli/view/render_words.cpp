@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "cli/options/camera_options.h"
 
 using ods::PoleMergeSetting, ods::ProjectionSetting, ods::StereoCamera, ods::vec2, ods::vec3;
@@ -82,18 +79,4 @@ std::vector<std::string> camera_words(const StereoCamera& camera) {
   if (camera.mirrored) words.emplace_back("--left-handed");
   add_projection(words, camera.projection);
   return words;
-}
-
-std::string shell_line(const Words& words) {
-  std::string line;
-  for (const std::string& word : words) {
-    const auto is_plain = [](unsigned char c) {
-      return std::isalnum(c) || std::string_view("-_.,/:=+%@").find(c) != std::string_view::npos;
-    };
-    std::string quoted;
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    const bool plain = !word.empty() && std::ranges::all_of(word, is_plain);
-    line += (line.empty() ? "" : " ") + (plain ? word : "'" + quoted + "'");
-  }
-  return line;
 }

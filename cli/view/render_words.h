@@ -11,6 +11,3 @@
 // The options that give this camera, {"--yaw", "30", ...}: position and yaw, and all else that differs from the
 // commands' defaults. Maps are left out: options name files, and a camera has pixels.
 std::vector<std::string> camera_words(const ods::StereoCamera& camera);
-
-// Words as one line for a shell, quoted where that needs it.
-std::string shell_line(const std::vector<std::string>& words);

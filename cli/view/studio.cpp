@@ -15,6 +15,7 @@
 #include "cli/options/camera_options.h"
 #include "cli/view/render_words.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/files/atomic_file.h"
@@ -197,7 +198,7 @@ WebAnswer Studio::set(const std::string& body) {
   }
   settings_ = wanted;
   const int revision = live_->set(settings_.live, settings_.look);
-  return json_answer({{"revision", revision}, {"command", shell_line(words("", ""))}});
+  return json_answer({{"revision", revision}, {"command", ods::shell_line(words("", ""))}});
 }
 
 // The command that renders what the page shows; empty: a name and a quality for people to read.

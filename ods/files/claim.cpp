@@ -215,9 +215,14 @@ std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, C
   return nullptr;
 }
 
-std::unique_ptr<Claim> claim(const std::string& path) {
+std::unique_ptr<Claim> claim(const std::string& path, std::chrono::seconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
   std::string holder;
   std::unique_ptr<Claim> own = try_claim(path, holder);
+  while (!own && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    own = try_claim(path, holder);
+  }
   if (!own) throw Error(ErrorKind::kOutput, fmt::format("another ods is at work on '{}': {}", path, holder));
   return own;
 }

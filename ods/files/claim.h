@@ -64,7 +64,7 @@ std::string claim_path(const std::string& path);
 // has its name.
 std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, ClaimTimes times = {});
 
-// As try_claim(), but throws an Error(kOutput) that names the other holder.
-std::unique_ptr<Claim> claim(const std::string& path);
+// As try_claim(), but throws an Error(kOutput) that names the other holder, if it holds the claim for so long.
+std::unique_ptr<Claim> claim(const std::string& path, std::chrono::seconds patience = std::chrono::seconds(0));
 
 }  // namespace ods

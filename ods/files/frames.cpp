@@ -111,6 +111,7 @@ std::vector<int> parse_frames(const std::string& text) {
   std::string packed = text;
   std::erase_if(packed, [](char c) { return c == ' ' || c == '\t'; });
   Reader reader{text, packed};
+  const bool in_brackets = reader.take("[");
   std::vector<int> frames;
   std::unordered_set<int> seen;
   do {
@@ -124,6 +125,7 @@ std::vector<int> parse_frames(const std::string& text) {
       if (seen.insert(frame).second) frames.push_back(frame);
     }
   } while (reader.take(","));
+  if (in_brackets && !reader.take("]")) reader.fail("the bracket is not closed");
   if (!reader.rest.empty()) reader.fail(fmt::format("'{}' is not understood", reader.rest));
   return frames;
 }

@@ -10,9 +10,9 @@
 namespace ods {
 
 // "1-100", "1-100x2" or "1-100:2" (every second), "1..10", "1,5,10-20", "-10-5", "10-1" and "10-1x-2" (backwards), and
-// comma-separated lists of these. Spaces are ignored. Returns the frames in the order given, without duplicates, at
-// most a million; numbers have at most nine digits. In some programs ':' staggers; here it is a step, as in Open Job
-// Description. Throws Error(kUsage), naming the part that does not parse.
+// comma-separated lists of these, in brackets or not: "[1-10]". Spaces are ignored. Returns the frames in the order
+// given, without duplicates, at most a million; numbers have at most nine digits. In some programs ':' staggers; here
+// it is a step, as in Open Job Description. Throws Error(kUsage), naming the part that does not parse.
 std::vector<int> parse_frames(const std::string& text);
 
 // The shortest text for these frames: "1-7,9-19x2". Precondition: no duplicates.

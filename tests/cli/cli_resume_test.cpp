@@ -50,6 +50,28 @@ TEST_F(Resume, GoesOnToTheSameBits) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "whole.png"}));
 }
 
+// As a farm's machines do it: one dies, another goes on with its part; a part that is there is not made again.
+TEST_F(Resume, APartGoesOnElsewhereAndIsMadeOnce) {
+  ASSERT_EQ(whole(words("whole.exr")), 0) << err;
+  const auto part = [&](const std::string& number) {
+    return std::vector<std::string>{
+        "render", "toys",     "--width",         "128", "--samples",           "300", "--part",
+        number,   "--resume", "--skip-existing", "-o",  folder.path("p_#.exr")};
+  };
+  ASSERT_EQ(interrupted(part("2/2"), SIGTERM), 128 + SIGTERM) << err;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"p_2.exr.unfinished", "whole.exr"}));
+  ASSERT_EQ(whole(part("2/2")), 0) << err;
+  EXPECT_EQ(out, folder.path("p_2.exr") + "\n");
+  ASSERT_EQ(whole(part("2/2")), 0) << err;
+  EXPECT_EQ(out, "");
+  EXPECT_NE(err.find("p_2.exr' exists already"), std::string::npos) << err;
+  Ods merge({"merge", folder.path("p_#.exr"), "-o", folder.path("merged.exr"), "--wait", "600"});
+  merge.wait_for("these are missing: 1");
+  ASSERT_EQ(whole(part("1/2")), 0) << err;
+  EXPECT_EQ(merge.finish(), 0) << merge.err;
+  EXPECT_EQ(folder.read("merged.exr"), folder.read("whole.exr"));
+}
+
 TEST_F(Resume, OtherOptionsAreRefusedByName) {
   ASSERT_EQ(interrupted(words("a.png")), 128 + SIGINT) << err;
   const std::string kept = folder.read("a.png.unfinished");

@@ -34,7 +34,8 @@ TEST_F(Cli, HelpStartsWithExamples) {
                             "scenes --help",  "testcard --help",
                             "video --help",   "encode --help",
                             "rig --help",     "stitch --help",
-                            "probe --help",   "inject --help"}) {
+                            "probe --help",   "inject --help",
+                            "submit --help",  "jobs --help"}) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_TRUE(out.find("Commands:") != std::string::npos || out.find("-q,--quiet") != std::string::npos) << words;

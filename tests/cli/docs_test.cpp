@@ -130,6 +130,7 @@ std::set<std::string> options_in(const std::string& text) {
 class Pages : public ::testing::Test {
  protected:
   void SetUp() override {
+    provide_cluster();
     fs::create_directory(folder.path("home"));
     setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // as in cli_runner.h
     setenv("XDG_STATE_HOME", folder.path("home").c_str(), 1);
@@ -147,13 +148,38 @@ class Pages : public ::testing::Test {
     return "'" + std::regex_replace(text, std::regex("'"), "'\\''") + "'";
   }
 
+  // A cluster that knows all jobs at once to be done.
+  void provide_cluster() {
+    fs::create_directory(folder.path("bin"));
+    const std::string queue = folder.path("bin/queue");
+    const auto program = [&](const std::string& name, const std::string& script) {
+      folder.write("bin/" + name, "#!/bin/sh\n" + script + "\n");
+      fs::permissions(folder.path("bin/" + name), fs::perms::owner_all);
+    };
+    folder.write("bin/queue", "");
+    program("squeue", "[ $1 != --json ] && cat " + queue);
+    program("scontrol", "echo MaxArraySize = 1001");
+    program("sbatch", "id=$(($(wc -l <" + queue + ") + 1))\nfor word; do case $word in --comment=*) " +
+                          "echo \"$id|1|COMPLETED|0:01|${word#--comment=}\" >>" + queue + " ;; esac; done\necho $id");
+    static const std::string path = std::getenv("PATH");
+    setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);
+  }
+
+  // The command's name; of ods submit that of the command it sends.
+  static std::string command_of(const std::string& line) {
+    const std::vector<std::string> words = words_of(line);
+    const auto dashes = std::find(words.begin(), words.end(), "--");
+    return words.at(1) == "submit" && dashes + 1 < words.end() ? *(dashes + 1) : words.at(1);
+  }
+
   // What makes the command small: the last of an option counts.
   static std::string made_small(const std::string& line) {
-    const std::string command = words_of(line).at(1);
+    const std::string command = command_of(line);
     const bool has_width = has(line, "--width") || has(line, "--size"), of_rig = has(line, "--rig ");
     const bool renders = command == "render" || command == "video";
     std::string more = !renders                    ? ""
                        : has(line, "--statistics") ? " --samples 2"
+                       : has(line, "--parts")      ? " --samples 64"
                        : has(line, "--part")       ? " --samples 8"
                                                    : " --samples 1";
     if (command == "rig") {
@@ -173,7 +199,9 @@ class Pages : public ::testing::Test {
   void provide(const std::string& line) {
     const std::vector<std::string> words = words_of(line);
     std::string rig;
-    if (words.at(1) == "stitch") rig = words.at(2);
+    const auto stitch = std::find(words.begin(), words.end(), "stitch");
+    if (stitch != words.end()) rig = *std::next(stitch);
+    if (words.at(1) == "jobs" && words.size() > 2) provide_job(words.at(2));
     const auto option = std::find(words.begin(), words.end(), "--rig");
     if (option != words.end()) rig = *std::next(option);
     if (!rig.empty() && !fs::exists(folder.path(rig))) make("ods rig --width 64 --nearest 0.8 -o " + rig);
@@ -187,6 +215,12 @@ class Pages : public ::testing::Test {
         provide_file(words[i]);
       }
     }
+  }
+
+  void provide_job(const std::string& name) {
+    const fs::path folder_of_job = fs::path(name).parent_path();
+    make("ods submit -q --to slurm --chunk 2 -- video toys --width 96 --samples 1 --frames 1-4 --restart -o " +
+         quoted((folder_of_job / fs::path(name).stem()).native() + ".mp4"));
   }
 
   // Views of an earlier rig may lie there.
@@ -361,7 +395,8 @@ TEST_F(Pages, OptionsThatTheyNameExist) {
   for (const std::string& span : code_spans(text)) {
     const bool whole = span.starts_with("ods ");
     if (!whole && !span.starts_with("--")) continue;
-    const std::string command = whole ? words_of(span).at(1) : "";
+    const std::string name_of_command = whole ? words_of(span).at(1) : "";
+    const std::string command = name_of_command == "submit" ? "" : name_of_command;  // it has another behind it
     for (const std::string& name : options_in(span)) {
       EXPECT_TRUE(options[command].contains(name) || kOthersOptions.contains(name)) << "`" << span << "`: " << name;
     }

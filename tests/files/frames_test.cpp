@@ -28,6 +28,10 @@ TEST(Frames, RangesAsFarmsWriteThem) {
   EXPECT_EQ(parse_frames("9-1x-4"), (Frames{9, 5, 1}));
   EXPECT_EQ(parse_frames("9-1x4"), (Frames{9, 5, 1}));
   EXPECT_EQ(parse_frames("0007"), (Frames{7}));
+  EXPECT_EQ(parse_frames("5-5"), (Frames{5}));
+  EXPECT_EQ(parse_frames("1-3,5,7-12:2"), (Frames{1, 2, 3, 5, 7, 9, 11}));
+  EXPECT_EQ(parse_frames("[1-3]"), (Frames{1, 2, 3}));
+  EXPECT_EQ(parse_frames("[ 1-2, 7 ]"), (Frames{1, 2, 7}));
   EXPECT_EQ(parse_frames("1-3,2-4,3"), (Frames{1, 2, 3, 4}));
   EXPECT_EQ(parse_frames("5-5x3"), (Frames{5}));
   EXPECT_EQ(parse_frames("-999999999-999999999x999999999"), (Frames{-999999999, 0, 999999999}));
@@ -47,6 +51,10 @@ TEST(Frames, InvalidRangesAreReported) {
       {"1-600000,700000-1300000", "more than 1000000 frames"},
       {"1234567890", "a number has at most 9 digits"},
       {"1.5", "'.5' is not understood"},
+      {"[1-5", "the bracket is not closed"},
+      {"1-5]", "']' is not understood"},
+      {"[1-5],7", "',7' is not understood"},
+      {"[]", "']' is not a number"},
   };
   for (const auto& [text, why] : kCases) {
     try {

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/farm/job_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "cli/console/progress.h"
+#include "cli/farm/queue.h"
+#include "ods/base/text.h"
+#include "ods/farm/plan.h"
+#include "ods/files/file_input.h"
+#include "ods/files/read_file.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using ods::TaskState;
+
+struct Known {
+  TaskState state = TaskState::kWaiting;
+  std::string why;
+};
+
+// Of a group, by the numbers of its tasks.
+using KnownTasks = std::map<int, Known>;
+
+std::string last_line(const std::string& path) {
+  try {
+    const ods::FileInput file(path);
+    const uint64_t size = std::min<uint64_t>(file.size(), 4096);
+    std::string text = file.read(file.size() - size, size);
+    text.erase(text.find_last_not_of("\n\r ") + 1);
+    return ods::one_line(text.substr(text.find_last_of("\n\r") + 1));
+  } catch (const ods::Error&) {
+    return "";
+  }
+}
+
+// The files "GROUP.NUMBER" that tasks have left; each has an exit code.
+std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
+  std::map<std::string, KnownTasks> ended;
+  std::error_code error;
+  fs::directory_iterator entries(folder + "/ended", error);
+  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    const std::string name = entries->path().filename().native();
+    const size_t dot = name.rfind('.');
+    int number = 0, code = 1;
+    if (dot == std::string::npos) continue;
+    const auto [end, fault] = std::from_chars(name.data() + dot + 1, name.data() + name.size(), number);
+    if (fault != std::errc() || end != name.data() + name.size()) continue;
+    std::ifstream(entries->path()) >> code;
+    ended[name.substr(0, dot)][number] = {code == 0 ? TaskState::kDone : TaskState::kFailed,
+                                          fmt::format("exit code {}", code)};
+  }
+  return ended;
+}
+
+bool is_active(TaskState state) {
+  return state == TaskState::kWaiting || state == TaskState::kRunning;
+}
+
+// What Slurm says counts while a task waits and runs; how it ended, it says best itself. A task that Slurm ended
+// (TIMEOUT, CANCELLED, ...) could not.
+void add_tasks(std::map<std::string, KnownTasks>& known, const std::vector<ods::SlurmTask>& tasks) {
+  for (const ods::SlurmTask& task : tasks) {
+    KnownTasks& group = known[task.group];
+    const auto before = group.find(task.number);
+    if (before == group.end() || is_active(task.state)) group[task.number] = {task.state, task.word};
+  }
+}
+
+GroupReport report_group(const ods::TaskGroup& group, const KnownTasks& known, const std::string& folder) {
+  GroupReport report;
+  report.name = group.name;
+  for (const auto& [number, task] : known) {
+    if (number < 1 || number > group.tasks) continue;
+    if (task.state == TaskState::kDone) report.done++;
+    if (task.state == TaskState::kRunning) report.running++;
+    if (task.state == TaskState::kWaiting) report.waiting++;
+    if (task.state != TaskState::kFailed) continue;
+    const std::string log = fmt::format("{}/logs/{}.{}.log", folder, group.name, number);
+    report.failed.push_back({number, task.why, report.failed.size() < 20 ? last_line(log) : ""});
+  }
+  report.lost = group.tasks - report.done - report.running - report.waiting - static_cast<int>(report.failed.size());
+  return report;
+}
+
+// By the tasks that are done, as if as many ran until the end as now.
+void estimate(GroupReport& report, const std::vector<ods::SlurmTask>& tasks) {
+  double seconds = 0.0, spent = 0.0;
+  int done = 0;
+  for (const ods::SlurmTask& task : tasks) {
+    if (task.group != report.name) continue;
+    if (task.state == TaskState::kDone) seconds += task.seconds, done++;
+    if (task.state == TaskState::kRunning) spent += task.seconds;
+  }
+  if (done == 0 || report.running == 0) return;
+  const double each = seconds / done, tasks_left = report.running + report.waiting;
+  report.seconds_left = std::max(0.0, each * tasks_left - spent) / report.running;
+}
+
+}  // namespace
+
+bool JobReport::is_over() const {
+  return std::ranges::all_of(groups, [](const GroupReport& g) { return g.running + g.waiting == 0; });
+}
+
+bool JobReport::is_done() const {
+  return is_over() && std::ranges::all_of(groups, [](const GroupReport& g) { return g.failed.empty() && g.lost == 0; });
+}
+
+JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& queued) {
+  const std::vector<unsigned char> bytes = ods::read_file(folder + "/plan.json", size_t{64} << 20);
+  const ods::FarmPlan plan =
+      ods::read_plan({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, folder + "/plan.json");
+  const std::map<std::string, ods::SlurmArray> arrays = sent_arrays(folder);
+  std::vector<ods::SlurmTask> tasks;
+  const auto is_own = [&](const ods::SlurmTask& t) {
+    return t.folder == folder && (arrays.empty() || arrays.contains(t.job));  // not those of an earlier submission
+  };
+  std::ranges::copy_if(queued, std::back_inserter(tasks), is_own);
+  std::map<std::string, KnownTasks> known = ended_tasks(folder);
+  add_tasks(known, tasks);
+  std::vector<ods::SlurmTask> accounted = accounted_tasks(arrays);
+  std::erase_if(accounted, [](const ods::SlurmTask& t) { return is_active(t.state); });
+  add_tasks(known, accounted);
+  JobReport report{plan.name, folder, {}};
+  for (const ods::TaskGroup& group : plan.groups) {
+    report.groups.push_back(report_group(group, known[group.name], folder));
+    estimate(report.groups.back(), accounted.empty() ? tasks : accounted);
+  }
+  return report;
+}
+
+std::string report_text(const std::vector<JobReport>& jobs) {
+  std::string text = fmt::format("{:24} {:8} {:>7} {:>8} {:>8} {:>7}  {}\n", "job", "tasks", "done", "running",
+                                 "waiting", "failed", "left");
+  for (const JobReport& job : jobs) {
+    for (const GroupReport& group : job.groups) {
+      const std::string left = group.seconds_left ? duration_text(*group.seconds_left) : "";
+      text += fmt::format("{:24} {:8} {:>7} {:>8} {:>8} {:>7}  {}\n", &group == &job.groups.front() ? job.name : "",
+                          group.name, group.done, group.running, group.waiting, group.failed.size(), left);
+    }
+  }
+  for (const JobReport& job : jobs) {
+    for (const GroupReport& group : job.groups) {
+      if (group.lost > 0) {
+        text += fmt::format("{} {}: {} neither ended nor in the queue; submit it again\n", job.name, group.name,
+                            group.lost);
+      }
+      for (const FailedTask& task : group.failed) {
+        text += fmt::format("{} {} {}: {}{}{}\n", job.name, group.name, task.number, task.why,
+                            task.last.empty() ? "" : ": ", task.last);
+      }
+    }
+  }
+  return text;
+}

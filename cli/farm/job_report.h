@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a job on the farm gets on: from its folder and from what Slurm says.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/farm/slurm_answers.h"
+
+struct FailedTask {
+  int number = 0;
+  std::string why;   // "exit code 3", or Slurm's word: "TIMEOUT"
+  std::string last;  // line of its log
+};
+
+struct GroupReport {
+  std::string name;
+  int done = 0, running = 0, waiting = 0;
+  int lost = 0;  // neither ended nor in the queue: cancelled long ago, or never sent
+  std::vector<FailedTask> failed;
+  std::optional<double> seconds_left;
+};
+
+struct JobReport {
+  std::string name, folder;
+  std::vector<GroupReport> groups;
+  bool is_over() const;  // nothing runs or waits
+  bool is_done() const;  // all tasks are
+};
+
+// tasks: of Slurm's queue, of any job. The tasks of jobs that Slurm has forgotten are known by what they left in the
+// folder. Throws ods::Error(kInput) if the folder has no plan.
+JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& tasks);
+
+// As a table and the failed tasks, for people.
+std::string report_text(const std::vector<JobReport>& jobs);

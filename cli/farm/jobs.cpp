@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods jobs: how the jobs of ods submit get on in Slurm.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "cli/console/console.h"
+#include "cli/console/interrupt.h"
+#include "cli/console/options.h"
+#include "cli/farm/job_report.h"
+#include "cli/farm/queue.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods jobs                            all that Slurm knows of\n"
+    "  ods jobs scene_360_TB --follow      until it is over\n"
+    "  ods jobs renders/scene_360_TB.farm  by its folder, also when Slurm has forgotten it";
+
+struct JobsWishes {
+  std::string name;
+  bool follow = false;
+};
+
+bool is_folder_of_job(const std::string& name) {
+  std::error_code ignored;
+  return fs::exists(name + "/plan.json", ignored);
+}
+
+std::string absolute(const std::string& name) {
+  std::string path = fs::absolute(name).lexically_normal().native();
+  while (path.size() > 1 && path.ends_with("/")) path.pop_back();
+  return path;
+}
+
+// Throws ods::Error(kInput) if there is none of that name.
+std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
+  const bool by_folder = !wishes.name.empty() && is_folder_of_job(wishes.name);
+  const auto queue = queued_tasks();
+  if (!queue && !by_folder) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     "there is no Slurm here: squeue is not found, or fails; ods jobs FOLDER reads a job's folder");
+  }
+  const std::vector<ods::SlurmTask> tasks = queue.value_or(std::vector<ods::SlurmTask>());
+  if (by_folder) return {report_job(absolute(wishes.name), tasks)};
+  std::set<std::string> folders;
+  for (const ods::SlurmTask& task : tasks) folders.insert(task.folder);
+  std::vector<JobReport> jobs;
+  for (const std::string& folder : folders) {
+    if (!is_folder_of_job(folder)) {
+      warn(fmt::format("'{}' has no plan: it was moved, or is on another disk", folder));
+      continue;
+    }
+    const JobReport job = report_job(folder, tasks);
+    if (wishes.name.empty() || job.name == wishes.name) jobs.push_back(job);
+  }
+  if (jobs.empty() && !wishes.name.empty()) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("Slurm knows of no job '{}'; ods jobs FOLDER reads its folder, "
+                                 "NAME.farm beside what it makes",
+                                 wishes.name));
+  }
+  return jobs;
+}
+
+void jobs(int argc, char** argv) {
+  JobsWishes wishes;
+  Options options("jobs",
+                  "Shows what is done, running, waiting and failed of the jobs that ods submit has sent to Slurm.",
+                  kExamples);
+  options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
+  options.flag("--follow", wishes.follow,
+               "show it again every five seconds until all is over; exit code 1 if not all is done");
+  options.group("Console");
+  add_console_options(options);
+  if (!options.parse(argc, argv)) return;
+  if (wishes.follow) end_on_interrupts();
+  std::vector<JobReport> found;
+  std::string before;
+  while (true) {
+    found = find_jobs(wishes);
+    const std::string text = found.empty() ? "no jobs\n" : report_text(found);
+    if (text != before) std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+    before = text;
+    const bool over = std::ranges::all_of(found, [](const JobReport& job) { return job.is_over(); });
+    if (!wishes.follow || over) break;
+    std::this_thread::sleep_for(std::chrono::seconds(5));
+  }
+  if (!wishes.follow) return;
+  for (const JobReport& job : found) {
+    if (!job.is_done())
+      throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' is over, and not all of it is done", job.name));
+  }
+}
+
+}  // namespace
+
+int ods_jobs(int argc, char** argv) {
+  return run_command([=] { jobs(argc, argv); });
+}

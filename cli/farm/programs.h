@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Other programs, run to their end.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+struct ProgramResult {
+  int code = 0;  // its exit code; 128 + the signal that ended it
+  std::string out;
+};
+
+// Whether there is a program of that name.
+bool has_program(const std::string& name);
+
+enum class ProgramErrors { kShown, kHidden };
+
+// What it prints on stdout. Nothing if there is no such program.
+std::optional<ProgramResult> run_program(const std::vector<std::string>& words,
+                                         ProgramErrors errors = ProgramErrors::kHidden);
+
+// Path of this very program.
+std::string own_program();

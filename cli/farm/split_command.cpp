@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/farm/split_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "cli/console/console.h"
+#include "cli/farm/command_words.h"
+#include "cli/options/picture_options.h"
+#include "cli/render/finish_picture.h"
+#include "cli/render/frame_settings.h"
+#include "cli/render/render_frames.h"
+#include "cli/slits/stitch_frames.h"
+#include "cli/video/video_job.h"
+#include "cli/video/video_journal.h"
+#include "ods/base/names.h"
+#include "ods/base/suggest.h"
+#include "ods/files/frames.h"
+#include "ods/render/part_file.h"
+#include "ods/render/render_target.h"
+#include "ods/scene/builtin/builtin.h"
+#include "ods/scene/gltf/gltf.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+using Split = std::optional<SplitCommand>;
+
+const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart"};
+const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
+
+// The words as main() has them.
+class Arguments {
+ public:
+  explicit Arguments(const Words& words) : words_(words) {
+    for (std::string& word : words_) pointers_.push_back(word.data());
+    pointers_.push_back(nullptr);
+  }
+  int count() const { return static_cast<int>(words_.size()); }
+  char** words() { return pointers_.data(); }
+
+ private:
+  Words words_;
+  std::vector<char*> pointers_;
+};
+
+// The files of the scene beside it, which have to be there, too.
+void add_scene_files(SplitCommand& split, const SceneSource& scene) {
+  if (ods::find_builtin(scene.name)) return;
+  const fs::path folder = fs::absolute(scene.name).lexically_normal().parent_path();
+  std::vector<ods::PlanPath> files;
+  for (const std::string& file : ods::gltf_files(scene.name, confining_folder(scene))) {
+    files.push_back({(folder / file).lexically_normal().native(), false, false});
+    split.scene_files.push_back(files.back().path);
+  }
+  check_inputs(files);
+  if (!files.empty()) split.paths.push_back({folder.native(), false, true});
+}
+
+size_t bytes_of_files(const SplitCommand& split) {
+  size_t bytes = 0;
+  std::error_code ignored;
+  for (const ods::PlanPath& path : split.paths) {
+    if (!path.is_output && !path.is_folder) bytes += static_cast<size_t>(fs::file_size(path.path, ignored));
+  }
+  for (const std::string& file : split.scene_files) bytes += static_cast<size_t>(fs::file_size(file, ignored));
+  return bytes;
+}
+
+// The picture, the libraries, and a scene that is decoded and has its acceleration structure. A denoised frame of a
+// video has two beside it.
+size_t memory_of(const SplitCommand& split, const RenderJob& job) {
+  const size_t picture = ods::picture_bytes(options_to_finish(job));
+  const size_t pictures = job.time.is_video ? 3 : 1;
+  return (size_t{512} << 20) + pictures * picture + picture / 2 + 8 * bytes_of_files(split);
+}
+
+SplitCommand begin(std::vector<GivenWord>& given, bool is_scene) {
+  refuse(given, {"--only", "--part"}, "that is what ods submit adds to every task");
+  SplitCommand split;
+  for (const GivenWord& word : given) {
+    if (word.name == "--threads") split.threads = std::stoi(word.value);
+  }
+  split.paths = find_paths(given, is_scene);
+  check_inputs(split.paths);
+  const auto output = std::ranges::find(given, "-o", &GivenWord::name);
+  if (output != given.end()) split.output = output->value;
+  return split;
+}
+
+void count(SplitCommand& split, const std::string& noun, const std::vector<int>& numbers) {
+  if (numbers.empty()) throw UsageError("there is nothing to make");
+  split.noun = noun, split.count = numbers.size(), split.first = numbers.front();
+}
+
+// --- the commands ---------------------------------------------------------------------------------------------------
+
+Split split_video(const Words& words) {
+  VideoJob job;
+  Arguments arguments(words);
+  if (!read_video_job(job, arguments.count(), arguments.words())) return std::nullopt;
+  std::vector<GivenWord> given = job.render.given;
+  const bool has_rig = !job.rig.empty();
+  SplitCommand split = begin(given, !has_rig);
+  if (!has_rig) add_scene_files(split, job.render.scene);
+  std::vector<Setting> settings;
+  std::vector<int> frames;
+  if (has_rig) {
+    const ods::SlitRig rig = open_rig(job.rig);
+    if (!job.render.has_layout) job.render.save.layout = rig.layout;
+    const ods::VideoPlan plan = expect_video(job.render.save.layout, rig.eyes.size(), rig.eye, rig.camera.projection);
+    encode_options(job.video, plan.size, 0);
+    settings = stitch_settings(job.rig, given.front().value, job.render.save);
+    if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
+    frames = ods::parse_frames(job.render.time.frames);
+  } else {
+    const ods::VideoPlan plan =
+        expect_video(job.render.save.layout, ods::eye_list(job.render.render.eyes).size(),
+                     {job.render.render.width, job.render.render.height}, job.render.camera.stereo.projection);
+    encode_options(job.video, plan.size, 0);
+    settings = frame_settings(job.render);
+    frames = frames_of(job.render);
+  }
+  split.memory = memory_of(split, job.render);
+  count(split, "frame", frames);
+  split.prepare = [output = split.output, settings, frames, restart = job.restart] {
+    VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames);
+  };
+  given = without(given, kByFarm);
+  split.groups = {{"frames", command_words("video", given), "--only"},
+                  {"video", command_words("video", given, kLate), ""}};
+  return split;
+}
+
+// Options that decide what becomes of the samples: the merge has them.
+const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone", "-q"};
+
+// Parts of another picture would be taken for finished, and refused by the merge.
+void check_parts(const RenderJob& first, const ods::FrameNames& names) {
+  const fs::path folder = fs::path(names.before).parent_path();
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return;
+  for (const int number : ods::frames_on_disk(names)) {
+    const std::vector<Setting> then = parse_settings(ods::read_part_header(names.path(number)).settings);
+    std::vector<Setting> now = sample_settings(first);
+    now.back().value = fmt::format("{}/{}", number, first.part->count);
+    const std::string difference = settings_difference(then, now);
+    if (difference.empty()) continue;
+    throw UsageError(fmt::format("'{}' was rendered with other options: {}; remove '{}', or choose another -o",
+                                 names.path(number), difference, folder.native()));
+  }
+}
+
+void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
+  refuse(given, {"--noise", "--time-limit", "--save-unfinished"},
+         "parts are exact shares of a fixed number of samples (--samples)");
+  std::vector<int> parts(static_cast<size_t>(job.parts));
+  std::iota(parts.begin(), parts.end(), 1);
+  count(split, "part", parts);
+  const std::string pattern = split.output + ".parts/part_####.exr";
+  std::vector<GivenWord> of_part =
+      without(without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar"});
+  of_part.push_back({"-o", pattern});
+  const Words render = command_words("render", of_part, {"--skip-existing", "--resume"});
+  RenderJob checked;
+  Words first = render;
+  first.insert(first.end(), {"--part", fmt::format("1/{}", job.parts)});
+  Arguments arguments(first);
+  read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
+  check_parts(checked, *ods::frame_names(pattern));
+  std::vector<GivenWord> of_merge = {{"", pattern}, {"-o", split.output}};
+  for (const GivenWord& word : only(given, kOfMerge)) {
+    if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);
+  }
+  split.groups = {{"parts", render, "--part", job.parts}, {"merge", command_words("merge", of_merge, kLate), ""}};
+}
+
+void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
+  const ods::SlitRig rig = open_rig(job.rig);
+  std::vector<int> views(rig.views.size());
+  std::iota(views.begin(), views.end(), 1);
+  count(split, "view", views);
+  split.groups = {{"views", command_words("render", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+}
+
+Split split_render(const Words& words) {
+  RenderJob job;
+  Arguments arguments(words);
+  if (!read_render_job(job, arguments.count(), arguments.words(), true)) return std::nullopt;
+  std::vector<GivenWord> given = job.given;
+  SplitCommand split = begin(given, true);
+  add_scene_files(split, job.scene);
+  const bool frames = job.rig.empty() && asks_for_video(job.time);
+  if (job.rig.empty()) {
+    const std::string path = frames ? video_names(split.output).path(0) : split.output;
+    ods::check_output(path, job.save, ods::eye_list(job.render.eyes), {job.render.width, job.render.height},
+                      &job.camera.stereo.projection);
+  }
+  split.memory = memory_of(split, job);
+  if (!job.rig.empty()) {
+    split_views(split, given, job);
+  } else if (frames) {
+    count(split, "frame", frames_of(job));
+    split.groups = {{"frames", command_words("render", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+  } else if (job.parts > 0) {
+    split_parts(split, given, job);
+  } else {
+    throw UsageError("one picture has nothing to split: --parts N renders N parts of its samples and merges them");
+  }
+  return split;
+}
+
+Split split_stitch(const Words& words) {
+  StitchJob job;
+  Arguments arguments(words);
+  if (!read_stitch_job(job, arguments.count(), arguments.words())) return std::nullopt;
+  if (job.frames.empty()) throw UsageError("one picture has nothing to split: --frames stitches many");
+  std::vector<GivenWord> given = job.given;
+  SplitCommand split = begin(given, false);
+  const ods::SlitRig rig = open_rig(job.rig_file);
+  const std::string fault = names_fault(rig, job.views);
+  if (!fault.empty()) throw UsageError(fault);
+  ods::check_output(video_names(job.output).path(0), job.save, rig.eyes, rig.eye);
+  count(split, "frame", ods::parse_frames(job.frames));
+  const size_t samples = static_cast<size_t>(rig.eye.width) * static_cast<size_t>(rig.eye.height) * rig.eyes.size();
+  split.memory = (size_t{1} << 30) + 64 * samples;
+  split.groups = {{"frames", command_words("stitch", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+  return split;
+}
+
+struct Splitter {
+  std::string_view name;
+  Split (*split)(const Words& words);
+};
+
+constexpr Splitter kSplitters[] = {{"video", split_video}, {"render", split_render}, {"stitch", split_stitch}};
+
+}  // namespace
+
+Split split_command(const Words& words) {
+  if (words.empty()) throw UsageError("the command stands behind two dashes: ods submit --to slurm -- video ...");
+  for (const Splitter& each : kSplitters) {
+    if (words.front() == each.name) return each.split(words);
+  }
+  throw UsageError(fmt::format("ods submit splits video, render and stitch, not '{}'{}", words.front(),
+                               ods::did_you_mean(words.front(), ods::names_of(kSplitters))));
+}

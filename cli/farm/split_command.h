@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A command line of ods video, render or stitch, split for a farm. The command's own parser reads it; its files become
+// absolute, and are checked.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/farm/plan.h"
+
+struct SplitCommand {
+  std::string output;                     // the file, or the pattern of the frames, absolute
+  std::vector<ods::TaskGroup> groups;     // the first is split; its tasks are not counted yet
+  std::vector<ods::PlanPath> paths;       // that the commands name
+  std::vector<std::string> scene_files;   // beside the scene: buffers and pictures
+  size_t memory = 0;                      // bytes
+  std::optional<int> threads;             // that the command asks for
+  std::string noun;                       // what the tasks make: "frame", "part", "view"
+  size_t count = 0;                       // of these
+  int first = 0;                          // number of the first
+  std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
+};
+
+// Nothing if help was requested. words: "video", "scene.glb", "-o", ... Throws UsageError for a command that cannot be
+// split, and what the command itself throws for bad options and files.
+std::optional<SplitCommand> split_command(const std::vector<std::string>& words);

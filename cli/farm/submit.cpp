@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods submit: splits a command for a render farm.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "cli/farm/copy_inputs.h"
+#include "cli/farm/programs.h"
+#include "cli/farm/queue.h"
+#include "cli/farm/submit_job.h"
+#include "ods/base/quote.h"
+#include "ods/files/atomic_file.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What this cluster can take.
+void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerWishes& wishes) {
+  const auto config = run_program({"scontrol", "show", "config"});
+  const std::string text = config ? config->out : "";
+  wishes.largest_array = std::max(2, ods::slurm_setting(text, "MaxArraySize").value_or(1001));
+  const int most = ods::slurm_setting(text, "MaxJobCount").value_or(10000), tasks = plan.groups.front().tasks;
+  if (tasks < most || job.dry) return;
+  throw UsageError(fmt::format("{} tasks are more than this cluster's MaxJobCount of {}: make them larger, --chunk {}",
+                               tasks, most, (std::max(job.chunk, 1) * int64_t{tasks}) / (most / 2) + 1));
+}
+
+void print(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
+  for (const ods::FarmFile& file : files) {
+    std::fputs(fmt::format("# {}/{}\n{}\n", plan.folder, file.name, file.text).c_str(), stdout);
+  }
+}
+
+// Replaces what an earlier submission left, but for the logs.
+void write(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
+  std::error_code ignored;
+  fs::remove_all(plan.folder + "/ended", ignored);
+  for (const ods::FarmFile& file : files) ods::write_file(plan.folder + "/" + file.name, file.text);
+}
+
+void check_idle(const ods::FarmPlan& plan) {
+  const auto tasks = queued_tasks();
+  if (!tasks)
+    throw ods::Error(ods::ErrorKind::kInput,
+                     "there is no Slurm here: squeue is not found, or fails; --dry-run prints what would be sent");
+  for (const ods::SlurmTask& task : *tasks) {
+    const bool lives = task.state == ods::TaskState::kWaiting || task.state == ods::TaskState::kRunning;
+    if (!lives || task.folder != plan.folder) continue;
+    throw UsageError(fmt::format("'{}' has tasks in the queue, job {}: wait, or scancel them, or give another -o",
+                                 plan.folder, task.job));
+  }
+}
+
+void send(const ods::FarmPlan& plan) {
+  const auto sent = run_program({"sh", plan.folder + "/submit.sh"}, ProgramErrors::kShown);
+  if (!sent || sent->code != 0) {
+    throw ods::Error(ods::ErrorKind::kOutput, fmt::format("Slurm has not taken the job; what it said stands above. "
+                                                          "Try again: sh {}/submit.sh",
+                                                          ods::shell_word(plan.folder)));
+  }
+  ods::write_file(plan.folder + "/jobs.txt", sent->out);
+  if (!console.quiet) std::fputs(sent->out.c_str(), stdout);
+  note(fmt::format("ods jobs {} --follow shows how it goes on", ods::shell_word(plan.name)));
+}
+
+std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
+  const ods::TaskGroup& first = plan.groups.front();
+  std::string text = fmt::format("{}: {} {}{} in {} task{}", plan.name, split.count, split.noun,
+                                 split.count == 1 ? "" : "s", first.tasks, first.tasks == 1 ? "" : "s");
+  for (size_t i = 1; i < plan.groups.size(); i++) text += fmt::format(", then {}", plan.groups[i].name);
+  return text + fmt::format("; {:.1f} GB each", static_cast<double>(plan.memory) * 1e-9);
+}
+
+void submit(int argc, char** argv) {
+  SubmitJob job;
+  if (!read_submit_job(job, argc, argv)) return;
+  std::optional<SplitCommand> split = split_command(job.command);
+  if (!split) return;
+  const ods::SchedulerRow& scheduler = ods::row_in(ods::kSchedulerTable, *job.to);
+  const bool is_slurm = scheduler.member == ods::Scheduler::kSlurm;
+  FileCopies copies;
+  if (job.copies) copies = move_inputs(*split, make_plan(job, *split).folder);
+  ods::FarmPlan plan = make_plan(job, *split);
+  ods::check_quotable(plan);
+  ods::check_writable(plan.folder + "/plan.json");
+  scheduler.write(plan, job.wishes);  // throws for what it cannot be told
+  if (is_slurm && !job.dry) check_idle(plan);
+  if (!job.dry) {
+    copy_files(copies);
+    split->prepare();
+  }
+  plan.groups.front().tasks = count_tasks(job, *split);
+  ods::SchedulerWishes wishes = job.wishes;
+  if (is_slurm) ask_slurm(job, plan, wishes);
+  std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
+  files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
+  note(summary(plan, *split));
+  if (job.dry) return print(files, plan);
+  write(files, plan);
+  if (is_slurm) return send(plan);
+  for (const ods::FarmFile& file : files) announce_file(plan.folder + "/" + file.name);
+  note(fmt::format("in '{}': {}", plan.folder, scheduler.next));
+}
+
+}  // namespace
+
+int ods_submit(int argc, char** argv) {
+  return run_command([=] { submit(argc, argv); });
+}

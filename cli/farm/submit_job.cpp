@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/farm/submit_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/farm/programs.h"
+#include "ods/base/quote.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods submit --to slurm -- video scene.glb -o scene_360_TB.mp4 --quality final\n"
+    "  ods submit --to slurm -- render scene.glb -o huge.exr --width 16384 --samples 1024 --parts 64\n"
+    "  ods submit --to slurm --chunk 25 -- stitch rig.json 'views/####/####.exr' --frames 1-500 -o 'out.####.exr'\n"
+    "  ods submit --to openjd -o bundle --chunk 10 -- video scene.glb -o film_360_TB.mp4\n"
+    "  ods submit --to slurm --dry-run --chunk 10 -- video scene.glb -o scene_360_TB.mp4";
+
+constexpr const char* kSummary =
+    "Splits a command for a render farm: frames in chunks, parts of a picture's samples, views of a rig; then what "
+    "comes\n"
+    "last, such as the video or the merge. Writes a plan and what the scheduler reads into a folder. Only Slurm is "
+    "sent\n"
+    "anything. Behind the two dashes stands ods video, render or stitch as on one machine; the result has the same "
+    "bits.";
+
+void check_line(const std::string& option, const std::string& value) {
+  if (!ods::is_quotable(value))
+    throw UsageError(fmt::format("{} has a line break or bytes that are not UTF-8", option));
+}
+
+void add_options(Options& options, SubmitJob& job) {
+  options.choice("--to", job.to, ods::kSchedulerTable, "the scheduler");
+  options.text("-o,--output", "DIR", job.folder,
+               "folder for what is sent; by default NAME.farm beside what the command makes");
+  options.flag("--dry-run", job.dry, "write nothing, send nothing: print what would be sent");
+  options.group("Tasks");
+  options.number("--chunk", job.chunk, 0, 1000000,
+                 "frames of a task; 0: as many as take ten minutes, by the time of the first one, which is made here");
+  options.text("--name", "NAME", job.name, "name of the job; by default of what the command makes");
+  options.number("--cpus", job.cpus, 0, 1024, "processors of a task, as --threads of the command; 0: a whole machine");
+  options.number("--memory", job.memory, 0.1f, 4096.0f, "GB that a task takes; by default an estimate");
+  options.text("--program", "PATH", job.program,
+               "ods as the machines of the farm call it; by default this one's path for slurm, else ods");
+  options.flag("--copy-scene", job.copies,
+               "copy the scene and all else that is read into the folder, for machines that do not see the originals");
+  options.group("Schedulers");
+  options.texts("--sbatch", "OPTION", job.wishes.extras, "slurm: an option of sbatch, '--partition=render'");
+  options.text("--image", "NAME", job.wishes.image, "kubernetes: image of the containers");
+  options.text("--volume", "CLAIM", job.wishes.volume, "kubernetes: claim of the volume that has the files");
+  options.text("--mount", "DIR", job.wishes.mount,
+               "kubernetes: where that volume is mounted; by default the current folder's path");
+  options.group("Console");
+  add_console_options(options);
+}
+
+}  // namespace
+
+bool read_submit_job(SubmitJob& job, int argc, char** argv) {
+  const auto is_end = [](const char* word) { return std::strcmp(word, "--") == 0; };
+  const auto end = std::find_if(argv, argv + argc, is_end);
+  Options options("submit", kSummary, kExamples);
+  std::vector<std::string> extras;
+  options.arguments(
+      "COMMAND", extras,
+      "behind all options of ods submit, and two dashes: ods video, render or stitch, without the word ods");
+  add_options(options, job);
+  if (!options.parse(static_cast<int>(end - argv), argv)) return false;
+  if (!extras.empty()) {
+    throw UsageError(fmt::format("'{}' stands before the two dashes: ods submit --to slurm -- video ...", extras[0]));
+  }
+  if (!job.to) {
+    throw UsageError(fmt::format("no scheduler: add --to {}", fmt::join(ods::names_of(ods::kSchedulerTable), "|")));
+  }
+  for (const std::string& extra : job.wishes.extras) {
+    check_line("--sbatch", extra);
+    if (!extra.starts_with("-"))
+      throw UsageError(fmt::format("--sbatch is an option, such as --time=2:00:00, not '{}'", extra));
+  }
+  check_line("--image", job.wishes.image);
+  check_line("--volume", job.wishes.volume);
+  if (end != argv + argc) job.command.assign(end + 1, argv + argc);
+  if (!job.command.empty() && job.command.front() == "ods") job.command.erase(job.command.begin());
+  if (job.program.empty()) job.program = job.to == ods::Scheduler::kSlurm ? own_program() : "ods";
+  job.wishes.mount = fs::absolute(job.wishes.mount.empty() ? "." : job.wishes.mount).lexically_normal().native();
+  while (job.wishes.mount.size() > 1 && job.wishes.mount.ends_with("/")) job.wishes.mount.pop_back();
+  return true;
+}
+
+std::string usual_folder(const std::string& output) {
+  const fs::path path(output);
+  std::string name = path.filename().native();
+  name = name.substr(0, name.find_first_of("#@%${"));
+  if (name.size() == path.filename().native().size()) name = path.stem().native();
+  while (!name.empty() && (name.back() == '.' || name.back() == '_' || name.back() == '-')) name.pop_back();
+  return (path.parent_path() / ((name.empty() ? "frames" : name) + ".farm")).native();
+}
+
+ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
+  ods::FarmPlan plan;
+  const std::string folder = job.folder.empty() ? usual_folder(split.output) : job.folder;
+  plan.folder = fs::absolute(folder).lexically_normal().native();
+  while (plan.folder.size() > 1 && plan.folder.ends_with("/")) plan.folder.pop_back();
+  plan.name = ods::plan_name(job.name.empty() ? fs::path(plan.folder).stem().native() : job.name);
+  plan.program = job.program;
+  plan.cpus = job.cpus > 0 ? job.cpus : split.threads.value_or(0);
+  plan.memory = job.memory ? static_cast<size_t>(static_cast<double>(*job.memory) * 1e9) : split.memory;
+  plan.paths = split.paths;
+  plan.groups = split.groups;
+  return plan;
+}
+
+int count_tasks(const SubmitJob& job, const SplitCommand& split) {
+  if (split.noun == "part") return static_cast<int>(split.count);
+  if (job.chunk > 0) return ods::tasks_for(split.count, job.chunk);
+  if (job.dry) {
+    note("--dry-run makes no first frame: tasks of ten are assumed (--chunk N)");
+    return ods::tasks_for(split.count, 10);
+  }
+  std::vector<std::string> words = {"/proc/self/exe"};
+  const ods::TaskGroup& group = split.groups.front();
+  words.insert(words.end(), group.command.begin(), group.command.end());
+  words.insert(words.end(), {group.option, fmt::format("{}", split.first), "-q"});
+  note(fmt::format("making {} {} here, for its time; --chunk N goes without", split.noun, split.first));
+  const auto start = std::chrono::steady_clock::now();
+  const auto result = run_program(words, ProgramErrors::kShown);
+  if (!result || result->code != 0) {
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.first,
+                                                         ods::shell_line({words.begin() + 1, words.end()})));
+  }
+  const double seconds = std::max(seconds_since(start), 1e-3);
+  const int chunk = ods::suitable_chunk(seconds, split.count);
+  note(fmt::format("it took {}: tasks of {} (--chunk {})", duration_text(seconds), chunk, chunk));
+  return ods::tasks_for(split.count, chunk);
+}

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of ods submit, and the plan that they make of a command.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/farm/split_command.h"
+#include "ods/farm/scheduler.h"
+
+struct SubmitJob {
+  std::optional<ods::Scheduler> to;
+  std::string folder, name, program;
+  int chunk = 0;  // 0: by the time that the first one takes
+  int cpus = 0;
+  std::optional<float> memory;  // GB
+  bool dry = false, copies = false;
+  ods::SchedulerWishes wishes;
+  std::vector<std::string> command;
+};
+
+// False if help was requested. Throws UsageError.
+bool read_submit_job(SubmitJob& job, int argc, char** argv);
+
+// The plan for the scheduler: the folder, and everything but the number of tasks of the first group.
+ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split);
+
+// FOLDER/NAME.farm beside the output.
+std::string usual_folder(const std::string& output);
+
+// How many tasks. Without --chunk the first frame is made here, and its time decides.
+int count_tasks(const SubmitJob& job, const SplitCommand& split);

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/video/video_job.h"
+
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/picture_options.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    "  ods video scene.glb -o video_360_TB.mp4\n"
+    "  ods video scene.glb -o video_360_TB.mp4 --target quest --width 4096 --fps 60 --audio sound.wav\n"
+    "  ods video room -o room_360_TB.mp4 --quality draft --turntable 1 --duration 20\n"
+    "  ods video scene.glb -o master.mov --target master --frames 1-250 --keep-frames\n"
+    "  ods video 'views/####/####.exr' --rig rig.json -o video_360_TB.mp4 --frames 1-250   as ods stitch";
+
+constexpr const char* kSummary =
+    "Renders a scene frame by frame, encodes the frames and writes the 360 metadata that players need. The frames are\n"
+    "kept in VIDEO.frames until the video is complete: after an interruption, give the same command again to continue.";
+
+}  // namespace
+
+bool read_video_job(VideoJob& job, int argc, char** argv) {
+  RenderJob& render = job.render;
+  Quality quality;
+  Options options("video", kSummary, kExamples);
+  add_scene_argument(options, render.scene);
+  add_light_options(options, render.scene.light);
+  add_video_options(options, job.video);
+  options.text("--rig", "FILE", job.rig,
+               "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
+  options.flag("--keep-frames", job.keep_frames, "keep VIDEO.frames, which ods encode can read");
+  options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
+  add_wait_option(options, render.wait, "frames");
+  options.group("Picture");
+  add_picture_options(options, render.render, render.save);
+  add_exposure_option(options, render);
+  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
+  add_camera_options(options, render.camera);
+  add_time_options(options, render.time);
+  add_quality_options(options, render, quality);
+  options.group("Console");
+  add_progress_options(options, render.progress);
+  if (!options.parse(argc, argv)) return false;
+  if (render.time.time) throw UsageError("--time is for single pictures; choose a video's frames with --frames");
+  if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a video carries its own metadata");
+  render.time.is_video = render.time.skip_existing = true;
+  finish_render_job(options, quality, render);
+  if (!render.time.only.empty() && job.restart) {
+    throw UsageError("--restart and --only exclude each other: other processes may be making frames");
+  }
+  render.render.layers = false;
+  job.video.rate = parse_rate(fmt::format("{}", render.time.fps));
+  render.time.fps = static_cast<float>(job.video.rate.value());
+  return true;
+}

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of ods video.
+#pragma once
+#include <string>
+
+#include "cli/options/video_options.h"
+#include "cli/render/render_job.h"
+
+struct VideoJob {
+  RenderJob render;
+  ods::DisplayTransform display;
+  VideoWishes video;
+  std::string rig;  // a slit rig: stitch its views instead of rendering
+  bool keep_frames = false, restart = false;
+};
+
+// False if help was requested. Throws UsageError and ods::Error.
+bool read_video_job(VideoJob& job, int argc, char** argv);

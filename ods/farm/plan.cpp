@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/farm/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ods/base/error.h"
+#include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
+#include "ods/base/text.h"
+
+namespace ods {
+
+namespace {
+
+constexpr const char* kMark = "omnistereo_farm_plan";
+constexpr int kVersion = 1;
+
+Json json_of(const TaskGroup& group) {
+  Json json = {{"name", group.name}, {"command", group.command}};
+  if (group.option.empty()) return json;
+  json["option"] = group.option;
+  json["tasks"] = group.tasks;
+  return json;
+}
+
+TaskGroup group_of(const Json& json) {
+  return {json.at("name"), json.at("command"), json.value("option", ""), json.value("tasks", 1)};
+}
+
+Json json_of(const PlanPath& path) {
+  return {
+      {"path", path.path}, {"use", path.is_output ? "output" : "input"}, {"kind", path.is_folder ? "folder" : "file"}};
+}
+
+PlanPath path_of(const Json& json) {
+  return {json.at("path"), json.at("use") == "output", json.at("kind") == "folder"};
+}
+
+}  // namespace
+
+std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number) {
+  assert(number >= 1 && number <= group.tasks);
+  std::vector<std::string> words = {plan.program};
+  words.insert(words.end(), group.command.begin(), group.command.end());
+  if (group.option.empty()) return words;
+  words.insert(words.end(), {group.option, fmt::format("{}/{}", number, group.tasks)});
+  return words;
+}
+
+std::string write_plan(const FarmPlan& plan) {
+  Json json = {{kMark, kVersion},   {"name", plan.name},     {"folder", plan.folder},  {"program", plan.program},
+               {"cpus", plan.cpus}, {"memory", plan.memory}, {"paths", Json::array()}, {"groups", Json::array()}};
+  for (const PlanPath& path : plan.paths) json["paths"].push_back(json_of(path));
+  for (const TaskGroup& group : plan.groups) json["groups"].push_back(json_of(group));
+  return json.dump(2) + "\n";
+}
+
+FarmPlan read_plan(std::string_view text, const std::string& path) {
+  const Json json = parse_json(text, path, "plan of a farm's job");
+  const auto bad = [&](const std::string& why) {
+    return Error(ErrorKind::kInput, fmt::format("'{}' is no plan of a farm's job: {}", path, one_line(why)));
+  };
+  try {
+    if (json.at(kMark) != kVersion) throw bad("it was made by another version of ods");
+    FarmPlan plan{json.at("name"), json.at("folder"), json.at("program"), json.at("cpus"), json.at("memory"), {}, {}};
+    for (const Json& each : json.at("paths")) plan.paths.push_back(path_of(each));
+    for (const Json& each : json.at("groups")) plan.groups.push_back(group_of(each));
+    return plan;
+  } catch (const nlohmann::json::exception& error) {
+    throw bad(error.what());
+  }
+}
+
+std::string plan_name(const std::string& text) {
+  std::string name = text.substr(0, 64);
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+  }
+  return name.empty() || !std::isalnum(static_cast<unsigned char>(name.front())) ? "job" + name : name;
+}
+
+void check_quotable(const FarmPlan& plan) {
+  const auto check = [](const std::string& word) {
+    if (is_quotable(word)) return;
+    throw Error(ErrorKind::kUsage,
+                fmt::format("'{}' has a line break, another control character or bytes that are not UTF-8: schedulers "
+                            "cannot be told such a word; rename the file",
+                            one_line(word)));
+  };
+  for (const std::string& word : {plan.folder, plan.program}) check(word);
+  for (const PlanPath& path : plan.paths) check(path.path);
+  for (const TaskGroup& group : plan.groups) std::ranges::for_each(group.command, check);
+}
+
+int suitable_chunk(double seconds_per_frame, size_t frames) {
+  assert(seconds_per_frame > 0.0 && frames > 0);
+  const double kSeconds = 600.0;
+  const auto by_time = std::clamp(kSeconds / seconds_per_frame, 1.0, 1e6);
+  const auto by_machines = std::max(1.0, std::ceil(static_cast<double>(frames) / 16.0));
+  return static_cast<int>(std::min(by_time, by_machines));
+}
+
+int tasks_for(size_t frames, int chunk) {
+  return static_cast<int>((frames + static_cast<size_t>(chunk) - 1) / static_cast<size_t>(chunk));
+}
+
+}  // namespace ods

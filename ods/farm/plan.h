@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a farm has to do, whatever its scheduler: groups of tasks, one group after the other. Each task is a command
+// line of ods that anybody can run by hand, and that does no harm when it runs twice, or twice at once: it claims its
+// files, skips those that are complete, and commits by renaming (ods/files/claim.h, ods/files/atomic_file.h).
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ods {
+
+// Tasks that differ in one word. With an option, task i of n (from 1) has "OPTION i/n" behind the command; without,
+// there is one task, the command itself.
+struct TaskGroup {
+  std::string name;                  // "frames", "parts", "merge", "video": letters
+  std::vector<std::string> command;  // the words after "ods"
+  std::string option;                // "--only", "--part", or empty
+  int tasks = 1;
+};
+
+struct PlanPath {
+  std::string path;  // absolute
+  bool is_output = false;
+  bool is_folder = false;
+};
+
+struct FarmPlan {
+  std::string name;               // letters, digits, "_", "-" and "."
+  std::string folder;             // absolute: for the plan, what is sent, and the tasks' logs
+  std::string program;            // ods, as the tasks' machines call it
+  int cpus = 0;                   // processors of a task; 0: all of a machine
+  size_t memory = 0;              // bytes that a task takes
+  std::vector<PlanPath> paths;    // that the commands name
+  std::vector<TaskGroup> groups;  // each starts when the one before is done
+};
+
+// The program and the words of task `number`, counted from 1.
+std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number);
+
+// As JSON (docs/farm.md has its keys), and back. Throws Error(kInput) if it is no such plan; `path` stands for it in
+// messages.
+std::string write_plan(const FarmPlan& plan);
+FarmPlan read_plan(std::string_view text, const std::string& path);
+
+// A name that every scheduler takes: other characters become "_". At most 64.
+std::string plan_name(const std::string& text);
+
+// Throws Error(kUsage) if a word or path has what some scheduler's language cannot hold: a line break, bytes that are
+// not UTF-8.
+void check_quotable(const FarmPlan& plan);
+
+// --- how many tasks -------------------------------------------------------------------------------------------------
+
+// Frames of a task that takes about ten minutes, if the frames are not so few that machines would be idle: at least
+// sixteen tasks. Precondition: seconds_per_frame > 0, frames > 0.
+int suitable_chunk(double seconds_per_frame, size_t frames);
+
+// Tasks of at most `chunk` frames.
+int tasks_for(size_t frames, int chunk);
+
+}  // namespace ods

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A plan in the words of each scheduler: files to read and send. Nothing here sends them.
+//
+//   slurm       an array of jobs per group (as many arrays as it takes), and submit.sh, which sends them in order
+//   openjd      template.json and parameter_values.json of the base specification jobtemplate-2023-09: a job bundle
+//   opencue     job.xml of cjsl-1.16: a layer per group
+//   flamenco    a job type in JavaScript
+//   kubernetes  an Indexed Job per group, and submit.sh, which applies one after the other
+//   deadline    a pair of job_info and plugin_info per group, for the plug-in CommandLine of Deadline 10, and submit.sh
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ods/base/names.h"
+#include "ods/farm/plan.h"
+
+namespace ods {
+
+// What a plan does not say because only some schedulers ask for it.
+struct SchedulerWishes {
+  int largest_array = 1001;         // Slurm's MaxArraySize: indices are below it
+  std::vector<std::string> extras;  // Slurm: options of sbatch, "--partition=render"
+  std::string image = "ods";        // Kubernetes: of the containers
+  std::string volume = "ods";       // Kubernetes: the claim of the disk with the files
+  std::string mount;                // Kubernetes: where the claim is mounted; absolute
+};
+
+struct FarmFile {
+  std::string name;  // in the plan's folder
+  std::string text;
+};
+
+// Throw Error(kUsage) for words that the scheduler's language cannot hold. Precondition: check_quotable().
+std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerWishes& wishes);
+std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes& wishes);
+std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes& wishes);
+std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerWishes& wishes);
+std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerWishes& wishes);
+std::vector<FarmFile> write_deadline(const FarmPlan& plan, const SchedulerWishes& wishes);
+
+enum class Scheduler { kSlurm, kOpenJd, kOpenCue, kFlamenco, kKubernetes, kDeadline };
+
+struct SchedulerRow {
+  Scheduler member;
+  std::string_view name;
+  std::vector<FarmFile> (*write)(const FarmPlan& plan, const SchedulerWishes& wishes);
+  std::string_view next;  // how people go on, in the plan's folder
+};
+
+inline constexpr SchedulerRow kSchedulerTable[] = {
+    {Scheduler::kSlurm, "slurm", write_slurm, "sh submit.sh"},
+    {Scheduler::kOpenJd, "openjd", write_openjd, "openjd run template.json, or deadline bundle submit ."},
+    {Scheduler::kOpenCue, "opencue", write_opencue, "send job.xml with opencue.api.launchSpec()"},
+    {Scheduler::kFlamenco, "flamenco", write_flamenco, "copy the script into the Manager's folder scripts"},
+    {Scheduler::kKubernetes, "kubernetes", write_kubernetes, "sh submit.sh"},
+    {Scheduler::kDeadline, "deadline", write_deadline, "sh submit.sh"},
+};
+static_assert(has_every_member(kSchedulerTable));
+
+}  // namespace ods

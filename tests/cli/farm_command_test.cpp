@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods submit and ods jobs, with programs in the places of Slurm's; tests/farm/slurm_test.sh has the real ones.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/cli_runner.h"
+#include "tests/support/programs.h"
+
+namespace {
+
+using nlohmann::json;
+
+class Farm : public Cli {
+ protected:
+  void SetUp() override {
+    program("scontrol", "echo 'MaxArraySize = 6'; echo 'MaxJobCount = 100'");
+    program("squeue", "[ \"$1\" != --json ] || exit 1\ncat " + tools.path("queue"));
+    program("sbatch", "n=$(cat " + tools.path("n") + ")\necho $((n + 1)) >" + tools.path("n") + "\necho $n\n");
+    program("sacct", "echo 'Slurm accounting storage is disabled' >&2; exit 1");
+    tools.write("queue", "");
+    tools.write("n", "7");
+    setenv("PATH", (tools.path("") + ":" + own_path).c_str(), 1);
+  }
+  void TearDown() override { setenv("PATH", own_path.c_str(), 1); }
+
+  void program(const std::string& name, const std::string& script) {
+    tools.write(name, "#!/bin/sh\n" + script + "\n");
+    ods::run_line("chmod +x " + tools.path(name));
+  }
+
+  // A small command whose output lies in the folder.
+  std::string video(const std::string& name = "a.mp4") const {
+    return "video toys --width 32 --samples 4 --fps 10 -o " + folder.path(name);
+  }
+
+  json plan(const std::string& name) const { return json::parse(folder.read(name + ".farm/plan.json")); }
+
+  // Runs a task of the plan, as anybody may.
+  int run_task(const json& group, int number) {
+    std::vector<std::string> words = group["command"];
+    if (group.contains("option")) {
+      words.push_back(group["option"]);
+      words.push_back(fmt::format("{}/{}", number, group["tasks"].get<int>()));
+    }
+    Ods task(words);
+    const int code = task.finish();
+    EXPECT_EQ(code, 0) << task.err;
+    return code;
+  }
+
+  void run_all(const json& plan) {
+    for (const json& group : plan["groups"]) {
+      for (int number = group.value("tasks", 1); number >= 1; number--) run_task(group, number);
+    }
+  }
+
+  ods::TemporaryFolder tools;
+  const std::string own_path = std::getenv("PATH");
+};
+
+TEST_F(Farm, AVideoInTasksHasTheBitsOfOneProcess) {
+  ASSERT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-11 --keep-frames"), 0) << err;
+  EXPECT_EQ(out, "7 frames-1.sbatch ods:frames:0\n8 video-1.sbatch ods:video:0\n");
+  EXPECT_NE(err.find("11 frames in 3 tasks, then video"), std::string::npos) << err;
+  const json made = plan("a");
+  ASSERT_EQ(made["groups"].size(), 2u);
+  EXPECT_EQ(made["groups"][0]["tasks"], 3);
+  run_all(made);
+  ASSERT_EQ(run(video("b.mp4") + " --frames 1-11 --keep-frames"), 0) << err;
+  for (int frame = 1; frame <= 11; frame++) {
+    const std::string name = fmt::format(".mp4.frames/frame.{:06}.exr", frame);
+    EXPECT_TRUE(folder.read("a" + name) == folder.read("b" + name)) << frame;
+  }
+  EXPECT_TRUE(folder.read("a.mp4") == folder.read("b.mp4"));
+}
+
+TEST_F(Farm, APictureInPartsHasTheBitsOfOneMachine) {
+  const std::string still = " toys --width 32 --samples 16 --exposure 1 -o ";
+  ASSERT_EQ(run("submit --to openjd -- render" + still + folder.path("p.png") + " --parts 5 --denoise own"), 0) << err;
+  const json made = plan("p");
+  EXPECT_EQ(made["groups"][0]["option"], "--part");
+  run_all(made);
+  run_task(made["groups"][0], 3);  // twice does no harm
+  ASSERT_EQ(run("render" + still + folder.path("q.png") + " --noise none --denoise own"), 0) << err;
+  EXPECT_TRUE(folder.read("p.png") == folder.read("q.png"));
+  EXPECT_GT(folder.read("p.png").size(), 100u);
+}
+
+// The exposure of frames that are pictures is that of the whole.
+TEST_F(Farm, FramesAndViewsAreShared) {
+  const std::string frames = "render toys --width 32 --samples 2 --frames 1-6x2 --env 3 -o ";
+  ASSERT_EQ(run("submit -q --to flamenco --chunk 1 -- " + frames + folder.path("s.##.png")), 0) << err;
+  EXPECT_EQ(plan("s")["groups"][0]["tasks"], 3);
+  run_all(plan("s"));
+  ASSERT_EQ(run(frames + folder.path("t.##.png")), 0) << err;
+  for (const char* frame : {"01", "03", "05"}) {
+    EXPECT_TRUE(folder.read(fmt::format("s.{}.png", frame)) == folder.read(fmt::format("t.{}.png", frame))) << frame;
+  }
+  ASSERT_EQ(run("rig -q --nearest 1 --width 64 -o " + folder.path("rig.json")), 0) << err;
+  ASSERT_EQ(run("submit -q --to kubernetes --mount / --chunk 20 -- render furnace --samples 1 --rig " +
+                folder.path("rig.json") + " -o " + folder.path("views/0007/####.exr")),
+            0)
+      << err;
+  run_all(json::parse(folder.read("views/0007/frames.farm/plan.json")));
+  ASSERT_EQ(run("submit -q --to deadline --chunk 1 -- stitch " + folder.path("rig.json") + " " +
+                folder.path("views/####/####.exr") + " --frames 7-7 -o " + folder.path("st.####.exr")),
+            0)
+      << err;
+  run_all(plan("st"));
+  EXPECT_GT(folder.read("st.0007.exr").size(), 100u);
+  const std::string stitched = "submit -q --to openjd --chunk 1 -- video " + folder.path("./views/####/####.exr") +
+                               " --rig " + folder.path("rig.json") + " --frames 7-7 -o " + folder.path("v.mp4");
+  ASSERT_EQ(run(stitched), 0) << err;
+  run_task(plan("v")["groups"][0], 1);
+  ASSERT_EQ(run(stitched), 0) << err;  // the frame is that of this video
+  EXPECT_GT(folder.read("v.mp4.frames/frame.000007.exr").size(), 100u);
+  run_all(plan("v"));
+  EXPECT_GT(folder.read("v.mp4").size(), 100u);
+}
+
+TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
+  ASSERT_EQ(run("submit --to slurm -- " + video() + " --frames 3-4 --keep-frames"), 0) << err;
+  EXPECT_NE(err.find("making frame 3 here"), std::string::npos) << err;
+  EXPECT_GT(folder.read("a.mp4.frames/frame.000003.exr").size(), 100u);
+  EXPECT_EQ(plan("a")["groups"][0]["tasks"], 2);
+}
+
+TEST_F(Farm, DryRunsWriteNothing) {
+  for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes", "deadline"}) {
+    ASSERT_EQ(run(fmt::format("submit --to {} --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
+                              video())),
+              0)
+        << err;
+    EXPECT_NE(out.find("\"tasks\": 200"), std::string::npos) << out;
+    EXPECT_NE(out.find("# " + folder.path("a.farm/plan.json")), std::string::npos) << out;
+    EXPECT_EQ(files(), 0u);
+  }
+}
+
+TEST_F(Farm, ArraysAreAsLongAsTheClusterTakes) {
+  ASSERT_EQ(run("submit --to slurm --chunk 1 -- " + video() + " --frames 1-12"), 0) << err;
+  EXPECT_EQ(out,
+            "7 frames-1.sbatch ods:frames:0\n8 frames-2.sbatch ods:frames:5\n9 frames-3.sbatch ods:frames:10\n"
+            "10 video-1.sbatch ods:video:0\n");
+  EXPECT_EQ(run("submit --to slurm --chunk 1 -- " + video("b.mp4") + " --frames 1-2000"), 2);
+  EXPECT_NE(err.find("MaxJobCount of 100"), std::string::npos) << err;
+}
+
+TEST_F(Farm, TheSceneIsCopiedWithWhatLiesBesideIt) {
+  ods::TemporaryFolder source;
+  std::filesystem::create_directory(source.path("maps"));
+  source.write("scene.gltf",
+               R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "maps/data.bin"}]})");
+  const std::string job = "submit --to openjd --chunk 1 --copy-scene -- video " + source.path("scene.gltf") +
+                          " --frames 1-2 --width 32 --samples 1 -o " + folder.path("a.mp4");
+  EXPECT_EQ(run(job), 3);
+  EXPECT_NE(err.find("data.bin': no such file"), std::string::npos) << err;
+  EXPECT_EQ(files(), 0u);
+  const std::array<float, 9> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  source.write("maps/data.bin", {reinterpret_cast<const char*>(corners.data()), sizeof(corners)});
+  ASSERT_EQ(run(job), 0) << err;
+  EXPECT_EQ(folder.read("a.farm/inputs/maps/data.bin").size(), 36u);
+  EXPECT_EQ(plan("a")["groups"][0]["command"][1], folder.path("a.farm/inputs/scene.gltf"));
+  const json values = json::parse(folder.read("a.farm/parameter_values.json"));
+  EXPECT_NE(values.dump().find("\"value\":\"inputs/scene.gltf\""), std::string::npos) << values;
+  std::filesystem::remove(source.path("scene.gltf"));
+  run_all(plan("a"));
+}
+
+TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
+  struct Fault {
+    std::string words;
+    int code;
+    std::string says;
+  };
+  const std::string at = folder.path("");
+  const std::vector<Fault> faults = {
+      {"submit -- video toys -o " + at + "a.mp4", 2, "--to slurm|openjd"},
+      {"submit --to slurm", 2, "two dashes"},
+      {"submit --to lsf -- video toys", 2, "'lsf'"},
+      {"submit --to slurm video toys -o " + at + "a.mp4", 2, "'video' stands before the two dashes"},
+      {"submit --to slurm -- vidoe toys", 2, "did you mean 'video'"},
+      {"submit --to slurm -- convert a.png -o b.png", 2, "video, render and stitch"},
+      {"submit --to slurm -- video toys -o " + at + "a.mp4 --widht 5", 2, "--widht"},
+      {"submit --to slurm -- video absent.glb --frames 1-2 -o " + at + "a.mp4", 3, "absent.glb"},
+      {"submit --to slurm -- video toys --audio absent.wav -o " + at + "a.mp4", 3, "absent.wav"},
+      {"submit --to slurm -- video toys --env absent.hdr --frames 1-2 -o " + at + "a.mp4", 3, "absent.hdr"},
+      {"submit --to slurm -- video toys -o /proc/a.mp4", 4, "/proc"},
+      {"submit --to slurm -- video toys --frames 1-2 --only 1 -o " + at + "a.mp4", 2, "--only"},
+      {"submit --to slurm -- render toys -o " + at + "a.png", 2, "--parts N"},
+      {"submit --to slurm -- render toys --parts 4 --noise 0.1 -o " + at + "a.png", 2, "--noise"},
+      {"submit --to slurm -- render toys --parts 9 --samples 4 -o " + at + "a.png", 2, "4 samples cannot be 9 parts"},
+      {"submit --to slurm --sbatch partition -- render toys --parts 4 -o " + at + "a.png", 2, "--sbatch"},
+      {"submit --to kubernetes --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
+      {"submit --to openjd --copy-scene -- video toys --confine / --frames 1-2 -o " + at + "a.mp4", 2, "--confine"},
+      {"render toys --parts 4 -o " + at + "a.png", 2, "ods submit"},
+      {"jobs nothing", 3, "no job 'nothing'"},
+  };
+  for (const Fault& fault : faults) {
+    EXPECT_EQ(run(fault.words), fault.code) << fault.words << "\n" << err;
+    const size_t start = err.rfind("ods: error: ");
+    ASSERT_NE(start, std::string::npos) << fault.words << "\n" << err;
+    EXPECT_NE(err.find(fault.says, start), std::string::npos) << fault.words << "\n" << err;
+    EXPECT_EQ(err.find('\n', start), err.size() - 1) << err;
+    EXPECT_EQ(files(), 0u) << fault.words;
+  }
+}
+
+TEST_F(Farm, ALineBreakInANameIsRefused) {
+  Ods submit({"submit", "--to", "openjd", "--chunk", "1", "--", "video", "toys", "--frames", "1-2", "-o",
+              folder.path("a\nb.mp4")});
+  EXPECT_EQ(submit.finish(), 2);
+  EXPECT_NE(submit.err.find("line break"), std::string::npos) << submit.err;
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Farm, PartsOfAnotherPictureAreNotTakenForOurs) {
+  const std::string still = "submit -q --to openjd -- render toys --width 32 --parts 2 -o " + folder.path("p.exr");
+  ASSERT_EQ(run(still + " --samples 4"), 0) << err;
+  run_task(plan("p")["groups"][0], 2);
+  ASSERT_EQ(run(still + " --samples 4"), 0) << err;
+  EXPECT_EQ(run(still + " --samples 8"), 2);
+  EXPECT_NE(err.find("part_0002.exr' was rendered with other options: --samples was 4, now 8"), std::string::npos)
+      << err;
+}
+
+// The last command of a video, on another machine than its frames.
+TEST_F(Farm, FramesThatAreLateAreWaitedFor) {
+  ASSERT_EQ(run("submit -q --to openjd --chunk 1 -- " + video() + " --denoise none --frames 1-2 --keep-frames"), 0)
+      << err;
+  const json groups = plan("a")["groups"];
+  run_task(groups[0], 1);
+  std::vector<std::string> last = groups[1]["command"];
+  EXPECT_EQ(last.at(last.size() - 2), "--wait");
+  last.back() = "3600";
+  Ods whole(last);
+  whole.wait_for("waiting up to 3600 s for 1 frames that are not there yet");
+  run_task(groups[0], 2);
+  EXPECT_EQ(whole.finish(), 0) << whole.err;
+  EXPECT_NE(whole.err.find("2 of 2 frames exist already"), std::string::npos) << whole.err;
+}
+
+TEST_F(Farm, WithoutSlurmItIsSaid) {
+  program("squeue", "exit 1");
+  EXPECT_EQ(run("submit --to slurm -- " + video()), 3);
+  EXPECT_NE(err.find("there is no Slurm here"), std::string::npos) << err;
+  EXPECT_EQ(files(), 0u);
+  EXPECT_EQ(run("jobs"), 3);
+  EXPECT_NE(err.find("there is no Slurm here"), std::string::npos) << err;
+}
+
+TEST_F(Farm, WhatIsInTheQueueIsNotSentAgain) {
+  ASSERT_EQ(run("submit -q --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 0) << err;
+  tools.write("queue", "7|1|RUNNING|0:05|ods:frames:0:" + folder.path("a.farm") + "\n");
+  EXPECT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 2);
+  EXPECT_NE(err.find("tasks in the queue, job 7"), std::string::npos) << err;
+  tools.write("queue", "7|1|CANCELLED|0:05|ods:frames:0:" + folder.path("a.farm") + "\n");
+  EXPECT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 0) << err;
+}
+
+TEST_F(Farm, WhatSlurmRefusesIsAnError) {
+  program("sbatch", "echo 'sbatch: error: no partition' >&2; exit 1");
+  EXPECT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 4);
+  EXPECT_NE(err.find("sbatch: error: no partition\n"), std::string::npos) << err;
+}
+
+// --- jobs -----------------------------------------------------------------------------------------------------------
+
+TEST_F(Farm, JobsOfTenThousandTasks) {
+  program("scontrol", "echo 'MaxArraySize = 20000'; echo 'MaxJobCount = 100000'");
+  ASSERT_EQ(run("submit -q --to slurm --chunk 1 -- " + video() + " --frames 1-10000"), 0) << err;
+  std::string queue;
+  for (int task = 1; task <= 10000; task++) {
+    const char* const state = task <= 6000   ? "COMPLETED"
+                              : task <= 6040 ? "RUNNING"
+                              : task == 6041 ? "TIMEOUT"
+                                             : "PENDING";
+    queue +=
+        fmt::format("7|{}|{}|0:{}|ods:frames:0:{}\n", task, state, task <= 6000 ? "10" : "04", folder.path("a.farm"));
+  }
+  tools.write("queue",
+              queue + "8|N/A|PENDING|0:00|ods:video:0:" + folder.path("a.farm") + "\n99|1|RUNNING|0:01|(null)\n");
+  ASSERT_EQ(run("jobs"), 0) << err;
+  EXPECT_NE(out.find("frames      6000       40     3959       1  16:36 min\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("video          0        0        1       0  \n"), std::string::npos) << out;
+  EXPECT_NE(out.find("a frames 6041: TIMEOUT"), std::string::npos) << out;
+  const std::string all = out;
+  ASSERT_EQ(run("jobs a"), 0) << err;
+  EXPECT_EQ(out, all);
+}
+
+TEST_F(Farm, AFailedTaskIsShownWithItsLastLine) {
+  ASSERT_EQ(run("submit -q --to slurm --chunk 4 -- " + video() + " --frames 1-12"), 0) << err;
+  for (const char* name : {"ended", "logs"}) std::filesystem::create_directories(folder.path("a.farm/") + name);
+  folder.write("a.farm/ended/frames.1", "0\n");
+  folder.write("a.farm/ended/frames.2", "3\n");
+  folder.write("a.farm/logs/frames.2.log", "frames 2 of 3, try 3\nods: error: cannot read 'x.glb': no such file\n");
+  program("squeue", "exit 1");  // Slurm has forgotten it, and is down
+  ASSERT_EQ(run("jobs " + folder.path("a.farm")), 0) << err;
+  EXPECT_NE(out.find("frames         1        0        0       1  \n"), std::string::npos) << out;
+  EXPECT_NE(out.find("a frames: 1 neither ended nor in the queue; submit it again\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("a frames 2: exit code 3: ods: error: cannot read 'x.glb': no such file\n"), std::string::npos)
+      << out;
+  EXPECT_EQ(run("jobs --follow " + folder.path("a.farm")), 1);
+  EXPECT_NE(err.find("'a' is over, and not all of it is done"), std::string::npos) << err;
+}
+
+TEST_F(Farm, NoJobsIsNoError) {
+  ASSERT_EQ(run("jobs"), 0) << err;
+  EXPECT_EQ(out, "no jobs\n");
+}
+
+}  // namespace

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/farm/plan.h"
+
+#include <gtest/gtest.h>
+
+#include "ods/base/error.h"
+
+namespace ods {
+namespace {
+
+FarmPlan example() {
+  FarmPlan plan;
+  plan.name = "film";
+  plan.folder = "/disk/film.farm";
+  plan.program = "ods";
+  plan.cpus = 4;
+  plan.memory = 3'000'000'000;
+  plan.paths = {{"/disk/a scene.glb"}, {"/disk/film.mp4", true}, {"/disk/views", false, true}};
+  plan.groups = {{"frames", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "--only", 7},
+                 {"video", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "", 1}};
+  return plan;
+}
+
+TEST(Plan, ATaskIsACommandLine) {
+  const FarmPlan plan = example();
+  const std::vector<std::string> third = {"ods", "video", "/disk/a scene.glb", "-o", "/disk/film.mp4", "--only", "3/7"};
+  EXPECT_EQ(task_words(plan, plan.groups[0], 3), third);
+  EXPECT_EQ(task_words(plan, plan.groups[1], 1), std::vector<std::string>(third.begin(), third.end() - 2));
+}
+
+TEST(Plan, ComesBackFromItsFile) {
+  const FarmPlan plan = example(), back = read_plan(write_plan(plan), "plan.json");
+  EXPECT_EQ(write_plan(back), write_plan(plan));
+  EXPECT_EQ(back.memory, plan.memory);
+  ASSERT_EQ(back.groups.size(), 2u);
+  EXPECT_EQ(back.groups[0].tasks, 7);
+  EXPECT_EQ(back.groups[1].option, "");
+  EXPECT_TRUE(back.paths[1].is_output);
+  EXPECT_TRUE(back.paths[2].is_folder);
+}
+
+TEST(Plan, OtherFilesAreErrorsThatNameThem) {
+  for (const std::string text : {"", "{}", "[]", "{\"omnistereo_farm_plan\": 2}", "{\"omnistereo_farm_plan\": 1}",
+                                 "{\"omnistereo_farm_plan\": 1, \"name\": 5}"}) {
+    try {
+      read_plan(text, "other.json");
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      EXPECT_NE(std::string(error.what()).find("'other.json'"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Plan, NamesSuitEveryScheduler) {
+  EXPECT_EQ(plan_name("scene_360_TB"), "scene_360_TB");
+  EXPECT_EQ(plan_name("my film"), "my_film");
+  EXPECT_EQ(plan_name("-x"), "job-x");
+  EXPECT_EQ(plan_name(""), "job");
+  EXPECT_EQ(plan_name(std::string(100, 'a')).size(), 64u);
+  EXPECT_EQ(plan_name("ö\n'\""), "job_____");
+}
+
+TEST(Plan, WordsWithLineBreaksAreRefused) {
+  for (const std::string word : {"a\nb", "\xff"}) {
+    FarmPlan in_command = example(), in_path = example();
+    in_command.groups[1].command.push_back(word);
+    in_path.paths[0].path = "/disk/" + word;
+    EXPECT_THROW(check_quotable(in_command), Error);
+    EXPECT_THROW(check_quotable(in_path), Error);
+  }
+  EXPECT_NO_THROW(check_quotable(example()));
+}
+
+TEST(Plan, ATaskTakesTenMinutesAndNoMachineIsIdle) {
+  EXPECT_EQ(suitable_chunk(6.0, 100'000), 100);
+  EXPECT_EQ(suitable_chunk(6.0, 320), 20);
+  EXPECT_EQ(suitable_chunk(3600.0, 100), 1);
+  EXPECT_EQ(suitable_chunk(0.001, 5), 1);
+  EXPECT_EQ(suitable_chunk(1e-6, 1'000'000), 62'500);
+}
+
+TEST(Plan, TasksHoldAllFrames) {
+  EXPECT_EQ(tasks_for(100, 10), 10);
+  EXPECT_EQ(tasks_for(101, 10), 11);
+  EXPECT_EQ(tasks_for(1, 1000), 1);
+  EXPECT_EQ(tasks_for(1'000'000, 1), 1'000'000);
+}
+
+}  // namespace
+}  // namespace ods
