@@ -41,9 +41,10 @@ std::string taken_by(std::string_view start) {
     return "; it is a video: ods probe, lint, convert, inject, view and over take videos";
   }
   if (begins("glTF")) return "; it is a scene: ods render, video, info and view take scenes";
+  const bool is_webp = begins("RIFF") && start.substr(std::min<size_t>(8, start.size())).starts_with("WEBP");
   for (const std::string_view picture :
-       {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "RIFF"sv, "#?R"sv, "\x76\x2f\x31\x01"sv}) {
-    if (begins(picture)) return "; it is a picture: ods probe, lint, convert, inject and view take pictures";
+       {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "#?R"sv, "\x76\x2f\x31\x01"sv}) {
+    if (is_webp || begins(picture)) return "; it is a picture: ods probe, lint, convert, inject and view take pictures";
   }
   return {};
 }

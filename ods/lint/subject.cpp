@@ -66,12 +66,14 @@ static Identity left_first(Identity identity) {
 }
 
 // Players go by a shape, and what is wrong with that is to be found. Where there is none the pixels tell; so they do if
-// they show what no shape tells, such as fisheyes.
+// they show circles or faces of a cube, which no lat-long has.
 static void look_at_pixels(Subject& subject, const StoredPicture& whole, const FormatHint& known) {
   if (!subject.format.is_open) return;
   const Identity identity = left_first(identify(whole, with_words(known, subject.format)));
   const bool has_shape = subject.format.layout.source == LayoutSource::kShape;
-  if (identity.readings.empty() || (has_shape && has_range(identity.best().projection.kind))) return;
+  if (identity.readings.empty()) return;
+  const int kind = identity.best().projection.kind;
+  if (has_shape && !has_image_circle(kind) && !is_cube(kind)) return;
   subject.format = find_format(subject.info, subject.path, with_seen(known, subject.format, identity));
 }
 

@@ -78,9 +78,7 @@ TEST_F(InjectPicture, WhatIsNotAskedForStays) {
     ASSERT_TRUE(said) << form.name << " " << form.title;
     for (const auto& [words, ask] : kOptions) {
       SCOPED_TRACE(form.title + " (" + form.name + "): inject " + words);
-      // A square is taken for two eyes unless somebody says otherwise.
-      const std::string one_eye = form.name.starts_with("half") ? " --layout mono " : " ";
-      ASSERT_EQ(run("inject " + path + " -o " + to + one_eye + words), 0) << err;
+      ASSERT_EQ(run("inject " + path + " -o " + to + " " + words), 0) << err;
       const std::string xmp = ods::read_xmp(to);
       const std::optional<StereoCamera> now = ods::gpano_camera(xmp);
       ASSERT_TRUE(now);

@@ -263,6 +263,12 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   const std::optional<Sidecar> sidecar = find_sidecar(info, path, known, format.guesses);
   format.is_photo = is_taken_as_photo(info, path, known);
   format.layout = find_layout(info, path, known, sidecar, format.is_photo);
+  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format.guesses);
+  format.has_camera = camera.has_value();
+  // GPano knows no layout, but says what one eye covers: if that is all of the file, there is no other.
+  if (camera && format.layout.source >= LayoutSource::kShape &&
+      has_shape(camera->projection, {info.width, info.height}))
+    format.layout = {{}, LayoutSource::kFile, "its metadata fits one eye"};
   format.eye = find_eye(info, sidecar);
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {
@@ -275,8 +281,6 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
     format.guesses.push_back(fmt::format("{}: {}", name, format.layout.reason));
   }
-  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format.guesses);
-  format.has_camera = camera.has_value();
   format.has_ipd = camera && (known.camera || sidecar || info.numbers.contains("ods:ipd"));
   if (camera) format.camera = *camera;
   if (known.projection) {
