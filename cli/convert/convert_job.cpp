@@ -56,7 +56,8 @@ void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
   job.kind = ods::footage_kind(path);
   if (job.kind == FootageKind::kFrames) job.files = ods::find_frames(path, wishes.frames);
-  const ods::OpenOptions open{looked_at(job)};
+  ods::OpenOptions open;
+  open.format = looked_at(job);
   switch (job.kind) {
     case FootageKind::kPicture:
       job.picture = job.reader.emplace(path, open).header();
