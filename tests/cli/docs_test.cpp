@@ -159,8 +159,11 @@ class Pages : public ::testing::Test {
     folder.write("bin/queue", "");
     program("squeue", "[ $1 != --json ] && cat " + queue);
     program("scontrol", "echo MaxArraySize = 1001");
-    program("sbatch", "id=$(($(wc -l <" + queue + ") + 1))\nfor word; do case $word in --comment=*) " +
-                          "echo \"$id|1|COMPLETED|0:01|${word#--comment=}\" >>" + queue + " ;; esac; done\necho $id");
+    program("sbatch", "id=$(($(wc -l <" + queue + ") + 1))\n" +
+                          "for word; do case $word in --comment=*) comment=${word#--comment=} ;; esac; done\n" +
+                          "tasks=$(sed -n 's/^#SBATCH --array=1-//p' \"$word\")\n" +
+                          "for task in $(seq ${tasks:-1}); do echo \"$id|$task|COMPLETED|0:01|$comment\" >>" + queue +
+                          "; done\necho $id");
     static const std::string path = std::getenv("PATH");
     setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);
   }
