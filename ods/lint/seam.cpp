@@ -155,7 +155,7 @@ bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& r
   double certainty = ramp(found.ratio(), 1.05, 1.35) * ramp(found.seam, 0.0, 0.8);
   if (!is_smoothed) {
     found = break_of(measure(eyes, excess_of), 0.02);
-    certainty = ramp(found.ratio(), 2.5, 3.5) * ramp(found.seam, 0.03, 0.09);
+    certainty = ramp(found.ratio(), 2.5, 3.5) * ramp(found.seam, 0.1, 0.2);
   }
   if (certainty >= 0.1) {
     report.findings.push_back(

@@ -65,15 +65,15 @@ static Identity left_first(Identity identity) {
   return identity;
 }
 
-// Players go by a shape, and what is wrong with that is to be found. Where there is none the pixels tell; so they do if
-// they show circles or faces of a cube, which no lat-long has.
+// Players go by a shape, and what is wrong with that is to be found. So the pixels tell only if they show what no such
+// shape has: circles, faces of a cube, or halves of the sphere.
 static void look_at_pixels(Subject& subject, const StoredPicture& whole, const FormatHint& known) {
   if (!subject.format.is_open) return;
   const Identity identity = left_first(identify(whole, with_words(known, subject.format)));
   const bool has_shape = subject.format.layout.source == LayoutSource::kShape;
   if (identity.readings.empty()) return;
-  const int kind = identity.best().projection.kind;
-  if (has_shape && !has_image_circle(kind) && !is_cube(kind)) return;
+  const ProjectionSetting& seen = identity.best().projection;
+  if (!has_image_circle(seen.kind) && !is_cube(seen.kind) && (has_shape || !is_vr180(seen))) return;
   subject.format = find_format(subject.info, subject.path, with_seen(known, subject.format, identity));
 }
 
