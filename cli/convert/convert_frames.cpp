@@ -11,7 +11,6 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/pipeline.h"
 #include "ods/files/frames.h"
@@ -51,7 +50,8 @@ class Frames {
     ods::ConvertTarget target = job_.target;
     target.turned = work.turned;
     if (!work.picture) {
-      work.picture = open(job_.files.path(work.index));
+      work.picture = open_frame(job_.files, work.index, job_.picture);
+      refuse_impossible(job_, *work.picture);
     }
     ods::Conversion conversion = ods::convert(*work.picture, target);
     const ods::PictureRows& rows = conversion.rows;
@@ -67,20 +67,6 @@ class Frames {
   }
 
  private:
-  StoredPicture open(const std::string& path) const {
-    ods::OpenOptions options;
-    options.format.layout = job_.picture.layout;
-    options.format.camera = job_.picture.camera;
-    StoredPicture picture = open_picture(path, options);
-    if (picture.size.width == job_.picture.size.width && picture.size.height == job_.picture.size.height &&
-        picture.eyes.size() == job_.picture.eyes.size()) {
-      refuse_impossible(job_, picture);
-      return picture;
-    }
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("'{}' is not like the first frame, '{}'", path, job_.files.path(0)));
-  }
-
   ConvertJob& job_;
   ods::FrameNames names_;
   size_t next_ = 0;

@@ -16,6 +16,7 @@
 #include "cli/console/options.h"
 #include "cli/farm/job_report.h"
 #include "cli/farm/queue.h"
+#include "ods/farm/plan.h"
 
 namespace fs = std::filesystem;
 
@@ -36,12 +37,6 @@ bool is_folder_of_job(const std::string& name) {
   return fs::exists(name + "/plan.json", ignored);
 }
 
-std::string absolute(const std::string& name) {
-  std::string path = fs::absolute(name).lexically_normal().native();
-  while (path.size() > 1 && path.ends_with("/")) path.pop_back();
-  return path;
-}
-
 // Throws ods::Error(kInput) if there is none of that name.
 std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   const bool by_folder = !wishes.name.empty() && is_folder_of_job(wishes.name);
@@ -51,7 +46,7 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
                      "there is no Slurm here: squeue is not found, or fails; ods jobs FOLDER reads a job's folder");
   }
   const std::vector<ods::SlurmTask> tasks = queue.value_or(std::vector<ods::SlurmTask>());
-  if (by_folder) return {report_job(absolute(wishes.name), tasks)};
+  if (by_folder) return {report_job(ods::absolute_folder(wishes.name), tasks)};
   std::set<std::string> folders;
   for (const ods::SlurmTask& task : tasks) folders.insert(task.folder);
   std::vector<JobReport> jobs;

@@ -90,8 +90,7 @@ bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   if (end != argv + argc) job.command.assign(end + 1, argv + argc);
   if (!job.command.empty() && job.command.front() == "ods") job.command.erase(job.command.begin());
   if (job.program.empty()) job.program = job.to == ods::Scheduler::kSlurm ? own_program() : "ods";
-  job.wishes.mount = fs::absolute(job.wishes.mount.empty() ? "." : job.wishes.mount).lexically_normal().native();
-  while (job.wishes.mount.size() > 1 && job.wishes.mount.ends_with("/")) job.wishes.mount.pop_back();
+  job.wishes.mount = ods::absolute_folder(job.wishes.mount.empty() ? "." : job.wishes.mount);
   return true;
 }
 
@@ -106,9 +105,7 @@ std::string usual_folder(const std::string& output) {
 
 ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
   ods::FarmPlan plan;
-  const std::string folder = job.folder.empty() ? usual_folder(split.output) : job.folder;
-  plan.folder = fs::absolute(folder).lexically_normal().native();
-  while (plan.folder.size() > 1 && plan.folder.ends_with("/")) plan.folder.pop_back();
+  plan.folder = ods::absolute_folder(job.folder.empty() ? usual_folder(split.output) : job.folder);
   plan.name = ods::plan_name(job.name.empty() ? fs::path(plan.folder).stem().native() : job.name);
   plan.program = job.program;
   plan.cpus = job.cpus > 0 ? job.cpus : split.threads.value_or(0);

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
@@ -76,6 +77,12 @@ FarmPlan read_plan(std::string_view text, const std::string& path) {
   } catch (const nlohmann::json::exception& error) {
     throw bad(error.what());
   }
+}
+
+std::string absolute_folder(const std::string& path) {
+  std::string folder = std::filesystem::absolute(path).lexically_normal().native();
+  while (folder.size() > 1 && folder.ends_with("/")) folder.pop_back();
+  return folder;
 }
 
 std::string plan_name(const std::string& text) {

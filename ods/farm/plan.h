@@ -45,6 +45,9 @@ std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group
 std::string write_plan(const FarmPlan& plan);
 FarmPlan read_plan(std::string_view text, const std::string& path);
 
+// A folder's absolute path, without a slash at its end.
+std::string absolute_folder(const std::string& path);
+
 // A name that every scheduler takes: other characters become "_". At most 64.
 std::string plan_name(const std::string& text);
 

@@ -50,7 +50,7 @@ TEST_F(Resume, GoesOnToTheSameBits) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "whole.png"}));
 }
 
-// As a farm's machines do it: one dies, another goes on with its part; a part that is there is not made again.
+// One machine of a farm dies, and another takes up its part. A finished part is not rendered again.
 TEST_F(Resume, APartGoesOnElsewhereAndIsMadeOnce) {
   ASSERT_EQ(whole(words("whole.exr")), 0) << err;
   const auto part = [&](const std::string& number) {

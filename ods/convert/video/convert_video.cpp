@@ -45,19 +45,23 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
   return write_video(video, pending, path, progress).frames;
 }
 
-static std::shared_ptr<VideoFrame> convert_file(const FramesConversion& conversion, const std::string& path,
-                                                const FrameFormat& format) {
+StoredPicture open_frame(const FrameFiles& files, size_t index, const StoredPicture& first) {
   OpenOptions open;
-  open.format.layout = conversion.first.layout;
-  open.format.camera = conversion.first.camera;
-  const StoredPicture picture = open_picture(path, open);
-  const Extent size = picture.size, first = conversion.first.size;
-  if (size.width != first.width || size.height != first.height || picture.eyes.size() != conversion.first.eyes.size()) {
-    throw Error(ErrorKind::kInput,
-                fmt::format("'{}' is not like the first frame, '{}'", path, conversion.files.path(0)));
-  }
+  open.format.layout = first.layout;
+  open.format.camera = first.camera;
+  const std::string path = files.path(index);
+  StoredPicture picture = open_picture(path, open);
+  if (picture.size.width == first.size.width && picture.size.height == first.size.height &&
+      picture.eyes.size() == first.eyes.size())
+    return picture;
+  throw Error(ErrorKind::kInput, fmt::format("'{}' is not like the first frame, '{}'", path, files.path(0)));
+}
+
+static std::shared_ptr<VideoFrame> convert_file(const FramesConversion& conversion, size_t index,
+                                                const FrameFormat& format) {
+  const StoredPicture picture = open_frame(conversion.files, index, conversion.first);
   const std::string fault = conversion_fault(picture, conversion.target);
-  if (!fault.empty()) throw Error(ErrorKind::kUsage, fmt::format("'{}': {}", path, fault));
+  if (!fault.empty()) throw Error(ErrorKind::kUsage, fmt::format("'{}': {}", conversion.files.path(index), fault));
   std::optional<DisplayTransform> display;
   if (picture.is_float) display = conversion.display;
   return frame_of(convert(picture, conversion.target).rows, format, display);
@@ -72,7 +76,7 @@ int convert_frames(const FramesConversion& conversion, const EncodeOptions& opti
     if (next == frames.size()) return std::nullopt;
     const size_t index = next++;
     return PendingFrame{{static_cast<int64_t>(index), 1},
-                        [&, index] { return convert_file(conversion, conversion.files.path(index), format); }};
+                        [&, index] { return convert_file(conversion, index, format); }};
   };
   const Extent old = conversion.first.size;
   const int eyes = static_cast<int>(conversion.target.eyes.size());

@@ -30,6 +30,10 @@ struct VideoConversion {
 int convert_video(Footage& video, const VideoConversion& conversion, EncodeOptions options, const std::string& path,
                   const Progress& progress = {});
 
+// A frame's picture. Throws Error(kInput) as open_picture(), and if it is not like the first frame, of which `first` is
+// the header.
+StoredPicture open_frame(const FrameFiles& files, size_t index, const StoredPicture& first);
+
 struct FramesConversion {
   FrameFiles files;
   StoredPicture first;   // header of the first frame; the others are like it
