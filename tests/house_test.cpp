@@ -21,10 +21,12 @@ namespace fs = std::filesystem;
 const std::set<std::string> kAvFiles = {"ods/video/av.cpp", "ods/video/decode.cpp", "ods/video/encode.cpp",
                                         "ods/video/sound.cpp"};
 const std::map<std::string, std::set<std::string>> kHidden = {
-    {"OpenImageIO/", {"ods/image/codec/image_reader.cpp", "ods/image/codec/image_writer.cpp"}},
+    {"OpenImageIO/", {"ods/image/openimageio/openimageio.cpp"}},
     {"embree", {"ods/render/cpu/embree_scene.cpp"}},
     {"CLI/", {"cli/console/options.cpp"}},
-    {"OpenEXR/", {"ods/image/codec/exr_rows.cpp"}},
+    {"OpenEXR/", {"ods/image/codec/exr.cpp", "ods/image/codec/exr_rows.cpp"}},
+    {"png.h", {"ods/image/codec/png.cpp"}},
+    {"jpeglib.h", {"ods/image/codec/jpeg.cpp"}},
     {"libdeflate.h", {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp"}},
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
     {"meshoptimizer.h", {"ods/scene/gltf/meshopt.cpp"}},

@@ -38,6 +38,17 @@ std::string FileInput::read(uint64_t offset, uint64_t count) const {
   return bytes;
 }
 
+bool FileInput::read(uint64_t offset, void* to, size_t count) const {
+  for (size_t done = 0; done < count;) {
+    const ssize_t got =
+        pread(descriptor_, static_cast<char*>(to) + done, count - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    done += static_cast<size_t>(got);
+  }
+  return true;
+}
+
 static void write_all(AtomicFile& file, const char* bytes, size_t count) {
   while (count > 0) {
     const ssize_t done = write(fileno(file.stream()), bytes, count);

@@ -24,6 +24,8 @@ class FileInput {
 
   // Bytes [offset, offset + count). Throws Error(kInput) if the file is, or has become, too short.
   std::string read(uint64_t offset, uint64_t count) const;
+  // The same into memory; false if the file is, or has become, too short or cannot be read.
+  bool read(uint64_t offset, void* to, size_t count) const;
 
   // Appends a range of this file to another: a file system copy where supported, else through a buffer of a few MiB.
   // Bypasses the target's stream. Throws Error(kInput), Error(kOutput).

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Image files of every format of file_format.h, read and written by image_codec().
+// Image files of every format of file_format.h, read and written (ods/image/codec).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -77,7 +77,7 @@ struct CodeImage {
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name, bool keep_depth = false);
 
 struct Channel {
-  std::string name;  // R, G, B; others only in EXR
+  std::string name;  // R, G, B, A or Y, A; others only in EXR
   SampleType sample = SampleType::kUint8;
 };
 
@@ -85,8 +85,11 @@ struct FileHeader {
   FileFormat format = FileFormat::kPng;
   int width = 0;
   int height = 0;
-  std::vector<Channel> channels;
-  std::vector<Attribute> attributes;  // names as in OpenImageIO; GPano:* becomes XMP
+  std::vector<Channel> channels;      // alpha of integers is unassociated
+  std::vector<Attribute> attributes;  // GPano:* becomes XMP; but for EXR, text and GPano only
+  int quality = 95;                   // of JPEG (4:4:4) and WebP, 1 to 100
+  bool says_srgb = false;             // PNG
+  bool is_environment = false;        // EXR: says that it is a whole lat-long
 };
 
 // Fills row y with width * channels floats. For integer formats they are 0..1 of the code range; for float formats they

@@ -96,17 +96,11 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 static void add_exr(std::vector<Attribute>& attributes, const StereoCamera* camera, Layout layout,
                     const std::vector<int>& eyes) {
   const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
-  text("compression", "zip");
   // Rec. 709 primaries and D65: red, green, blue, white.
   attributes.push_back({"chromaticities", std::vector<float>{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f}});
   text("colorInteropID", "lin_rec709_scene");
   if (layout == Layout::kMultiview) {
     attributes.push_back({"multiView", std::vector<std::string>{"left", "right"}});
-  }
-  if (eyes.size() == 1 && camera != nullptr && is_full_lat_long(camera->projection)) {
-    // OpenImageIO writes envmap only for textures, and would keep the file open to add mip levels.
-    text("textureformat", "LatLong Environment");
-    attributes.push_back({"openexr:levelmode", 0});
   }
   if (eyes.size() == 1 && eyes[0] != kMono) text("view", eye_name(eyes[0]));
   text("ods:version", ODS_VERSION);
@@ -289,11 +283,9 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   header.format = format;
   header.width = size.width;
   header.height = size.height;
-  // Otherwise OpenImageIO writes the time of day, and equal pictures would not be equal files.
-  if (format == FileFormat::kTiff || format == FileFormat::kExr)
-    header.attributes.push_back({"DateTime", std::string()});
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
-  header.attributes.push_back({"oiio:ColorSpace", std::string(is_scene_referred(format) ? "Linear" : "sRGB")});
+  header.says_srgb = !is_scene_referred(format);
+  header.quality = file.options.jpeg_quality;
   if (carries_gpano(format) && count == 1 && camera != nullptr && fits_gpano(camera->projection)) {
     add_gpano(header.attributes, *camera, size);
   }
@@ -305,6 +297,7 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   switch (format) {
     case FileFormat::kExr:
       add_exr(header.attributes, camera, file.layout, eyes);
+      header.is_environment = count == 1 && camera != nullptr && is_full_lat_long(camera->projection);
       if (file.layout != Layout::kMultiview) add_exr_channels(header.channels, file.picture.layers, "", true);
       if (file.layout == Layout::kMultiview) {
         for (int eye : eyes) add_exr_channels(header.channels, file.picture.layers, eye_name(eye), eye == eyes[0]);
@@ -314,21 +307,14 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
       sample = SampleType::kFloat;
       break;
     case FileFormat::kJpeg:
-      header.attributes.push_back({"jpeg:subsampling", std::string("4:4:4")});
-      [[fallthrough]];
     case FileFormat::kWebp:
-      header.attributes.push_back({"CompressionQuality", file.options.jpeg_quality});
-      break;
     case FileFormat::kTiff:
-      header.attributes.push_back({"compression", std::string("zip")});
-      break;
     case FileFormat::kPng:
       break;
   }
   header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
   if (!has_alpha(file.picture) || !keeps_alpha(format, file.layout)) return header;
   header.channels.push_back({"A", sample});
-  header.attributes.push_back({"oiio:UnassociatedAlpha", 1});
   return header;
 }
 

@@ -377,10 +377,7 @@ static StoredPicture describe(const Readers& readers, StereoFormat format, const
     if (picture.color_fault.empty()) picture.color_fault = reader->info().color_fault;
   }
   if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
-  const auto parts = info.numbers.find("oiio:subimages");
-  if (parts != info.numbers.end() && parts->second[0] > 1.0f) {
-    picture.guesses.push_back(fmt::format("it has {} parts; only the first is read", parts->second[0]));
-  }
+  if (info.parts > 1) picture.guesses.push_back(fmt::format("it has {} parts; only the first is read", info.parts));
   picture.size = eye_size(picture, info, path);
   return picture;
 }

@@ -58,7 +58,7 @@ int survive(const std::function<void()>& work, bool lasts, size_t bytes = 0) {
   return failures;
 }
 
-// OpenImageIO makes short strings where it has promised not to throw, which ends the process.
+// OpenImageIO and OpenEXR make short strings where they have promised not to throw, which ends the process.
 constexpr size_t kLibraries = 1024;
 
 GltfBuilder make_scene() {
@@ -124,12 +124,13 @@ TEST_P(OutOfMemory, Rendering) {
 TEST_P(OutOfMemory, SavingAndOpeningPictures) {
   const Scene scene = load_scene("furnace");
   RenderOptions options;
-  options.width = 16, options.samples = 1;
+  options.width = 64, options.samples = 1;
   const Picture picture = render_cpu(scene, StereoCamera(), options);
   for (const std::string name : {"a.png", "a.jpg", "a.exr", "a.tif", "a.hdr", "a.webp"}) {
     SCOPED_TRACE(name);
     const TemporaryFolder folder;
     const std::string path = folder.path(name);
+    const size_t least = name == "a.png" || name == "a.jpg" ? 0 : kLibraries;
     const auto save = [&] {
       std::filesystem::remove(path);
       try {
@@ -140,10 +141,10 @@ TEST_P(OutOfMemory, SavingAndOpeningPictures) {
         throw;
       }
     };
-    EXPECT_GT(survive(save, GetParam(), kLibraries), 0);
+    EXPECT_GT(survive(save, GetParam(), least), 0);
     save();
-    EXPECT_GT(survive([&] { read_image(path); }, GetParam(), kLibraries), 0);
-    EXPECT_GT(survive([&] { open_picture(path); }, GetParam(), kLibraries), 0);
+    EXPECT_GT(survive([&] { read_image(path); }, GetParam(), least), 0);
+    EXPECT_GT(survive([&] { open_picture(path); }, GetParam(), least), 0);
   }
 }
 

@@ -47,7 +47,6 @@ std::string plain_file(const std::string& extension, bool grey = false) {
   for (const char* name : {"R", "G", "B"}) {
     if (!grey || header.channels.empty()) header.channels.push_back({grey ? "Y" : name, SampleType::kUint8});
   }
-  if (header.format == FileFormat::kTiff) header.attributes.push_back({"compression", std::string("zip")});
   const int count = static_cast<int>(header.channels.size());
   write_image(file, header, [&](int y, std::span<float> row) {
     for (int i = 0; i < kWidth * count; i++) {

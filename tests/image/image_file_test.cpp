@@ -48,8 +48,6 @@ std::string make_file(FileFormat format, int width, int height, const std::strin
   header.width = width;
   header.height = height;
   for (char name : channels) header.channels.push_back({std::string(1, name), sample});
-  header.attributes.push_back({"oiio:UnassociatedAlpha", 1});
-  if (format == FileFormat::kTiff) header.attributes.push_back({"compression", std::string("zip")});
   const int count = static_cast<int>(channels.size());
   write_image(file, header, [&](int y, std::span<float> row) {
     for (int i = 0; i < width * count; i++) row[static_cast<size_t>(i)] = value(i / count, y, i % count);

@@ -21,7 +21,6 @@ inline Binary make_png(int width, int height, const std::string& channels, Sampl
   header.width = width;
   header.height = height;
   for (const char name : channels) header.channels.push_back({std::string(1, name), sample});
-  header.attributes.push_back({"oiio:UnassociatedAlpha", 1});
   const int count = static_cast<int>(channels.size());
   write_image(file, header, [&](int y, std::span<float> row) {
     for (int i = 0; i < width * count; i++) row[static_cast<size_t>(i)] = value(i / count, y, i % count);

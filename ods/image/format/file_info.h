@@ -14,10 +14,11 @@ namespace ods {
 struct FileInfo {
   int width = 0;
   int height = 0;
+  int parts = 1;                                      // of an EXR; all else here is that of the first
   bool is_float = false;                              // scene-linear; else display-encoded
   std::vector<std::string> channels;                  // R, G, B, A first
   std::vector<SampleType> samples;                    // the type of each channel, as RowReader returns them
-  std::map<std::string, std::string> text;            // attributes that are text, by OpenImageIO's names
+  std::map<std::string, std::string> text;            // attributes that are text, by their names
   std::map<std::string, std::vector<float>> numbers;  // attributes that are numbers
   std::string color;                                  // the name of its colour space; empty: unspecified
   std::string color_fault;                            // why that colour space is ignored; empty: it is honoured

@@ -27,12 +27,6 @@ std::string xmp_chunk(const std::string& packet) {
   return png_chunk("iTXt", std::string(kPngXmpKeyword) + std::string(4, '\0') + packet);
 }
 
-std::string gpano_chunk(const std::vector<Attribute>& attributes) {
-  std::vector<Attribute> properties;
-  std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(properties), is_gpano);
-  return properties.empty() ? std::string() : xmp_chunk(make_xmp(properties));
-}
-
 PngChunk read_png_chunk(const FileInput& file, uint64_t at) {
   const std::string start = file.read(at, 8);
   const PngChunk chunk{start.substr(4), get_number(start, 0, 4)};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PNG chunks that OpenImageIO does not handle. Sources: ISO/IEC 15948 (PNG); Adobe, "XMP Specification Part 3" for XMP.
+// PNG chunks, without pixels. Sources: ISO/IEC 15948 (PNG); Adobe, "XMP Specification Part 3" for XMP.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -24,9 +24,6 @@ std::string png_chunk(std::string_view type, std::string_view data);
 // none), method 0, empty language, empty translated keyword.
 inline constexpr std::string_view kPngXmpKeyword{"XML:com.adobe.xmp\0", 18};
 std::string xmp_chunk(const std::string& packet);
-
-// An iTXt chunk with those attributes that are GPano; empty if none is.
-std::string gpano_chunk(const std::vector<Attribute>& attributes);
 
 // Where new chunks go: directly after the header chunk.
 inline constexpr size_t kPngAfterHeader = 33;
@@ -63,9 +60,7 @@ class FileParts {
 };
 
 // The file ranges of a PNG that are needed for its pixels and for ods:rig; nothing if one of them is truncated, damaged
-// or missing. Hiding the rest keeps libpng from printing warnings about it on stderr. (libpng still prints if the
-// chunks are intact but the compressed pixels are not: OpenImageIO's error handler returns into it. Only decoding twice
-// would avoid that.)
+// or missing. The decoder reads only those: what else is in the file cannot make it fail.
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read);
 
 }  // namespace ods

@@ -81,7 +81,20 @@ void floats_to_halves(std::span<const float> from, uint16_t* to) {
   for (size_t i = 0; i < from.size(); i++) to[i] = nearest_half(from[i]);
 }
 
+template <typename T>
+static void pack_integers(std::span<const float> pixels, std::byte* to) {
+  const float most = static_cast<float>(std::numeric_limits<T>::max());
+  for (const float value : pixels) {
+    const T code = static_cast<T>(finite(value, 0.0f, 1.0f) * most + 0.5f);
+    std::memcpy(to, &code, sizeof code);
+    to += sizeof code;
+  }
+}
+
 void pack_floats(std::span<const SampleType> channels, std::span<const float> pixels, std::byte* to) {
+  // Files of integers have one type for all channels.
+  if (channels[0] == SampleType::kUint8) return pack_integers<uint8_t>(pixels, to);
+  if (channels[0] == SampleType::kUint16) return pack_integers<uint16_t>(pixels, to);
   const auto halves_in_pixel = std::count(channels.begin(), channels.end(), SampleType::kHalf);
   if (halves_in_pixel == 0) {
     std::memcpy(to, pixels.data(), pixels.size_bytes());

@@ -26,7 +26,7 @@ inline float finite(float value, float lowest, float highest) {
 // clamped to it.
 void floats_to_halves(std::span<const float> from, uint16_t* to);
 
-// Packs interleaved pixels: kHalf channels become halves, the others stay floats.
+// Packs interleaved pixels into the types of their channels. For integers 0..1 is the code range; NaN becomes 0.
 void pack_floats(std::span<const SampleType> channels, std::span<const float> pixels, std::byte* to);
 
 // Undoes, as far as rounding allows, a multiplication of the colours by (alpha / largest)^power. `channels` samples per

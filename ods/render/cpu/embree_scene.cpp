@@ -352,13 +352,15 @@ bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int
   return shadow.tfar < 0.0f;
 }
 
+// Embree without AVX-512 checks the rays of unused lanes, too: they are the first ray again.
 static void set_rays(RTCRay16& out, const RayPacket& packet) {
-  for (int i = 0; i < packet.count; i++) {
-    const Ray& ray = packet.rays[i];
+  for (int i = 0; i < RayPacket::kMost; i++) {
+    const int from = i < packet.count ? i : 0;
+    const Ray& ray = packet.rays[from];
     out.org_x[i] = ray.origin.x, out.org_y[i] = ray.origin.y, out.org_z[i] = ray.origin.z;
     out.dir_x[i] = ray.direction.x, out.dir_y[i] = ray.direction.y, out.dir_z[i] = ray.direction.z;
-    out.tnear[i] = 0.0f, out.tfar[i] = packet.lengths[i];
-    out.time[i] = packet.times[i], out.mask[i] = ~0u, out.id[i] = static_cast<uint>(i), out.flags[i] = 0;
+    out.tnear[i] = 0.0f, out.tfar[i] = packet.lengths[from];
+    out.time[i] = packet.times[from], out.mask[i] = ~0u, out.id[i] = static_cast<uint>(i), out.flags[i] = 0;
   }
 }
 
@@ -389,9 +391,9 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
   RTCRayHit16 found;
   alignas(64) int valid[RayPacket::kMost] = {};
   set_rays(found.ray, packet);
+  std::fill_n(found.ray.tfar, RayPacket::kMost, std::numeric_limits<float>::infinity());
   for (int i = 0; i < packet.count; i++) {
     valid[i] = -1;
-    found.ray.tfar[i] = std::numeric_limits<float>::infinity();
     found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   RayContext context = packet_context(tracer, packet, handles_->still_id);

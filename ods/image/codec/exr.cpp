@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// EXR through OpenEXR.
+#include <OpenEXR/IexBaseExc.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfEnvmapAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfStringVectorAttribute.h>
+#include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfVecAttribute.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+
+#include "ods/base/text.h"
+#include "ods/image/codec/decoder.h"
+#include "ods/image/codec/encoder.h"
+#include "ods/image/codec/exr_rows.h"
+#include "ods/image/format/exr_guard.h"
+
+namespace ods {
+
+// OpenEXR's threads: as many as TBB may have, so that one limit (tbb::global_control) holds for all.
+static int exr_threads() {
+  static std::mutex setting;
+  const std::lock_guard lock(setting);
+  const int allowed = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (Imf::globalThreadCount() != allowed) Imf::setGlobalThreadCount(allowed);
+  return allowed;
+}
+
+// --- reading ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// OpenEXR's functions throw exceptions of their own; `make` turns their words into an Error.
+template <class Calls, class MakeError>
+auto guarded(const Calls& calls, const MakeError& make) {
+  try {
+    return calls();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& exception) {
+    throw make(library_words(exception.what()));
+  }
+}
+
+class ExrInput final : public Imf::IStream {
+ public:
+  explicit ExrInput(const PictureBytes& file) : IStream(file.name.c_str()), file_(file) {}
+  bool read(char to[], int size) override {
+    if (!file_.read(at_, to, static_cast<size_t>(size))) throw Iex::InputExc("it is cut short");
+    at_ += static_cast<size_t>(size);
+    return at_ < file_.size;
+  }
+  uint64_t tellg() override { return at_; }
+  void seekg(uint64_t to) override { at_ = to; }
+
+ private:
+  PictureBytes file_;
+  uint64_t at_ = 0;
+};
+
+struct ExrChannel {
+  std::string name;
+  Imf::PixelType type;
+  std::string layer() const { return name.substr(0, name.rfind('.') + 1); }  // npos + 1: none
+  size_t rank() const {
+    return std::min(std::string_view("RGBA").find(name.substr(layer().size())), std::string_view("RGBA").size());
+  }
+};
+
+// A file has them by the alphabet. Here: by layer, and in it first R, G, B, A.
+std::vector<ExrChannel> channels_of(const Imf::Header& header, const std::string& path) {
+  std::vector<ExrChannel> channels;
+  const Imf::ChannelList& list = header.channels();
+  for (auto each = list.begin(); each != list.end(); ++each) {
+    if (each.channel().xSampling != 1 || each.channel().ySampling != 1) {
+      throw cannot_read(path, fmt::format("its channel {} has fewer pixels than the picture", each.name()));
+    }
+    channels.push_back({each.name(), each.channel().type});
+  }
+  std::stable_sort(channels.begin(), channels.end(), [](const ExrChannel& a, const ExrChannel& b) {
+    const std::string one = a.layer(), other = b.layer();
+    return one != other ? one < other : a.rank() < b.rank();
+  });
+  return channels;
+}
+
+// By the names that FileInfo has them.
+void add_attributes(const Imf::Header& header, FileInfo& info) {
+  for (auto each = header.begin(); each != header.end(); ++each) {
+    const std::string name = each.name();
+    const Imf::Attribute* const value = &each.attribute();
+    std::vector<float>& numbers = info.numbers[name];
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(value)) info.text[name] = text->value();
+    if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(value)) numbers = {number->value()};
+    if (const auto* number = dynamic_cast<const Imf::IntAttribute*>(value)) {
+      numbers = {static_cast<float>(number->value())};
+    }
+    if (const auto* pair = dynamic_cast<const Imf::V2fAttribute*>(value)) numbers = {pair->value().x, pair->value().y};
+    if (const auto* three = dynamic_cast<const Imf::V3fAttribute*>(value)) {
+      numbers = {three->value().x, three->value().y, three->value().z};
+    }
+    if (const auto* colours = dynamic_cast<const Imf::ChromaticitiesAttribute*>(value)) {
+      const Imf::Chromaticities& xy = colours->value();
+      numbers = {xy.red.x, xy.red.y, xy.green.x, xy.green.y, xy.blue.x, xy.blue.y, xy.white.x, xy.white.y};
+    }
+    const auto* envmap = dynamic_cast<const Imf::EnvmapAttribute*>(value);
+    if (envmap && envmap->value() == Imf::ENVMAP_LATLONG) info.text["textureformat"] = "LatLong Environment";
+    if (numbers.empty()) info.numbers.erase(name);
+  }
+}
+
+class ExrDecoder final : public Decoder {
+ public:
+  explicit ExrDecoder(const PictureBytes& file);
+  void read(int begin, int end, size_t first, size_t count, std::byte* to) override;
+
+ private:
+  void describe(const Imf::Header& header, int parts);
+  bool read_fast(int begin, int end, size_t first, size_t count, std::byte* to);
+  void read_any(int begin, int end, size_t first, size_t count, std::byte* to);
+  size_t bytes_of_channels(size_t first, size_t count) const;
+
+  std::string name_;
+  bool on_disk_;
+  std::unique_ptr<ExrInput> input_;
+  std::unique_ptr<Imf::MultiPartInputFile> file_;
+  std::unique_ptr<Imf::InputPart> part_;
+  Imath::Box2i window_;
+  std::vector<ExrChannel> channels_;
+  std::unique_ptr<ExrRows> rows_;  // of the channels from first_ on; nullptr: ExrRows cannot read the file
+  std::optional<size_t> first_;
+};
+
+ExrDecoder::ExrDecoder(const PictureBytes& file) : name_(file.name), on_disk_(file.on_disk) {
+  const int threads = exr_threads();
+  guarded(
+      [&] {
+        input_ = std::make_unique<ExrInput>(file);
+        file_ = std::make_unique<Imf::MultiPartInputFile>(*input_, threads);
+        const Imf::Header& header = file_->header(0);
+        if (header.hasType() && Imf::isDeepData(header.type())) throw cannot_read(name_, "it is not a flat image");
+        part_ = std::make_unique<Imf::InputPart>(*file_, 0);
+        describe(header, file_->parts());
+      },
+      [&](const std::string& words) { return cannot_read(name_, words); });
+}
+
+void ExrDecoder::describe(const Imf::Header& header, int parts) {
+  window_ = header.dataWindow();
+  channels_ = channels_of(header, name_);
+  if (channels_.empty()) throw cannot_read(name_, "it has no channels");
+  info.width = window_.max.x - window_.min.x + 1;
+  info.height = window_.max.y - window_.min.y + 1;
+  info.is_float = true;
+  info.parts = parts;
+  for (const ExrChannel& channel : channels_) {
+    info.channels.push_back(channel.name);
+    info.samples.push_back(channel.type == Imf::HALF ? SampleType::kHalf : SampleType::kFloat);
+    whole_numbers.push_back(channel.type == Imf::UINT);
+  }
+  add_attributes(header, info);
+  is_whole_picture = window_ == header.displayWindow();
+  if (header.hasTileDescription()) rows_together = static_cast<int>(header.tileDescription().ySize);
+}
+
+size_t ExrDecoder::bytes_of_channels(size_t first, size_t count) const {
+  size_t bytes = 0;
+  for (size_t c = first; c < first + count; c++) bytes += bytes_of(info.samples[c]);
+  return bytes;
+}
+
+bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::byte* to) {
+  if (!on_disk_) return false;
+  if (first_ != first) {
+    first_ = first;
+    rows_ = ExrRows::open(name_, {info.channels.begin() + static_cast<ptrdiff_t>(first), info.channels.end()});
+  }
+  if (rows_) rows_->read(begin, end, count, to);
+  return rows_ != nullptr;
+}
+
+void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::byte* to) {
+  const size_t pixel = bytes_of_channels(first, count), row = pixel * static_cast<size_t>(info.width);
+  Imf::FrameBuffer buffer;
+  char* at = reinterpret_cast<char*>(to) - static_cast<ptrdiff_t>(pixel) * window_.min.x -
+             static_cast<ptrdiff_t>(row) * (window_.min.y + begin);  // where pixel 0, 0 would be
+  for (size_t c = first; c < first + count; c++) {
+    buffer.insert(info.channels[c], Imf::Slice(channels_[c].type, at, pixel, row));
+    at += bytes_of(info.samples[c]);
+  }
+  guarded(
+      [&] {
+        part_->setFrameBuffer(buffer);
+        part_->readPixels(window_.min.y + begin, window_.min.y + end - 1);
+      },
+      [&](const std::string& words) { return cannot_read(name_, words); });
+}
+
+void ExrDecoder::read(int begin, int end, size_t first, size_t count, std::byte* to) {
+  if (!read_fast(begin, end, first, count, to)) read_any(begin, end, first, count, to);
+  const size_t pixel = bytes_of_channels(first, count);
+  const size_t size = pixel * static_cast<size_t>(info.width) * static_cast<size_t>(end - begin);
+  for (size_t c = first; c < first + count; c++) {
+    if (!whole_numbers[c]) continue;
+    const size_t offset = bytes_of_channels(first, c - first);
+    const unsigned number = whole_numbers_to_floats({to + offset, size - offset}, pixel);
+    if (number > 0) beyond_floats.emplace(c, number);
+  }
+}
+
+}  // namespace
+
+// OpenEXR makes room for what the header announces before it looks at the file.
+std::unique_ptr<Decoder> open_exr(const PictureBytes& file) {
+  const std::string fault = exr_header_fault(file.size, file.read);
+  if (!fault.empty()) throw cannot_read(file.name, fault);
+  return std::make_unique<ExrDecoder>(file);
+}
+
+// --- writing ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// What OpenEXR writes to. It never reports a failure: AtomicFile notices.
+class ExrOutput final : public Imf::OStream {
+ public:
+  explicit ExrOutput(const AtomicFile& file) : OStream(file.path().c_str()), stream_(file.stream()) {}
+  void write(const char bytes[], int size) override {
+    std::fwrite(bytes, 1, static_cast<size_t>(size), stream_);
+    at_ += static_cast<uint64_t>(size);
+  }
+  uint64_t tellp() override { return at_; }
+  void seekp(uint64_t to) override {
+    fseeko(stream_, static_cast<off_t>(to), SEEK_SET);
+    at_ = to;
+  }
+
+ private:
+  std::FILE* stream_;
+  uint64_t at_ = 0;
+};
+
+void insert_floats(Imf::Header& header, const char* name, const std::vector<float>& f) {
+  if (std::string_view(name) == "chromaticities" && f.size() == 8) {
+    Imf::Chromaticities xy({f[0], f[1]}, {f[2], f[3]}, {f[4], f[5]}, {f[6], f[7]});
+    header.insert(name, Imf::ChromaticitiesAttribute(xy));
+  }
+  if (f.size() == 2) header.insert(name, Imf::V2fAttribute({f[0], f[1]}));
+  if (f.size() == 3) header.insert(name, Imf::V3fAttribute({f[0], f[1], f[2]}));
+}
+
+void insert_attribute(Imf::Header& header, const Attribute& attribute) {
+  const char* name = attribute.name.c_str();
+  if (const int* i = std::get_if<int>(&attribute.value)) header.insert(name, Imf::IntAttribute(*i));
+  if (const float* f = std::get_if<float>(&attribute.value)) header.insert(name, Imf::FloatAttribute(*f));
+  if (const auto* text = std::get_if<std::string>(&attribute.value)) header.insert(name, Imf::StringAttribute(*text));
+  if (const auto* floats = std::get_if<std::vector<float>>(&attribute.value)) insert_floats(header, name, *floats);
+  if (const auto* words = std::get_if<std::vector<std::string>>(&attribute.value)) {
+    header.insert(name, Imf::StringVectorAttribute(*words));
+  }
+}
+
+class ExrEncoder final : public Encoder {
+ public:
+  ExrEncoder(AtomicFile& file, const FileHeader& header);
+  void write(int begin, int end, const std::byte* rows) override;
+  void finish() override { output_.reset(); }  // writes the table of offsets
+
+ private:
+  AtomicFile& file_;
+  const FileHeader& header_;
+  ExrOutput stream_;
+  std::unique_ptr<Imf::OutputFile> output_;
+};
+
+Imf::PixelType type_of(SampleType sample) {
+  return sample == SampleType::kHalf ? Imf::HALF : Imf::FLOAT;
+}
+
+ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file), header_(header), stream_(file) {
+  const int threads = exr_threads();
+  guarded(
+      [&] {
+        Imf::Header words(header.width, header.height);
+        words.compression() = Imf::ZIP_COMPRESSION;
+        for (const Channel& channel : header.channels) {
+          words.channels().insert(channel.name, Imf::Channel(type_of(channel.sample)));
+        }
+        for (const Attribute& attribute : header.attributes) insert_attribute(words, attribute);
+        if (header.is_environment) Imf::addEnvmap(words, Imf::ENVMAP_LATLONG);
+        output_ = std::make_unique<Imf::OutputFile>(stream_, words, threads);
+      },
+      [&](const std::string& what) { return cannot_write(file, what); });
+}
+
+void ExrEncoder::write(int begin, int end, const std::byte* rows) {
+  size_t pixel = 0;
+  for (const Channel& channel : header_.channels) pixel += bytes_of(channel.sample);
+  const size_t row = pixel * static_cast<size_t>(header_.width);
+  Imf::FrameBuffer buffer;
+  // OpenEXR only reads it.
+  char* at = reinterpret_cast<char*>(const_cast<std::byte*>(rows)) - static_cast<ptrdiff_t>(row) * begin;
+  for (const Channel& channel : header_.channels) {
+    buffer.insert(channel.name, Imf::Slice(type_of(channel.sample), at, pixel, row));
+    at += bytes_of(channel.sample);
+  }
+  guarded(
+      [&] {
+        output_->setFrameBuffer(buffer);
+        output_->writePixels(end - begin);
+      },
+      [&](const std::string& words) { return cannot_write(file_, words); });
+}
+
+}  // namespace
+
+std::unique_ptr<Encoder> create_exr(AtomicFile& file, const FileHeader& header) {
+  return std::make_unique<ExrEncoder>(file, header);
+}
+
+}  // namespace ods
