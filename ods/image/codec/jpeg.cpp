@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // JPEG through libjpeg.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <csetjmp>
 #include <cstdio>
@@ -128,8 +130,11 @@ void JpegDecoder::read_header() {
   info.width = static_cast<int>(jpeg_.output_width);
   info.height = static_cast<int>(jpeg_.output_height);
   check_picture_size(file_, info.width, info.height);
-  info.channels =
-      jpeg_.output_components == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  const int components = jpeg_.output_components;
+  if (components != 1 && components != 3 && components != 4) {
+    throw cannot_read(file_.name, fmt::format("it has {} components; 1, 3 and 4 are known", components));
+  }
+  info.channels = components == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
   info.samples.assign(info.channels.size(), SampleType::kUint8);
   row_.resize(jpeg_.output_width * static_cast<size_t>(jpeg_.output_components));
 }

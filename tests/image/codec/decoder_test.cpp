@@ -259,5 +259,11 @@ TEST(JpegDecoder, ReadsEveryForm) {
   }
 }
 
+TEST(JpegDecoder, RefusesUnknownComponents) {
+  const TemporaryFolder folder;
+  write_jpeg(folder.path("a.jpg"), JCS_UNKNOWN, 2, false);
+  EXPECT_THROW(open_jpeg(picture_on_disk(folder.path("a.jpg"))), Error);
+}
+
 }  // namespace
 }  // namespace ods
