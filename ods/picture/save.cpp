@@ -96,7 +96,7 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 static void add_exr(std::vector<Attribute>& attributes, const StereoCamera* camera, Layout layout,
                     const std::vector<int>& eyes) {
   const auto text = [&](const char* name, std::string_view value) { attributes.push_back({name, std::string(value)}); };
-  text("compression", "zip");
+  if (std::ranges::find(attributes, "compression", &Attribute::name) == attributes.end()) text("compression", "zip");
   // Rec. 709 primaries and D65: red, green, blue, white.
   attributes.push_back({"chromaticities", std::vector<float>{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f}});
   text("colorInteropID", "lin_rec709_scene");
