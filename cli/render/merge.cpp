@@ -12,15 +12,17 @@
 
 namespace {
 
-void merge_parts(MergeJob& job, ProgressLines& lines) {
+ods::Picture picture_of(MergeJob& job, const ods::Progress& progress) {
+  if (job.parts.empty()) return ods::develop(std::move(job.samples), job.picture.options);
+  return ods::merge_parts(job.parts, job.picture.options, progress);
+}
+
+void merge_and_save(MergeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  for (size_t i = 0; i < job.parts.size(); i++) {
-    const double done = 0.8 * static_cast<double>(i) / static_cast<double>(job.parts.size());
-    lines.report(done, seconds_since(start), {"merge", 0, 0, job.parts[i]});
-    ods::add_part(job.parts[i], job.picture.options, job.samples);
-  }
-  ods::Picture picture = ods::develop(std::move(job.samples), job.picture.options);
-  const auto files = finish_picture(job.render, job.camera, std::move(picture), job.render.output);
+  const auto report = [&](double done) {
+    lines.report(0.9 * done, seconds_since(start), {"merge", 0, 0, job.render.output});
+  };
+  const auto files = finish_picture(job.render, job.camera, picture_of(job, {report, {}}), job.render.output);
   lines.report(1.0, seconds_since(start), {"merge", 0, 0, job.render.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
@@ -29,7 +31,8 @@ void merge_parts(MergeJob& job, ProgressLines& lines) {
 void merge(int argc, char** argv) {
   MergeJob job;
   if (!read_merge_job(job, argc, argv)) return;
-  run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { merge_parts(job, lines); });
+  run_long_job(job.render.progress, job.render.render.threads,
+               [&](ProgressLines& lines) { merge_and_save(job, lines); });
 }
 
 }  // namespace

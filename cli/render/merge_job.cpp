@@ -12,12 +12,12 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/finish_picture.h"
 #include "cli/render/frame_settings.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/render/part_file.h"
-#include "ods/render/render_target.h"
 
 namespace {
 
@@ -109,8 +109,6 @@ void open_pictures(MergeJob& job, bool incomplete) {
     job.parts.clear();
   } else {
     open_parts(job, incomplete);
-    ods::check_picture_memory(job.picture.options);
-    job.samples = ods::no_samples(job.picture.options);
   }
   const ods::Sidecar sidecar = ods::read_sidecar(job.picture.camera, first, ignored);
   job.camera = sidecar.camera;
@@ -175,6 +173,13 @@ void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   if (!render.denoise) render.denoise = ods::Denoiser::kNone;
 }
 
+// Sums that nothing is made of are left where they are.
+void leave_out_layers(MergeJob& job) {
+  ods::RenderOptions& options = job.picture.options;
+  const ods::RenderOptions needed = options_to_finish(job.render);
+  options.layers &= needed.layers, options.statistics &= needed.statistics;
+}
+
 }  // namespace
 
 bool read_merge_job(MergeJob& job, int argc, char** argv) {
@@ -188,6 +193,7 @@ bool read_merge_job(MergeJob& job, int argc, char** argv) {
   if (job.parts.empty()) throw UsageError("no parts: name the files that ods render --part has made");
   open_words(job, std::vector<std::string>(job.parts), incomplete);
   finish_options(job, layout);
+  if (!job.parts.empty()) leave_out_layers(job);
   if (!options.given("--exposure")) job.render.save.exposure = job.picture.exposure;
   if (!options.given("--tone")) job.render.save.tone = job.picture.tone;
   const ods::RenderOptions& picture = job.picture.options;

@@ -10,9 +10,9 @@
 #include "ods/render/unfinished.h"
 
 struct MergeJob {
-  std::vector<std::string> parts;  // files, in the order of the parts' numbers
-  ods::SampledPicture picture;     // whole
-  ods::PictureSamples samples;     // to which the parts are added: none, or what an interrupted run has kept
+  std::vector<std::string> parts;  // files, in the order of the parts' numbers; none: there are samples
+  ods::SampledPicture picture;     // whole, with the layers that finishing it needs
+  ods::PictureSamples samples;     // that an interrupted run has kept
   ods::StereoCamera camera;
   ods::Layout layout = ods::Layout::kTopBottom;  // as rendered
   RenderJob render;                              // how the picture is finished

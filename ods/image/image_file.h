@@ -90,6 +90,7 @@ struct FileHeader {
   int quality = 95;                   // of JPEG (4:4:4) and WebP, 1 to 100
   bool says_srgb = false;             // PNG
   bool is_environment = false;        // EXR: says that it is a whole lat-long
+  bool rows_alone = false;            // EXR: packs each row by itself, not 16 together
 };
 
 // Fills row y with width * channels floats. For integer formats they are 0..1 of the code range; for float formats they

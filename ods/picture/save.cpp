@@ -286,6 +286,7 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
   header.says_srgb = !is_scene_referred(format);
   header.quality = file.options.jpeg_quality;
+  header.rows_alone = file.options.rows_alone;
   if (carries_gpano(format) && count == 1 && camera != nullptr && fits_gpano(camera->projection)) {
     add_gpano(header.attributes, *camera, size);
   }

@@ -40,6 +40,7 @@ struct SaveOptions {
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;              // jpg and webp, 1..100
+  bool rows_alone = false;            // exr: packs each row by itself, not 16 together
   std::vector<Attribute> attributes;  // extra attributes for exr and png headers
   bool sidecar = false;               // also write picture.camera.json; an existing one is rewritten anyway
 };

@@ -14,10 +14,12 @@
 #include <functional>
 
 #include "ods/base/error.h"
-#include "ods/image/image_file.h"
+#include "ods/base/memory.h"
+#include "ods/picture/channel_layers.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
+#include "ods/render/render_target.h"
 
 namespace ods {
 namespace {
@@ -42,7 +44,8 @@ struct Words {
   static Number join(const float* words) {
     Bits bits = 0;
     for (size_t i = 0; i < kCount; i++) {
-      if (words[i] >= 0.0f && words[i] < 1u << kBits) bits |= static_cast<Bits>(words[i]) << (i * kBits);
+      if (words[i] >= 0.0f && words[i] < 1u << kBits)
+        bits |= static_cast<Bits>(static_cast<int32_t>(words[i])) << (i * kBits);
     }
     return std::bit_cast<Number>(bits);
   }
@@ -106,8 +109,8 @@ const LayerPixels* find_plane(const StoredEye& eye, const char* plane) {
 
 // Depth is the same in every part; everything else adds up.
 template <typename Number>
-void add_number(const char* plane, Number number, Number& sum) {
-  if (std::strcmp(plane, "depth") == 0) {
+void add_number(bool is_depth, Number number, Number& sum) {
+  if (is_depth) {
     sum = number;
   } else if constexpr (std::is_integral_v<Number>) {
     if (__builtin_add_overflow(sum, number, &sum)) sum = 0;  // no file of ours
@@ -116,39 +119,15 @@ void add_number(const char* plane, Number number, Number& sum) {
   }
 }
 
-// Where a pixel of the layer has its channels, in the order in which channels_of() names them.
+// Adds one number of each pixel; they are `stride` bytes apart, and `numbers` apart in the sums.
 template <typename Number>
-std::vector<size_t> offsets_of(const std::string& path, const LayerPixels* layer, const char* plane, size_t numbers) {
-  std::vector<size_t> offsets;
-  for (const std::string& channel : channels_of(plane, numbers, Words<Number>::kCount)) {
-    const size_t n =
-        layer ? static_cast<size_t>(std::ranges::find(layer->channels, channel) - layer->channels.begin()) : 0;
-    if (!layer || n == layer->channels.size() || layer->sample != SampleType::kFloat) {
-      fail(path, fmt::format("lacks {}: render the part again", channel));
-    }
-    offsets.push_back(n * sizeof(float));
+void add_numbers(bool is_depth, const std::byte* from, const size_t* offsets, size_t stride, size_t pixels, Number* sum,
+                 size_t numbers) {
+  for (size_t i = 0; i < pixels; i++, from += stride, sum += numbers) {
+    std::array<float, Words<Number>::kCount> words;
+    for (size_t w = 0; w < words.size(); w++) std::memcpy(&words[w], from + offsets[w], sizeof(float));
+    add_number(is_depth, Words<Number>::join(words.data()), *sum);
   }
-  return offsets;
-}
-
-void add_eye(const std::string& path, const StoredEye& stored, const PictureSamples& samples, EyeSamples& eye) {
-  each_plane(eye, [&]<typename Number>(const char* name, std::vector<Number>& plane) {
-    if (plane.empty()) return;
-    const size_t numbers = plane.size() / pixels_of(samples), words = Words<Number>::kCount;
-    const LayerPixels* layer = find_plane(stored, name);
-    const std::vector<size_t> offsets = offsets_of<Number>(path, layer, name, numbers);
-    tbb::parallel_for(0, samples.height, [&](int y) {
-      const std::byte* from = layer->first + y * layer->row_stride;
-      const size_t row = static_cast<size_t>(y) * static_cast<size_t>(samples.width);
-      for (size_t x = 0; x < static_cast<size_t>(samples.width); x++, from += layer->pixel_stride) {
-        std::array<float, 9> parts{};
-        for (size_t i = 0; i < offsets.size(); i++) std::memcpy(&parts[i], from + offsets[i], sizeof(float));
-        for (size_t n = 0; n < numbers; n++) {
-          add_number(name, Words<Number>::join(&parts[n * words]), plane[numbers * (row + x) + n]);
-        }
-      }
-    });
-  });
 }
 
 }  // namespace
@@ -170,6 +149,7 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
                         {kExposure, fmt::format("{}", picture.exposure)},
                         {kSettings, picture.settings},
                         {kSidecar, picture.camera}};
+  options.rows_alone = true;  // so long that several together are no smaller
   return save_picture(rows, &camera, options, path).front();
 }
 
@@ -204,12 +184,118 @@ SampledPicture read_part_header(const std::string& path) {
   return picture;
 }
 
-void add_part(const std::string& path, const RenderOptions& options, PictureSamples& sum) {
-  const StoredPicture part = open_picture(path);
-  bool same = part.size.width == sum.width && part.size.height == sum.height && part.eyes.size() == sum.eyes.size();
-  for (size_t i = 0; same && i < sum.eyes.size(); i++) same = part.eyes[i].eye == sum.eyes[i].eye;
-  if (!same) fail(path, fmt::format("is not {} pixels wide, or has other eyes", options.width));
-  for (size_t i = 0; i < sum.eyes.size(); i++) add_eye(path, part.eyes[i], sum, sum.eyes[i]);
+// --- reading --------------------------------------------------------------------------------------------------------
+
+// One part, and where a pixel of it has its sums.
+struct PartsReader::File {
+  std::unique_ptr<RowReader> rows;
+  size_t stride = 0;                         // bytes of a pixel
+  std::vector<std::vector<size_t>> offsets;  // for each eye in bytes, in the order of each_plane() and channels_of()
+};
+
+PartsReader::File PartsReader::open(const std::string& path) const {
+  File file{open_rows(path), 0, {}};
+  const FileInfo& info = file.rows->info();
+  if (info.width != options_.width || info.height != options_.height) {
+    fail(path, fmt::format("is not {}x{} pixels large", options_.width, options_.height));
+  }
+  std::vector<size_t> starts;  // of a pixel's channels
+  for (const SampleType sample : info.samples) starts.push_back(file.stride), file.stride += bytes_of(sample);
+  RenderOptions one = options_;
+  one.width = one.height = 1;
+  const PictureSamples pixel = no_samples(one);
+  for (const EyeSamples& eye : pixel.eyes) {
+    const bool alone = pixel.eyes.size() == 1;
+    const ViewChannels channels = channels_of_view(info, alone ? "" : std::string(eye_name(eye.eye)), alone);
+    std::vector<size_t>& offsets = file.offsets.emplace_back();
+    each_plane(eye, [&]<typename Number>(const char* name, const std::vector<Number>& plane) {
+      for (const std::string& channel : channels_of(name, plane.size(), Words<Number>::kCount)) {
+        const auto found = channels.find(channel);
+        if (found == channels.end() || info.samples[found->second] != SampleType::kFloat) {
+          fail(path, fmt::format("lacks {} of eye '{}': render the part again", channel, eye_name(eye.eye)));
+        }
+        offsets.push_back(starts[found->second]);
+      }
+    });
+  }
+  return file;
+}
+
+PartsReader::PartsReader(std::vector<std::string> paths, const RenderOptions& options)
+    : paths_(std::move(paths)), options_(options) {
+  constexpr size_t kMostOpen = 200;  // of the 1024 files that a process may open
+  for (const std::string& path : paths_) {
+    File file = open(path);
+    if (open_.size() < kMostOpen) open_.push_back(std::move(file));
+  }
+}
+
+PartsReader::~PartsReader() = default;
+
+// Adds pixels that follow each other, from `first` on, in which `bytes` begin.
+static void add_pixels(const std::byte* bytes, size_t stride, const size_t* offsets, size_t first, size_t pixels,
+                       size_t all, EyeSamples& eye) {
+  each_plane(eye, [&]<typename Number>(const char* name, std::vector<Number>& plane) {
+    const size_t numbers = plane.size() / all;
+    const bool is_depth = std::strcmp(name, "depth") == 0;
+    for (size_t n = 0; n < numbers; n++, offsets += Words<Number>::kCount) {
+      add_numbers(is_depth, bytes, offsets, stride, pixels, &plane[numbers * first + n], numbers);
+    }
+  });
+}
+
+void PartsReader::add(const File& file, int begin, PictureSamples& band) {
+  const size_t width = static_cast<size_t>(band.width), all = width * static_cast<size_t>(band.height);
+  if (bytes_.size() < all * file.stride) bytes_.resize(all * file.stride);
+  file.rows->read(begin, begin + band.height, file.rows->info().channels.size(), bytes_.data());
+  constexpr size_t kTogether = 64;  // pixels whose bytes stay close to the processor
+  tbb::parallel_for(size_t{0}, (all + kTogether - 1) / kTogether, [&](size_t piece) {
+    const size_t first = piece * kTogether, pixels = std::min(kTogether, all - first);
+    for (size_t i = 0; i < band.eyes.size(); i++) {
+      add_pixels(&bytes_[first * file.stride], file.stride, file.offsets[i].data(), first, pixels, all, band.eyes[i]);
+    }
+  });
+}
+
+PictureSamples PartsReader::sum(int begin, int end) {
+  RenderOptions options = options_;
+  options.height = end - begin;
+  PictureSamples band = no_samples(options);
+  for (const File& file : open_) add(file, begin, band);
+  for (size_t i = open_.size(); i < paths_.size(); i++) add(open(paths_[i]), begin, band);
+  return band;
+}
+
+// --- merging --------------------------------------------------------------------------------------------------------
+
+static constexpr Image EyeImage::*kImages[] = {&EyeImage::radiance, &EyeImage::depth, &EyeImage::normal,
+                                               &EyeImage::albedo,   &EyeImage::alpha, &EyeImage::variance,
+                                               &EyeImage::samples};
+
+Picture merge_parts(const std::vector<std::string>& paths, const RenderOptions& options, const Progress& progress) {
+  constexpr int kBand = 16;  // rows: as many threads read them
+  const size_t of_eye = picture_bytes(options) - samples_bytes(options);
+  check_memory(eye_list(options.eyes).size() * of_eye, fmt::format("a picture {} pixels wide", options.width),
+               "merge it where there is more");
+  PartsReader parts(paths, options);
+  Picture picture;
+  for (const int eye : eye_list(options.eyes)) picture.eyes.push_back(blank_eye(options, eye));
+  for (int begin = 0; begin < options.height; begin += kBand) {
+    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "merging was stopped");
+    if (progress.report) progress.report(static_cast<double>(begin) / options.height);
+    const int end = std::min(begin + kBand, options.height);
+    RenderOptions of_band = options;
+    of_band.height = end - begin;
+    const Picture band = develop(parts.sum(begin, end), of_band);
+    picture.samples_taken += band.samples_taken;
+    for (size_t i = 0; i < band.eyes.size(); i++) {
+      for (Image EyeImage::*image : kImages) {
+        const Image& from = band.eyes[i].*image;
+        if (!from.pixels.empty()) std::ranges::copy(from.pixels, (picture.eyes[i].*image).at(0, begin));
+      }
+    }
+  }
+  return picture;
 }
 
 }  // namespace ods

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/progress.h"
 #include "ods/render/unfinished.h"
 
 namespace ods {
@@ -19,8 +20,30 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
 // What a part is of, from its header. Throws Error(kInput): unreadable, or not a part.
 SampledPicture read_part_header(const std::string& path);
 
-// Adds a part to `sum`, which is no_samples() of the whole picture's options or has other parts already. Throws
-// Error(kInput), also if the part has not the options' layers; then `sum` is of no use any more.
-void add_part(const std::string& path, const RenderOptions& options, PictureSamples& sum);
+// Parts of one picture, read in bands of rows: no part is in memory as a whole.
+class PartsReader {
+ public:
+  // options: of the whole picture, with those layers and statistics that are wanted. Throws Error(kInput): unreadable,
+  // of another size or other eyes, without such layers.
+  PartsReader(std::vector<std::string> paths, const RenderOptions& options);
+  ~PartsReader();
+
+  // What rows begin .. end - 1 of all parts add up to, as samples of a picture of so many rows. Throws Error(kInput).
+  PictureSamples sum(int begin, int end);
+
+ private:
+  struct File;
+  File open(const std::string& path) const;
+  void add(const File& file, int begin, PictureSamples& band);
+
+  std::vector<std::string> paths_;
+  RenderOptions options_;
+  std::vector<File> open_;  // the first paths_; the others are opened for each band
+  std::vector<std::byte> bytes_;
+};
+
+// The picture that all these parts amount to: develop() of their sum. Takes the memory of the picture, and of bands of
+// 16 rows, however many parts there are. Throws as PartsReader; Error(kMemory), Error(kCancelled).
+Picture merge_parts(const std::vector<std::string>& paths, const RenderOptions& options, const Progress& progress = {});
 
 }  // namespace ods

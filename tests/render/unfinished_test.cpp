@@ -116,22 +116,60 @@ TEST(PartFile, HoldsTheExactSums) {
     EXPECT_EQ(header.settings, picture.settings);
     EXPECT_EQ(header.camera, picture.camera);
     EXPECT_EQ(samples_bytes(header.options), samples_bytes(options));
-    PictureSamples again = no_samples(options);
+    PictureSamples again = PartsReader({folder.path("part.exr")}, options).sum(0, options.height);
     again.done = samples.done, again.pass_to = samples.pass_to;
-    add_part(folder.path("part.exr"), options, again);
     expect_same(again, samples);
+  }
+}
+
+// Bands of 16 rows, the last of which has fewer, of parts whose eyes, layers and statistics are all there, or few.
+TEST(PartFile, BandsMakeThePictureOfTheWholeSum) {
+  const TemporaryFolder folder;
+  for (const bool everything : {true, false}) {
+    RenderOptions options = options_with(everything);
+    options.height = 41;
+    const PictureSamples samples = samples_with(options);
+    PictureSamples sum = samples;
+    for (EyeSamples& eye : sum.eyes) {
+      each_plane(eye, [](const char* name, auto& plane) {
+        if (std::string_view(name) == "depth") return;
+        for (auto& number : plane) number *= 3;
+      });
+    }
+    std::vector<std::string> parts;
+    for (const char* name : {"1.exr", "2.exr", "3.exr"}) {
+      parts.push_back(save_part(folder.path(name), about(options), samples));
+    }
+    double done = 0.0;
+    const Picture picture = merge_parts(parts, options, {[&](double now) { done = now; }, {}});
+    EXPECT_EQ(digest(picture), digest(develop(sum, options)));
+    EXPECT_EQ(picture.samples_taken, 3.0 * static_cast<double>(count_samples(samples)));
+    EXPECT_GT(done, 0.5);
+    RenderOptions bare = options;
+    bare.layers = bare.statistics = false;
+    const Picture light = merge_parts(parts, bare);
+    EXPECT_EQ(light.eyes.back().radiance.pixels, picture.eyes.back().radiance.pixels);
+    EXPECT_TRUE(light.eyes[0].depth.pixels.empty() && light.eyes[0].variance.pixels.empty());
+    EXPECT_THROW(merge_parts(parts, options, {{}, [] { return true; }}), Error);
   }
 }
 
 TEST(PartFile, OtherPicturesAreRefused) {
   const TemporaryFolder folder;
   const RenderOptions options = options_with(true);
-  PictureSamples sum = no_samples(options);
-  save_part(folder.path("small.exr"), about(options_with(false)), samples_with(options_with(false)));
-  EXPECT_THROW(add_part(folder.path("small.exr"), options, sum), Error);
+  const RenderOptions small = options_with(false);
+  const std::string part = save_part(folder.path("small.exr"), about(small), samples_with(small));
+  EXPECT_THROW(merge_parts({part}, options), Error);
+  RenderOptions other = small;
+  other.height--;
+  EXPECT_THROW(merge_parts({part}, other), Error);
+  other = small;
+  other.statistics = true;
+  EXPECT_THROW(merge_parts({part}, other), Error);
+  EXPECT_EQ(merge_parts({part}, small).eyes.size(), 1u);
   folder.write("no.exr", "nothing of the kind");
   EXPECT_THROW(read_part_header(folder.path("no.exr")), Error);
-  EXPECT_THROW(add_part(folder.path("no.exr"), options, sum), Error);
+  EXPECT_THROW(merge_parts({folder.path("no.exr")}, options), Error);
 }
 
 }  // namespace

@@ -302,7 +302,7 @@ ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
   guarded(
       [&] {
         Imf::Header words(header.width, header.height);
-        words.compression() = Imf::ZIP_COMPRESSION;
+        words.compression() = header.rows_alone ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION;
         for (const Channel& channel : header.channels) {
           words.channels().insert(channel.name, Imf::Channel(type_of(channel.sample)));
         }
