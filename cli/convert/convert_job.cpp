@@ -225,6 +225,7 @@ void refuse_impossible(const ConvertJob& job, const ods::StoredPicture& picture)
 }
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
+  job.arguments.assign(argv, argv + argc);
   Options options("convert", kSummary, kExamples);
   Wishes wishes;
   wishes.size.width = 0;

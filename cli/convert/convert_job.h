@@ -5,6 +5,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/console/progress.h"
 #include "cli/options/camera_options.h"
@@ -14,6 +15,7 @@
 #include "ods/render/render_options.h"
 
 struct ConvertJob {
+  std::vector<std::string> arguments;  // as given
   std::string input;
   std::string output;
   ods::FormatHint known;  // of the input

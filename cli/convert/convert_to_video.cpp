@@ -8,6 +8,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/convert/convert_frames.h"
+#include "cli/convert/resume_settings.h"
 #include "cli/options/picture_options.h"
 #include "ods/base/error.h"
 #include "ods/video/container/apple.h"
@@ -104,13 +105,14 @@ void check_job(const ConvertJob& job) {
 
 int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::EncodeOptions& options,
                     const ods::Progress& progress) {
+  const ods::Resume resume{resume_settings(job), [](const std::string& words) { note(words); }};
   if (!job.footage) {
     const ods::DisplayTransform display{job.save.exposure, job.save.tone};
-    return ods::convert_frames({job.files, job.picture, job.target, plan.layout, plan.metadata, display}, options,
-                               job.output, progress);
+    return ods::convert_frames({job.files, job.picture, job.target, plan.layout, plan.metadata, display, resume},
+                               options, job.output, progress);
   }
-  return ods::convert_video(*job.footage, {job.target, plan.layout, plan.metadata, job.turns}, options, job.output,
-                            progress);
+  return ods::convert_video(*job.footage, {job.target, plan.layout, plan.metadata, job.turns, resume}, options,
+                            job.output, progress);
 }
 
 }  // namespace
@@ -129,6 +131,9 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   say_what_players_need(wishes, plan, options);
   const size_t expected = job.footage ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
   if (!options.copies_sound) say_length_of_sound(options, expected);
+  if (options.bitrate && expected > ods::kPartFrames) {
+    note("--bitrate is kept over the whole video: if interrupted, it begins anew");
+  }
   ods::Progress progress;
   progress.report = [&](double done) {
     lines.report(done, seconds_since(start), video_step("convert", done, expected, job.output));

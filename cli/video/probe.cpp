@@ -65,8 +65,8 @@ ProbeReport probe(const std::string& path) {
     return report;
   }
   const ods::FileInfo info = ods::read_info(path);
-  const std::optional<ods::Identity> identity = ods::identify_if_open(path);
   ods::StereoFormat format = find_format(info, path, {});
+  const std::optional<ods::Identity> identity = ods::identify_if_open(path, format);
   if (identity) format = find_format(info, path, with_seen({}, format, *identity));
   const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
   report.picture = PictureReport{info, format, ods::gpano_camera(xmp), ""};

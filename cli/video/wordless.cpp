@@ -56,5 +56,7 @@ std::optional<Wordless> judged_picture(const std::optional<Identity>& identity) 
 }
 
 std::optional<Wordless> look_at_pixels(const ods::FormatHint& known, const std::string& path) {
-  return judged_picture(ods::identify_if_open(path, known));
+  if (ods::names_eye(path)) return std::nullopt;
+  const ods::StereoFormat format = find_format(ods::read_info(path), path, known);
+  return judged_picture(ods::identify_if_open(path, format, known));
 }

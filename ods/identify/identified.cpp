@@ -13,7 +13,7 @@
 
 namespace ods {
 
-static StoredPicture open_whole(const std::string& path) {
+StoredPicture open_whole(const std::string& path) {
   OpenOptions open;
   open.color_only = true;
   open.format.layout = Layout::kSeparate;
@@ -53,10 +53,8 @@ FormatHint with_seen(const FormatHint& known, const StereoFormat& format, const 
   return all;
 }
 
-std::optional<Identity> identify_if_open(const std::string& path, const FormatHint& known) {
-  if (names_eye(path)) return std::nullopt;
-  const StereoFormat format = find_format(read_info(path), path, known);
-  if (!format.is_open) return std::nullopt;
+std::optional<Identity> identify_if_open(const std::string& path, const StereoFormat& format, const FormatHint& known) {
+  if (names_eye(path) || !format.is_open) return std::nullopt;
   return identify(open_whole(path), with_words(known, format));
 }
 
@@ -86,10 +84,12 @@ std::optional<Identity> identify_video(const std::string& path, uint64_t track, 
 
 static FormatHint identified_picture(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
                                      std::string_view options) {
-  const std::optional<Identity> identity = identify_if_open(path, known);
+  if (names_eye(path)) return known;
+  const StereoFormat format = find_format(read_info(path), path, known);
+  const std::optional<Identity> identity = identify_if_open(path, format, known);
   if (!identity) return known;
   if (const std::string doubt = doubt_text(*identity, options); !doubt.empty()) notes.push_back(doubt);
-  return with_seen(known, find_format(read_info(path), path, known), *identity);
+  return with_seen(known, format, *identity);
 }
 
 static FormatHint identified_film(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,

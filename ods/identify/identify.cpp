@@ -29,10 +29,11 @@ struct Cut {
   EyePacking how = EyePacking::kAlone;
   double two_eyes = 0.0;  // as EyeMatch::mark(); of one eye: that no other cut shows two
   std::string reason;
-  std::vector<Image> eyes;  // linear
-  Image shown;              // of the first
-  Marks marks;              // likewise
-  PointPairs pairs;         // of both
+  std::vector<Image> eyes;   // linear
+  Image shown;               // of the first
+  Marks marks;               // likewise
+  double other_faces = 0.0;  // how surely it has faces of a cube in an order that is none of ours
+  PointPairs pairs;          // of both
 };
 
 struct Candidate {
@@ -111,8 +112,10 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
   cuts[0].reason = "no two parts of it match";
   for (Cut& cut : cuts) {
     cut.shown = shown(cut.eyes[0]);
-    cut.marks = marks_of(cut.shown);
-    if (cut.two_eyes > 0.0 && cut.eyes.size() == 2) cut.pairs = find_pairs(cut.shown, shown(cut.eyes[1]));
+    const Image other = cut.eyes.size() == 2 ? shown(cut.eyes[1]) : Image();
+    const bool is_pair = cut.two_eyes > 0.0 && cut.eyes.size() == 2;
+    cut.marks = marks_of(cut.shown, is_pair ? &other : nullptr);
+    if (is_pair) cut.pairs = find_pairs(cut.shown, other);
   }
   return cuts;
 }
@@ -175,22 +178,36 @@ void judge_circle(const Cut& cut, Candidate& candidate) {
   }
 }
 
+// A cube that an eye has the shape of.
+struct CubeMarks {
+  int kind = kCube3x2;
+  double joins = 0.0;   // as faces_join()
+  double breaks = 0.0;  // as breaks_at_grid()
+};
+
+std::vector<CubeMarks> marks_of_cubes(const Cut& cut, Extent whole) {
+  std::vector<CubeMarks> cubes;
+  for (const NamedProjection& named : named_projections()) {
+    if (!is_cube(named.setting.kind) || !fits_shape(named.setting, whole)) continue;
+    const int columns = width_step(named.setting);
+    cubes.push_back(
+        {named.setting.kind, faces_join(cut.shown, named.setting), breaks_at_grid(cut.shown, columns, 6 / columns)});
+  }
+  return cubes;
+}
+
 // What the marks of an eye say of a projection: each speaks for those that have it and against all others.
-void judge_projection(const Cut& cut, Extent whole, Candidate& candidate) {
+void judge_projection(const Cut& cut, const std::vector<CubeMarks>& cubes, Candidate& candidate) {
   const Marks& marks = cut.marks;
   const ProjectionSetting& setting = candidate.reading.projection;
   const int kind = setting.kind;
   if (is_fisheye(kind)) return judge_circle(cut, candidate);
   candidate.odds -= std::max(0.0, marks.circle) * kCircle;
-  for (const NamedProjection& named : named_projections()) {
-    if (!is_cube(named.setting.kind) || !fits_shape(named.setting, whole)) continue;
-    const double joins = faces_join(cut.shown, named.setting);
-    if (named.setting.kind == kind) {
-      add_reason(candidate, joins, kFaces, "its faces join as a cube's");
+  for (const CubeMarks& cube : cubes) {
+    if (cube.kind == kind) {
+      add_reason(candidate, cube.joins, kFaces, "its faces join as a cube's");
     } else {  // also of a cube whose faces have another order
-      const int columns = width_step(named.setting);
-      const double breaks = columns > 1 ? breaks_at_grid(cut.shown, columns, 1) : breaks_at_grid(cut.shown, 1, 6);
-      candidate.odds -= std::max({0.0, joins, is_cube(kind) ? 0.0 : breaks}) * kFaces;
+      candidate.odds -= std::max({0.0, cube.joins, is_cube(kind) ? 0.0 : cube.breaks}) * kFaces;
     }
   }
   const bool is_half = is_vr180(setting);
@@ -242,11 +259,19 @@ double window_odds(double aspect) {
   return beyond > 0.0 ? -1.5 - 2.0 * beyond : 0.0;
 }
 
-void add_candidates(const Cut& cut, Layout layout, const FormatHint& known, Extent file,
-                    std::vector<Candidate>& candidates) {
+// Where the picture breaks as between faces that no cube of ours joins.
+double other_faces_in(const std::vector<CubeMarks>& cubes) {
+  double joins = 0.0, breaks = 0.0;
+  for (const CubeMarks& cube : cubes) joins = std::max(joins, cube.joins), breaks = std::max(breaks, cube.breaks);
+  return std::max(0.0, breaks - joins);
+}
+
+void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent file, std::vector<Candidate>& candidates) {
   const std::optional<Extent> eye = whole_eye(layout, file);
   if (!eye || !allows(known, layout)) return;
   const double aspect = static_cast<double>(eye->width) / eye->height;
+  const std::vector<CubeMarks> cubes = marks_of_cubes(cut, *eye);
+  cut.other_faces = std::max(cut.other_faces, other_faces_in(cubes));
   for (ProjectionSetting setting : settings_for(known, aspect)) {
     const std::string_view name = projection_name(setting);
     Candidate candidate;
@@ -266,7 +291,7 @@ void add_candidates(const Cut& cut, Layout layout, const FormatHint& known, Exte
     candidate.odds += (is_part ? -4.0 : usual(name)) + kEyes * cut.two_eyes;
     if (arrangement_of(layout).squeezed) candidate.odds -= 1.0;
     if (cut.two_eyes > 0.3 || layout == Layout::kSeparate) candidate.reason = cut.reason;
-    judge_projection(cut, *eye, candidate);
+    judge_projection(cut, cubes, candidate);
     candidates.push_back(candidate);
   }
 }
@@ -299,7 +324,9 @@ void share_certainty(const std::vector<Cut>& cuts, std::vector<Candidate>& candi
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.odds > b.odds; });
   double sum = 0.0;
-  for (const Cut& cut : cuts) sum += std::exp(kOther + kEyes * cut.two_eyes - candidates[0].odds);
+  for (const Cut& cut : cuts) {
+    sum += std::exp(kOther + kEyes * cut.two_eyes + kFaces * cut.other_faces - candidates[0].odds);
+  }
   for (const Candidate& each : candidates) sum += std::exp(each.odds - candidates[0].odds);
   for (Candidate& each : candidates) each.reading.certainty = std::exp(each.odds - candidates[0].odds) / sum;
 }
@@ -323,16 +350,18 @@ Identity identify(const StoredPicture& whole, const FormatHint& known) {
   if (std::min(whole.size.width, whole.size.height) < kLeastSide) return {};
   const Thumbnail thumbnail = make_thumbnail(whole);
   std::vector<Candidate> candidates;
-  const std::vector<Cut> cuts = all_cuts(whole, thumbnail);
+  std::vector<Cut> cuts = all_cuts(whole, thumbnail);
   Identity identity;
   if (cuts[0].marks.detail < kLeastDetail) return identity;
-  for (const Cut& cut : cuts) {
+  for (Cut& cut : cuts) {
     for (const Layout layout : layouts_of(cut.how)) add_candidates(cut, layout, known, thumbnail.file, candidates);
   }
   if (candidates.empty()) return identity;
   judge_parallax(cuts, candidates);
   share_certainty(cuts, candidates);
   identity.reason = candidates[0].reason;
+  identity.has_other_faces = std::any_of(
+      cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.other_faces > kLikely && cut.two_eyes > 0.0; });
   for (const Candidate& each : candidates) identity.readings.push_back(each.reading);
   return identity;
 }
@@ -346,6 +375,7 @@ std::string doubt_text(const Identity& identity, std::string_view options) {
     if ((reading.certainty < kNamed && texts.size() >= 2) || texts.size() == kMostNamed) break;
     texts.push_back(fmt::format("{} ({:.2f})", reading_text(reading), reading.certainty));
   }
+  if (identity.has_other_faces) texts.push_back("faces of a cube in another order than ods has, to be reordered first");
   return fmt::format("{}: say which with {}", fmt::join(texts, " or "), options);
 }
 

@@ -31,22 +31,27 @@ std::string reading_text(const Reading& reading);
 struct Identity {
   std::vector<Reading> readings;  // the most certain first; empty: the pixels show nothing
   std::string reason;             // what speaks for the first: "its halves match, its corners are empty"
+  bool has_other_faces = false;   // it looks like faces of a cube in an order that is none of ours
 
   const Reading& best() const { return readings.front(); }
   bool is_sure() const;    // nothing else comes into question
   bool is_likely() const;  // more likely than all others together
 };
 
-// Looks at the pixels of a file that is read as one eye (Layout::kSeparate), whatever it shows. Only readings that
-// agree with `known` come into question.
+// A file read as one eye, whatever it shows; only its colours. Throws Error(kInput) as open_picture().
+StoredPicture open_whole(const std::string& path);
+
+// Looks at the pixels of such a file. Only readings that agree with `known` come into question.
 Identity identify(const StoredPicture& whole, const FormatHint& known = {});
 
 // `known`, with the layout that the file's words, sidecar or name tell: what identify() is to agree with.
 FormatHint with_words(const FormatHint& known, const StereoFormat& format);
 
 // The same for a file of which neither `known` nor its own words, its sidecar or its name tell the layout and the
-// projection; nothing, without opening the pixels, if they do. Throws Error(kInput) as open_picture().
-std::optional<Identity> identify_if_open(const std::string& path, const FormatHint& known = {});
+// projection; nothing, without opening the pixels, if they do. `format` is what find_format() makes of `known`. Throws
+// Error(kInput) as open_picture().
+std::optional<Identity> identify_if_open(const std::string& path, const StereoFormat& format,
+                                         const FormatHint& known = {});
 
 // `known` for find_format() and open_picture(), with what the pixels show: if that is likely and `format`, which was
 // found without them, has no shape to go by, or the pixels speak against that, or are sure.

@@ -3,6 +3,7 @@
 #include "ods/identify/marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -135,6 +136,30 @@ void find_kind_of_circle(const Image& eye, Marks& marks) {
   marks.dome = std::clamp((rings + 0.12) / 0.12, -1.0, 1.0);
 }
 
+// --- pairs of texels -------------------------------------------------------------------------------------------------
+
+// How well pairs of texels join, compared with neighbours inside the picture and with pairs that have nothing to do
+// with each other: 1 as neighbours, -1 as strangers. Roots of differences count: one sharp edge must not outvote all.
+struct Joins {
+  double pairs = 0.0, neighbours = 0.0, strangers = 0.0;
+  int count = 0;
+
+  Joins& operator+=(const Joins& other) {
+    pairs += other.pairs, neighbours += other.neighbours, strangers += other.strangers, count += other.count;
+    return *this;
+  }
+
+  double mark() const {
+    const double room = strangers - neighbours;
+    if (count == 0 || room <= 0.0) return 0.0;
+    return enough(room * room / count / count * 10.0) * std::clamp(2.0 * (strangers - pairs) / room - 1.0, -1.0, 1.0);
+  }
+};
+
+double root_of(double difference) {
+  return std::sqrt(std::abs(difference));
+}
+
 // --- the poles -------------------------------------------------------------------------------------------------------
 
 // The mean difference of places of a row that are a twelfth of it apart: an edge that leads through a pole, as of a
@@ -170,10 +195,46 @@ std::optional<double> stretch_in_rows(const Image& eye, double begin, double end
   return down / along;
 }
 
+// Whether a row continues in the one above it, as Joins::mark().
+double continues_upwards(const Image& eye, int y) {
+  Joins joins;
+  for (int x = 0; x < eye.width; x++) {
+    const double here = value(eye, x, y), above = value(eye, x, y - 1);
+    joins.pairs += root_of(here - above);
+    joins.neighbours += 0.5 * (root_of(here - value(eye, x, y + 1)) + root_of(above - value(eye, x, y - 2)));
+    for (int i = 1; i < 8; i++)
+      joins.strangers += root_of(here - value(eye, (x + eye.width * i / 8) % eye.width, y)) / 7.0;
+    joins.count++;
+  }
+  return joins.mark();
+}
+
+double row_difference(const Image& eye, const Image& other, int y) {
+  double sum = 0.0;
+  for (int x = 0; x < eye.width; x++) sum += std::abs(value(eye, x, y) - value(other, x, y));
+  return sum / eye.width;
+}
+
+// How many rows at the bottom show no world, but what somebody put over the tripod: both eyes have it in the same
+// place, or it ends in an edge from side to side. It has detail, where a nadir would be one point.
+int covered_rows(const Image& eye, const Image* other) {
+  constexpr double kSame = 0.02, kBreak = -0.2, kPoint = 0.04;
+  const int most = eye.height / 4, least = std::max(2, eye.height / 50);
+  if (far_apart(eye, eye.height - 1) < kPoint) return 0;
+  int same = 0;
+  while (other != nullptr && same < most && row_difference(eye, *other, eye.height - 1 - same) < kSame) same++;
+  if (same >= least) return same;
+  for (int rows = least; rows < most; rows++) {
+    if (continues_upwards(eye, eye.height - rows) < kBreak) return rows;
+  }
+  return 0;
+}
+
 // Towards a pole a picture is stretched along its rows, more and more.
-double stretched_at_ends(const Image& eye) {
+double stretched_at_ends(const Image& eye, bool has_nadir) {
   double most = -1e9;
   for (const bool is_top : {true, false}) {
+    if (!is_top && !has_nadir) continue;
     const auto at = is_top ? stretch_in_rows(eye, 0.0, 0.06) : stretch_in_rows(eye, 0.94, 1.0);
     const auto off = is_top ? stretch_in_rows(eye, 0.02, 0.12) : stretch_in_rows(eye, 0.88, 0.98);
     if (at && off && *off > 0.0) most = std::max(most, std::log(*at / *off));
@@ -181,10 +242,11 @@ double stretched_at_ends(const Image& eye) {
   return most < -1e8 ? 0.0 : std::clamp((most - 0.35) / 0.2, -1.0, 1.0);
 }
 
-void find_poles(const Image& eye, Marks& marks) {
+void find_poles(const Image& eye, bool has_nadir, Marks& marks) {
   double least = 1.0, both = 0.0;
   marks.spread = 0.0;
   for (const bool is_top : {true, false}) {
+    if (!is_top && !has_nadir) continue;
     const double at_pole = far_apart(eye, is_top ? 0 : eye.height - 1);
     const int begin = eye.height / 10, end = eye.height / 4;
     double off = 0.0;
@@ -197,32 +259,15 @@ void find_poles(const Image& eye, Marks& marks) {
     marks.spread = std::max(marks.spread, spread);
   }
   both = std::min(both, least + 0.5);  // a sky without clouds looks like a pole; both ends do not
-  marks.poles = std::clamp(std::max(both, -0.6) + stretched_at_ends(eye), -1.0, 1.0);
+  marks.poles = std::clamp(std::max(both, -0.6) + stretched_at_ends(eye, has_nadir), -1.0, 1.0);
 }
 
 // --- the seam --------------------------------------------------------------------------------------------------------
 
-// How well pairs of texels join, compared with neighbours inside the picture and with pairs that have nothing to do
-// with each other: 1 as neighbours, -1 as strangers. Roots of differences count: one sharp edge must not outvote all.
-struct Joins {
-  double pairs = 0.0, neighbours = 0.0, strangers = 0.0;
-  int count = 0;
-
-  double mark() const {
-    const double room = strangers - neighbours;
-    if (count == 0 || room <= 0.0) return 0.0;
-    return enough(room * room / count / count * 10.0) * std::clamp(2.0 * (strangers - pairs) / room - 1.0, -1.0, 1.0);
-  }
-};
-
-double root_of(double difference) {
-  return std::sqrt(std::abs(difference));
-}
-
-void find_seam(const Image& eye, Marks& marks) {
+void find_seam(const Image& eye, int rows, Marks& marks) {
   Joins joins;
   const int last = eye.width - 1;
-  for (int y = 0; y < eye.height; y++) {
+  for (int y = 0; y < rows; y++) {
     const double left = value(eye, 0, y), right = value(eye, last, y);
     joins.pairs += root_of(left - right);
     joins.neighbours += 0.5 * (root_of(left - value(eye, 1, y)) + root_of(right - value(eye, last - 1, y)));
@@ -247,14 +292,15 @@ double detail_of(const Image& eye) {
 
 }  // namespace
 
-Marks marks_of(const Image& eye) {
+Marks marks_of(const Image& eye, const Image* other) {
   Marks marks;
   if (eye.width < 16 || eye.height < 16) return marks;
   marks.detail = detail_of(eye);
   find_circle(eye, marks);
   if (marks.circle > 0.0) find_kind_of_circle(eye, marks);
-  find_poles(eye, marks);
-  find_seam(eye, marks);
+  const int covered = covered_rows(eye, other);
+  find_poles(eye, covered == 0, marks);
+  find_seam(eye, eye.height - covered, marks);
   return marks;
 }
 
@@ -263,6 +309,7 @@ Marks marks_of(const Image& eye) {
 namespace {
 
 struct Side {
+  size_t edge;           // of the face
   int x, y;              // of a texel at the edge of a face
   int inner_x, inner_y;  // the next one inwards
   int outer_x, outer_y;  // and outwards, beyond the face
@@ -271,17 +318,19 @@ struct Side {
 std::vector<Side> sides_of(const Cell& cell) {
   std::vector<Side> sides;
   for (int x = cell.left; x < cell.right; x++) {
-    sides.push_back({x, cell.top, x, cell.top + 1, x, cell.top - 1});
-    sides.push_back({x, cell.bottom - 1, x, cell.bottom - 2, x, cell.bottom});
+    sides.push_back({0, x, cell.top, x, cell.top + 1, x, cell.top - 1});
+    sides.push_back({1, x, cell.bottom - 1, x, cell.bottom - 2, x, cell.bottom});
   }
   for (int y = cell.top; y < cell.bottom; y++) {
-    sides.push_back({cell.left, y, cell.left + 1, y, cell.left - 1, y});
-    sides.push_back({cell.right - 1, y, cell.right - 2, y, cell.right, y});
+    sides.push_back({2, cell.left, y, cell.left + 1, y, cell.left - 1, y});
+    sides.push_back({3, cell.right - 1, y, cell.right - 2, y, cell.right, y});
   }
   return sides;
 }
 
 }  // namespace
+
+constexpr size_t kWorstEdges = 4;  // of 24, that a stitcher or a codec may have spoilt
 
 double faces_join(const Image& eye, const ProjectionSetting& cube) {
   const int columns = width_step(cube), rows = 6 / columns;
@@ -291,13 +340,14 @@ double faces_join(const Image& eye, const ProjectionSetting& cube) {
   picture.camera.projection = cube;
   picture.eyes.resize(1);
   const Source source = make_source(picture);
-  Joins joins;
+  std::array<Joins, 24> edges;
   for (int i = 0; i < 6; i++) {
     const vec2 middle((static_cast<float>(i % columns) + 0.5f) * static_cast<float>(eye.width / columns),
                       (static_cast<float>(i / columns) + 0.5f) * static_cast<float>(eye.height / rows));
     const Cell cell = cell_of(source.camera.projection, picture.size, middle);
     for (const Side& side : sides_of(cell)) {
       const Texel there = texel_of(source, 0, cell, side.outer_x, side.outer_y);
+      Joins& joins = edges[4 * static_cast<size_t>(i) + side.edge];
       const double here = value(eye, side.x, side.y);
       joins.pairs += root_of(here - value(eye, there.x, there.y));
       joins.neighbours += root_of(here - value(eye, side.inner_x, side.inner_y));
@@ -310,28 +360,42 @@ double faces_join(const Image& eye, const ProjectionSetting& cube) {
       joins.count++;
     }
   }
+  // In another order of faces some edges join, too.
+  Joins all;
+  std::array<double, 24> marks;
+  for (size_t i = 0; i < edges.size(); i++) all += edges[i], marks[i] = edges[i].mark();
+  std::nth_element(marks.begin(), marks.begin() + kWorstEdges, marks.end());
+  return std::min(all.mark(), marks[kWorstEdges] + 0.5);
+}
+
+// A border between two cells: its texels at (x, y), and on to the next ones.
+static double border_mark(const Image& eye, int x, int y, int dx, int dy, int length) {
+  Joins joins;
+  for (int i = 0; i < length; i++) {
+    const int at_x = x + (1 - dx) * i, at_y = y + (1 - dy) * i;
+    const double here = value(eye, at_x, at_y), before = value(eye, at_x - dx, at_y - dy);
+    joins.pairs += root_of(here - before);
+    joins.neighbours += 0.5 * (root_of(here - value(eye, at_x + dx, at_y + dy)) +
+                               root_of(before - value(eye, at_x - 2 * dx, at_y - 2 * dy)));
+    for (int k = 1; k < 8; k++) {
+      const int other = (i + length * k / 8) % length;
+      joins.strangers += root_of(here - value(eye, x + (1 - dx) * other, y + (1 - dy) * other)) / 7.0;
+    }
+    joins.count++;
+  }
   return joins.mark();
 }
 
 double breaks_at_grid(const Image& eye, int columns, int rows) {
-  double at = 0.0, beside = 0.0;
-  int count = 0;
-  const auto step = [&](int x, int y, int dx, int dy) {
-    at += std::abs(value(eye, x, y) - value(eye, x - dx, y - dy));
-    beside += 0.5 * (std::abs(value(eye, x, y) - value(eye, x + dx, y + dy)) +
-                     std::abs(value(eye, x - dx, y - dy) - value(eye, x - 2 * dx, y - 2 * dy)));
-    count++;
-  };
-  if (eye.width < 4 * columns || eye.height < 4 * rows) return 0.0;
-  for (int i = 1; i < columns; i++) {
-    for (int y = 0; y < eye.height; y++) step(eye.width * i / columns, y, 1, 0);
+  if (eye.width < 8 * columns || eye.height < 8 * rows) return 0.0;
+  const int wide = eye.width / columns, high = eye.height / rows;
+  std::vector<double> marks;
+  for (int row = 1; row < rows; row++) marks.push_back(border_mark(eye, 0, row * high, 0, 1, eye.width));
+  for (int i = rows; i < rows * columns; i++) {
+    marks.push_back(border_mark(eye, i / rows * wide, i % rows * high, 1, 0, high));
   }
-  for (int i = 1; i < rows; i++) {
-    for (int x = 0; x < eye.width; x++) step(x, eye.height * i / rows, 0, 1);
-  }
-  if (count == 0) return 0.0;
-  const double ratio = (at + 1e-4 * count) / (beside + 1e-4 * count);
-  return enough(std::max(at, beside) / count) * std::clamp(std::log(ratio / 2.0) / std::log(2.0), -1.0, 1.0);
+  std::nth_element(marks.begin(), marks.begin() + 1, marks.end());
+  return -marks[1];
 }
 
 }  // namespace ods

@@ -27,12 +27,15 @@ struct Marks {
   double closes = 0.0;
   double detail = 0.0;  // the mean difference of neighbours, 0..1
 };
-Marks marks_of(const Image& eye);
+// other: the other eye, if there is one. What covers the tripod is the same in both, and no mark counts it.
+Marks marks_of(const Image& eye, const Image* other = nullptr);
 
 // Six faces: whether every edge of a face goes on where this kind of cube has it in the world.
 double faces_join(const Image& eye, const ProjectionSetting& cube);
 
-// Whether the picture breaks where a grid of this many columns and rows has its lines, as between faces of any order.
+// Whether the picture is put together of parts in a grid of this many columns and rows, as of faces in any order: two
+// borders between its cells break, or more. One might be an edge of the scene; so might all cells of a row end at one,
+// the horizon, and count as one border.
 double breaks_at_grid(const Image& eye, int columns, int rows);
 
 }  // namespace ods

@@ -135,13 +135,27 @@ double ramp(double value, double from, double to) {
   return std::clamp((value - from) / (to - from), 0.0, 1.0);
 }
 
-// The seam's break between means of columns, as far as it exceeds the others. near: the greatest score beside the seam.
-Break coarse_break(const std::vector<Image>& eyes, double& near) {
-  Break found;
+// How sharply means of columns break, for each of kWidths.
+std::vector<Columns> coarse_scores(const std::vector<Image>& eyes) {
+  std::vector<Columns> scores;
   for (const size_t wide : kWidths) {
-    const Columns score = measure(eyes, [&](const Columns& row) { return sharpness_of(row, wide); });
+    scores.push_back(measure(eyes, [&](const Columns& row) { return sharpness_of(row, wide); }));
+  }
+  return scores;
+}
+
+// Whether there is anything beside the seam that could break.
+bool has_structure(const std::vector<Columns>& scores) {
+  return std::any_of(scores.begin(), scores.end(), [](const Columns& score) {
     const size_t n = score.size();
-    near = std::max({near, score[0], score[1], score[n - 3], score[n - 2]});
+    return std::max({score[0], score[1], score[n - 3], score[n - 2]}) > kStructure;
+  });
+}
+
+// Where the seam exceeds the others most.
+Break coarse_break(const std::vector<Columns>& scores) {
+  Break found;
+  for (const Columns& score : scores) {
     const Break here = break_of(score, 1.0);
     if (here.ratio() > found.ratio()) found = here;
   }
@@ -150,13 +164,10 @@ Break coarse_break(const std::vector<Image>& eyes, double& near) {
 
 // Returns false if there is nothing near the seam that could break.
 bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& report) {
-  double near = 0.0;
-  Break found = coarse_break(eyes, near);
-  double certainty = ramp(found.ratio(), 1.05, 1.35) * ramp(found.seam, 0.0, 0.8);
-  if (!is_smoothed) {
-    found = break_of(measure(eyes, excess_of), 0.02);
-    certainty = ramp(found.ratio(), 2.5, 3.5) * ramp(found.seam, 0.1, 0.2);
-  }
+  const std::vector<Columns> coarse = coarse_scores(eyes);
+  const Break found = is_smoothed ? coarse_break(coarse) : break_of(measure(eyes, excess_of), 0.02);
+  const double certainty = is_smoothed ? ramp(found.ratio(), 1.05, 1.35) * ramp(found.seam, 0.0, 0.8)
+                                       : ramp(found.ratio(), 2.5, 3.5) * ramp(found.seam, 0.1, 0.2);
   if (certainty >= 0.1) {
     report.findings.push_back(
         {Fault::kRaggedSeam, certainty,
@@ -167,7 +178,7 @@ bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& r
              found.others),
          "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
   }
-  return near > kStructure || certainty >= 0.5;
+  return has_structure(coarse) || certainty >= 0.5;
 }
 
 // Codecs of videos, and WebP, smooth the borders of their blocks.

@@ -93,9 +93,7 @@ static void load(Subject& subject, const LintOptions& options) {
     subject.small = small_colors(picture, Layout::kSeparate);
     return;
   }
-  open.format.layout = Layout::kSeparate;
-  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
-  const StoredPicture picture = open_picture(path, open);
+  const StoredPicture picture = open_whole(path);
   look_at_pixels(subject, picture, known);
   const Extent size{subject.info.width, subject.info.height};
   if (!unpacked_size(subject.layout(), size)) {

@@ -117,9 +117,13 @@ static void set_colors(AVCodecContext& context, const EncodeOptions& options) {
                                        : AVCHROMA_LOC_UNSPECIFIED;
 }
 
-// Closed groups of about a second, so that every seek finds a key frame.
+// About a second, so that every seek finds a key frame.
+int key_interval(const FrameRate& rate) {
+  return std::max(1, static_cast<int>(std::lround(rate.value())));
+}
+
 static void set_groups(AVCodecContext& context, const EncodeOptions& options) {
-  context.gop_size = std::max(1, static_cast<int>(std::lround(options.rate.value())));
+  context.gop_size = key_interval(options.rate);
   context.flags |= AV_CODEC_FLAG_CLOSED_GOP;
 }
 
@@ -241,16 +245,25 @@ static void add_light(AVStream& stream, AVPacketSideDataType kind, const std::st
 struct VideoEncoder::State {
   std::string path;  // for messages
   EncodeOptions options;
+  Extent size;
   Owned<AVFormatContext> file;
-  Owned<AVCodecContext> pictures;
+  Owned<AVCodecContext> pictures;  // none between two parts
+  AVRational tick{0, 1};
   std::unique_ptr<Sound> sound;
-  int64_t count = 0;                     // frames so far
-  FrameTime last;                        // of them
+  int64_t count = 0;                     // frames of this part so far
+  int64_t end = 0;                       // of all pictures so far
+  int64_t decoded = INT64_MIN;           // of the last picture
   std::map<int64_t, int64_t> durations;  // of the frames in the encoder, by start
-  bool finished = false;
+  std::function<void(const EncodedPicture&)> keep;
 
   ~State() {
-    if (pictures && !finished) abandon(*pictures, options.packing, count == 0);
+    if (pictures) abandon(*pictures, options.packing, count == 0);
+  }
+
+  void open_pictures() {
+    pictures = open_encoder(size, options, (file->oformat->flags & AVFMT_GLOBALHEADER) != 0);
+    tick = pictures->time_base;
+    count = 0;
   }
 
   int written(int code) const { return checked(code, ErrorKind::kOutput, fmt::format("cannot write '{}'", path)); }
@@ -274,17 +287,36 @@ struct VideoEncoder::State {
       const auto told = durations.find(packet->pts);
       if (told != durations.end()) packet->duration = told->second, durations.erase(told);
       if (packet->duration == 0) packet->duration = 1;
-      packet->stream_index = 0;
-      av_packet_rescale_ts(packet.get(), encoder.time_base, file->streams[0]->time_base);
-      written(av_interleaved_write_frame(file.get(), packet.get()));
+      if (keep) {
+        const std::string_view bytes(reinterpret_cast<const char*>(packet->data), static_cast<size_t>(packet->size));
+        keep({packet->pts, packet->dts, packet->duration, packet->flags, bytes});
+      }
+      write(*packet);
     }
   }
 
-  // Adds the sound up to the time of the pictures.
-  void add_sound(bool is_end) {
+  void end_pictures() {
+    if (pictures && count > 0) encode(nullptr);
+    if (pictures && count == 0) abandon(*pictures, options.packing, true);
+    pictures.reset();
+  }
+
+  // The first pictures of a part may claim to be decoded before the last ones of the part before it.
+  void write(AVPacket& packet) {
+    end = std::max(end, packet.pts + packet.duration);
+    if (packet.dts != AV_NOPTS_VALUE && decoded != INT64_MIN) packet.dts = std::max(packet.dts, decoded + 1);
+    decoded = packet.dts;
+    const int64_t until = packet.dts;
+    packet.stream_index = 0;
+    av_packet_rescale_ts(&packet, tick, file->streams[0]->time_base);
+    written(av_interleaved_write_frame(file.get(), &packet));
+    add_sound(until, false);
+  }
+
+  // Adds the sound up to this time.
+  void add_sound(int64_t ticks, bool is_end) {
     if (!sound) return;
-    const double clock = options.clock.value_or(options.rate).value();
-    const double until = static_cast<double>(last.start + last.duration) / clock;
+    const double until = static_cast<double>(ticks) * av_q2d(tick);
     while (const Owned<AVPacket> packet = sound->next(until, is_end)) {
       packet->stream_index = 1;
       av_packet_rescale_ts(packet.get(), packet->time_base, file->streams[1]->time_base);
@@ -299,12 +331,13 @@ VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent siz
   State& state = *state_;
   state.path = to.path();
   state.options = options;
+  state.size = size;
   const std::string address = "file:" + to.temporary();
   AVFormatContext* file = nullptr;
   state.written(avformat_alloc_output_context2(&file, nullptr, format_name(container), address.c_str()));
   state.file.reset(file);
   file->flags |= AVFMT_FLAG_BITEXACT;
-  state.pictures = open_encoder(size, options, (file->oformat->flags & AVFMT_GLOBALHEADER) != 0);
+  state.open_pictures();
   AVStream& stream = state.add_stream(*state.pictures);
   stream.avg_frame_rate = state.pictures->framerate;
   stream.sample_aspect_ratio = {1, 1};
@@ -324,18 +357,38 @@ VideoEncoder::~VideoEncoder() = default;
 
 void VideoEncoder::add(std::shared_ptr<const VideoFrame> frame, const FrameTime& time) {
   State& state = *state_;
-  state.last = time;
+  if (!state.pictures) state.open_pictures();
   state.durations[time.start] = time.duration;
   state.encode(wrapped(frame, *state.pictures, time).get());
   state.count++;
-  state.add_sound(false);
+}
+
+void VideoEncoder::keep(std::function<void(const EncodedPicture&)> take) {
+  state_->keep = std::move(take);
+}
+
+void VideoEncoder::end_part() {
+  state_->end_pictures();
+}
+
+void VideoEncoder::add(const EncodedPicture& picture) {
+  const Owned<AVPacket> packet(made(av_packet_alloc()));
+  if (av_new_packet(packet.get(), static_cast<int>(picture.bytes.size())) < 0) throw std::bad_alloc();
+  std::copy(picture.bytes.begin(), picture.bytes.end(), packet->data);
+  packet->pts = picture.shown, packet->dts = picture.decoded;
+  packet->duration = picture.duration, packet->flags = picture.flags;
+  state_->write(*packet);
+}
+
+std::string VideoEncoder::header() const {
+  const AVCodecParameters& facts = *state_->file->streams[0]->codecpar;
+  return {reinterpret_cast<const char*>(facts.extradata), static_cast<size_t>(facts.extradata_size)};
 }
 
 void VideoEncoder::finish() {
   State& state = *state_;
-  state.encode(nullptr);
-  state.finished = true;
-  state.add_sound(true);
+  state.end_pictures();
+  state.add_sound(state.end, true);
   state.written(av_write_trailer(state.file.get()));
   state.written(avio_closep(&state.file->pb));
 }

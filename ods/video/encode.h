@@ -6,6 +6,7 @@
 // spherical metadata.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,18 @@ struct EncodeOptions {
   bool for_apple = false;  // SphericalMetadata
 };
 
+// A picture as encoded; times in ticks of the encoder's clock.
+struct EncodedPicture {
+  int64_t shown = 0;
+  int64_t decoded = 0;  // when a decoder takes it: pictures come in this order
+  int64_t duration = 1;
+  int flags = 0;  // libavcodec's: a key frame, one that no other needs
+  std::string_view bytes;
+};
+
+// Pictures from one key frame to the next at the latest.
+int key_interval(const FrameRate& rate);
+
 bool has_encoder(std::string_view name);
 
 // The sound of a file. Throws Error(kInput): there is none, or it has other than 1, 2 or 4 channels. Four channels are
@@ -67,7 +80,7 @@ SoundInfo read_sound_info(const std::string& path);
 void check_encoder(Container container, const EncodeOptions& options);
 
 // Writes a video file: the header before the pictures, a key frame about every second. The same frames on the same
-// machine give the same bytes.
+// machine, with the same ends of parts, give the same bytes.
 class VideoEncoder {
  public:
   // Throws Error(kUsage), Error(kInput), Error(kOutput). Preconditions: can_hold(), can_have(), `size` is a multiple of
@@ -80,6 +93,15 @@ class VideoEncoder {
   // Adds the next frame, shown later than the last one. Throws Error(kOutput), and Error(kInput) if the sound cannot be
   // read.
   void add(std::shared_ptr<const VideoFrame> frame, const FrameTime& time);
+
+  // Calls `take` with every picture that is encoded from now on.
+  void keep(std::function<void(const EncodedPicture&)> take);
+  // Ends a part: all frames so far are encoded, and the next one is encoded as if it were the first. Throws as add().
+  void end_part();
+  // Adds a picture that another encoder with the same options kept; all of its parts come before the first frame.
+  void add(const EncodedPicture& picture);
+  // What the file says of the encoding once for all pictures.
+  std::string header() const;
 
   // Writes the rest. Sound ends with the pictures at the latest. Throws as add().
   void finish();

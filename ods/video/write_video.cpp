@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/video/write_video.h"
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/base/pipeline.h"
+#include "ods/files/md5.h"
+#include "ods/files/parts_file.h"
 
 namespace ods {
 
@@ -27,9 +31,70 @@ static size_t frames_at_once(const NewVideo& video) {
   return std::clamp<size_t>(available_memory() / 2 / bytes, 1, threads + 1);
 }
 
+// --- parts -----------------------------------------------------------------------------------------------------------
+
+// A picture's four numbers, 8 bytes each, and its bytes.
+static std::string record_of(const EncodedPicture& picture) {
+  std::string record;
+  for (const int64_t each : {picture.shown, picture.decoded, picture.duration, int64_t{picture.flags}}) {
+    append_number(record, static_cast<uint64_t>(each), 8);
+  }
+  return record.append(picture.bytes);
+}
+
+static EncodedPicture picture_of(std::string_view record) {
+  const auto number = [&](size_t index) { return static_cast<int64_t>(get_number(record, 8 * index, 8)); };
+  return {number(0), number(1), number(2), static_cast<int>(number(3)), record.substr(32)};
+}
+
+namespace {
+
+// What of the video is finished, kept for a next call.
+class Parts {
+ public:
+  Parts(const NewVideo& video, const std::string& path, VideoEncoder& encoder) : encoder_(encoder) {
+    const std::string& settings = video.resume.settings;
+    if (settings.empty() || video.options.bitrate) return;
+    const int interval = key_interval(video.options.rate);
+    frames_ = (kPartFrames + interval - 1) / interval * interval;
+    file_.emplace(path, fmt::format("{}parts of {}\nheader {}\n", settings, frames_, md5(encoder.header())));
+    if (video.resume.tell && finished() > 0) {
+      video.resume.tell(fmt::format("goes on after {} frames, which '{}' has", finished(), file_->path()));
+    }
+    if (video.resume.tell && !file_->removed().empty()) {
+      video.resume.tell(fmt::format("begins anew: '{}' was of another job ({})", file_->path(), file_->removed()));
+    }
+    file_->read([&](std::string_view record) { encoder_.add(picture_of(record)); });
+    encoder_.keep([this](const EncodedPicture& picture) { file_->add(record_of(picture)); });
+  }
+
+  int finished() const { return file_ ? file_->count() * frames_ : 0; }
+
+  // After each frame; `done`: so many are in the encoder, finished ones included.
+  void count(int done) {
+    if (!file_ || done % frames_ != 0) return;
+    encoder_.end_part();
+    file_->end_part();
+  }
+
+  void remove() {
+    if (file_) file_->remove();
+  }
+
+ private:
+  VideoEncoder& encoder_;
+  std::optional<PartsFile> file_;
+  int frames_ = 0;  // of a part
+};
+
+}  // namespace
+
+// --- the video -------------------------------------------------------------------------------------------------------
+
 static int encode_frames(const NewVideo& video, const std::function<std::optional<PendingFrame>()>& next,
-                         VideoEncoder& encoder, const Progress& progress) {
+                         VideoEncoder& encoder, Parts& parts, const Progress& progress) {
   int done = 0;
+  while (done < parts.finished() && next()) done++;
   const auto take = [&](Work& work) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
     std::optional<PendingFrame> pending = next();
@@ -42,7 +107,7 @@ static int encode_frames(const NewVideo& video, const std::function<std::optiona
   };
   const auto encode = [&](const Work& work) {
     encoder.add(work.frame, work.pending.time);
-    done++;
+    parts.count(++done);
     if (progress.report) progress.report(std::min(1.0, static_cast<double>(done) / std::max(video.count, done)));
   };
   run_pipeline<Work>(frames_at_once(video), take, make, encode);
@@ -55,7 +120,8 @@ WrittenVideo write_video(const NewVideo& video, const std::function<std::optiona
   AtomicFile untagged(path);
   VideoEncoder encoder(untagged, *container_of_path(path), video.size, options);
   WrittenVideo written;
-  written.frames = encode_frames(video, next, encoder, progress);
+  Parts parts(video, path, encoder);
+  written.frames = encode_frames(video, next, encoder, parts, progress);
   encoder.finish();
   std::optional<Ambisonics> ambisonics = video.ambisonics;
   if (!options.copies_sound && !options.sound.empty() && read_sound_info(options.sound).channels == 4) {
@@ -65,6 +131,7 @@ WrittenVideo write_video(const NewVideo& video, const std::function<std::optiona
   metadata.for_apple = metadata.for_apple || options.for_apple;
   const VideoFile made = read_video_file(untagged.temporary());
   written.tags = tag_video(untagged.temporary(), path, choose_track(made, {}, path).id, metadata, ambisonics);
+  parts.remove();
   return written;
 }
 

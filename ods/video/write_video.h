@@ -13,6 +13,15 @@
 
 namespace ods {
 
+// Going on where a killed call stopped. What is encoded is kept beside the video (ods/files/parts_file.h), in parts of
+// at least kPartFrames frames, until the video is complete. A bit rate, which is kept over the whole video, allows no
+// parts.
+struct Resume {
+  std::string settings;                                // all that the frames depend on, a line each; empty: no parts
+  std::function<void(const std::string& words)> tell;  // says that it goes on, or why not. May be empty
+};
+inline constexpr int kPartFrames = 240;
+
 struct NewVideo {
   Extent size;
   EncodeOptions options;
@@ -20,6 +29,7 @@ struct NewVideo {
   std::optional<Ambisonics> ambisonics;  // of sound that is copied; sound that is encoded anew tells by its channels
   int count = 0;                         // frames, as far as known: for the progress
   size_t frame_bytes = 0;                // memory that making one takes, beside the frame itself
+  Resume resume;
 };
 
 // A frame that is still to be made: `make` is called once, from any thread.
@@ -34,8 +44,9 @@ struct WrittenVideo {
 };
 
 // `next` returns the frames in order, one call at a time, and nothing at the end. As many are made at once as fit half
-// of the free memory. The file is complete or not there at all. Throws Error as VideoEncoder and tag_video(), and
-// kCancelled; also what `next` and `make` throw.
+// of the free memory. The file is complete or not there at all; the same frames and settings give the same bytes, in
+// one call or several. Throws Error as VideoEncoder, PartsFile and tag_video(), and kCancelled; also what `next` and
+// `make` throw.
 WrittenVideo write_video(const NewVideo& video, const std::function<std::optional<PendingFrame>()>& next,
                          const std::string& path, const Progress& progress = {});
 

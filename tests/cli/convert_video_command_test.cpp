@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <numeric>
 
+#include "ods/base/bytes.h"
 #include "ods/image/image_file.h"
 #include "ods/video/container/video_file.h"
-#include "ods/video/encode.h"
+#include "ods/video/write_video.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/made_frames.h"
 
@@ -128,6 +129,100 @@ TEST_F(ConvertVideoCommand, AnInterruptLeavesWhatWasThere) {
       EXPECT_EQ(folder.names(), before);
     }
   }
+}
+
+class KilledConversion : public ConvertVideoCommand {
+ protected:
+  static constexpr int kFrames = 2 * ods::kPartFrames + 40;
+
+  // A long video with sound whose pictures move; `shift` makes it another one.
+  std::string make_long(const std::string& name, int shift = 0) const {
+    folder.write("sound.wav", ods::made::wav(2, kFrames / 30.0));
+    ods::EncodeOptions options;
+    options.sound = path("sound.wav");
+    ods::AtomicFile file(path(name));
+    ods::VideoEncoder encoder(file, *ods::container_of_path(name), {256, 256}, options);
+    for (int i = 0; i < kFrames; i++) {
+      const auto frame = std::make_shared<ods::VideoFrame>(ods::Extent{256, 256}, options.packing);
+      const ods::Planes planes = frame->planes();
+      for (size_t k = 0; k < frame->bytes(); k++) {
+        planes.first[0][k] =
+            static_cast<std::byte>(64 + (k % 256 * 3 + k / 256 * 5 + static_cast<size_t>(2 * i + shift)) % 128);
+      }
+      encoder.add(frame, {i, 1});
+    }
+    encoder.finish();
+    file.commit();
+    return path(name);
+  }
+
+  // How many marks a file of parts has (ods/files/parts_file.h).
+  static int parts_in(const std::string& bytes) {
+    const size_t head = std::string("omnistereo parts, 1\n").size();
+    if (bytes.size() < head + 4) return 0;
+    size_t at = head + 4 + ods::get_number(bytes, head, 4);
+    int count = 0;
+    while (at + 12 <= bytes.size()) {
+      const size_t size = ods::get_number(bytes, at, 4);
+      if (size == 0xffffffff) count++;
+      at += size == 0xffffffff ? 12 : 4 + size;
+    }
+    return count;
+  }
+
+  // Killed when a part of it is finished.
+  void kill_in_the_middle(std::vector<std::string> arguments, const std::string& to) const {
+    arguments.insert(arguments.begin(), "convert");
+    Ods command(arguments);
+    for (int i = 0; i < 60'000 && parts_in(folder.read(to + ".unfinished")) == 0; i++) usleep(1000);
+    command.kill(SIGKILL);
+    ASSERT_EQ(command.finish(), 1000 + SIGKILL) << command.err;
+    ASSERT_GT(parts_in(folder.read(to + ".unfinished")), 0);
+    ASSERT_FALSE(std::filesystem::exists(path(to)));
+  }
+};
+
+TEST_F(KilledConversion, GoesOnAndGivesTheSameBytes) {
+  const std::string film = make_long("film_360_TB.mp4");
+  for (const std::string to : {"new_180_LR.mp4", "new_180_LR.mkv"}) {
+    const std::string words = to.ends_with("mkv") ? " --codec hevc --preset ultrafast" : "";
+    ASSERT_EQ(run("convert " + film + " -q --to vr180 -o " + path(to) + words), 0) << err;
+    const std::string whole = folder.read(to);
+    std::filesystem::remove(path(to));
+    std::vector<std::string> arguments = {film, "--to", "vr180", "-o", path(to)};
+    if (!words.empty()) arguments.insert(arguments.end(), {"--codec", "hevc", "--preset", "ultrafast"});
+    ASSERT_NO_FATAL_FAILURE(kill_in_the_middle(arguments, to));
+    ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to) + words), 0) << err;
+    EXPECT_NE(err.find("goes on after "), std::string::npos) << err;
+    EXPECT_TRUE(folder.read(to) == whole) << to;
+    EXPECT_FALSE(std::filesystem::exists(path(to + ".unfinished")));
+  }
+}
+
+TEST_F(KilledConversion, BeginsAnewWhereAnythingDiffers) {
+  const std::string film = make_long("film_360_TB.mp4"), to = "new_180_LR.mp4";
+  ASSERT_NO_FATAL_FAILURE(kill_in_the_middle({film, "--to", "vr180", "-o", path(to)}, to));
+  const std::string parts = folder.read(to + ".unfinished");
+
+  ASSERT_EQ(run("convert " + film + " --to vr180 --crf 30 -o " + path(to)), 0) << err;
+  EXPECT_NE(err.find("begins anew: "), std::string::npos) << err;
+  const std::string coarse = folder.read(to);
+  ASSERT_EQ(run("convert " + film + " --to vr180 --crf 30 -o " + path(to)), 0) << err;
+  EXPECT_EQ(err.find("begins anew: "), std::string::npos) << err;
+  EXPECT_TRUE(folder.read(to) == coarse);
+
+  folder.write(to + ".unfinished", parts);
+  make_long("film_360_TB.mp4", 40);
+  ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 0) << err;
+  EXPECT_NE(err.find("begins anew: "), std::string::npos) << err;
+  const std::string other = folder.read(to);
+  ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 0) << err;
+  EXPECT_TRUE(folder.read(to) == other);
+
+  folder.write(to + ".unfinished", "somebody's");
+  EXPECT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 4) << err;
+  EXPECT_NE(err.find(".unfinished' was not written by this version of ods"), std::string::npos) << err;
+  EXPECT_EQ(folder.read(to + ".unfinished"), "somebody's");
 }
 
 TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {

@@ -37,7 +37,7 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
   const int eyes = static_cast<int>(conversion.target.eyes.size());
   NewVideo video;
   video.size = packed_size(conversion.layout, conversion.target.eye, eyes);
-  video.options = options, video.metadata = conversion.metadata;
+  video.options = options, video.metadata = conversion.metadata, video.resume = conversion.resume;
   if (options.copies_sound) video.ambisonics = footage.video().ambisonics;
   video.count = footage.expected_count();
   const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
@@ -82,7 +82,7 @@ int convert_frames(const FramesConversion& conversion, const EncodeOptions& opti
   const int eyes = static_cast<int>(conversion.target.eyes.size());
   NewVideo video;
   video.size = packed_size(conversion.layout, conversion.target.eye, eyes);
-  video.options = options, video.metadata = conversion.metadata;
+  video.options = options, video.metadata = conversion.metadata, video.resume = conversion.resume;
   video.count = static_cast<int>(frames.size());
   video.frame_bytes = static_cast<size_t>(old.width) * static_cast<size_t>(old.height) * conversion.first.eyes.size() *
                       4 * sizeof(float);

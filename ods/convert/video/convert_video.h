@@ -22,6 +22,7 @@ struct VideoConversion {
   Layout layout = Layout::kTopBottom;
   SphericalMetadata metadata;  // of the new video
   std::vector<TurnKey> turns;  // how the camera was turned; times from the first picture on. May be empty
+  Resume resume = {};
 };
 
 // Converts the part of the video that Footage::choose() chose. `options` give the packing, and where sound comes from;
@@ -41,6 +42,7 @@ struct FramesConversion {
   Layout layout = Layout::kTopBottom;
   SphericalMetadata metadata;
   DisplayTransform display;  // of scene-linear frames
+  Resume resume = {};
 };
 
 // Throws Error as make_video(), also kUsage for a frame that cannot be converted.

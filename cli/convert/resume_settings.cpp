@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/convert/resume_settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <set>
+
+#include "ods/files/read_file.h"
+#include "ods/picture/metadata/sidecar.h"
+
+namespace {
+
+void add_file(const std::string& path, std::string& settings) {
+  const std::string identity = ods::file_identity(path);
+  if (identity.empty()) return;
+  settings += fmt::format("'{}' has {}\n", std::filesystem::absolute(path).native(), identity);
+}
+
+}  // namespace
+
+std::string resume_settings(const ConvertJob& job) {
+  std::string settings = fmt::format("ods {}\narguments {}\n", ODS_VERSION, fmt::join(job.arguments, " "));
+  std::set<std::string> files(job.arguments.begin(), job.arguments.end());
+  for (size_t i = 0; i < job.files.frames.size(); i++) {
+    for (const int eye : {ods::kLeft, ods::kRight}) files.insert(ods::path_for_eye(job.files.path(i), eye));
+  }
+  for (const std::string& file : files) {
+    if (file == job.output) continue;
+    add_file(file, settings);
+    add_file(ods::sidecar_path(file), settings);
+  }
+  return settings;
+}

@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All that a converted video depends on: the command's arguments as they were given, and the files that it reads, by
+// size and time. A line each.
+#pragma once
+#include <string>
+
+#include "cli/convert/convert_job.h"
+
+std::string resume_settings(const ConvertJob& job);

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/files/parts_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "ods/base/bytes.h"
+#include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
+
+namespace ods {
+
+static constexpr std::string_view kHead = "omnistereo parts, 1\n";
+static constexpr size_t kMark = 0xffffffff;
+
+static std::string number(uint64_t value, size_t count) {
+  std::string bytes;
+  append_number(bytes, value, count);
+  return bytes;
+}
+
+// Fewer at the end of the file.
+static std::string read_bytes(std::FILE* stream, size_t count) {
+  std::string bytes(count, '\0');
+  bytes.resize(std::fread(bytes.data(), 1, count, stream));
+  return bytes;
+}
+
+static uint64_t place_in(std::FILE* stream) {
+  return static_cast<uint64_t>(ftello(stream));
+}
+
+// The first lines that differ, for messages.
+static std::string difference(std::string_view then, std::string_view now) {
+  while (!then.empty() || !now.empty()) {
+    const std::string_view was = then.substr(0, then.find('\n')), is = now.substr(0, now.find('\n'));
+    if (was != is) return fmt::format("{}, now {}", was.empty() ? "nothing" : was, is.empty() ? "nothing" : is);
+    then.remove_prefix(std::min(was.size() + 1, then.size())), now.remove_prefix(std::min(is.size() + 1, now.size()));
+  }
+  return "";
+}
+
+PartsFile::PartsFile(const std::string& path, const std::string& settings)
+    : claim_(claim(path)), path_(path + ".unfinished") {
+  head_ = std::string(kHead) + number(settings.size(), 4) + settings;
+  if (std::filesystem::exists(std::filesystem::symlink_status(path_))) open_old(settings);
+}
+
+PartsFile::~PartsFile() {
+  if (stream_ != nullptr) std::fclose(stream_);
+  if (count_ == 0 && stream_ != nullptr) {
+    std::remove(path_.c_str());
+    forget_unfinished(path_.c_str());
+  }
+}
+
+void PartsFile::check(bool is_well) const {
+  claim_->check();
+  if (is_well) return;
+  const int why = errno;
+  throw Error(ErrorKind::kOutput,
+              fmt::format("cannot keep parts in '{}': {}", path_, why == 0 ? "it is damaged" : std::strerror(why)));
+}
+
+void PartsFile::open_old(const std::string& settings) {
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
+    throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another -o", path_));
+  }
+  stream_ = std::fopen(path_.c_str(), "r+be");
+  check(stream_ != nullptr);
+  const std::string head = read_bytes(stream_, kHead.size()), length = read_bytes(stream_, 4);
+  if (head != kHead || length.size() != 4) {
+    std::fclose(std::exchange(stream_, nullptr));
+    throw Error(ErrorKind::kOutput,
+                fmt::format("'{}' was not written by this version of ods: remove it, or choose another -o", path_));
+  }
+  removed_ = difference(read_bytes(stream_, get_number(length, 0, 4)), settings);
+  begin_ = end_ = head_.size();
+  if (removed_.empty()) find_end();
+  if (count_ == 0) remove();
+}
+
+void PartsFile::find_end() {
+  for (;;) {
+    const uint64_t at = place_in(stream_);
+    const std::string length = read_bytes(stream_, 4);
+    if (length.size() < 4) return;
+    const uint64_t size = get_number(length, 0, 4);
+    if (size != kMark) {
+      check(fseeko(stream_, static_cast<off_t>(size), SEEK_CUR) == 0);
+      continue;
+    }
+    const std::string place = read_bytes(stream_, 8);
+    if (place.size() < 8 || get_number(place, 0, 8) != at) return;
+    end_ = place_in(stream_);
+    count_++;
+  }
+}
+
+void PartsFile::read(const std::function<void(std::string_view record)>& take) {
+  if (count_ == 0) return;
+  check(fseeko(stream_, static_cast<off_t>(begin_), SEEK_SET) == 0);
+  while (place_in(stream_) < end_) {
+    const size_t size = get_number(read_bytes(stream_, 4), 0, 4);
+    const std::string record = read_bytes(stream_, size == kMark ? 8 : size);
+    if (size != kMark) take(record);
+  }
+  check(ftruncate(fileno(stream_), static_cast<off_t>(end_)) == 0 &&
+        fseeko(stream_, static_cast<off_t>(end_), SEEK_SET) == 0);
+}
+
+void PartsFile::add(std::string_view record) {
+  if (stream_ == nullptr) {
+    remember_unfinished(path_.c_str());  // before it exists, so that no signal falls between
+    stream_ = std::fopen(path_.c_str(), "wbxe");
+    check(stream_ != nullptr && std::fwrite(head_.data(), 1, head_.size(), stream_) == head_.size());
+  }
+  const std::string length = number(record.size(), 4);
+  check(std::fwrite(length.data(), 1, 4, stream_) == 4 &&
+        std::fwrite(record.data(), 1, record.size(), stream_) == record.size());
+}
+
+// A mark is written only when all before it is on the disk.
+void PartsFile::end_part() {
+  check(std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0);
+  const std::string mark = number(kMark, 4) + number(place_in(stream_), 8);
+  check(std::fwrite(mark.data(), 1, mark.size(), stream_) == mark.size() && std::fflush(stream_) == 0);
+  forget_unfinished(path_.c_str());
+  count_++;
+}
+
+void PartsFile::remove() {
+  if (stream_ == nullptr) return;
+  std::fclose(std::exchange(stream_, nullptr));
+  std::remove(path_.c_str());
+  forget_unfinished(path_.c_str());
+  count_ = 0;
+}
+
+}  // namespace ods

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a long job has made of a file so far, for the next run of the same job if this one is killed: FILE.unfinished,
+// beside it.
+//
+// It holds records, and marks after which all records so far are on the disk: each mark ends a part. What follows the
+// last mark, which a killed process wrote, is cut off. One process at a time has it (claim.h).
+//
+// Bytes: the line "omnistereo parts, 1", where 1 is the version of the format; the length of the settings as 4 bytes,
+// and the settings; then for each record its length as 4 bytes, and its bytes. A mark has the length 0xffffffff and is
+// followed by its own place in the file, 8 bytes. Numbers are big-endian.
+#pragma once
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "ods/files/claim.h"
+
+namespace ods {
+
+class PartsFile {
+ public:
+  // Opens the parts of the file at `path`. settings: all that they depend on, a line each; parts that were made with
+  // others are removed. Throws Error(kOutput): another process makes that file, or FILE.unfinished is none of ours.
+  PartsFile(const std::string& path, const std::string& settings);
+  PartsFile(const PartsFile&) = delete;
+  PartsFile& operator=(const PartsFile&) = delete;
+  // Without a part nothing stays on the disk.
+  ~PartsFile();
+
+  const std::string& path() const { return path_; }
+  int count() const { return count_; }  // finished parts
+  // The first settings that differ, as "was, now"; empty if no parts were removed.
+  const std::string& removed() const { return removed_; }
+
+  // Calls `take` with the records of all finished parts, in order. Throws Error(kOutput).
+  void read(const std::function<void(std::string_view record)>& take);
+  // Throws Error(kOutput).
+  void add(std::string_view record);
+  void end_part();
+
+  // When the file itself is complete.
+  void remove();
+
+ private:
+  void open_old(const std::string& settings);
+  void find_end();
+  void check(bool is_well) const;
+
+  std::unique_ptr<Claim> claim_;
+  std::string path_, head_, removed_;
+  std::FILE* stream_ = nullptr;
+  uint64_t begin_ = 0, end_ = 0;  // of the finished parts
+  int count_ = 0;
+};
+
+}  // namespace ods
