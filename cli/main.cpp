@@ -56,7 +56,7 @@ constexpr Command kCommands[] = {
     {"view", "look at pictures and videos in the browser and in the headset", ods_view},
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
-    {"submit", "send a video, a picture or stitching to a render farm", ods_submit},
+    {"submit", "send a command to a render farm, split into tasks", ods_submit},
     {"jobs", "show how what was sent to Slurm gets on", ods_jobs},
     {"title", "make a title with depth for stereo 360", ods_title},
     {"over", "composite a picture or video over another", ods_over},

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <optional>
 
+#include "cli/console/checked_words.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "ods/base/names.h"
@@ -34,6 +35,7 @@ static ProgressMode resolved(ProgressMode mode) {
 }
 
 void run_long_job(ProgressMode mode, int threads, const std::function<void(ProgressLines& lines)>& work) {
+  if (only_checks()) end_check();
   mode = resolved(mode);
   end_on_interrupts(interrupted_line(mode));
   std::optional<tbb::global_control> limit;

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "cli/console/checked_words.h"
 #include "cli/console/console.h"
 #include "ods/base/suggest.h"
 
@@ -229,6 +230,7 @@ bool Options::parse(int argc, char** argv) {
   if (const auto format = wanted_help(argc, argv)) return print(*format);
   try {
     app_->parse(argc, argv);
+    keep_given(given_words());
     return true;
   } catch (const CLI::CallForHelp&) {
     return print(ManualFormat::kHelp);

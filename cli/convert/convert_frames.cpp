@@ -33,6 +33,8 @@ class Frames {
   explicit Frames(ConvertJob& job) : job_(job), names_(video_names(job.output)) {
     if (job_.footage) job_.footage->choose(job_.trim);
     for (size_t i = 0; i < job_.files.frames.size(); i++) refuse_overwriting(output_of(i), job_.files.path(i));
+    const auto exists = [&](int frame) { return job_.share.skip_existing && ods::is_saved(names_.path(frame)); };
+    std::erase_if(job_.files.frames, exists);
   }
 
   bool take(Work& work) {
@@ -104,7 +106,7 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
       frames_at_once(job), [&](Work& work) { return frames.take(work); }, [&](Work& work) { frames.convert(work); },
       report);
   lines.clear();
-  if (done == 0) throw UsageError(fmt::format("there is no picture in that part of '{}'", job.input));
-  say_what_is_missing(empty / static_cast<double>(done), false);
+  if (done == 0 && from_video) throw UsageError(fmt::format("there is no picture in that part of '{}'", job.input));
+  say_what_is_missing(empty / static_cast<double>(std::max<size_t>(done, 1)), false);
   note(fmt::format("{}: {} frames, in {}", job.output, done, duration_text(seconds_since(start))));
 }

@@ -11,6 +11,7 @@
 #include "cli/options/field_option.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
+#include "cli/options/time_options.h"
 #include "ods/files/atomic_file.h"
 #include "ods/identify/identify.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -116,6 +117,7 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
   options.text("-o,--output", "FILE", job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; #### in the name writes frames, .mp4 .mov .mkv .webm a "
                "video, %V one file per eye");
+  add_share_options(options, job.share);
   add_size_option(options, wishes.size, layout_of_size);
   options.number("--width", wishes.size.width, 0, 32768, "width of one eye in pixels; 0: keeps the input's resolution");
   options.number("--height", wishes.size.height, 0, 32768,
@@ -249,6 +251,8 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
     job.has_packing = job.has_packing || options.given(name);
   }
   check_kinds(options, job);
+  check_share(job.share, job.input, job.output);
+  job.files.frames = own_frames(job.share.only, job.files.frames);  // the first frame of all says what they are
   refuse_overwriting(job.output, job.input);
   set_target(options, wishes, job);
   refuse_impossible(job, job.picture);

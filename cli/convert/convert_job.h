@@ -9,6 +9,7 @@
 
 #include "cli/console/progress.h"
 #include "cli/options/camera_options.h"
+#include "cli/options/share_options.h"
 #include "cli/options/video_options.h"
 #include "ods/convert/convert.h"
 #include "ods/convert/video/convert_video.h"
@@ -29,6 +30,7 @@ struct ConvertJob {
   bool has_exposure = false, has_tone = false, has_layout = false;
 
   // Frames and videos.
+  FrameShare share;
   ods::TimeSpan trim;
   std::vector<ods::TurnKey> turns;
   VideoWishes video;

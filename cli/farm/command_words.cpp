@@ -31,7 +31,10 @@ bool is_pattern(const std::string& path) {
 Use use_of(const GivenWord& word, bool is_scene) {
   if (word.name.empty()) return is_scene && ods::find_builtin(word.value) ? Use::kNone : Use::kInput;
   if (word.name == "-o" || word.name == "--report") return Use::kOutput;
-  if (is_in({"--rig", "--audio", "--merge-map", "--head-tilt-map", "--confine"}, word.name)) return Use::kInput;
+  if (is_in(
+          {"--rig", "--audio", "--merge-map", "--head-tilt-map", "--confine", "--from", "--from-camera", "--stabilize"},
+          word.name))
+    return Use::kInput;
   const bool may_be_file = word.name == "--env" || word.name == "--background";
   return may_be_file && !environment_file(word.name, word.value).empty() ? Use::kInput : Use::kNone;
 }

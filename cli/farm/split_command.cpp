@@ -3,11 +3,14 @@
 #include "cli/farm/split_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <numeric>
 
+#include "cli/console/checked_words.h"
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
@@ -27,12 +30,22 @@
 
 namespace fs = std::filesystem;
 
+// One a file, in the folders beside this one.
+int ods_convert(int argc, char** argv);
+int ods_denoise(int argc, char** argv);
+int ods_encode(int argc, char** argv);
+int ods_inject(int argc, char** argv);
+int ods_lint(int argc, char** argv);
+int ods_merge(int argc, char** argv);
+int ods_over(int argc, char** argv);
+
 namespace {
 
 using Words = std::vector<std::string>;
 using Split = std::optional<SplitCommand>;
 
 const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart"};
+const Words kByMachine = {"--threads", "--progress"};
 const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
 
 // The words as main() has them.
@@ -241,6 +254,44 @@ struct Splitter {
 
 constexpr Splitter kSplitters[] = {{"video", split_video}, {"render", split_render}, {"stitch", split_stitch}};
 
+// --- the others -----------------------------------------------------------------------------------------------------
+
+struct OtherCommand {
+  std::string_view name;
+  int (*run)(int argc, char** argv);
+  std::optional<size_t> frames = std::nullopt;  // the argument whose frames become those of the output, one by one
+};
+
+constexpr OtherCommand kOthers[] = {
+    {"convert", ods_convert, 0}, {"over", ods_over, 1},  {"denoise", ods_denoise}, {"merge", ods_merge},
+    {"encode", ods_encode},      {"inject", ods_inject}, {"lint", ods_lint},
+};
+
+std::vector<int> frames_of(const std::string& pattern, const std::vector<GivenWord>& given) {
+  const auto range = std::ranges::find(given, "--frames", &GivenWord::name);
+  return range == given.end() ? ods::frames_on_disk(*ods::frame_names(pattern)) : ods::parse_frames(range->value);
+}
+
+Split split_other(const OtherCommand& command, const Words& words) {
+  Arguments arguments(words);
+  const auto read = checked_words([&] { command.run(arguments.count(), arguments.words()); });
+  if (!read) return std::nullopt;
+  std::vector<GivenWord> given = *read;
+  SplitCommand split = begin(given, false);
+  split.memory = (size_t{2} << 30) + 8 * bytes_of_files(split);
+  const std::string name(command.name);
+  const std::string from = command.frames ? given.at(*command.frames).value : "";
+  if (ods::frame_names(from) && ods::frame_names(split.output)) {
+    count(split, "frame", frames_of(from, given));
+    split.groups = {{"frames", command_words(name, without(given, kByFarm), {"--skip-existing"}), "--only"}};
+    return split;
+  }
+  if (split.output.empty()) split.output = given.front().value;
+  split.count = 1;
+  split.groups = {{name, command_words(name, without(given, kByMachine)), ""}};
+  return split;
+}
+
 }  // namespace
 
 Split split_command(const Words& words) {
@@ -248,6 +299,11 @@ Split split_command(const Words& words) {
   for (const Splitter& each : kSplitters) {
     if (words.front() == each.name) return each.split(words);
   }
-  throw UsageError(fmt::format("ods submit splits video, render and stitch, not '{}'{}", words.front(),
-                               ods::did_you_mean(words.front(), ods::names_of(kSplitters))));
+  for (const OtherCommand& each : kOthers) {
+    if (words.front() == each.name) return split_other(each, words);
+  }
+  std::vector<std::string> names = ods::names_of(kSplitters);
+  std::ranges::copy(ods::names_of(kOthers), std::back_inserter(names));
+  throw UsageError(fmt::format("a farm's job is one of {}; '{}' is none{}", fmt::join(names, ", "), words.front(),
+                               ods::did_you_mean(words.front(), names)));
 }

@@ -71,8 +71,10 @@ void send(const ods::FarmPlan& plan) {
 
 std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
   const ods::TaskGroup& first = plan.groups.front();
-  std::string text = fmt::format("{}: {} {}{} in {} task{}", plan.name, split.count, split.noun,
-                                 split.count == 1 ? "" : "s", first.tasks, first.tasks == 1 ? "" : "s");
+  std::string text = first.option.empty()
+                         ? fmt::format("{}: {} in one task", plan.name, first.name)
+                         : fmt::format("{}: {} {}{} in {} task{}", plan.name, split.count, split.noun,
+                                       split.count == 1 ? "" : "s", first.tasks, first.tasks == 1 ? "" : "s");
   for (size_t i = 1; i < plan.groups.size(); i++) text += fmt::format(", then {}", plan.groups[i].name);
   return text + fmt::format("; {:.1f} GB each", static_cast<double>(plan.memory) * 1e-9);
 }

@@ -10,6 +10,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/console/spawn.h"
 #include "cli/farm/programs.h"
 #include "ods/base/quote.h"
 
@@ -21,16 +22,15 @@ constexpr const char* kExamples =
     "  ods submit --to slurm -- video scene.glb -o scene_360_TB.mp4 --quality final\n"
     "  ods submit --to slurm -- render scene.glb -o huge.exr --width 16384 --samples 1024 --parts 64\n"
     "  ods submit --to slurm --chunk 25 -- stitch rig.json 'views/####/####.exr' --frames 1-500 -o 'out.####.exr'\n"
+    "  ods submit --to slurm --chunk 25 -- convert 'shot_TB.####.exr' -o 'cubes.####.png' --to cube-3x2\n"
     "  ods submit --to openjd -o bundle --chunk 10 -- video scene.glb -o film_360_TB.mp4\n"
     "  ods submit --to slurm --dry-run --chunk 10 -- video scene.glb -o scene_360_TB.mp4";
 
 constexpr const char* kSummary =
-    "Splits a command for a render farm: frames in chunks, parts of a picture's samples, views of a rig; then what "
-    "comes\n"
-    "last, such as the video or the merge. Writes a plan and what the scheduler reads into a folder. Only Slurm is "
-    "sent\n"
-    "anything. Behind the two dashes stands ods video, render or stitch as on one machine; the result has the same "
-    "bits.";
+    "Sends a command to a render farm, as on one machine and with the same bits: video, render, stitch, convert or\n"
+    "over in many tasks (frames in chunks, parts of a picture's samples, views of a rig), then what comes last, such\n"
+    "as the video or the merge; denoise, merge, encode, inject or lint in one. Writes a plan and what the scheduler\n"
+    "reads into a folder. Only Slurm is sent anything.";
 
 void check_line(const std::string& option, const std::string& value) {
   if (!ods::is_quotable(value))
@@ -69,9 +69,8 @@ bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   const auto end = std::find_if(argv, argv + argc, is_end);
   Options options("submit", kSummary, kExamples);
   std::vector<std::string> extras;
-  options.arguments(
-      "COMMAND", extras,
-      "behind all options of ods submit, and two dashes: ods video, render or stitch, without the word ods");
+  options.arguments("COMMAND", extras,
+                    "behind all options of ods submit, and two dashes: the command, without the word ods");
   add_options(options, job);
   if (!options.parse(static_cast<int>(end - argv), argv)) return false;
   if (!extras.empty()) {
@@ -116,13 +115,13 @@ ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
 }
 
 int count_tasks(const SubmitJob& job, const SplitCommand& split) {
-  if (split.noun == "part") return static_cast<int>(split.count);
+  if (split.noun == "part" || split.groups.front().option.empty()) return static_cast<int>(split.count);
   if (job.chunk > 0) return ods::tasks_for(split.count, job.chunk);
   if (job.dry) {
     note("--dry-run makes no first frame: tasks of ten are assumed (--chunk N)");
     return ods::tasks_for(split.count, 10);
   }
-  std::vector<std::string> words = {"/proc/self/exe"};
+  std::vector<std::string> words = {kThisProgram};
   const ods::TaskGroup& group = split.groups.front();
   words.insert(words.end(), group.command.begin(), group.command.end());
   words.insert(words.end(), {group.option, fmt::format("{}", split.first), "-q"});

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "cli/console/console.h"
-#include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
@@ -69,28 +68,22 @@ bool read_options(LintJob& job, int argc, char** argv) {
   return true;
 }
 
-ods::LintReport lint_with_progress(const LintJob& job) {
-  ods::LintReport report;
-  run_long_job(job.progress, 0, [&](ProgressLines& lines) {
-    const auto start = std::chrono::steady_clock::now();
-    ods::Progress progress;
-    progress.report = [&](double done) { lines.report(done, seconds_since(start), {"lint", 0, 0, job.path}); };
-    report = ods::lint_video(job.path, {job.lint, job.every}, progress);
-  });
-  return report;
-}
-
-ods::LintReport lint_picture(const LintJob& job) {
-  if (job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is none", job.path));
-  end_on_interrupts();
-  return ods::lint(job.path, job.lint);
+ods::LintReport lint_with_progress(const LintJob& job, ProgressLines& lines) {
+  const auto start = std::chrono::steady_clock::now();
+  ods::Progress progress;
+  progress.report = [&](double done) { lines.report(done, seconds_since(start), {"lint", 0, 0, job.path}); };
+  return ods::lint_video(job.path, {job.lint, job.every}, progress);
 }
 
 void run(int argc, char** argv) {
   LintJob job;
   if (!read_options(job, argc, argv)) return;
   const bool is_film = !ods::names_eye(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
-  ods::LintReport report = is_film ? lint_with_progress(job) : lint_picture(job);
+  if (!is_film && job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is none", job.path));
+  ods::LintReport report;
+  run_long_job(job.progress, 0, [&](ProgressLines& lines) {
+    report = is_film ? lint_with_progress(job, lines) : ods::lint(job.path, job.lint);
+  });
   std::erase_if(report.findings, [&](const ods::Finding& finding) {
     return finding.certainty < static_cast<double>(job.min_certainty);
   });

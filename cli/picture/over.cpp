@@ -12,6 +12,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/options/time_options.h"
 #include "cli/picture/over_job.h"
 #include "cli/picture/over_video.h"
 #include "ods/base/error.h"
@@ -57,11 +58,13 @@ bool lay_frame(const OverJob& job, Footage& back, Footage& front, int frame, con
 void lay_frames(const OverJob& job, Footage& back, Footage& front, ProgressLines& lines) {
   const ods::FrameNames output = video_names(job.output);
   const bool to_the_end = back.kind() == FootageKind::kVideo && !job.frames;
-  const std::vector<int> frames = job.frames ? *job.frames : back.frames();
+  std::vector<int> frames = job.frames ? *job.frames : back.frames();
   if (frames.empty() && !to_the_end) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("there is no frame '{}'", job.background));
   }
   if (job.frames && (back.kind() == FootageKind::kVideo || front.kind() == FootageKind::kVideo)) check_rising(frames);
+  frames = own_frames(job.share.only, frames);
+  std::erase_if(frames, [&](int frame) { return job.share.skip_existing && ods::is_saved(output.path(frame)); });
   const auto start = std::chrono::steady_clock::now();
   for (size_t i = 0; to_the_end || i < frames.size(); i++) {
     const int frame = to_the_end ? static_cast<int>(i) : frames[i];

@@ -40,6 +40,7 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
       "frames of the background: 1-100, 1-100x2, ...; by default all");
+  add_share_options(options, job.share);
   options.custom(
       "--from-projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
@@ -63,6 +64,7 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   job.has_tone = options.given("--tone"), job.has_exposure = options.given("--exposure");
   job.has_target = options.given("--target");
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
+  check_share(job.share, job.background, job.output);
   return true;
 }
 

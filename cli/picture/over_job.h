@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console/progress.h"
+#include "cli/options/share_options.h"
 #include "cli/options/video_options.h"
 #include "ods/compose/over.h"
 #include "ods/picture/save.h"
@@ -16,6 +17,7 @@ struct OverJob {
   std::string foreground, background, output;
   ods::FormatHint known;  // of the background
   std::optional<std::vector<int>> frames;
+  FrameShare share;
   ods::OverOptions over;
   ods::SaveOptions save;
   std::optional<ods::Layout> layout;

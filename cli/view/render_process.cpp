@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/view/render_process.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
+#include "cli/console/spawn.h"
 
 RenderProcess::~RenderProcess() {
   cancel();
@@ -23,30 +22,15 @@ void RenderProcess::start(const std::vector<std::string>& words) {
     if (status_.state == "running") throw UsageError("a picture is being rendered: wait for it, or cancel it");
   }
   if (reader_.joinable()) reader_.join();
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw ods::Error(ods::ErrorKind::kOutput, "cannot start ods render");
-  std::vector<std::string> all = {"ods"};
+  std::vector<std::string> all = {kThisProgram};
   all.insert(all.end(), words.begin(), words.end());
-  std::vector<char*> arguments;
-  for (std::string& word : all) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, ends[1], STDERR_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int fault = posix_spawn(&child, "/proc/self/exe", &files, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  close(ends[1]);
-  if (fault != 0) {
-    close(ends[0]);
-    throw ods::Error(ods::ErrorKind::kOutput, "cannot start ods render");
-  }
+  const auto program = spawn(all, StreamUse::kHidden, StreamUse::kRead);
+  if (!program) throw ods::Error(ods::ErrorKind::kOutput, "cannot start ods render");
   const std::lock_guard<std::mutex> lock(mutex_);
   status_ = Status();
   status_.state = "running";
-  child_ = child;
-  reader_ = std::thread([this, from = ends[0]] { read_lines(from); });
+  child_ = program->process;
+  reader_ = std::thread([this, from = program->from] { read_lines(from); });
 }
 
 void RenderProcess::cancel() {

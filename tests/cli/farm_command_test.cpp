@@ -121,6 +121,52 @@ TEST_F(Farm, FramesAndViewsAreShared) {
   EXPECT_GT(folder.read("v.mp4").size(), 100u);
 }
 
+TEST_F(Farm, FramesThatBecomeFramesAreShared) {
+  ASSERT_EQ(run("render -q toys --width 64 --samples 2 --frames 1-5 -o " + folder.path("in_TB.##.png")), 0) << err;
+  ASSERT_EQ(run("title -q End --width 64 --at 0,0,2 -o " + folder.path("end.exr")), 0) << err;
+  for (const std::string words : {"convert IN --to cube-3x2 --frames 2-5", "over end.exr IN --opacity 0.5"}) {
+    std::string command = words;
+    command.replace(command.find("IN"), 2, folder.path("in_TB.##.png"));
+    if (const size_t at = command.find("end.exr"); at != std::string::npos) command.insert(at, folder.path(""));
+    ASSERT_EQ(run("submit -q --to openjd --chunk 2 -- " + command + " -o " + folder.path("farm_TB.##.png")), 0) << err;
+    const json group = plan("farm_TB")["groups"][0];
+    EXPECT_EQ(group["tasks"], words.starts_with("convert") ? 2 : 3);
+    run_task(group, group["tasks"]);
+    const std::string last = folder.path("farm_TB.05.png");
+    const auto made = std::filesystem::last_write_time(last);
+    run_all(plan("farm_TB"));
+    EXPECT_EQ(std::filesystem::last_write_time(last), made) << "what is there is not made again";
+    ASSERT_EQ(run(command + " -o " + folder.path("one_TB.##.png")), 0) << err;
+    for (const char* frame : {"02", "03", "04", "05"}) {
+      const std::string farm = folder.path(fmt::format("farm_TB.{}.png", frame));
+      EXPECT_TRUE(folder.read(fmt::format("farm_TB.{}.png", frame)) == folder.read(fmt::format("one_TB.{}.png", frame)))
+          << words << frame;
+      std::filesystem::remove(farm);
+    }
+    std::filesystem::remove(folder.path("farm_TB.01.png"));
+  }
+}
+
+TEST_F(Farm, OtherCommandsAreOneTask) {
+  ASSERT_EQ(run("render -q toys --width 64 --samples 4 --statistics -o " + folder.path("in.exr")), 0) << err;
+  ASSERT_EQ(run("submit --to slurm -- denoise " + folder.path("in.exr") + " --threads 3 -o " + folder.path("a.png")), 0)
+      << err;
+  EXPECT_EQ(out, "7 denoise-1.sbatch ods:denoise:0\n");
+  EXPECT_NE(err.find("a: denoise in one task"), std::string::npos) << err;
+  EXPECT_EQ(plan("a")["cpus"], 3);
+  run_all(plan("a"));
+  ASSERT_EQ(run("denoise " + folder.path("in.exr") + " -o " + folder.path("b.png")), 0) << err;
+  EXPECT_TRUE(folder.read("a.png") == folder.read("b.png"));
+  ASSERT_EQ(run("submit -q --to flamenco -- lint " + folder.path("a.png") + " --layout top-bottom"), 0) << err;
+  const std::vector<std::string> lint = {"lint", folder.path("a.png"), "--layout", "top-bottom"};
+  EXPECT_EQ(plan("a")["groups"][0]["command"], lint);
+  for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes", "deadline"}) {
+    const std::string convert = "-- convert " + folder.path("in.exr") + " --to cube-3x2 -o " + folder.path(to + ".png");
+    ASSERT_EQ(run("submit -q --mount / --to " + to + " " + convert), 0) << err;
+    EXPECT_EQ(plan(to)["groups"].size(), 1u);
+  }
+}
+
 TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
   ASSERT_EQ(run("submit --to slurm -- " + video() + " --frames 3-4 --keep-frames"), 0) << err;
   EXPECT_NE(err.find("making frame 3 here"), std::string::npos) << err;
@@ -186,7 +232,7 @@ TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
       {"submit --to lsf -- video toys", 2, "'lsf'"},
       {"submit --to slurm video toys -o " + at + "a.mp4", 2, "'video' stands before the two dashes"},
       {"submit --to slurm -- vidoe toys", 2, "did you mean 'video'"},
-      {"submit --to slurm -- convert a.png -o b.png", 2, "video, render and stitch"},
+      {"submit --to slurm -- convert a.png -o b.png", 3, "a.png"},
       {"submit --to slurm -- video toys -o " + at + "a.mp4 --widht 5", 2, "--widht"},
       {"submit --to slurm -- video absent.glb --frames 1-2 -o " + at + "a.mp4", 3, "absent.glb"},
       {"submit --to slurm -- video toys --audio absent.wav -o " + at + "a.mp4", 3, "absent.wav"},
@@ -199,6 +245,12 @@ TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
       {"submit --to slurm --sbatch partition -- render toys --parts 4 -o " + at + "a.png", 2, "--sbatch"},
       {"submit --to kubernetes --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
       {"submit --to openjd --copy-scene -- video toys --confine / --frames 1-2 -o " + at + "a.mp4", 2, "--confine"},
+      {"submit --to slurm -- view " + at, 2, "one of video, render, stitch, convert"},
+      {"submit --to slurm -- convart a.png -o " + at + "b.png", 2, "convert"},
+      {"submit --to slurm -- denoise absent.exr -o " + at + "b.exr", 3, "absent.exr"},
+      {"submit --to slurm -- encode " + at + "#.png -o " + at + "b.mp4 --only 1", 2, "--only"},
+      {"convert a.png -o " + at + "b.png --only 1/2", 3, "a.png"},
+      {"over a.png b.png -o " + at + "c.png --skip-existing", 2, "frames that become frames"},
       {"render toys --parts 4 -o " + at + "a.png", 2, "ods submit"},
       {"jobs nothing", 3, "no job 'nothing'"},
   };

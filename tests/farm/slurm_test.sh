@@ -5,6 +5,8 @@
 # slurm_test.sh ODS: a cluster of two nodes on this machine, of our own munge and Slurm, for as long as this script runs.
 # A video and a picture in parts go through it while one node dies; what comes out has the bits of a single process.
 # Prints "skipped: why" where Slurm is not installed. Needs nothing but the packages slurm-wlm and munge, and no root.
+#
+# slurm_test.sh ODS ratio: how long the cluster takes for a video, over one process of two threads.
 set -eu
 ods=$(realpath "$1")
 for program in munged slurmctld slurmd sbatch squeue scontrol; do
@@ -175,6 +177,26 @@ test_cancel_and_go_on() {
   say "a cancelled job leaves whole frames, and submitted again it goes on"
 }
 
+# --- how long it takes ------------------------------------------------------------------------------------------------
+
+now() { date +%s.%N; }
+is_over() { [ -z "$(squeue --noheader --format=%i)" ]; }
+
+# From submit's start to the end of the last job, in two tasks that have a node each.
+measure_ratio() {
+  video="video toys --frames 1-40 --width 512 --samples 128"
+  load=$(cut -d ' ' -f 1-3 /proc/loadavg)
+  start=$(now)
+  "$ods" $video -q --threads 2 -o "$here/one/film_360_TB.mp4"
+  middle=$(now)
+  "$ods" submit -q --to slurm --chunk 20 -- $video --threads 1 -o "$here/farm/film_360_TB.mp4"
+  wait_for 3600 "the video" is_over
+  end=$(now)
+  cmp "$here/one/film_360_TB.mp4" "$here/farm/film_360_TB.mp4" || die "the video differs"
+  echo "$start $middle $end" | awk -v load="$load" '{
+    printf "one process: %.1f s; two nodes: %.1f s; ratio %.2f; load before: %s\n", $2 - $1, $3 - $2, ($3 - $2) / ($2 - $1), load }'
+}
+
 mkdir "$here/one" "$here/farm"
 cat >"$here/scene.gltf" <<'END'
 {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -185,6 +207,10 @@ cat >"$here/scene.gltf" <<'END'
 END
 start_cluster
 say "two nodes are up: $(sinfo --version), $(squeue --json >/dev/null 2>&1 && echo with --json || echo without --json)"
+if [ "${2:-}" = ratio ]; then
+  measure_ratio
+  exit
+fi
 test_a_node_dies
 test_a_task_fails
 test_cancel_and_go_on
