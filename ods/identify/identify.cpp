@@ -361,7 +361,7 @@ Identity identify(const StoredPicture& whole, const FormatHint& known) {
   share_certainty(cuts, candidates);
   identity.reason = candidates[0].reason;
   identity.has_other_faces = std::any_of(
-      cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.other_faces > kLikely && cut.two_eyes > 0.0; });
+      cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.other_faces > kLikely && cut.two_eyes >= 0.0; });
   for (const Candidate& each : candidates) identity.readings.push_back(each.reading);
   return identity;
 }

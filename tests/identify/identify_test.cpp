@@ -157,6 +157,29 @@ TEST_F(Unknown, ALensIsNotSure) {
   EXPECT_NE(doubt.find("--layout and --projection"), std::string::npos) << doubt;
 }
 
+// Faces in an order that is none of ours are told, whatever the layout, and no reading is sure.
+TEST_F(Unknown, FacesInAnotherOrderAreTold) {
+  const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
+    const Image own = eye_of(World::kCave, projection, eye, 512);
+    Image other = own;
+    for (int y = 0; y < size.height; y++) {
+      for (int x = 0; x < size.width; x++) {
+        std::copy_n(own.at((x + size.width / 3) % size.width, (y + size.height / 2) % size.height), 3, other.at(x, y));
+      }
+    }
+    return other;
+  };
+  for (const Truth& truth : {Truth{std::nullopt, named("cube-3x2")}, Truth{Layout::kTopBottom, named("cube-3x2")}}) {
+    const std::string path = folder.path("file.jpg");
+    write_unknown(path, truth, eyes, unknown_eye(truth.projection, 512));
+    const Identity identity = identify(open_unknown(path));
+    EXPECT_TRUE(identity.has_other_faces) << truth_text(truth);
+    EXPECT_FALSE(identity.is_sure()) << truth_text(truth);
+    EXPECT_NE(doubt_text(identity).find("faces of a cube in another order"), std::string::npos);
+    EXPECT_FALSE(identity_of(World::kCave, truth).has_other_faces) << truth_text(truth);
+  }
+}
+
 TEST_F(Unknown, WhatIsKnownCountsMoreThanPixels) {
   const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
     StereoCamera camera;
