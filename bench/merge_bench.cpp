@@ -15,6 +15,7 @@
 #include <filesystem>
 
 #include "bench/measure.h"
+#include "ods/base/large_blocks.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
@@ -105,6 +106,7 @@ void merge(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ods::return_large_blocks();  // as the command does
   benchmark::Initialize(&argc, argv);
   if (argc == 3 && std::strcmp(argv[1], "--width") == 0) width = std::max(std::atoi(argv[2]), 64);
   benchmark::RegisterBenchmark(fmt::format("merge/{}", width).c_str(), merge)->Iterations(1)->Unit(benchmark::kSecond);
