@@ -184,7 +184,7 @@ is_over() { [ -z "$(squeue --noheader --format=%i)" ]; }
 
 # From submit's start to the end of the last job, in two tasks that have a node each.
 measure_ratio() {
-  video="video toys --frames 1-40 --width 512 --samples 128"
+  video="video toys --frames 1-40 --width 512 --samples 4"
   load=$(cut -d ' ' -f 1-3 /proc/loadavg)
   start=$(now)
   "$ods" $video -q --threads 2 -o "$here/one/film_360_TB.mp4"
