@@ -9,6 +9,7 @@
 //   lint_bench --full    all of them, as in docs/lint.md
 //   lint_bench --only NAME    only the rows whose names and strengths contain this; may be given several times
 //   lint_bench --pictures FOLDER    keeps the rendered scenes there for the next run
+//   lint_bench --others FOLDER      judges the pictures there (bench/lint_others.sh), which are correct, not ours
 //   lint_bench --verbose      a line for every picture that was not judged as expected
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -30,6 +31,7 @@ struct Wanted {
   bool verbose = false;
   std::vector<std::string> only;  // parts of names; none: all
   std::string pictures;
+  std::string others;
 };
 
 bool is_wanted(const Wanted& wanted, const Plant& plant, double strength) {
@@ -143,6 +145,17 @@ void print_false(const std::vector<Pair>& pairs, const Folder& folder, const Wan
   fmt::print("| all | {} | {} |\n", all, wrong);
 }
 
+// Correct pictures by other renderers.
+std::vector<Pair> pairs_in(const std::string& folder) {
+  std::vector<Pair> pairs;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().stem();
+    if (entry.path().extension() == ".png") pairs.push_back({name, ods::open_picture(entry.path())});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.name < b.name; });
+  return pairs;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -153,12 +166,17 @@ int main(int argc, char** argv) {
     wanted.verbose = wanted.verbose || word == "--verbose";
     if (word == "--only" && i + 1 < argc) wanted.only.push_back(argv[++i]);
     if (word == "--pictures" && i + 1 < argc) wanted.pictures = argv[++i];
+    if (word == "--others" && i + 1 < argc) wanted.others = argv[++i];
   }
   const Folder folder;
   std::vector<Pair> pairs;
-  const Seconds rendering =
-      seconds_of([&] { pairs = scene_pairs(wanted.pictures.empty() ? folder.path() : wanted.pictures); });
-  fmt::print(stderr, "{} pairs rendered in {:.0f} s\n", pairs.size(), rendering.wall);
+  const Seconds rendering = seconds_of([&] {
+    if (!wanted.others.empty())
+      pairs = pairs_in(wanted.others);
+    else
+      pairs = scene_pairs(wanted.pictures.empty() ? folder.path() : wanted.pictures);
+  });
+  fmt::print(stderr, "{} pairs made in {:.0f} s\n", pairs.size(), rendering.wall);
   const Seconds judging = seconds_of([&] {
     print_found(pairs, folder, wanted);
     print_false(pairs, folder, wanted);

@@ -14,10 +14,10 @@
 #include <sstream>
 #include <string>
 
-// A folder that goes with the process, beside where it runs: temporary folders may be memory.
+// A folder that goes with the process, beside the program: temporary folders may be memory.
 class Folder {
  public:
-  Folder() { path_ = mkdtemp(name_); }
+  Folder() { path_ = mkdtemp(path_.data()); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   ~Folder() { std::filesystem::remove_all(path_); }
@@ -25,8 +25,7 @@ class Folder {
   const std::string& path() const { return path_; }
 
  private:
-  char name_[32] = "ods-bench-XXXXXX";
-  std::string path_;
+  std::string path_ = std::filesystem::canonical("/proc/self/exe").replace_filename("ods-bench-XXXXXX").native();
 };
 
 struct Seconds {

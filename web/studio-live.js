@@ -3,7 +3,7 @@
 //
 // The frames of the studio as pictures on the GPU: for each side the whole picture (base) and the finer window in view
 // (patch), which is drawn over it.
-import { isRound } from './picture.js';
+import { isRound } from './form.js';
 import { EyeTexture } from './tiles.js';
 
 // pixels: R, G, B in rows from the top, eye by eye. Returns a picture for panorama.js.

@@ -3,7 +3,7 @@
 //
 // A video as a picture whose eyes change. The browser decodes; times that are asked for are the middles of frames, so
 // that rounding cannot show a neighbour.
-import { cropOf, isRound, same } from './picture.js';
+import { cropOf, isRound, same } from './form.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
 
 const SETTLE = 150; // milliseconds

@@ -31,7 +31,7 @@ void camera(int argc, char** argv) {
   options.group("Output");
   options.choice("--for", target, ods::kCameraTargetTable,
                  "the target; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");
-  options.text("-o,--output", "FILE", output, "output file; by default stdout");
+  options.text("-o,--output", ValueKind::output_file(), output, "output file; by default stdout");
   add_camera_source(options, source);
   options.group("Console");
   add_console_options(options);

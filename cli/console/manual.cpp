@@ -60,11 +60,11 @@ std::vector<ManualEntry> options_of(const Manual& manual) {
 }
 
 bool is_file(const ManualEntry& entry) {
-  return entry.unit.starts_with("FILE");
+  return entry.value.use != PathUse::kNone && !entry.value.is_folder;
 }
 
 bool is_folder(const ManualEntry& entry) {
-  return entry.unit == "DIR";
+  return entry.value.use != PathUse::kNone && entry.value.is_folder;
 }
 
 // --- help ----------------------------------------------------------------------------------------------------------
@@ -73,7 +73,7 @@ bool is_folder(const ManualEntry& entry) {
 std::string help_row(const ManualEntry& entry) {
   const size_t kTextColumn = 30, kLineWidth = 100;
   std::string rows;
-  std::string line = "  " + entry.name + (entry.unit.empty() ? "" : " " + entry.unit);
+  std::string line = "  " + entry.name + (entry.value.unit.empty() ? "" : " " + entry.value.unit);
   if (line.size() + 2 > kTextColumn) {
     rows += line + "\n";
     line.clear();
@@ -155,8 +155,8 @@ std::string man_entry(const ManualEntry& entry) {
   for (const std::string& name : split(entry.name, ',')) {
     names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", troff(name));
   }
-  return fmt::format(".TP\n{}{}\n{}\n", names, entry.unit.empty() ? "" : " \\fI" + troff(entry.unit) + "\\fR",
-                     troff(entry.text));
+  return fmt::format(".TP\n{}{}\n{}\n", names,
+                     entry.value.unit.empty() ? "" : " \\fI" + troff(entry.value.unit) + "\\fR", troff(entry.text));
 }
 
 std::string man_page(const Manual& manual) {
@@ -197,7 +197,7 @@ std::string bash_start(const std::vector<CommandSummary>& commands) {
 
 // What follows an option: one of its values, a file, a folder, or anything; empty for a flag.
 std::string bash_value(const ManualEntry& option) {
-  if (option.unit.empty()) return "";
+  if (option.value.unit.empty()) return "";
   if (!option.values.empty()) return fmt::format("values='{}'", fmt::join(option.values, " "));
   if (is_file(option)) return "return";
   return is_folder(option) ? "values=$(compgen -d -- \"$word\")" : "compopt +o default; return";
@@ -276,7 +276,7 @@ std::string zsh_value(const ManualEntry& entry, const std::string& name) {
     action = fmt::format("({})", fmt::join(entry.values, " "));
   } else if (is_folder(entry)) {
     action = "_files -/";
-  } else if (is_file(entry) || entry.kind == Kind::kArgument) {
+  } else if (is_file(entry)) {
     action = "_files";
   }
   if (entry.kind == Kind::kArgument && !entry.values.empty()) {
@@ -294,8 +294,9 @@ std::string zsh_option(const ManualEntry& option) {
     row += fmt::format("'({})'", fmt::join(names, " "));
   }
   row += names.size() > 1 ? fmt::format("{{{}}}", fmt::join(names, ",")) : names[0];
-  row += fmt::format("'[{}]{}'", zsh_text(option.text),
-                     option.unit.empty() ? "" : zsh_value(option, option.values.empty() ? option.unit : "value"));
+  row += fmt::format(
+      "'[{}]{}'", zsh_text(option.text),
+      option.value.unit.empty() ? "" : zsh_value(option, option.values.empty() ? option.value.unit : "value"));
   return row + " \\\n";
 }
 

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/console/value_kind.h"
+
 enum class ManualFormat { kHelp, kMan, kBash, kZsh };
 
 // "--help" and "-h", or "--help=man", "--help=bash", "--help=zsh"; nothing for other words.
@@ -19,7 +21,7 @@ struct ManualEntry {
   enum class Kind { kHeading, kArgument, kOption };
   Kind kind;
   std::string name;                      // "-o,--output"; "SCENE"; the words of a heading
-  std::string unit = {};                 // of an option's value: "FILE", "N", "draft|preview|final"; empty for a flag
+  ValueKind value = "";                  // of an option, or what an argument is
   std::string text = {};                 // what it does
   std::vector<std::string> values = {};  // what completion offers for it
   bool repeats = false;

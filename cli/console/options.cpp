@@ -61,13 +61,13 @@ void Options::group(const std::string& heading) {
   manual_.entries.push_back({ManualEntry::Kind::kHeading, heading});
 }
 
-void Options::add_argument(const std::string& name, const std::string& usage, const std::string& text) {
+void Options::add_argument(const ValueKind& kind, const std::string& usage, const std::string& text) {
   manual_.usage += usage + " ";
-  manual_.entries.push_back({ManualEntry::Kind::kArgument, name, "", text});
+  manual_.entries.push_back({ManualEntry::Kind::kArgument, kind.unit, kind, text});
 }
 
-ManualEntry& Options::add_option(const std::string& name, const std::string& unit, const std::string& text) {
-  return manual_.entries.emplace_back(ManualEntry{ManualEntry::Kind::kOption, name, unit, text});
+ManualEntry& Options::add_option(const std::string& name, const ValueKind& kind, const std::string& text) {
+  return manual_.entries.emplace_back(ManualEntry{ManualEntry::Kind::kOption, name, kind, text});
 }
 
 void Options::offer(const std::string& name, const std::vector<std::string>& values) {
@@ -76,32 +76,34 @@ void Options::offer(const std::string& name, const std::vector<std::string>& val
   }
 }
 
-void Options::custom(const std::string& name, const std::string& unit, const std::string& fallback,
+void Options::custom(const std::string& name, const ValueKind& kind, const std::string& fallback,
                      const std::function<void(const std::string&)>& set, const std::string& text) {
-  add_option(name, unit, fallback.empty() ? text : text + " [" + fallback + "]");
+  add_option(name, kind, fallback.empty() ? text : text + " [" + fallback + "]");
   // The last value wins, so that a script can append to a command line.
-  app_->add_option_function<std::string>(name, set)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  CLI::Option* const option = app_->add_option_function<std::string>(name, set);
+  option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  kinds_.emplace(option, kind);
 }
 
-void Options::argument(const std::string& name, std::string& value, const std::string& text) {
-  app_->add_option(name, value)->required();
-  add_argument(name, name, text);
+void Options::argument(const ValueKind& kind, std::string& value, const std::string& text) {
+  kinds_.emplace(app_->add_option(kind.unit, value)->required(), kind);
+  add_argument(kind, kind.unit, text);
 }
 
-void Options::argument(const std::string& name, const std::function<void(const std::string&)>& set,
+void Options::argument(const ValueKind& kind, const std::function<void(const std::string&)>& set,
                        const std::string& text) {
-  app_->add_option_function<std::string>(name, set)->required();
-  add_argument(name, name, text);
+  kinds_.emplace(app_->add_option_function<std::string>(kind.unit, set)->required(), kind);
+  add_argument(kind, kind.unit, text);
 }
 
-void Options::optional_argument(const std::string& name, std::string& value, const std::string& text) {
-  app_->add_option(name, value);
-  add_argument(name, fmt::format("[{}]", name), text);
+void Options::optional_argument(const ValueKind& kind, std::string& value, const std::string& text) {
+  kinds_.emplace(app_->add_option(kind.unit, value), kind);
+  add_argument(kind, fmt::format("[{}]", kind.unit), text);
 }
 
-void Options::arguments(const std::string& name, std::vector<std::string>& values, const std::string& text) {
-  app_->add_option("words", values);
-  add_argument(name, fmt::format("[{}]", name), text);
+void Options::arguments(const ValueKind& kind, std::vector<std::string>& values, const std::string& text) {
+  kinds_.emplace(app_->add_option("words", values), kind);
+  add_argument(kind, fmt::format("[{}]", kind.unit), text);
   manual_.entries.back().repeats = true;
 }
 
@@ -110,9 +112,9 @@ void Options::flag(const std::string& name, bool& value, const std::string& text
   add_option(name, "", text);
 }
 
-void Options::text(const std::string& name, const std::string& unit, std::string& value, const std::string& text) {
+void Options::text(const std::string& name, const ValueKind& kind, std::string& value, const std::string& text) {
   custom(
-      name, unit, value,
+      name, kind, value,
       [=, &value](const std::string& word) {
         if (word.empty()) throw UsageError(name + " has an empty value");
         value = word;
@@ -120,10 +122,11 @@ void Options::text(const std::string& name, const std::string& unit, std::string
       text);
 }
 
-void Options::texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
+void Options::texts(const std::string& name, const ValueKind& kind, std::vector<std::string>& values,
                     const std::string& text) {
-  add_option(name, unit, text + "; may be given several times").repeats = true;
-  app_->add_option(name, values)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
+  add_option(name, kind, text + "; may be given several times").repeats = true;
+  CLI::Option* const option = app_->add_option(name, values);
+  kinds_.emplace(option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1), kind);
 }
 
 void Options::number(const std::string& name, int& value, int low, int high, const std::string& text) {
@@ -187,10 +190,13 @@ std::vector<GivenWord> Options::given_words() const {
     const auto& short_names = option->get_snames();
     std::string name;
     if (!is_argument) name = short_names.empty() ? "--" + option->get_lnames().front() : "-" + short_names.front();
+    const auto kind = kinds_.find(option);
     std::vector<std::string> values = option->results();
     if (option->get_items_expected_max() == 0) values = {""};
     if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeLast) values = {values.back()};
-    for (const std::string& value : values) (is_argument ? arguments : words).push_back({name, value});
+    for (const std::string& value : values) {
+      (is_argument ? arguments : words).push_back({name, value, kind == kinds_.end() ? "" : kind->second});
+    }
   }
   arguments.insert(arguments.end(), words.begin(), words.end());
   return arguments;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The options of one command: names bound to variables, whose values are the defaults shown in help. Wraps CLI11. An
-// invalid value becomes a UsageError of one line.
+// invalid value becomes a UsageError of one line. A value that is a file is marked as one by its kind.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,16 +15,19 @@
 #include <vector>
 
 #include "cli/console/manual.h"
+#include "cli/console/value_kind.h"
 #include "ods/base/names.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 // One word of a command line as parse() understood it.
 struct GivenWord {
-  std::string name;   // "-o", "--width"; empty: an argument
-  std::string value;  // empty: a flag
+  std::string name;     // "-o", "--width"; empty: an argument
+  std::string value;    // empty: a flag
+  ValueKind kind = "";  // as the option was added
 };
 
 class Options {
@@ -36,16 +40,15 @@ class Options {
   void group(const std::string& heading);
 
   // Positional arguments, in order.
-  void argument(const std::string& name, std::string& value, const std::string& text);
+  void argument(const ValueKind& kind, std::string& value, const std::string& text);
   // The options that were added before it are set by then, those after it are not yet.
-  void argument(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& text);
-  void optional_argument(const std::string& name, std::string& value, const std::string& text);
-  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& text);
+  void argument(const ValueKind& kind, const std::function<void(const std::string&)>& set, const std::string& text);
+  void optional_argument(const ValueKind& kind, std::string& value, const std::string& text);
+  void arguments(const ValueKind& kind, std::vector<std::string>& values, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
-  void text(const std::string& name, const std::string& unit, std::string& value, const std::string& text);
+  void text(const std::string& name, const ValueKind& kind, std::string& value, const std::string& text);
   // An option that may be given several times; collects all values.
-  void texts(const std::string& name, const std::string& unit, std::vector<std::string>& values,
-             const std::string& text);
+  void texts(const std::string& name, const ValueKind& kind, std::vector<std::string>& values, const std::string& text);
   void number(const std::string& name, int& value, int low, int high, const std::string& text);
   void number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text);
   void number(const std::string& name, float& value, float low, float high, const std::string& text);
@@ -74,7 +77,7 @@ class Options {
   }
 
   // Passes the word to `set`, which throws UsageError if it is invalid.
-  void custom(const std::string& name, const std::string& unit, const std::string& fallback,
+  void custom(const std::string& name, const ValueKind& kind, const std::string& fallback,
               const std::function<void(const std::string&)>& set, const std::string& text);
 
   // The values that shell completion offers for this option or argument, which was added before.
@@ -93,11 +96,12 @@ class Options {
   bool parse(int argc, char** argv);
 
  private:
-  void add_argument(const std::string& name, const std::string& usage, const std::string& text);
-  ManualEntry& add_option(const std::string& name, const std::string& unit, const std::string& text);
+  void add_argument(const ValueKind& kind, const std::string& usage, const std::string& text);
+  ManualEntry& add_option(const std::string& name, const ValueKind& kind, const std::string& text);
   std::string describe_extras() const;
 
   std::unique_ptr<CLI::App> app_;
+  std::map<const CLI::Option*, ValueKind> kinds_;  // not of flags
   Manual manual_;
 };
 

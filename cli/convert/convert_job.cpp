@@ -94,7 +94,7 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
       "its projection");
   add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
   options.custom(
-      "--from-camera", "FILE", "",
+      "--from-camera", ValueKind::input_file(), "",
       [&](const std::string& path) {
         std::vector<std::string> warnings;
         const ods::Sidecar file = ods::open_camera(path, warnings);
@@ -107,14 +107,14 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
       "--frames", "RANGE", "", [&](const std::string& text) { wishes.frames = ods::parse_frames(text); },
       "frames to convert, if the input is frames: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.argument(
-      "IN", [&](const std::string& path) { open_header(path, job, wishes); },
+      ValueKind::input_file("IN"), [&](const std::string& path) { open_header(path, job, wishes); },
       "a picture (.png .jpg .tif .webp .hdr .exr), frames (#### in the name is the number) or a video (.mp4 .mov .mkv "
       ".webm); %V in the name: one file per eye");
 }
 
 void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layout& layout_of_size) {
   options.group("Output");
-  options.text("-o,--output", "FILE", job.output,
+  options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; #### in the name writes frames, .mp4 .mov .mkv .webm a "
                "video, %V one file per eye");
   add_share_options(options, job.share);
@@ -149,7 +149,8 @@ void add_video(Options& options, ConvertJob& job) {
       "--trim", "FROM-TO", "", [&](const std::string& text) { job.trim = parse_span(text); },
       "convert only this part of a video: 0:10-0:20, 10-, -20.5 (seconds, minutes, hours)");
   options.custom(
-      "--stabilize", "FILE", "", [&](const std::string& path) { job.turns = ods::read_turn_keys(path); },
+      "--stabilize", ValueKind::input_file(), "",
+      [&](const std::string& path) { job.turns = ods::read_turn_keys(path); },
       "how the camera was turned, to turn its video back: lines of TIME ROLL or TIME YAW PITCH ROLL");
   options.custom(
       "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); },

@@ -9,15 +9,11 @@
 #include <fstream>
 
 #include "cli/console/console.h"
-#include "cli/options/light_options.h"
 #include "ods/files/frames.h"
-#include "ods/scene/builtin/builtin.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-enum class Use { kNone, kInput, kOutput };
 
 bool is_in(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -28,17 +24,6 @@ bool is_pattern(const std::string& path) {
          ods::frame_names(fs::path(path).parent_path().native()).has_value();
 }
 
-Use use_of(const GivenWord& word, bool is_scene) {
-  if (word.name.empty()) return is_scene && ods::find_builtin(word.value) ? Use::kNone : Use::kInput;
-  if (word.name == "-o" || word.name == "--report") return Use::kOutput;
-  if (is_in(
-          {"--rig", "--audio", "--merge-map", "--head-tilt-map", "--confine", "--from", "--from-camera", "--stabilize"},
-          word.name))
-    return Use::kInput;
-  const bool may_be_file = word.name == "--env" || word.name == "--background";
-  return may_be_file && !environment_file(word.name, word.value).empty() ? Use::kInput : Use::kNone;
-}
-
 // The folder of files that one name stands for: what comes before its first mark.
 std::string folder_of_pattern(const std::string& path) {
   const size_t mark = std::min(path.find_first_of("#@%${"), path.size());
@@ -47,14 +32,14 @@ std::string folder_of_pattern(const std::string& path) {
 
 }  // namespace
 
-std::vector<ods::PlanPath> find_paths(std::vector<GivenWord>& given, bool is_scene) {
+std::vector<ods::PlanPath> find_paths(std::vector<GivenWord>& given) {
   std::vector<ods::PlanPath> paths;
   for (GivenWord& word : given) {
-    const Use use = use_of(word, is_scene);
-    if (use == Use::kNone) continue;
+    const PathUse use = word.kind.use_of(word.value);
+    if (use == PathUse::kNone) continue;
     word.value = fs::absolute(word.value).lexically_normal().native();
     const bool pattern = is_pattern(word.value), is_folder = pattern || fs::is_directory(word.value);
-    paths.push_back({pattern ? folder_of_pattern(word.value) : word.value, use == Use::kOutput, is_folder});
+    paths.push_back({pattern ? folder_of_pattern(word.value) : word.value, use == PathUse::kOutput, is_folder});
   }
   return paths;
 }

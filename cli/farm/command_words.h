@@ -9,9 +9,8 @@
 #include "cli/console/options.h"
 #include "ods/farm/plan.h"
 
-// The files and folders that the words name, absolute from here on. is_scene: the first argument is the name of a
-// scene, which may be built in.
-std::vector<ods::PlanPath> find_paths(std::vector<GivenWord>& given, bool is_scene);
+// The files and folders that the words name, absolute from here on.
+std::vector<ods::PlanPath> find_paths(std::vector<GivenWord>& given);
 
 // Throws Error(kInput) for input files that cannot be opened.
 void check_inputs(const std::vector<ods::PlanPath>& paths);

@@ -94,13 +94,13 @@ size_t memory_of(const SplitCommand& split, const RenderJob& job) {
   return (size_t{512} << 20) + pictures * picture + picture / 2 + 8 * bytes_of_files(split);
 }
 
-SplitCommand begin(std::vector<GivenWord>& given, bool is_scene) {
+SplitCommand begin(std::vector<GivenWord>& given) {
   refuse(given, {"--only", "--part"}, "that is what ods submit adds to every task");
   SplitCommand split;
   for (const GivenWord& word : given) {
     if (word.name == "--threads") split.threads = std::stoi(word.value);
   }
-  split.paths = find_paths(given, is_scene);
+  split.paths = find_paths(given);
   check_inputs(split.paths);
   const auto output = std::ranges::find(given, "-o", &GivenWord::name);
   if (output != given.end()) split.output = output->value;
@@ -120,7 +120,7 @@ Split split_video(const Words& words) {
   if (!read_video_job(job, arguments.count(), arguments.words())) return std::nullopt;
   std::vector<GivenWord> given = job.render.given;
   const bool has_rig = !job.rig.empty();
-  SplitCommand split = begin(given, !has_rig);
+  SplitCommand split = begin(given);
   if (!has_rig) add_scene_files(split, job.render.scene);
   std::vector<Setting> settings;
   std::vector<int> frames;
@@ -207,7 +207,7 @@ Split split_render(const Words& words) {
   Arguments arguments(words);
   if (!read_render_job(job, arguments.count(), arguments.words(), true)) return std::nullopt;
   std::vector<GivenWord> given = job.given;
-  SplitCommand split = begin(given, true);
+  SplitCommand split = begin(given);
   add_scene_files(split, job.scene);
   const bool frames = job.rig.empty() && asks_for_video(job.time);
   if (job.rig.empty()) {
@@ -235,7 +235,7 @@ Split split_stitch(const Words& words) {
   if (!read_stitch_job(job, arguments.count(), arguments.words())) return std::nullopt;
   if (job.frames.empty()) throw UsageError("one picture has nothing to split: --frames stitches many");
   std::vector<GivenWord> given = job.given;
-  SplitCommand split = begin(given, false);
+  SplitCommand split = begin(given);
   const ods::SlitRig rig = open_rig(job.rig_file);
   const std::string fault = names_fault(rig, job.views);
   if (!fault.empty()) throw UsageError(fault);
@@ -260,11 +260,13 @@ struct OtherCommand {
   std::string_view name;
   int (*run)(int argc, char** argv);
   std::optional<size_t> frames = std::nullopt;  // the argument whose frames become those of the output, one by one
+  bool in_place = false;                        // without -o it changes its input
 };
 
 constexpr OtherCommand kOthers[] = {
-    {"convert", ods_convert, 0}, {"over", ods_over, 1},  {"denoise", ods_denoise}, {"merge", ods_merge},
-    {"encode", ods_encode},      {"inject", ods_inject}, {"lint", ods_lint},
+    {"convert", ods_convert, 0}, {"over", ods_over, 1},  {"denoise", ods_denoise},
+    {"merge", ods_merge},        {"encode", ods_encode}, {"inject", ods_inject, {}, true},
+    {"lint", ods_lint},
 };
 
 std::vector<int> frames_of(const std::string& pattern, const std::vector<GivenWord>& given) {
@@ -277,7 +279,7 @@ Split split_other(const OtherCommand& command, const Words& words) {
   const auto read = checked_words([&] { command.run(arguments.count(), arguments.words()); });
   if (!read) return std::nullopt;
   std::vector<GivenWord> given = *read;
-  SplitCommand split = begin(given, false);
+  SplitCommand split = begin(given);
   split.memory = (size_t{2} << 30) + 8 * bytes_of_files(split);
   const std::string name(command.name);
   const std::string from = command.frames ? given.at(*command.frames).value : "";
@@ -285,6 +287,9 @@ Split split_other(const OtherCommand& command, const Words& words) {
     count(split, "frame", frames_of(from, given));
     split.groups = {{"frames", command_words(name, without(given, kByFarm), {"--skip-existing"}), "--only"}};
     return split;
+  }
+  if (split.output.empty() && command.in_place) {
+    throw UsageError("a farm's task changes no file that it reads: say with -o where the tagged one goes");
   }
   if (split.output.empty()) split.output = given.front().value;
   split.count = 1;

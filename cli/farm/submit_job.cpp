@@ -39,7 +39,7 @@ void check_line(const std::string& option, const std::string& value) {
 
 void add_options(Options& options, SubmitJob& job) {
   options.choice("--to", job.to, ods::kSchedulerTable, "the scheduler");
-  options.text("-o,--output", "DIR", job.folder,
+  options.text("-o,--output", ValueKind::output_folder(), job.folder,
                "folder for what is sent; by default NAME.farm beside what the command makes");
   options.flag("--dry-run", job.dry, "write nothing, send nothing: print what would be sent");
   options.group("Tasks");
@@ -56,7 +56,7 @@ void add_options(Options& options, SubmitJob& job) {
   options.texts("--sbatch", "OPTION", job.wishes.extras, "slurm: an option of sbatch, '--partition=render'");
   options.text("--image", "NAME", job.wishes.image, "kubernetes: image of the containers");
   options.text("--volume", "CLAIM", job.wishes.volume, "kubernetes: claim of the volume that has the files");
-  options.text("--mount", "DIR", job.wishes.mount,
+  options.text("--mount", ValueKind::input_folder(), job.wishes.mount,
                "kubernetes: where that volume is mounted; by default the current folder's path");
   options.group("Console");
   add_console_options(options);

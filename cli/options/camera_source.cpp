@@ -29,7 +29,7 @@ void load(const std::string& path, CameraSource& source) {
 void add_camera_source(Options& options, CameraSource& source) {
   options.group("Picture");
   options.custom(
-      "--from", "FILE", "", [&](const std::string& path) { load(path, source); },
+      "--from", ValueKind::input_file(), "", [&](const std::string& path) { load(path, source); },
       "take the camera from a .camera.json file or a picture that carries it");
   options.number("--width", source.width, 2, 32768, "width of one eye in pixels");
   options.choice("--eyes", source.eyes, ods::kEyesTable, "which eyes to make");

@@ -157,12 +157,12 @@ void add_circle_options(Options& options, CameraOptions& camera) {
                   merge_names()));
   options.custom("--merge-top", merge_unit, "", set_top, "the same for the upper pole only");
   options.custom("--merge-bottom", merge_unit, "", set_bottom, "the same for the lower pole only");
-  options.text("--merge-map", "FILE", camera.merge_map,
+  options.text("--merge-map", ValueKind::input_file(), camera.merge_map,
                "lat-long picture for --merge map: white is full stereo, black is none");
   options.flag("--merge-map-inverted", camera.merge_map_inverted,
                "invert the map: black is full stereo, as in Arnold's manual");
   options.text(
-      "--head-tilt-map", "FILE", camera.head_tilt_map,
+      "--head-tilt-map", ValueKind::input_file(), camera.head_tilt_map,
       "lat-long picture that tilts the head: white 90 degrees to the right, mid-grey not at all, black 90 degrees "
       "to the left");
   options.custom(

@@ -116,7 +116,11 @@ std::optional<ods::Environment> read_background(const std::string& word, const s
 }  // namespace
 
 void add_light_options(Options& options, LightOptions& light) {
-  options.text("--env", "LIGHT", light.environment,
+  const auto kind = [](const std::string& option, const char* unit) {
+    return ValueKind::input_file(unit,
+                                 [=](const std::string& word) { return !environment_file(option, word).empty(); });
+  };
+  options.text("--env", kind("--env", "LIGHT"), light.environment,
                "light from all around, instead of the scene's own: studio, sky, sky:elevation=35,azimuth=120 (of the "
                "sun), white, a lat-long picture (.hdr, .exr, ...), R,G,B or one brightness; 0 is none. A scene without "
                "light gets what suits it");
@@ -124,7 +128,7 @@ void add_light_options(Options& options, LightOptions& light) {
                "a soft lamp that shines down from there; by default (auto) only closed rooms without light get one");
   options.flag("--unlit", light.unlit, "show all colours as they are painted, without light and shadow");
   options.text(
-      "--background", "env|PICTURE", light.background,
+      "--background", kind("--background", "env|PICTURE"), light.background,
       "what the camera sees behind the scene, written as for --env; it lights nothing. By default env, the light "
       "from all around; of a studio its walls, or black behind floating things");
 }

@@ -21,7 +21,7 @@
 using ods::Scene;
 
 static void add_confine_option(Options& options, SceneSource& source) {
-  options.text("--confine", "DIR", source.confine,
+  options.text("--confine", ValueKind::input_folder(), source.confine,
                "read no file outside this folder, wherever paths and links in the scene lead: for untrusted scenes");
 }
 
@@ -42,8 +42,13 @@ static std::optional<float> parse_unit(const std::string& word) {
                                fmt::join(ods::names_of(ods::kUnitTable), ", "), word));
 }
 
+// A file, unless it is built in.
+static ValueKind scene_kind() {
+  return ValueKind::input_file("SCENE", [](const std::string& name) { return !ods::find_builtin(name); });
+}
+
 void add_scene_argument(Options& options, SceneSource& source) {
-  options.argument("SCENE", source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
+  options.argument(scene_kind(), source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.group("Scene");
   options.number("--scene", source.scene, 0, 1000000,
@@ -57,7 +62,7 @@ void add_scene_argument(Options& options, SceneSource& source) {
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
-  options.text("--scene", "SCENE", source.name, help);
+  options.text("--scene", scene_kind(), source.name, help);
   add_unit_option(options, source);
   add_confine_option(options, source);
 }

@@ -160,7 +160,7 @@ ods::FrameRate parse_rate(const std::string& text) {
 
 void add_video_options(Options& options, VideoWishes& wishes) {
   options.group("Video");
-  options.text("-o,--output", "FILE", wishes.output, ".mp4 .mov .mkv .webm");
+  options.text("-o,--output", ValueKind::output_file(), wishes.output, ".mp4 .mov .mkv .webm");
   add_packing_options(options, wishes);
 }
 
@@ -177,7 +177,7 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
   options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "bit rate in Mbit/s, instead of --crf");
   options.number("--bits", wishes.bits, 8, 10, "bits per channel: 8 or 10");
   options.choice("--chroma", wishes.chroma, ods::kChromaTable, "chroma subsampling");
-  options.text("--audio", "FILE", wishes.sound,
+  options.text("--audio", ValueKind::input_file(), wishes.sound,
                "sound file: mono, stereo, or first-order ambisonics with four channels (AmbiX)");
   add_apple_option(options, wishes.for_apple);
 }

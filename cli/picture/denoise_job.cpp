@@ -25,7 +25,7 @@ constexpr const char* kSummary =
     "samples know for sure stays: the more samples, the less is changed.";
 
 void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::ProjectionSetting>& projection) {
-  options.argument("IN", job.input, "input file: .exr; %V in the name reads one file per eye");
+  options.argument(ValueKind::input_file("IN"), job.input, "input file: .exr; %V in the name reads one file per eye");
   options.group("Input, if the file does not tell");
   options.text("--variance", "NAME", job.layers.variance, "layer with the variance of each pixel's mean");
   options.text("--half-a", "NAME", job.layers.half_a, "layer with the mean of half of the samples");
@@ -39,7 +39,7 @@ void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::Pro
 void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::Layout>& layout, bool& alone) {
   options.group("Output");
   options.text(
-      "-o,--output", "FILE", job.output,
+      "-o,--output", ValueKind::output_file(), job.output,
       "output file: .exr keeps all layers, and the noisy colour as layer raw; also .png .jpg .tif .webp .hdr; %V "
       "in the name writes one file per eye");
   options.flag("--each-eye", alone, "denoise each eye alone");

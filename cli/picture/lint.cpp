@@ -48,14 +48,14 @@ struct LintJob {
 
 bool read_options(LintJob& job, int argc, char** argv) {
   Options options("lint", kSummary, kExamples);
-  options.argument("FILE", job.path, "a picture or a video; %V in the name: one file per eye");
+  options.argument(ValueKind::input_file("FILE"), job.path, "a picture or a video; %V in the name: one file per eye");
   add_layout_option(options, job.lint.layout,
                     "layout, if neither the file nor its name (_TB, _LR, ...) tells; separate: one eye");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
   add_projection_options(options, job.projection);
   options.group("Videos");
   options.number("--every", job.every, 0, 1 << 30,
-                 "judge each so many frames as a picture; 1: all; 0: about 24, and the first of every shot");
+                 "judge each so many frames as a picture; 1: all; 0: about 24, and one of every shot");
   options.group("Console");
   options.flag("--json", job.json, "print JSON");
   add_progress_options(options, job.progress);

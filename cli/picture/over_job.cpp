@@ -30,11 +30,12 @@ constexpr const char* kSummary =
 
 bool read_over_job(OverJob& job, int argc, char** argv) {
   Options options("over", kSummary, kExamples);
-  options.argument("FOREGROUND", job.foreground,
+  options.argument(ValueKind::input_file("FOREGROUND"), job.foreground,
                    "a picture, frames or a video with alpha, such as those of ods title and ods render --transparent");
-  options.argument("BACKGROUND", job.background, "a picture, frames or a video; %V in the name: one file per eye");
+  options.argument(ValueKind::input_file("BACKGROUND"), job.background,
+                   "a picture, frames or a video; %V in the name: one file per eye");
   options.group("Pictures");
-  options.text("-o,--output", "FILE", job.output,
+  options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; over a video also .mp4 .mov .mkv .webm; %V in the name "
                "writes one file per eye");
   options.custom(

@@ -42,7 +42,7 @@ struct TestcardJob {
 bool read_options(TestcardJob& job, int argc, char** argv) {
   Options options("testcard", kSummary, kExamples);
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output,
+  options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr, or a video; %V in the name writes one file per eye");
   job.picture.width = 4096;
   add_picture_options(options, job.picture, job.save);

@@ -90,7 +90,7 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
       "place the text on a plane; by default it curves around the viewer, so that every letter is equally far");
   add_frame_options(options, job);
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output,
+  options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .exr .png .tif .webp; %V in the name writes one file per eye");
   job.picture.width = 4096;
   add_picture_options(options, job.picture, job.save);

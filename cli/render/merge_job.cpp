@@ -135,9 +135,9 @@ void open_words(MergeJob& job, const std::vector<std::string>& words, bool incom
 
 void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& layout, bool& incomplete) {
   RenderJob& render = job.render;
-  options.arguments("PART", job.parts, "the parts; # in a name stands for any number");
+  options.arguments(ValueKind::input_file("PART"), job.parts, "the parts; # in a name stands for any number");
   options.group("Output");
-  options.text("-o,--output", "FILE", render.output,
+  options.text("-o,--output", ValueKind::output_file(), render.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   options.flag("--incomplete", incomplete, "make the picture even if parts are missing; it is noisier");
   add_wait_option(options, render.wait, "parts");

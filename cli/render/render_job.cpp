@@ -32,10 +32,11 @@ std::optional<float> parse_exposure(const std::string& word) {
 
 void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output,
+  options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
   add_picture_options(options, job.render, job.save);
-  options.text("--rig", "FILE", job.rig, "render the views of this rig (made by ods rig), for ods stitch");
+  options.text("--rig", ValueKind::input_file(), job.rig,
+               "render the views of this rig (made by ods rig), for ods stitch");
   options.flag("--statistics", job.render.statistics,
                "also write each pixel's variance and number of samples, for ods denoise (.exr)");
   options.flag("--transparent", job.render.transparent,

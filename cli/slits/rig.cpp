@@ -54,7 +54,8 @@ bool read_options(RigJob& job, int argc, char** argv) {
   Options options("rig",
                   "Plans perspective cameras for other renderers; ods stitch combines their views into an ODS picture.",
                   kExamples);
-  options.text("-o,--output", "FILE", job.output, "the rig as JSON, for ods stitch; by default only prints the plan");
+  options.text("-o,--output", ValueKind::output_file(), job.output,
+               "the rig as JSON, for ods stitch; by default only prints the plan");
   add_script_option(options, job.targets);
   add_slit_options(options, job);
   add_camera_source(options, job.source);

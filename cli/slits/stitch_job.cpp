@@ -24,10 +24,11 @@ static void set_sheet(const std::string& word, ods::ViewFiles& views) {
 
 bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kExamples);
-  options.argument("RIG", job.rig_file, "the rig file written by ods rig");
-  options.argument("VIEWS", job.views.names, "the views' file names, with #### for the view's number; %V is the eye");
+  options.argument(ValueKind::input_file("RIG"), job.rig_file, "the rig file written by ods rig");
+  options.argument(ValueKind::input_file("VIEWS"), job.views.names,
+                   "the views' file names, with #### for the view's number; %V is the eye");
   options.group("Picture");
-  options.text("-o,--output", "FILE", job.output,
+  options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .exr .png .jpg .tif .webp .hdr; .exr keeps layers and depth");
   add_layout_option(options, job.layout, "how both eyes share the file; by default as ods rig was told");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
@@ -49,7 +50,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
                "the views' normals are in camera space; convert them to world space");
   options.flag("--partial", job.partial, "stitch although views are missing; leave their parts black");
   options.flag("--list-missing", job.list_missing, "only print which views to render again, as a frame range");
-  options.text("--report", "FILE", job.report,
+  options.text("--report", ValueKind::output_file(), job.report,
                "write a picture of the seams between slits, and print how visible they are");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   options.group("Console");

@@ -45,7 +45,8 @@ ods::Layout video_layout(const std::string& word) {
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
   Options options("encode", kSummary, kExamples);
-  options.argument("FRAMES", job.pattern, "the frames' file names, in quotes: 'shot.####.exr'; any picture format");
+  options.argument(ValueKind::input_file("FRAMES"), job.pattern,
+                   "the frames' file names, in quotes: 'shot.####.exr'; any picture format");
   options.group("Frames");
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },

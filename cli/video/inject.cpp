@@ -32,8 +32,8 @@ constexpr const char* kSummary =
 bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
   Options options("inject", kSummary, kExamples);
   std::string layout;
-  options.argument("FILE", job.file, "the file: mp4, mov, mkv, webm; jpg, png, tif, exr");
-  options.text("-o,--output", "FILE", job.output, "write this file and leave FILE unchanged");
+  options.argument(ValueKind::input_file("FILE"), job.file, "the file: mp4, mov, mkv, webm; jpg, png, tif, exr");
+  options.text("-o,--output", ValueKind::output_file(), job.output, "write this file and leave FILE unchanged");
   options.group("Metadata");
   options.text("--layout", "LAYOUT", layout, "mono, top-bottom, side-by-side, ...: how both eyes share a frame");
   options.text("--projection", "NAME", job.projection,

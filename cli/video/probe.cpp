@@ -84,7 +84,7 @@ void run(int argc, char** argv) {
   std::string path;
   bool json = false;
   Options options("probe", kSummary, kExamples);
-  options.argument("FILE", path, "a video or a picture");
+  options.argument(ValueKind::input_file("FILE"), path, "a video or a picture");
   options.group("Console");
   options.flag("--json", json, "print JSON");
   add_console_options(options);

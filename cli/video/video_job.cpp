@@ -30,7 +30,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   add_scene_argument(options, render.scene);
   add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
-  options.text("--rig", "FILE", job.rig,
+  options.text("--rig", ValueKind::input_file(), job.rig,
                "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
   options.flag("--keep-frames", job.keep_frames, "keep VIDEO.frames, which ods encode can read");
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");

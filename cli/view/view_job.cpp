@@ -78,7 +78,7 @@ void add_folder(const std::string& folder, const ods::FormatHint& known, std::ve
 
 bool read_view_job(ViewJob& job, int argc, char** argv) {
   Options options("view", kSummary, kExamples);
-  options.arguments("FILE", job.paths,
+  options.arguments(ValueKind::input_file("FILE"), job.paths,
                     "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
   options.group("Input, if neither the file nor its name tells");
   add_layout_option(options, job.known.layout, "how both eyes share the file; separate: one eye");
@@ -91,7 +91,8 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   options.number("--port", job.port, 1, 65535, "the port to serve at; by default 8360, or any if that is taken");
   bool stay = false;
   options.flag("--no-browser", stay, "only print the address");
-  options.text("--export", "FOLDER", job.folder, "write the viewer and the files into this folder instead");
+  options.text("--export", ValueKind::output_folder(), job.folder,
+               "write the viewer and the files into this folder instead");
   options.group("Console");
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;

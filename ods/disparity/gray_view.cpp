@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/disparity/gray_view.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -34,6 +36,8 @@ static float exposure_of(const std::vector<Image>& eyes) {
 
 namespace {
 
+constexpr int kOutside = -1;
+
 // The pixels of an eye at n x n points inside a pixel of the view.
 class Sampler {
  public:
@@ -41,31 +45,46 @@ class Sampler {
       : projection_(make_projection(setting)),
         eye_(eye),
         width_(width),
-        n_(std::clamp(static_cast<int>(std::ceil(pixels_around(setting, eye.width) / width)), 2, 8)) {}
+        n_(std::clamp(static_cast<int>(std::ceil(pixels_around(setting, eye.width) / width)), 2, 8)) {
+    if (setting.kind != kLatLong) return;
+    const vec2 middle = projection_.center;
+    for (int i = 0; i < n_ * width_; i++) columns_.push_back(pixel_at(theta_of(i), middle.y).x);
+    for (int i = 0; i < n_ * width_ / 2; i++) rows_.push_back(pixel_at(middle.x, phi_of(i)).y);
+  }
 
   // Their indices in reading order; empty if one is outside the picture.
-  const std::vector<size_t>& at(int x, int y) {
-    found_.clear();
+  void find(int x, int y, std::vector<size_t>& found) const {
+    found.clear();
     for (int i = 0; i < n_ * n_; i++) {
-      const float theta = turn((x + (i % n_ + 0.5) / n_) / width_ - 0.5);
-      const float phi = turn(0.25 - 0.5 * (y + (i / n_ + 0.5) / n_) / (width_ / 2));
-      const ImagePoint place = place_of(projection_, look_at_angles(theta, phi).direction);
-      if (!place.seen) return none_;
-      const int column = std::clamp(static_cast<int>(place.uv.x * static_cast<float>(eye_.width)), 0, eye_.width - 1);
-      const int row = std::clamp(static_cast<int>(place.uv.y * static_cast<float>(eye_.height)), 0, eye_.height - 1);
-      found_.push_back(static_cast<size_t>(row) * static_cast<size_t>(eye_.width) + static_cast<size_t>(column));
+      const glm::ivec2 pixel = pixel_of(n_ * x + i % n_, n_ * y + i / n_);
+      if (pixel.x == kOutside || pixel.y == kOutside) return found.clear();
+      found.push_back(static_cast<size_t>(pixel.y) * static_cast<size_t>(eye_.width) + static_cast<size_t>(pixel.x));
     }
-    return found_;
   }
 
  private:
+  float theta_of(int i) const { return turn((i + 0.5) / (n_ * width_) - 0.5); }
+  float phi_of(int i) const { return turn(0.25 - 0.5 * (i + 0.5) / (n_ * width_ / 2)); }
   static float turn(double turns) { return static_cast<float>(2.0 * std::numbers::pi * turns); }
+
+  // Of a lat-long picture, columns and rows are tables: asking for every point is slow.
+  glm::ivec2 pixel_of(int i, int j) const {
+    if (columns_.empty()) return pixel_at(theta_of(i), phi_of(j));
+    return {columns_[static_cast<size_t>(i)], rows_[static_cast<size_t>(j)]};
+  }
+
+  glm::ivec2 pixel_at(float theta, float phi) const {
+    const ImagePoint place = place_of(projection_, look_at_angles(theta, phi).direction);
+    if (!place.seen) return glm::ivec2(kOutside);
+    return {std::clamp(static_cast<int>(place.uv.x * static_cast<float>(eye_.width)), 0, eye_.width - 1),
+            std::clamp(static_cast<int>(place.uv.y * static_cast<float>(eye_.height)), 0, eye_.height - 1)};
+  }
 
   Projection projection_;
   const Image& eye_;
   int width_;
   int n_;
-  std::vector<size_t> found_, none_;
+  std::vector<int> columns_, rows_;
 };
 
 }  // namespace
@@ -84,15 +103,16 @@ std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const Proj
   assert(!eyes.empty() && eyes[0].channels == 1);
   const int detail = static_cast<int>(pixels_around(projection, eyes[0].width));
   const int width = std::clamp(detail / 4 * 4, 4, max_width);
-  Sampler sampler(projection, eyes[0], width);
+  const Sampler sampler(projection, eyes[0], width);
   const float exposure = is_float ? exposure_of(eyes) : 1.0f;
   std::vector<GrayView> views(eyes.size(), GrayView(width, width / 2, 1));
-  for (int y = 0; y < width / 2; y++) {
+  tbb::parallel_for(0, width / 2, [&](int y) {
+    std::vector<size_t> places;
     for (int x = 0; x < width; x++) {
-      const std::vector<size_t>& places = sampler.at(x, y);
+      sampler.find(x, y, places);
       for (size_t i = 0; i < eyes.size(); i++) *views[i].at(x, y) = mean_grey(eyes[i], places, exposure);
     }
-  }
+  });
   return views;
 }
 

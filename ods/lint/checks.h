@@ -13,8 +13,9 @@ namespace ods {
 
 struct Subject {
   std::string path;
-  bool is_video = false;  // a frame of it
-  FileInfo info;          // of the left file of a pair
+  bool is_video = false;                 // a frame of it
+  std::optional<double> bits_per_pixel;  // of a video's file
+  FileInfo info;                         // of the left file of a pair
   StereoFormat format;
   std::vector<Image> eyes;   // luminance, scene-linear, 1 channel, as stored
   std::vector<Image> small;  // scene-linear colour, 3 channels, averaged to at most kSmallWidth columns

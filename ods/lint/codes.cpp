@@ -53,7 +53,7 @@ static void check_highlights(const Subject& subject, LintReport& report) {
 
 namespace {
 
-constexpr float kFlat = 0.75f;  // code values: within a stair
+constexpr float kFlat = 0.75f;  // code values: within a stair, from its mean
 constexpr float kLeast = 2.5f;  // code values: from one stair to the next; 1 is what 8 bits do
 constexpr float kMost = 24.0f;
 constexpr int kWide = 6;     // pixels of a stair, at least
@@ -65,9 +65,13 @@ constexpr int kLines = 128;  // of either kind, that are looked at
 int stairs_in(const std::vector<float>& line) {
   int stairs = 0, steps = 0;
   size_t start = 0;
-  float last_step = 0.0f, last_level = NAN;
+  float sum = line[0], last_step = 0.0f, last_level = NAN;
   for (size_t i = 1; i <= line.size(); i++) {
-    if (i < line.size() && std::abs(line[i] - line[i - 1]) <= kFlat) continue;
+    const bool is_end = i == line.size();
+    if (!is_end && std::abs(line[i] - sum / static_cast<float>(i - start)) <= kFlat) {
+      sum += line[i];
+      continue;
+    }
     const bool is_wide = i - start >= kWide;
     const float level = line[start + (i - start) / 2], step = level - last_level;
     const bool is_like = steps == 0 || (step * last_step > 0.0f && std::abs(step - last_step) < 0.5f * std::abs(step));
@@ -77,7 +81,7 @@ int stairs_in(const std::vector<float>& line) {
     if (i - start > 2 && !is_wide) steps = 0;  // not a step but a slope
     if (steps == kSteps) stairs++, steps = 0;
     if (is_wide) last_level = level, last_step = is_step ? step : 0.0f;
-    start = i;
+    start = i, sum = is_end ? 0.0f : line[i];
   }
   return stairs;
 }

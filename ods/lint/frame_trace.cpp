@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
+#include "ods/base/median.h"
 #include "ods/lint/checks.h"
 
 namespace ods {
@@ -17,10 +19,14 @@ namespace {
 
 constexpr float kCutLikeness = 0.6f;  // two shots correlate by less
 constexpr float kStill = 4e-4f;       // of a frame that is the one before again: what a codec adds
-constexpr float kMoves = 3e-3f;       // around such a frame, if it should not be there
+constexpr float kMoves = 8e-3f;       // around such a frame, if it should not be there
 constexpr int kReach = 12;            // frames by which eyes may be apart in time
-constexpr int kNeighbours = 6;        // frames on either side of a duplicate
+constexpr int kNeighbours = 3;        // frames on either side of a duplicate
 constexpr size_t kEnough = 24;        // frames, to compare series
+constexpr size_t kPairs = 16;         // likewise, that count at a lag
+constexpr size_t kBesideJump = 3;     // frames on either side of a jump, which change by a third at most
+constexpr size_t kAfterJump = 6;      // frames from a jump on that a codec needs for it
+constexpr float kTurns = 0.01f;       // of Change::bands, if the camera turns
 
 float value_at(const Planes& planes, int x, int y) {
   const std::byte* row = planes.first[0] + static_cast<size_t>(y) * planes.stride[0];
@@ -39,7 +45,13 @@ std::string FrameTrace::time_text(int frame) const {
 
 FrameTrace::FrameTrace(Extent frame, Layout layout) : eye_(*unpacked_size(layout, frame)), layout_(layout) {
   const size_t count = layout == Layout::kSeparate ? 1 : 2;
-  last_.resize(count), changes_.resize(count), cuts_.resize(count);
+  last_.resize(count), rows_.resize(count), changes_.resize(count), cuts_.resize(count);
+}
+
+static std::vector<float> row_means(std::span<const float> cells, size_t columns) {
+  std::vector<float> means(cells.size() / columns);
+  for (size_t i = 0; i < cells.size(); i++) means[i / columns] += cells[i] / static_cast<float>(columns);
+  return means;
 }
 
 // Each cell is the mean of 4 x 4 pixels in it.
@@ -61,20 +73,24 @@ FrameTrace::Small FrameTrace::small_of(const DecodedFrame& frame, int eye) const
 FrameTrace::Change FrameTrace::change_of(const Small& before, const Small& now) {
   Change change;
   constexpr float kCells = kColumns * kRows, kCellsOfPart = kCells / (kAcross * kDown);
-  float mean = 0.0f, mean_before = 0.0f;
+  std::array<Numbers, kDown> parts;
+  parts.fill(Numbers(kAcross));
   for (size_t i = 0; i < now.size(); i++) {
     const size_t x = i % kColumns, y = i / kColumns;
     const float difference = std::abs(now[i] - before[i]);
-    change.parts[y / (kRows / kDown) * kAcross + x / (kColumns / kAcross)] += difference / kCellsOfPart;
+    parts[y / (kRows / kDown)][x / (kColumns / kAcross)] += difference * difference / kCellsOfPart;
     change.whole += difference / kCells;
-    mean += now[i] / kCells, mean_before += before[i] / kCells;
   }
+  for (const Numbers& band : parts) change.bands.push_back(std::sqrt(median(band)));
+  // Without the means of rows: that it is bright above and dark below, most shots have in common.
+  const Numbers means = row_means(now, kColumns), means_before = row_means(before, kColumns);
   float product = 0.0f, square = 1e-6f, square_before = 1e-6f;
   for (size_t i = 0; i < now.size(); i++) {
-    const float a = now[i] - mean, b = before[i] - mean_before;
+    const float a = now[i] - means[i / kColumns], b = before[i] - means_before[i / kColumns];
     product += a * b, square += a * a, square_before += b * b;
   }
   change.alike = product / std::sqrt(square * square_before);
+  change.motion = std::sqrt(square * std::max(0.0f, 1.0f - change.alike * change.alike) / kCells);
   return change;
 }
 
@@ -92,6 +108,7 @@ void FrameTrace::add(const DecodedFrame& frame, double seconds) {
     const Small now = small_of(frame, static_cast<int>(eye));
     if (frames_ > 0) changes_[eye].push_back(change_of(last_[eye], now));
     last_[eye] = now;
+    rows_[eye].push_back(row_means(now, kColumns));
     find_cut(eye);
   }
   times_.push_back(seconds);
@@ -122,22 +139,31 @@ void FrameTrace::check_cuts(LintReport& report) const {
 
 // --- duplicates ------------------------------------------------------------------------------------------------------
 
+// How much moves just before (-1) or after (1) a change; nothing where motion comes to rest there, or is held.
+float FrameTrace::motion_beside(int i, int way) const {
+  const int count = static_cast<int>(changes_[0].size());
+  float nearest = 0.0f, most = 0.0f;
+  for (int k = i + way; k >= 0 && k < count && std::abs(k - i) <= kNeighbours; k += way) {
+    const float change = changes_[0][static_cast<size_t>(k)].motion;
+    if (nearest < kMoves / 8.0f) nearest = change;
+    most = std::max(most, change);
+  }
+  return nearest >= 0.6f * most ? most : 0.0f;
+}
+
 void FrameTrace::check_duplicates(LintReport& report) const {
   std::vector<int> duplicates;
-  const std::vector<Change>& changes = changes_[0];
-  const int count = static_cast<int>(changes.size());
   int moving = 0;
-  for (int i = 0; i < count; i++) {
-    int lively = 0, around = 0;
-    for (int k = std::max(0, i - kNeighbours); k < std::min(count, i + kNeighbours + 1); k++) {
-      around++, lively += changes[static_cast<size_t>(k)].whole > kMoves ? 1 : 0;
-    }
-    const bool is_moving = 2 * lively > around;
-    moving += is_moving ? 1 : 0;
-    const auto is_still = [&](const std::vector<Change>& eye) { return eye[static_cast<size_t>(i)].whole < kStill; };
-    if (is_moving && std::all_of(changes_.begin(), changes_.end(), is_still)) duplicates.push_back(i + 1);
+  for (int i = 0; i < static_cast<int>(changes_[0].size()); i++) {
+    const float motion = std::min(motion_beside(i, -1), motion_beside(i, 1));
+    if (motion < kMoves) continue;
+    moving++;
+    const auto is_still = [&](const std::vector<Change>& eye) {
+      return eye[static_cast<size_t>(i)].whole < std::min(kStill, motion / 8.0f);
+    };
+    if (std::all_of(changes_.begin(), changes_.end(), is_still)) duplicates.push_back(i + 1);
   }
-  if (moving == 0) return skip(report, Check::kDuplicates, "nothing moves");
+  if (moving == 0) return skip(report, Check::kDuplicates, "nothing moves, or too little");
   judge(report, Check::kDuplicates);
   if (duplicates.empty()) return;
   std::vector<std::string> times;
@@ -151,19 +177,68 @@ void FrameTrace::check_duplicates(LintReport& report) const {
 
 // --- time between the eyes -------------------------------------------------------------------------------------------
 
-// Of the left eye's changes with the right eye's this many frames later. The root lets no cut decide alone.
-double FrameTrace::correlation(int lag) const {
-  const int count = static_cast<int>(changes_[0].size());
-  const int from = std::max(0, -lag), to = std::min(count, count - lag);
+// Leaves out what jumps, as at cuts and in lightning, and what codecs mend after that. A time spans so many changes.
+std::vector<bool> FrameTrace::count_all_but_jumps(size_t count, size_t span) const {
+  std::vector<bool> counts(count, true);
+  for (const std::vector<Change>& changes : changes_) {
+    for (size_t i = 0; i < changes.size(); i++) {
+      float beside = 0.0f;
+      for (size_t k = i - std::min(i, kBesideJump); k < std::min(i + kBesideJump + 1, changes.size()); k++) {
+        if (k != i) beside = std::max(beside, changes[k].whole);
+      }
+      if (changes[i].whole <= 3.0f * beside) continue;
+      for (size_t k = i - std::min(i, span - 1); k < std::min(i + kAfterJump, count); k++) counts[k] = false;
+    }
+  }
+  return counts;
+}
+
+// By how much the means of rows rise within some frames: so many that what codecs do to every second one does not
+// count.
+FrameTrace::Series FrameTrace::rises() const {
+  constexpr size_t kSpan = 4;
+  Series series;
+  for (size_t eye = 0; eye < 2; eye++) {
+    for (size_t i = 0; i + kSpan < rows_[eye].size(); i++) {
+      Numbers& rise = series.eyes[eye].emplace_back(rows_[eye][i + kSpan]);
+      for (size_t row = 0; row < rise.size(); row++) rise[row] -= rows_[eye][i][row];
+    }
+  }
+  series.counts = count_all_but_jumps(series.eyes[0].size(), kSpan);
+  return series;
+}
+
+// How fast all of the picture changes.
+FrameTrace::Series FrameTrace::speeds() const {
+  Series series;
+  float most = 0.0f;
+  for (size_t eye = 0; eye < 2; eye++) {
+    for (const Change& change : changes_[eye]) {
+      series.eyes[eye].push_back(change.bands);
+      most = std::max(most, *std::max_element(change.bands.begin(), change.bands.end()));
+    }
+  }
+  series.counts =
+      most < kTurns ? std::vector<bool>(series.eyes[0].size(), false) : count_all_but_jumps(series.eyes[0].size(), 1);
+  return series;
+}
+
+// Of the left eye's series with the right eye's this many frames later.
+double FrameTrace::correlation(const Series& series, int lag) {
+  const int count = static_cast<int>(series.counts.size());
+  std::vector<std::pair<const Numbers*, const Numbers*>> pairs;
+  for (int i = std::max(0, -lag); i < std::min(count, count - lag); i++) {
+    const size_t left = static_cast<size_t>(i), right = static_cast<size_t>(i + lag);
+    if (series.counts[left] && series.counts[right]) pairs.emplace_back(&series.eyes[0][left], &series.eyes[1][right]);
+  }
+  if (pairs.size() < kPairs) return 0.0;
   double product = 0.0, square = 1e-12, square_other = 1e-12;
-  for (size_t part = 0; part < Parts().size(); part++) {
-    const auto value = [&](size_t eye, int i) {
-      return std::sqrt(static_cast<double>(changes_[eye][static_cast<size_t>(i)].parts[part]));
-    };
+  for (size_t row = 0; row < pairs[0].first->size(); row++) {
     double mean = 0.0, mean_other = 0.0;
-    for (int i = from; i < to; i++) mean += value(0, i) / (to - from), mean_other += value(1, i + lag) / (to - from);
-    for (int i = from; i < to; i++) {
-      const double a = value(0, i) - mean, b = value(1, i + lag) - mean_other;
+    for (const auto& [one, other] : pairs) mean += double{(*one)[row]}, mean_other += double{(*other)[row]};
+    mean /= static_cast<double>(pairs.size()), mean_other /= static_cast<double>(pairs.size());
+    for (const auto& [one, other] : pairs) {
+      const double a = double{(*one)[row]} - mean, b = double{(*other)[row]} - mean_other;
       product += a * b, square += a * a, square_other += b * b;
     }
   }
@@ -174,14 +249,19 @@ void FrameTrace::check_time(LintReport& report) const {
   if (changes_.size() < 2) return skip(report, Check::kEyeTime, "there is only one eye");
   if (changes_[0].size() < kEnough) return skip(report, Check::kEyeTime, "the video is too short");
   int best = 0;
-  double most = correlation(0);
-  for (int lag = -kReach; lag <= kReach; lag++) {
-    if (correlation(lag) > most) most = correlation(lag), best = lag;
+  double most = 0.0, here = 0.0;
+  for (const Series& series : {rises(), speeds()}) {
+    if (most >= 0.7) break;
+    best = 0, here = most = correlation(series, 0);
+    for (int lag = -kReach; lag <= kReach; lag++) {
+      const double alike = correlation(series, lag);
+      if (alike > most) most = alike, best = lag;
+    }
   }
-  if (most < 0.5) return skip(report, Check::kEyeTime, "nothing moves unevenly enough");
+  if (most < 0.6) return skip(report, Check::kEyeTime, "nothing moves unevenly enough");
   judge(report, Check::kEyeTime);
-  const double here = correlation(0);
-  const double certainty = std::clamp((most - 0.4) / 0.3, 0.0, 1.0) * std::clamp((most - here) / 0.2, 0.0, 1.0);
+  const double better = (most - here) / (1.0 - here);
+  const double certainty = std::clamp((most - 0.4) / 0.3, 0.0, 1.0) * std::clamp(better / 0.2, 0.0, 1.0);
   if (best == 0 || certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kEyeLate, certainty,

@@ -27,6 +27,7 @@ namespace {
 constexpr int kBlocks = 128;          // of rows, each averaged
 constexpr double kNoise = 0.003;      // as displayed: breaks below are no structure
 constexpr double kSharpest = 8.0;     // a break counts no more
+constexpr double kFewBits = 0.033;    // for a pixel of a video: its codec breaks the picture at its edges
 constexpr size_t kWidths[] = {2, 6};  // columns that are averaged on either side, against noise and texture
 constexpr double kStructure = 0.1;    // sharpness of columns where there is something that could break
 constexpr size_t kNear = 8;           // columns on either side that tell how much a row varies there
@@ -261,6 +262,10 @@ void check_seam(const Subject& subject, LintReport& report) {
                       subject.projection().longitude.y - subject.projection().longitude.x > 359.9f;
   if (!closes) {
     skip(report, Check::kSeam, "this projection has none");
+    return;
+  }
+  if (subject.bits_per_pixel.value_or(kFewBits) < kFewBits) {
+    skip(report, Check::kSeam, "a codec with so few bits for a pixel breaks it by itself");
     return;
   }
   std::vector<Image> eyes;

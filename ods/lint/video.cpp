@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "ods/base/error.h"
@@ -19,6 +20,7 @@ namespace ods {
 namespace {
 
 constexpr int kUsualFrames = 24;
+constexpr int kSettled = 6;  // frames after a cut: both eyes have it, if late, and the codec has done its best
 
 // The eyes as the video has them.
 Image packed_image(Layout layout, const std::vector<Image>& eyes) {
@@ -45,11 +47,19 @@ LayoutGuess layout_of(const VideoInput& video, const LintOptions& options) {
   return guess;
 }
 
+std::optional<double> bits_per_pixel(const std::string& path, const VideoStream& stream) {
+  std::error_code error;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path, error));
+  if (error || stream.count == 0) return {};
+  return 8.0 * bytes / stream.count / stream.size.width / stream.size.height;
+}
+
 Subject subject_of(const VideoInput& video, const VideoStream& stream, const StoredPicture& picture,
                    const LintOptions& options) {
   Subject subject;
   subject.path = video.path;
   subject.is_video = true;
+  subject.bits_per_pixel = bits_per_pixel(video.path, stream);
   subject.info.width = stream.size.width, subject.info.height = stream.size.height;
   subject.format.layout = layout_of(video, options);
   subject.format.camera = video.prototype.camera;
@@ -61,6 +71,7 @@ Subject subject_of(const VideoInput& video, const VideoStream& stream, const Sto
 
 // What the judged frames of a shot say.
 struct Shot {
+  int frames = 0;
   int judged = 0;
   std::map<Fault, std::vector<std::pair<double, Finding>>> found;  // with their times
 };
@@ -94,9 +105,9 @@ class VideoJudge {
       const std::optional<DecodedFrame> frame = decoder_.next();
       if (!frame) break;
       trace_.add(*frame, seconds_of(*frame));
-      const bool is_cut = trace_.is_cut();
-      if (is_cut) end_shot();
-      if (i % every_ == 0 || (is_cut && options_.every == 0)) look_at(*frame);
+      if (trace_.is_cut()) end_shot();
+      if (i % every_ == 0 || (shot_.frames == kSettled && options_.every == 0)) look_at(*frame);
+      shot_.frames++;
       const int count = decoder_.stream().count;
       if (progress.report && count > 0) progress.report(std::min(1.0, (i + 1.0) / count));
     }

@@ -12,7 +12,7 @@ namespace ods {
 
 struct VideoLintOptions {
   LintOptions picture;
-  int every = 0;  // judge each so many frames as a picture; 0: about 24 of them, and the first of every shot
+  int every = 0;  // judge each so many frames as a picture; 0: about 24 of them, and one of every shot
 };
 
 // The report is that of the whole video: a finding has the times of the frames that show it. Throws Error(kInput), as

@@ -294,28 +294,18 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   if (format == FileFormat::kExr || format == FileFormat::kPng) {
     header.attributes.insert(header.attributes.end(), file.options.attributes.begin(), file.options.attributes.end());
   }
-  SampleType sample = SampleType::kUint8;
-  switch (format) {
-    case FileFormat::kExr:
-      add_exr(header.attributes, camera, file.layout, eyes);
-      header.is_environment = count == 1 && camera != nullptr && is_full_lat_long(camera->projection);
-      if (file.layout != Layout::kMultiview) add_exr_channels(header.channels, file.picture.layers, "", true);
-      if (file.layout == Layout::kMultiview) {
-        for (int eye : eyes) add_exr_channels(header.channels, file.picture.layers, eye_name(eye), eye == eyes[0]);
-      }
-      return header;
-    case FileFormat::kHdr:
-      sample = SampleType::kFloat;
-      break;
-    case FileFormat::kJpeg:
-    case FileFormat::kWebp:
-    case FileFormat::kTiff:
-    case FileFormat::kPng:
-      break;
+  if (format == FileFormat::kExr) {
+    add_exr(header.attributes, camera, file.layout, eyes);
+    header.is_environment = count == 1 && camera != nullptr && is_full_lat_long(camera->projection);
+    if (file.layout != Layout::kMultiview) add_exr_channels(header.channels, file.picture.layers, "", true);
+    if (file.layout == Layout::kMultiview) {
+      for (int eye : eyes) add_exr_channels(header.channels, file.picture.layers, eye_name(eye), eye == eyes[0]);
+    }
+    return header;
   }
+  const SampleType sample = format == FileFormat::kHdr ? SampleType::kFloat : SampleType::kUint8;
   header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
-  if (!has_alpha(file.picture) || !keeps_alpha(format, file.layout)) return header;
-  header.channels.push_back({"A", sample});
+  if (has_alpha(file.picture) && keeps_alpha(format, file.layout)) header.channels.push_back({"A", sample});
   return header;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "ods/kernel/surface.h"
 
@@ -127,8 +128,8 @@ bool is_anything_visible(const Scene& scene) {
 }
 
 Bounds scene_bounds(const Scene& scene) {
-  Bounds bounds;
-  bool empty = true;
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  Bounds bounds{vec3(kFar), vec3(-kFar)};
   for (size_t k = 0; k < scene.instances.size(); k++) {
     if (is_hidden(scene, k)) continue;
     const Instance& instance = scene.instances[k];
@@ -136,12 +137,10 @@ Bounds scene_bounds(const Scene& scene) {
     for (uint i = 0; i < mesh.vertex_count; i++) {
       const vec4 p(scene.vertices[mesh.first_vertex + i].position, 1.0f);
       const vec3 world(dot(instance.row0, p), dot(instance.row1, p), dot(instance.row2, p));
-      bounds.low = empty ? world : min(bounds.low, world);
-      bounds.high = empty ? world : max(bounds.high, world);
-      empty = false;
+      bounds.low = min(bounds.low, world), bounds.high = max(bounds.high, world);
     }
   }
-  return bounds;
+  return bounds.low.x <= bounds.high.x ? bounds : Bounds();
 }
 
 ViewPoint default_view(const Scene& scene) {

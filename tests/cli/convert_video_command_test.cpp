@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods convert of videos and frames as its users meet it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -223,6 +226,32 @@ TEST_F(KilledConversion, BeginsAnewWhereAnythingDiffers) {
   EXPECT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 4) << err;
   EXPECT_NE(err.find(".unfinished' was not written by this version of ods"), std::string::npos) << err;
   EXPECT_EQ(folder.read(to + ".unfinished"), "somebody's");
+}
+
+TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
+  const auto write = [&](int frame, int shown) {
+    save_picture(ods::made::red_and_blue({64, 32}, shown), {}, path(fmt::format("shot_360_TB.{:03}.png", frame)));
+  };
+  for (int i = 0; i < kFrames; i++) write(i, i % 20);
+  const std::string to = "new_180_LR.mp4";
+  const std::vector<std::string> arguments = {
+      path("shot_360_TB.###.png"), "--to", "vr180", "--width", "128", "--codec", "h264", "-o", path(to)};
+  const std::string words = fmt::format("convert {}", fmt::join(arguments, " "));
+  ASSERT_EQ(run(words + " -q"), 0) << err;
+  const std::string whole = folder.read(to);
+  std::filesystem::remove(path(to));
+  ASSERT_NO_FATAL_FAILURE(kill_in_the_middle(arguments, to));
+  const std::string parts = folder.read(to + ".unfinished");
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_NE(err.find("goes on after "), std::string::npos) << err;
+  EXPECT_TRUE(folder.read(to) == whole);
+  EXPECT_FALSE(std::filesystem::exists(path(to + ".unfinished")));
+
+  folder.write(to + ".unfinished", parts);
+  write(10, 25);
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_NE(err.find("begins anew: "), std::string::npos) << err;
+  EXPECT_FALSE(folder.read(to) == whole);
 }
 
 TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {

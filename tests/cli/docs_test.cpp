@@ -187,6 +187,7 @@ class Pages : public ::testing::Test {
                                                    : " --samples 1";
     if (command == "rig") {
       more += has(line, "--slits") ? " --width 512" : " --width 64";
+      if (has(line, "--max-error")) more += " --max-error 4";
     } else if (command == "testcard") {
       more += " --width 512";
     } else if (renders || command == "title" || has_width) {

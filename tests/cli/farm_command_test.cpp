@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 #include "tests/support/cli_runner.h"
 #include "tests/support/programs.h"
@@ -167,6 +169,43 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
   }
 }
 
+// Those that options name, but for lights and scenes that are built in. @: the folder.
+TEST_F(Farm, ThePlanNamesEveryFile) {
+  const std::string at = folder.path("");
+  const auto placed = [&](const std::string& words) { return std::regex_replace(words, std::regex("@"), at); };
+  for (const std::string& name : {"views", "out"}) std::filesystem::create_directory(at + name);
+  ASSERT_EQ(run(placed("render -q furnace --width 32 --samples 1 --sidecar -o @in.png")), 0) << err;
+  ASSERT_EQ(run(placed("render -q furnace --width 32 --samples 1 --eyes mono -o @map.exr")), 0) << err;
+  ASSERT_EQ(run(placed("rig -q --nearest 1 --width 64 -o @rig.json")), 0) << err;
+  struct Job {
+    std::string words;
+    std::set<std::string> paths;
+  };
+  const std::vector<Job> jobs = {
+      {"video toys --env @map.exr --background 0,0.5,1 -o @v.mp4", {"input @map.exr", "output @v.mp4"}},
+      {"video toys --env studio --background @map.exr -o @v.mp4", {"input @map.exr", "output @v.mp4"}},
+      {"video toys --env sky:elevation=9 --confine @views -o @v.mp4", {"input @views", "output @v.mp4"}},
+      {"video toys --merge-map @map.exr -o @v.mp4", {"input @map.exr", "output @v.mp4"}},
+      {"render toys --parts 2 --head-tilt-map @map.exr -o @p.exr", {"input @map.exr", "output @p.exr"}},
+      {"stitch @rig.json @views/####/#.exr --report @s.png -o @out/s.#.exr",
+       {"input @rig.json", "input @views", "output @out", "output @s.png"}},
+      {"convert @in.png --from-camera @in.camera.json --to cube-3x2 -o @c.png",
+       {"input @in.png", "input @in.camera.json", "output @c.png"}}};
+  for (const Job& job : jobs) {
+    const bool frames = job.words.find("--parts") == std::string::npos && !job.words.starts_with("convert");
+    const std::string submit = "submit -q --to openjd --chunk 1 -o @farm -- ";
+    ASSERT_EQ(run(placed(submit + job.words + (frames ? " --frames 1-2" : ""))), 0) << job.words << "\n" << err;
+    std::set<std::string> paths;
+    const json made = json::parse(folder.read("farm/plan.json"));
+    for (const json& path : made["paths"]) {
+      paths.insert(path["use"].get<std::string>() + " " + path["path"].get<std::string>());
+    }
+    std::set<std::string> expected;
+    for (const std::string& path : job.paths) expected.insert(placed(path));
+    EXPECT_EQ(paths, expected) << job.words;
+  }
+}
+
 TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
   ASSERT_EQ(run("submit --to slurm -- " + video() + " --frames 3-4 --keep-frames"), 0) << err;
   EXPECT_NE(err.find("making frame 3 here"), std::string::npos) << err;
@@ -270,6 +309,14 @@ TEST_F(Farm, ALineBreakInANameIsRefused) {
   EXPECT_EQ(submit.finish(), 2);
   EXPECT_NE(submit.err.find("line break"), std::string::npos) << submit.err;
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Farm, NoTaskChangesItsInput) {
+  folder.write("film.mp4", "a film");
+  const std::string tag = "submit --to openjd -- inject " + folder.path("film.mp4") + " --layout top-bottom";
+  EXPECT_EQ(run(tag), 2);
+  EXPECT_NE(err.find("-o"), std::string::npos) << err;
+  EXPECT_EQ(run(tag + " -o " + folder.path("tagged.mp4")), 0) << err;
 }
 
 TEST_F(Farm, PartsOfAnotherPictureAreNotTakenForOurs) {

@@ -126,6 +126,27 @@ TEST_F(Manual, ZshOffersEveryOption) {
   EXPECT_EQ(std::system(("zsh -n " + folder.path("ods.zsh")).c_str()), 0);
 }
 
+// ods submit sends what is marked as a file where it is added (cli/console/value_kind.h), and zsh offers files for it.
+TEST_F(Manual, OptionsAndArgumentsThatTakeFilesAreMarked) {
+  write_completion("zsh");
+  const std::regex option("^ .*[']\\[.*\\]:([^:]*):(.*)' \\\\$"), argument("^      '\\*?:([^:]*):(.*)' \\\\$");
+  const Names not_files = {"TEXT", "NAME", "COMMAND", "X,Y,Z..."};
+  const Names units = {"FILE", "DIR", "SCENE", "LIGHT", "env|PICTURE"};
+  const std::regex path("(^|[^A-Z])(FILE|DIR|FOLDER|PICTURE|SCENE|LIGHT)S?($|[^A-Z])");
+  Names seen;
+  std::istringstream lines(out);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_option = std::regex_match(line, match, option);
+    if (!is_option && !std::regex_match(line, match, argument)) continue;
+    const std::string unit = match[1], action = match[2];
+    const bool is_path = is_option ? std::regex_search(unit, path) : !not_files.contains(unit);
+    EXPECT_EQ(action.find("_files") != std::string::npos, is_path) << line;
+    if (is_option && is_path) seen.insert(unit);
+  }
+  EXPECT_EQ(seen, units);
+}
+
 TEST_F(Manual, PagesAreGoodTroff) {
   if (std::system("command -v mandoc >/dev/null") != 0) GTEST_SKIP() << "skipped: there is no mandoc";
   std::vector<std::string> pages = {"--help=man"};

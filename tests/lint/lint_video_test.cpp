@@ -45,7 +45,7 @@ class LintVideo : public ::testing::Test {
   }
 
   // The right eye is higher by so many degrees, from a frame on.
-  std::string make(int count, float higher, int from) {
+  std::string make(int count, float higher, int from, std::optional<int> quality = {}) {
     const Waves world;
     SaveOptions save;
     save.tone = ToneCurve::kLinear;
@@ -61,6 +61,7 @@ class LintVideo : public ::testing::Test {
     EncodeOptions options;
     options.packing.codec = VideoCodec::kH264;
     options.encoder = "libx264";
+    options.packing.quality = quality;
     options.rate = {10, 1};
     make_video(files, plan_video(files, {}, {}), {}, options, folder.path("film_360_TB.mp4"));
     return folder.path("film_360_TB.mp4");
@@ -95,6 +96,18 @@ TEST_F(LintVideo, FindsAFaultOfAShotAndItsTimes) {
                                      [&](const NotJudged& each) { return each.check == check; });
     EXPECT_NE(judged(report, check), skipped) << check_name(check);
   }
+}
+
+// With few bits a codec breaks the picture where it closes.
+TEST_F(LintVideo, ASeamNeedsBits) {
+  const auto has_few_bits = [&](int quality) {
+    const LintReport report = lint_video(make(8, 0.0f, 8, quality));
+    return std::any_of(report.not_judged.begin(), report.not_judged.end(), [](const NotJudged& each) {
+      return each.check == Check::kSeam && each.reason.find("so few bits") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(has_few_bits(51));
+  EXPECT_FALSE(has_few_bits(5));
 }
 
 TEST_F(LintVideo, StopsWhenItIsAskedTo) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "ods/camera/eye_correction.h"
 #include "ods/image/tone.h"
@@ -109,6 +110,16 @@ TEST_F(LintOneEye, HasBandsOrNot) {
   const LintReport report = lint_of([&](vec3 d) { return floor(sky(d) * 32.0f) / 32.0f; });
   EXPECT_NE(finding_of(report, Fault::kBanding), nullptr);
   EXPECT_TRUE(judged(report, Check::kBanding));
+}
+
+// Noise cuts slopes into runs that are no stairs: none of them is level.
+TEST_F(LintOneEye, ANoisyGlowHasNoBands) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<float> noise(-0.004f, 0.004f);
+  const LintReport report =
+      lint_of([&](vec3 d) { return vec3(0.3f + 0.25f * d.y + 0.2f * d.x) * (1.0f + noise(engine)); });
+  const Finding* found = finding_of(report, Fault::kBanding);
+  EXPECT_EQ(found, nullptr) << found->evidence;
 }
 
 }  // namespace

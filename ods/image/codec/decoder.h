@@ -38,6 +38,9 @@ class Decoder {
   // top, each once. Throws Error(kInput).
   virtual void read(int begin, int end, size_t first, size_t count, std::byte* to) = 0;
 
+  // What read() returns of a pixel.
+  size_t bytes_of_pixel(size_t first, size_t count) const;
+
   // What the header says: color and color_fault are empty.
   FileInfo info;
   bool is_whole_picture = true;              // false: an EXR whose data window is not its display window
@@ -51,7 +54,8 @@ std::unique_ptr<Decoder> open_png(const PictureBytes& file);
 std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file);
 std::unique_ptr<Decoder> open_exr(const PictureBytes& file);
 
-// Throws Error(kInput) where a picture is larger than image_limits.h allows a file of this size to be.
-void check_picture_size(const PictureBytes& file, int width, int height);
+// Throws Error(kInput) where a picture is larger than image_limits.h allows a file of this size to be. `tile`: the
+// longer side of its tiles.
+void check_picture_size(const PictureBytes& file, int width, int height, int tile = 0);
 
 }  // namespace ods

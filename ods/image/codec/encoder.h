@@ -29,6 +29,8 @@ std::unique_ptr<Encoder> create_png(AtomicFile& file, const FileHeader& header);
 std::unique_ptr<Encoder> create_jpeg(AtomicFile& file, const FileHeader& header);
 std::unique_ptr<Encoder> create_exr(AtomicFile& file, const FileHeader& header);
 
+size_t bytes_of_pixel(const FileHeader& header);
+
 Error cannot_write(const AtomicFile& file, const std::string& why);
 
 }  // namespace ods

@@ -138,13 +138,12 @@ class ExrDecoder final : public Decoder {
   void describe(const Imf::Header& header, int parts);
   bool read_fast(int begin, int end, size_t first, size_t count, std::byte* to);
   void read_any(int begin, int end, size_t first, size_t count, std::byte* to);
-  size_t bytes_of_channels(size_t first, size_t count) const;
 
   std::string name_;
   bool on_disk_;
   std::unique_ptr<ExrInput> input_;
   std::unique_ptr<Imf::MultiPartInputFile> file_;
-  std::unique_ptr<Imf::InputPart> part_;
+  std::unique_ptr<Imf::InputPart> part_;  // for read_any(): it makes room for rows
   Imath::Box2i window_;
   std::vector<ExrChannel> channels_;
   std::unique_ptr<ExrRows> rows_;  // of the channels from first_ on; nullptr: ExrRows cannot read the file
@@ -159,7 +158,6 @@ ExrDecoder::ExrDecoder(const PictureBytes& file) : name_(file.name), on_disk_(fi
         file_ = std::make_unique<Imf::MultiPartInputFile>(*input_, threads);
         const Imf::Header& header = file_->header(0);
         if (header.hasType() && Imf::isDeepData(header.type())) throw cannot_read(name_, "it is not a flat image");
-        part_ = std::make_unique<Imf::InputPart>(*file_, 0);
         describe(header, file_->parts());
       },
       [&](const std::string& words) { return cannot_read(name_, words); });
@@ -183,12 +181,6 @@ void ExrDecoder::describe(const Imf::Header& header, int parts) {
   if (header.hasTileDescription()) rows_together = static_cast<int>(header.tileDescription().ySize);
 }
 
-size_t ExrDecoder::bytes_of_channels(size_t first, size_t count) const {
-  size_t bytes = 0;
-  for (size_t c = first; c < first + count; c++) bytes += bytes_of(info.samples[c]);
-  return bytes;
-}
-
 bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::byte* to) {
   if (!on_disk_) return false;
   if (first_ != first) {
@@ -200,7 +192,7 @@ bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::
 }
 
 void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::byte* to) {
-  const size_t pixel = bytes_of_channels(first, count), row = pixel * static_cast<size_t>(info.width);
+  const size_t pixel = bytes_of_pixel(first, count), row = pixel * static_cast<size_t>(info.width);
   Imf::FrameBuffer buffer;
   char* at = reinterpret_cast<char*>(to) - static_cast<ptrdiff_t>(pixel) * window_.min.x -
              static_cast<ptrdiff_t>(row) * (window_.min.y + begin);  // where pixel 0, 0 would be
@@ -210,6 +202,7 @@ void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::b
   }
   guarded(
       [&] {
+        if (!part_) part_ = std::make_unique<Imf::InputPart>(*file_, 0);
         part_->setFrameBuffer(buffer);
         part_->readPixels(window_.min.y + begin, window_.min.y + end - 1);
       },
@@ -218,11 +211,11 @@ void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::b
 
 void ExrDecoder::read(int begin, int end, size_t first, size_t count, std::byte* to) {
   if (!read_fast(begin, end, first, count, to)) read_any(begin, end, first, count, to);
-  const size_t pixel = bytes_of_channels(first, count);
+  const size_t pixel = bytes_of_pixel(first, count);
   const size_t size = pixel * static_cast<size_t>(info.width) * static_cast<size_t>(end - begin);
   for (size_t c = first; c < first + count; c++) {
     if (!whole_numbers[c]) continue;
-    const size_t offset = bytes_of_channels(first, c - first);
+    const size_t offset = bytes_of_pixel(first, c - first);
     const unsigned number = whole_numbers_to_floats({to + offset, size - offset}, pixel);
     if (number > 0) beyond_floats.emplace(c, number);
   }
@@ -314,9 +307,7 @@ ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
 }
 
 void ExrEncoder::write(int begin, int end, const std::byte* rows) {
-  size_t pixel = 0;
-  for (const Channel& channel : header_.channels) pixel += bytes_of(channel.sample);
-  const size_t row = pixel * static_cast<size_t>(header_.width);
+  const size_t pixel = bytes_of_pixel(header_), row = pixel * static_cast<size_t>(header_.width);
   Imf::FrameBuffer buffer;
   // OpenEXR only reads it.
   char* at = reinterpret_cast<char*>(const_cast<std::byte*>(rows)) - static_cast<ptrdiff_t>(row) * begin;

@@ -35,9 +35,15 @@ PictureBytes picture_in_memory(std::span<const std::byte> bytes, const std::stri
   return {name, false, bytes.size(), read};
 }
 
-void check_picture_size(const PictureBytes& file, int width, int height) {
-  const std::string fault = image_size_fault(width, height, std::max(width, height), file.size);
+void check_picture_size(const PictureBytes& file, int width, int height, int tile) {
+  const std::string fault = image_size_fault(width, height, std::max({width, height, tile}), file.size);
   if (!fault.empty()) throw cannot_read(file.name, fault);
+}
+
+size_t Decoder::bytes_of_pixel(size_t first, size_t count) const {
+  size_t bytes = 0;
+  for (size_t c = first; c < first + count; c++) bytes += bytes_of(info.samples[c]);
+  return bytes;
 }
 
 constexpr std::string_view kVideoExtensions[] = {".mp4", ".mov", ".mkv", ".webm"};  // for a message
@@ -102,9 +108,7 @@ static Opened open(const std::string& path) {
 template <class Take>
 static void each_row(Decoder& decoder, size_t first, size_t count, const Take& take) {
   const int height = decoder.info.height, band = std::max(64, decoder.rows_together);
-  size_t pixel = 0;
-  for (size_t c = first; c < first + count; c++) pixel += bytes_of(decoder.info.samples[c]);
-  const size_t row = pixel * static_cast<size_t>(decoder.info.width);
+  const size_t row = decoder.bytes_of_pixel(first, count) * static_cast<size_t>(decoder.info.width);
   std::vector<std::byte> rows(row * static_cast<size_t>(std::min(band, height)));
   for (int begin = 0; begin < height; begin += band) {
     const int end = std::min(begin + band, height);

@@ -19,6 +19,12 @@ Error cannot_write(const AtomicFile& file, const std::string& why) {
   return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", file.path(), library_words(why)));
 }
 
+size_t bytes_of_pixel(const FileHeader& header) {
+  size_t bytes = 0;
+  for (const Channel& channel : header.channels) bytes += bytes_of(channel.sample);
+  return bytes;
+}
+
 static std::unique_ptr<Encoder> create_encoder(AtomicFile& file, const FileHeader& header) {
   switch (header.format) {
     case FileFormat::kPng:
@@ -42,12 +48,8 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   assert(header.width > 0 && header.height > 0 && !header.channels.empty());
   const int kBand = 64;
   std::vector<SampleType> samples;
-  size_t pixel_size = 0;
-  for (const Channel& channel : header.channels) {
-    samples.push_back(channel.sample);
-    pixel_size += bytes_of(channel.sample);
-  }
-  const size_t width = static_cast<size_t>(header.width), row_size = width * pixel_size;
+  for (const Channel& channel : header.channels) samples.push_back(channel.sample);
+  const size_t width = static_cast<size_t>(header.width), row_size = width * bytes_of_pixel(header);
   std::vector<std::byte> made(row_size * static_cast<size_t>(std::min(kBand, header.height))), written(made.size());
   const auto make = [&](int begin) {
     tbb::parallel_for(begin, std::min(begin + kBand, header.height), [&](int y) {

@@ -231,17 +231,12 @@ class JpegEncoder final : public Encoder {
   size_t row_size_;
 };
 
-// The segments before the pixels: GPano as XMP, then text as comments.
-std::string xmp_of(const FileHeader& header) {
-  std::vector<Attribute> properties;
-  std::copy_if(header.attributes.begin(), header.attributes.end(), std::back_inserter(properties), is_gpano);
-  return properties.empty() ? "" : std::string(kJpegXmp) + make_xmp(properties);
-}
-
+// Before the pixels come GPano as XMP, then text as comments.
 JpegEncoder::JpegEncoder(AtomicFile& file, const FileHeader& header) : file_(file), output_(file.stream()) {
   const size_t channels = header.channels.size();
   row_size_ = channels * static_cast<size_t>(header.width);
-  const std::string xmp = xmp_of(header);
+  const std::string packet = gpano_xmp(header.attributes);
+  const std::string xmp = packet.empty() ? "" : std::string(kJpegXmp) + packet;
   const auto write_segment = [&](int marker, const std::string& data) {
     jpeg_write_marker(&jpeg_, marker, reinterpret_cast<const JOCTET*>(data.data()), static_cast<unsigned>(data.size()));
   };

@@ -217,8 +217,8 @@ class PngEncoder final : public Encoder {
   size_t row_size_;
 };
 
-// Texts in an uncompressed form, as it is the one that every reader knows.
-std::vector<png_text> texts_of(const FileHeader& header, std::string& xmp) {
+// Uncompressed, which every reader knows. They point into their arguments.
+std::vector<png_text> texts_of(const FileHeader& header, const std::string& xmp) {
   std::vector<png_text> texts;
   const auto add = [&](int form, const char* key, const std::string& text) {
     png_text one{};
@@ -227,15 +227,11 @@ std::vector<png_text> texts_of(const FileHeader& header, std::string& xmp) {
     one.text = const_cast<char*>(text.c_str());
     texts.push_back(one);
   };
-  std::vector<Attribute> properties;
   for (const Attribute& attribute : header.attributes) {
-    if (is_gpano(attribute)) properties.push_back(attribute);
     const std::string* text = std::get_if<std::string>(&attribute.value);
     if (text && !is_gpano(attribute)) add(PNG_TEXT_COMPRESSION_NONE, attribute.name.c_str(), *text);
   }
-  if (properties.empty()) return texts;
-  xmp = make_xmp(properties);
-  add(PNG_ITXT_COMPRESSION_NONE, kPngXmpKeyword.data(), xmp);
+  if (!xmp.empty()) add(PNG_ITXT_COMPRESSION_NONE, kPngXmpKeyword.data(), xmp);
   return texts;
 }
 
@@ -244,8 +240,8 @@ PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
   png_infop info = libpng_.header = png ? png_create_info_struct(png) : nullptr;
   if (!info) throw std::bad_alloc();
   const size_t channels = header.channels.size(), sample = bytes_of(header.channels[0].sample);
-  row_size_ = channels * sample * static_cast<size_t>(header.width);
-  std::string xmp;
+  row_size_ = bytes_of_pixel(header) * static_cast<size_t>(header.width);
+  const std::string xmp = gpano_xmp(header.attributes);
   const std::vector<png_text> texts = texts_of(header, xmp);
   const bool good = succeeds(png, [&] {
     png_set_write_fn(png, file.stream(), write_bytes, flush_nothing);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace ods {
@@ -102,6 +103,12 @@ std::string make_xmp_body(const std::vector<Attribute>& properties) {
 std::string make_xmp(const std::vector<Attribute>& properties) {
   return fmt::format("<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n{}\n<?xpacket end=\"r\"?>",
                      make_xmp_body(properties));
+}
+
+std::string gpano_xmp(const std::vector<Attribute>& attributes) {
+  std::vector<Attribute> properties;
+  std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(properties), is_gpano);
+  return properties.empty() ? "" : make_xmp(properties);
 }
 
 // --- parsing ---------------------------------------------------------------------------------------------------------

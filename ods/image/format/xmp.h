@@ -26,7 +26,10 @@ bool is_gpano(const Attribute& attribute);
 // A packet with those properties that are in the namespaces GPano, GImage and xmpNote.
 std::string make_xmp(const std::vector<Attribute>& properties);
 
-// The same without the packet wrapper, as in extended XMP.
+// A packet with those attributes that are GPano; empty if none is.
+std::string gpano_xmp(const std::vector<Attribute>& attributes);
+
+// make_xmp() without the packet wrapper, as in extended XMP.
 std::string make_xmp_body(const std::vector<Attribute>& properties);
 
 // Replaces all GPano properties of the packet by these; everything else stays. Nothing if the packet is not valid XML

@@ -136,9 +136,7 @@ void OiioDecoder::open(const PictureBytes& file, FileFormat format, bool keep_al
   config.attribute("oiio:UnassociatedAlpha", keep_alpha ? 1 : 0);
   if (!input_->open(name_, spec_, config)) throw failed();
   if (spec_.deep || spec_.depth > 1 || spec_.nchannels < 1) throw cannot_read(name_, "it is not a flat image");
-  const int longest = std::max({spec_.width, spec_.height, spec_.tile_width, spec_.tile_height});
-  const std::string fault = image_size_fault(spec_.width, spec_.height, longest, file.size);
-  if (!fault.empty()) throw cannot_read(name_, fault);
+  check_picture_size(file, spec_.width, spec_.height, std::max(spec_.tile_width, spec_.tile_height));
 }
 
 void OiioDecoder::read(int begin, int end, size_t first, size_t count, std::byte* to) {
@@ -149,9 +147,9 @@ void OiioDecoder::read(int begin, int end, size_t first, size_t count, std::byte
                         : input_->read_scanlines(0, 0, top, bottom, 0, from, until, type_, to);
   if (!good) throw failed();
   if (multiplied_ == 0.0f || first > 0 || spec_.alpha_channel >= until) return;
-  const size_t samples = static_cast<size_t>(end - begin) * static_cast<size_t>(spec_.width) * count;
-  divide_by_alpha(info.samples[0], {to, samples * type_.size()}, count, static_cast<size_t>(spec_.alpha_channel),
-                  multiplied_);
+  const size_t pixels = static_cast<size_t>(end - begin) * static_cast<size_t>(spec_.width);
+  divide_by_alpha(info.samples[0], {to, pixels * bytes_of_pixel(first, count)}, count,
+                  static_cast<size_t>(spec_.alpha_channel), multiplied_);
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------

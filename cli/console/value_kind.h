@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an option's value or an argument is: its name in help, and whether it names a file or a folder. An option says
+// so where it is added; the manual, the shells' completion and ods submit go by that.
+#pragma once
+#include <functional>
+#include <string>
+#include <utility>
+
+enum class PathUse { kNone, kInput, kOutput };
+
+struct ValueKind {
+  using Judge = std::function<bool(const std::string&)>;
+
+  // No path. Implicit, as most are: "N", "X,Y,Z", "draft|preview|final"; empty for a flag.
+  ValueKind(const char* name) : unit(name) {}
+  ValueKind(std::string name) : unit(std::move(name)) {}
+
+  // judge: whether a value is a path, of those that may be something else, too.
+  static ValueKind input_file(std::string name = "FILE", Judge judge = {}) {
+    return {std::move(name), PathUse::kInput, false, std::move(judge)};
+  }
+  static ValueKind input_folder() { return {"DIR", PathUse::kInput, true, {}}; }
+  static ValueKind output_file() { return {"FILE", PathUse::kOutput, false, {}}; }
+  static ValueKind output_folder() { return {"DIR", PathUse::kOutput, true, {}}; }
+
+  PathUse use_of(const std::string& value) const { return !judge || judge(value) ? use : PathUse::kNone; }
+
+  std::string unit;
+  PathUse use = PathUse::kNone;
+  bool is_folder = false;
+  Judge judge;
+
+ private:
+  ValueKind(std::string name, PathUse how, bool folder, Judge judge_of)
+      : unit(std::move(name)), use(how), is_folder(folder), judge(std::move(judge_of)) {}
+};
