@@ -34,7 +34,7 @@ struct Wanted {
   std::string others;
 };
 
-bool is_wanted(const Wanted& wanted, const Plant& plant, double strength) {
+bool is_wanted(const Wanted& wanted, const PicturePlant& plant, double strength) {
   const std::string name = fmt::format("{} {:g}", plant.name, strength);
   const auto in_name = [&](const std::string& only) { return name.find(only) != std::string::npos; };
   return wanted.only.empty() || std::any_of(wanted.only.begin(), wanted.only.end(), in_name);
@@ -43,17 +43,10 @@ bool is_wanted(const Wanted& wanted, const Plant& plant, double strength) {
 // A picture to judge: a pair of eyes, what is done to it, and how it is stored.
 struct Case {
   const Pair* pair;
-  const Plant* plant;
+  const PicturePlant* plant;
   double strength = 0.0;
   int width = 1024;
   int quality = 90;
-};
-
-struct Verdict {
-  bool found = false;
-  bool judged = true;  // the check that would have found it was made
-  int others = 0;      // faults that were not planted
-  std::string text;
 };
 
 Verdict judge(const Case& each, const std::string& stem) {
@@ -63,19 +56,8 @@ Verdict judge(const Case& each, const std::string& stem) {
   const std::string path = save(made, stem);
   const ods::LintReport report = ods::lint(path, made.lint);
   std::filesystem::remove(path);
-  Verdict verdict;
-  for (const ods::Finding& finding : report.findings) {
-    const auto& faults = each.plant->faults;
-    const bool expected = std::find(faults.begin(), faults.end(), finding.fault) != faults.end();
-    if (finding.certainty < 0.5 || (!expected && severity_of(finding.fault) != ods::Severity::kFault)) continue;
-    verdict.found = verdict.found || expected;
-    verdict.others += expected ? 0 : 1;
-    verdict.text += fmt::format(" {} {:.2f}: {};", fault_name(finding.fault), finding.certainty, finding.evidence);
-  }
-  for (const ods::NotJudged& skipped : report.not_judged) {
-    if (skipped.check == each.plant->check) verdict.judged = false;
-  }
-  return verdict;
+  return verdict_of(report, each.plant->check,
+                    [&](const ods::Finding& finding) { return each.plant->explains(finding); });
 }
 
 std::vector<Verdict> judge_all(const std::vector<Case>& cases, const Folder& folder, const Wanted& wanted) {
@@ -86,15 +68,14 @@ std::vector<Verdict> judge_all(const std::vector<Case>& cases, const Folder& fol
     const std::string name = fmt::format("{}-{}-{}-{}-{}-q{}", i, each.pair->name, each.plant->name, each.strength,
                                          each.width, each.quality);
     verdicts[i] = judge(each, folder.path(name));
-    const bool is_correct = each.plant->faults.empty();
-    if (!wanted.verbose || (verdicts[i].others == 0 && (is_correct || verdicts[i].found))) return;
+    if (!wanted.verbose || verdicts[i].is_expected(each.plant->faults.empty())) return;
     const std::lock_guard<std::mutex> lock(speaks);
     std::fprintf(stderr, "%s%s%s\n", name.c_str(), verdicts[i].judged ? "" : " (not judged)", verdicts[i].text.c_str());
   });
   return verdicts;
 }
 
-std::vector<Case> cases_of(const std::vector<Pair>& pairs, const Plant& plant, double strength, bool full) {
+std::vector<Case> cases_of(const std::vector<Pair>& pairs, const PicturePlant& plant, double strength, bool full) {
   const std::vector<int> widths = full ? std::vector{1024, 1536, 2048} : std::vector{1024};
   const std::vector<int> qualities = full ? std::vector{60, 85, 95} : std::vector{85};
   std::vector<Case> cases;
@@ -108,7 +89,7 @@ void print_found(const std::vector<Pair>& pairs, const Folder& folder, const Wan
   fmt::print(
       "| fault | strength | pictures | found | missed | not judged | other faults told |\n"
       "|---|---|---|---|---|---|---|\n");
-  for (const Plant& plant : planted_faults()) {
+  for (const PicturePlant& plant : planted_faults()) {
     for (const double strength : plant.strengths) {
       if (!is_wanted(wanted, plant, strength)) continue;
       const std::vector<Verdict> verdicts = judge_all(cases_of(pairs, plant, strength, wanted.full), folder, wanted);
@@ -129,7 +110,7 @@ void print_found(const std::vector<Pair>& pairs, const Folder& folder, const Wan
 void print_false(const std::vector<Pair>& pairs, const Folder& folder, const Wanted& wanted) {
   fmt::print("\n| correct pictures | pictures | with a false fault |\n|---|---|---|\n");
   int all = 0, wrong = 0;
-  for (const Plant& plant : correct_kinds()) {
+  for (const PicturePlant& plant : correct_kinds()) {
     std::vector<Case> cases;
     for (const double strength : plant.strengths) {
       if (!is_wanted(wanted, plant, strength)) continue;

@@ -232,7 +232,7 @@ void dim(std::vector<Image>& eyes, double share) {
 }
 
 void add_faults_of_time(std::vector<FilmPlant>& plants) {
-  FilmPlant late{"right eye late", {Fault::kEyeLate}, Check::kEyeTime, "frames", {1.0, 2.0, 3.0, 5.0}};
+  FilmPlant late{{"right eye late", {Fault::kEyeLate}, Check::kEyeTime, "frames", {1.0, 2.0, 3.0, 5.0}}};
   late.plant = [](Film& film, double s) {
     film.retime = [s, step = film.speed / film.fps](Moment& moment, int, int eye) {
       if (eye == kRight) moment.seconds -= s * step;
@@ -241,7 +241,7 @@ void add_faults_of_time(std::vector<FilmPlant>& plants) {
   late.evidence = [](double s) { return "seen " + std::to_string(static_cast<int>(s)) + " frames"; };
   plants.push_back(late);
 
-  FilmPlant cuts{"cuts of the right eye late", {Fault::kCutsDiffer}, Check::kCuts, "frames", {1.0, 2.0, 5.0}, 3};
+  FilmPlant cuts{{"cuts of the right eye late", {Fault::kCutsDiffer}, Check::kCuts, "frames", {1.0, 2.0, 5.0}}, 3};
   cuts.plant = [](Film& film, double s) {
     film.retime = [s, length = film.length()](Moment& moment, int frame, int eye) {
       if (eye == kRight && frame >= length && frame % length < static_cast<int>(s)) moment.shot--;
@@ -250,7 +250,7 @@ void add_faults_of_time(std::vector<FilmPlant>& plants) {
   cuts.every = 7;
   plants.push_back(cuts);
 
-  FilmPlant twice{"a frame twice of every", {Fault::kDuplicateFrames}, Check::kDuplicates, "", {2.0, 5.0, 10.0}};
+  FilmPlant twice{{"a frame twice of every", {Fault::kDuplicateFrames}, Check::kDuplicates, "", {2.0, 5.0, 10.0}}};
   twice.plant = [](Film& film, double s) {
     film.retime = [s, step = film.speed / film.fps](Moment& moment, int frame, int) {
       if (frame % static_cast<int>(s) == 1) moment.seconds -= step;
@@ -262,7 +262,7 @@ void add_faults_of_time(std::vector<FilmPlant>& plants) {
 void add_faults_of_a_shot(std::vector<FilmPlant>& plants) {
   const auto add = [&](const char* name, const std::vector<Fault>& faults, Check check, const char* unit,
                        const std::vector<double>& strengths, void (*edit)(std::vector<Image> & eyes, double s)) {
-    FilmPlant plant{name, faults, check, unit, strengths, 3};
+    FilmPlant plant{{name, faults, check, unit, strengths}, 3};
     plant.plant = [edit](Film& film, double s) {
       film.edits.push_back([=, length = film.length()](std::vector<Image>& eyes, int frame) {
         if (frame / length == 1) edit(eyes, s);
@@ -298,7 +298,7 @@ Image cut(const Image& image, double share) {
 }
 
 void add_faults_of_all(std::vector<FilmPlant>& plants) {
-  FilmPlant seam{"columns missing at the seam", {Fault::kRaggedSeam}, Check::kSeam, "%", {1.0, 3.0, 6.0, 12.0}};
+  FilmPlant seam{{"columns missing at the seam", {Fault::kRaggedSeam}, Check::kSeam, "%", {1.0, 3.0, 6.0, 12.0}}};
   seam.plant = [](Film& film, double s) {
     film.edits.push_back([s](std::vector<Image>& eyes, int) {
       for (Image& eye : eyes) eye = cut(eye, 0.01 * s);
@@ -309,11 +309,11 @@ void add_faults_of_all(std::vector<FilmPlant>& plants) {
 
 void add_wrong_words(std::vector<FilmPlant>& plants) {
   const auto add = [&](const char* name, void (*plant)(Film & film)) {
-    FilmPlant words{name,
-                    {Fault::kLayoutMisread, Fault::kMetadata, Fault::kMonoAsStereo, Fault::kWrongAspect},
-                    Check::kLayout,
-                    "",
-                    {1.0}};
+    FilmPlant words{{name,
+                     {Fault::kLayoutMisread, Fault::kMetadata, Fault::kMonoAsStereo, Fault::kWrongAspect},
+                     Check::kLayout,
+                     "",
+                     {1.0}}};
     words.plant = [plant](Film& film, double) { plant(film); };
     plants.push_back(words);
   };
@@ -326,7 +326,7 @@ void add_wrong_words(std::vector<FilmPlant>& plants) {
 
 FilmPlant correct(const char* name, const std::vector<double>& strengths, size_t shots,
                   const std::function<void(Film& film, double strength)>& plant) {
-  FilmPlant kind{name, {}, Check::kLayout, "", strengths, shots, plant};
+  FilmPlant kind{{name, {}, Check::kLayout, "", strengths, plant}, shots};
   kind.every = 10;
   return kind;
 }

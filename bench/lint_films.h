@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/lint_plant.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image.h"
 #include "ods/lint/lint.h"
@@ -67,14 +68,8 @@ struct Film {
 // Encodes it and returns its path.
 std::string save(const Film& film, const std::string& stem);
 
-struct FilmPlant {
-  std::string name;
-  std::vector<ods::Fault> faults;  // any of them is right; empty: the film is correct
-  ods::Check check;                // which finds it
-  std::string unit;
-  std::vector<double> strengths;
+struct FilmPlant : Plant<Film> {
   size_t shots = 1;  // of a film
-  std::function<void(Film& film, double strength)> plant = {};
   // What the evidence of a fault of time has to say, or the shot that has to show a fault of pictures. May be empty.
   std::function<std::string(double strength)> evidence = {};
   int shot = -1;

@@ -261,7 +261,7 @@ void grade(std::vector<Image>& eyes, vec3 gain, float gamma) {
   }
 }
 
-void add_alignment_faults(std::vector<Plant>& plants) {
+void add_alignment_faults(std::vector<PicturePlant>& plants) {
   const std::vector<double> heights{0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.5, 5.0}, rolls{0.5, 1.0, 2.0, 5.0, 10.0};
   plants.push_back(
       {"vertical offset", {Fault::kVerticalOffset}, Check::kAlignment, "degrees", heights, [](Made& made, double s) {
@@ -284,7 +284,7 @@ void add_alignment_faults(std::vector<Plant>& plants) {
        [](Made& made, double s) { made.target.right.zoom = 1.0f + sign_of(made) * static_cast<float>(0.01 * s); }});
 }
 
-void add_color_faults(std::vector<Plant>& plants) {
+void add_color_faults(std::vector<PicturePlant>& plants) {
   plants.push_back({"tint of one eye",
                     {Fault::kEyeTinted},
                     Check::kColors,
@@ -309,7 +309,7 @@ void add_color_faults(std::vector<Plant>& plants) {
        [](Made& made, double s) { made.target.right.gamma = static_cast<float>(made.seed % 2 == 0 ? s : 1.0 / s); }});
 }
 
-void add_other_faults(std::vector<Plant>& plants) {
+void add_other_faults(std::vector<PicturePlant>& plants) {
   plants.push_back({"blur of one eye",
                     {Fault::kEyeBlurred},
                     Check::kSharpness,
@@ -332,7 +332,7 @@ void add_other_faults(std::vector<Plant>& plants) {
   }
 }
 
-void add_warnings(std::vector<Plant>& plants) {
+void add_warnings(std::vector<PicturePlant>& plants) {
   plants.push_back({"tilt of both eyes",
                     {Fault::kNotLevel},
                     Check::kHorizon,
@@ -377,7 +377,7 @@ void add_warnings(std::vector<Plant>& plants) {
 const std::vector<Fault> kWrongLayout = {Fault::kLayoutMisread, Fault::kMetadata, Fault::kMonoAsStereo,
                                          Fault::kWrongAspect};
 
-void add_layout_faults(std::vector<Plant>& plants) {
+void add_layout_faults(std::vector<PicturePlant>& plants) {
   plants.push_back(
       {"swapped eyes", {Fault::kEyesSwapped, Fault::kRightOnTop}, Check::kEyeOrder, "", {1.0}, [](Made& made, double) {
          made.edits.push_back([](std::vector<Image>& eyes) { std::swap(eyes[0], eyes[1]); });
@@ -400,13 +400,13 @@ void add_layout_faults(std::vector<Plant>& plants) {
 
 using Edit = void (*)(std::vector<Image>& eyes, double strength, uint32_t seed);
 
-Plant correct_edit(const char* name, const std::vector<double>& strengths, Edit edit) {
+PicturePlant correct_edit(const char* name, const std::vector<double>& strengths, Edit edit) {
   return {name, {}, Check::kLayout, "", strengths, [edit](Made& made, double s) {
             made.edits.push_back([=, seed = made.seed](std::vector<Image>& eyes) { edit(eyes, s, seed); });
           }};
 }
 
-void add_developed(std::vector<Plant>& kinds) {
+void add_developed(std::vector<PicturePlant>& kinds) {
   kinds.push_back({"as rendered, of all JPEG qualities",
                    {},
                    Check::kLayout,
@@ -442,7 +442,7 @@ void add_developed(std::vector<Plant>& kinds) {
   }));
 }
 
-void add_formed(std::vector<Plant>& kinds) {
+void add_formed(std::vector<PicturePlant>& kinds) {
   kinds.push_back({"turned by yaw", {}, Check::kLayout, "", {30.0, 97.0, 180.0, 260.0}, [](Made& made, double s) {
                      made.target.camera.yaw += static_cast<float>(s);
                    }});
@@ -470,9 +470,9 @@ void add_formed(std::vector<Plant>& kinds) {
 
 }  // namespace
 
-const std::vector<Plant>& planted_faults() {
-  static const std::vector<Plant> plants = [] {
-    std::vector<Plant> made;
+const std::vector<PicturePlant>& planted_faults() {
+  static const std::vector<PicturePlant> plants = [] {
+    std::vector<PicturePlant> made;
     add_alignment_faults(made);
     add_color_faults(made);
     add_other_faults(made);
@@ -483,9 +483,9 @@ const std::vector<Plant>& planted_faults() {
   return plants;
 }
 
-const std::vector<Plant>& correct_kinds() {
-  static const std::vector<Plant> kinds = [] {
-    std::vector<Plant> made;
+const std::vector<PicturePlant>& correct_kinds() {
+  static const std::vector<PicturePlant> kinds = [] {
+    std::vector<PicturePlant> made;
     add_developed(made);
     add_formed(made);
     return made;

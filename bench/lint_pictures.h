@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/lint_plant.h"
 #include "ods/convert/convert.h"
 #include "ods/lint/lint.h"
 
@@ -37,13 +38,6 @@ Made make_pair(const Pair& pair, int width, int quality);
 // Saves it and returns its path.
 std::string save(const Made& made, const std::string& stem);
 
-struct Plant {
-  std::string name;
-  std::vector<ods::Fault> faults;  // any of them is right; empty: the picture is correct
-  ods::Check check;                // which finds it
-  std::string unit;
-  std::vector<double> strengths;
-  std::function<void(Made& made, double strength)> plant;
-};
-const std::vector<Plant>& planted_faults();
-const std::vector<Plant>& correct_kinds();
+using PicturePlant = Plant<Made>;
+const std::vector<PicturePlant>& planted_faults();
+const std::vector<PicturePlant>& correct_kinds();

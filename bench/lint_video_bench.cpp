@@ -28,16 +28,9 @@ struct Wanted {
   std::string keep;
 };
 
-struct Verdict {
-  bool found = false;
-  bool judged = true;  // the check that would have found it was made
-  int others = 0;      // faults that were not planted
-  std::string text;
-};
-
 // Found as planted: as much of it, and where it is.
 bool is_right(const FilmPlant& plant, double strength, const Film& film, const ods::Finding& finding) {
-  if (std::find(plant.faults.begin(), plant.faults.end(), finding.fault) == plant.faults.end()) return false;
+  if (!plant.explains(finding)) return false;
   if (plant.evidence && finding.evidence.find(plant.evidence(strength)) == std::string::npos) return false;
   const auto in_shot = [&](double time) {
     return static_cast<int>(time * film.fps + 0.5) / film.length() == plant.shot;
@@ -47,20 +40,8 @@ bool is_right(const FilmPlant& plant, double strength, const Film& film, const o
 
 Verdict judge(const FilmPlant& plant, double strength, const Film& film, const std::string& path) {
   const ods::LintReport report = ods::lint_video(path, {{}, plant.every});
-  Verdict verdict;
-  for (const ods::Finding& finding : report.findings) {
-    const bool right = is_right(plant, strength, film, finding);
-    const bool counts =
-        severity_of(finding.fault) == ods::Severity::kFault || finding.fault == ods::Fault::kDuplicateFrames;
-    if (finding.certainty < 0.5 || (!right && !counts)) continue;
-    verdict.found = verdict.found || right;
-    verdict.others += right ? 0 : 1;
-    verdict.text += fmt::format(" {} {:.2f}: {};", fault_name(finding.fault), finding.certainty, finding.evidence);
-  }
-  for (const ods::NotJudged& skipped : report.not_judged) {
-    if (skipped.check == plant.check) verdict.judged = false;
-  }
-  return verdict;
+  return verdict_of(report, plant.check,
+                    [&](const ods::Finding& finding) { return is_right(plant, strength, film, finding); });
 }
 
 struct Counts {
@@ -85,8 +66,7 @@ Counts judge_all(const Shots& shots, const FilmPlant& plant, double strength, co
     counts.found += verdict.found ? 1 : 0;
     counts.unjudged += verdict.found || verdict.judged ? 0 : 1;
     counts.others += verdict.others > 0 ? 1 : 0;
-    const bool is_expected = verdict.others == 0 && (verdict.found || plant.faults.empty());
-    if (wanted.verbose && !is_expected) {
+    if (wanted.verbose && !verdict.is_expected(plant.faults.empty())) {
       fmt::print(stderr, "{}{}:{}\n", name, verdict.judged ? "" : " (not judged)", verdict.text);
     }
   }

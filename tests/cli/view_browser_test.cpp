@@ -33,10 +33,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kWindow = 256;     // pixels
+constexpr int kWindow = 128;     // pixels
 constexpr int kPerRadian = 163;  // of the pictures: 1024 around
 constexpr double kAlike = 38.0;  // dB
-constexpr auto kPatience = std::chrono::seconds(150);
+constexpr auto kPatience = std::chrono::seconds(400);
 const std::vector<int> kBothEyes{kLeft, kRight};
 
 struct Look {
