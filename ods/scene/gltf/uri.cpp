@@ -104,12 +104,14 @@ static std::string find_ignoring_case(const GltfFile& file, const std::string& n
 static std::vector<std::string> readings(const std::string& uri) {
   const std::string decoded = decode_percent(uri);
   std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (is_relative(name) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
   for (std::string name : {decoded, uri, decode_percent(decoded)}) {
-    names.push_back(name);
+    add(name);
     std::replace(name.begin(), name.end(), '\\', '/');
-    names.push_back(name);
+    add(name);
   }
-  std::erase_if(names, [](const std::string& name) { return !is_relative(name); });
   return names;
 }
 
