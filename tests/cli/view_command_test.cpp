@@ -16,8 +16,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 class ViewCommand : public Served {
  protected:
   void SetUp() override {
@@ -104,9 +102,8 @@ TEST_F(ViewCommand, SlowRequestsHoldNobodyUp) {
     slow.emplace_back(port);
     slow.back().send_text("GET / HTTP/1.1\r\nHost: ");
   }
-  const auto began = Clock::now();
   EXPECT_EQ(status_of(get("alive")), 200);
-  EXPECT_LT(Clock::now() - began, 4s) << "it waited until the others were given up";
+  EXPECT_TRUE(slow.back().is_open()) << "it waited until the others were given up";
   for (const Connection& connection : slow) connection.read_all();  // they are ended
 }
 
@@ -130,12 +127,22 @@ TEST_F(ViewCommand, ReloadsTakeNoMemory) {
   EXPECT_LT(leaked_by(reload), 200);
 }
 
-TEST_F(ViewCommand, EndsAtOnceAndKeepsItsAddress) {
-  const Connection idle(port);
-  const auto began = Clock::now();
+TEST_F(ViewCommand, EndsWithoutWaitingForAnybodyAndKeepsItsAddress) {
+  std::atomic<bool> has_ended{false}, was_waited_for{false};
+  const Connection slow(port);
+  slow.send_text("GET / HTTP/1.1\r\n");
+  std::thread visitor([&] {
+    for (int i = 0; i < 300 && !has_ended; i++) {
+      std::this_thread::sleep_for(100ms);
+      slow.send_text("X: y\r\n");
+    }
+    was_waited_for = !has_ended;
+  });
   server->kill(SIGINT);
   EXPECT_EQ(server->finish(), 130);
-  EXPECT_LT(Clock::now() - began, 2s);
+  has_ended = true;
+  visitor.join();
+  EXPECT_FALSE(was_waited_for);
   Ods again({"view", picture, "--no-browser", "--port", std::to_string(port)});
   again.wait_for("Ctrl-C ends it");
   EXPECT_NE(again.out.find(secret), std::string::npos);

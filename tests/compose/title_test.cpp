@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 
 #include "ods/base/error.h"
@@ -178,11 +179,14 @@ double cpu_seconds() {
 // A line that goes all around covers few rows; the others cost no more than those of a word.
 TEST(Title, ALongLineCostsWhatItCovers) {
   const auto seconds = [](const std::string& text) {
-    const double start = cpu_seconds();
-    draw(StereoCamera(), {}, kLeft, text);
-    return cpu_seconds() - start;
+    double least = std::numeric_limits<double>::max();
+    for (int i = 0; i < 3; i++) {  // the first loads fonts
+      const double start = cpu_seconds();
+      draw(StereoCamera(), {}, kLeft, text);
+      least = std::min(least, cpu_seconds() - start);
+    }
+    return least;
   };
-  seconds("W");  // fonts
   EXPECT_LT(seconds(std::string(100, 'W')), 4.0 * seconds("WWWW"));
 }
 
