@@ -29,7 +29,7 @@ struct NewVideo {
   std::optional<Ambisonics> ambisonics;  // of sound that is copied; sound that is encoded anew tells by its channels
   int count = 0;                         // frames, as far as known: for the progress
   size_t frame_bytes = 0;                // memory that making one takes, beside the frame itself
-  Resume resume;
+  Resume resume = {};
 };
 
 // A frame that is still to be made: `make` is called once, from any thread.
