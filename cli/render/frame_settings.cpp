@@ -160,8 +160,8 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, noise, noise_exposure, time_limit, part, even_noise, bounces, clamp, eyes,
-               share_paths, filter, layers, transparent, statistics, seed, threads, light_sampling, last_tile_first] =
+  const auto& [width, height, samples, noise, noise_exposure, time_limit, part, even_noise, bounces, clamp,
+               caustics, eyes, share_paths, filter, layers, transparent, statistics, seed, threads, light_sampling, last_tile_first] =
       options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
@@ -172,6 +172,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add_flag(settings, "shared paths", share_paths);
   add_number(settings, "--bounces", bounces);
   add_float(settings, "--clamp", clamp);
+  add(settings, "--caustics", std::string(ods::caustics_name(caustics)));
   add(settings, "--eyes", std::string(ods::eyes_name(eyes)));
   add(settings, "--filter", std::string(ods::pixel_filter_name(filter)));
   add_flag(settings, "layers", layers);

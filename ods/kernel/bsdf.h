@@ -200,6 +200,12 @@ struct BsdfEvaluator : LayeredEvaluator {
     return result;
   }
 
+  // What goes straight through smooth glass, thin or seen as straight (ods/kernel/path_light.h).
+  inline vec3 straight_transmittance(Bsdf bsdf) {
+    if (bsdf.view >= 0) return layered_transmittance(bsdf.view);
+    return bsdf.glass * (bsdf.glass_gain * (1.0f - glass_fresnel(bsdf, bsdf.wo.z)));
+  }
+
   // pick chooses the lobe, uv the direction; all are uniform in [0, 1).
   inline BsdfSample sample_bsdf(Bsdf bsdf, float pick, vec2 uv) {
     if (bsdf.view >= 0) return sample_layered(bsdf.view, pick, uv);

@@ -242,6 +242,16 @@ struct LayeredEvaluator : AlbedoReader {
     return sample_of_layers(layered[view], pick, uv);
   }
 
+  // What goes straight through smooth glass.
+#ifdef __cplusplus
+  [[gnu::noinline]]
+#endif
+  inline vec3
+  layered_transmittance(int view) {
+    LayeredBsdf b = layered[view];
+    return b.glass * (b.glass_gain * glass_transmittance(glass_reflectance(b, b.wo.z, b.eta)));
+  }
+
   // The colour by which a denoiser knows the surface: what it would reflect and let through of white light from
   // everywhere, about.
 #ifdef __cplusplus

@@ -56,8 +56,20 @@ inline Media leave_medium(Media media, int material) {
 
 inline bool inside_medium(Media media, int material) {
   bool found = false;
-  for (int i = 0; i < media.count; i++) found = found || media.material[i] == material;
+  for (int i = 0; i < kMaxMedia; i++) found = found || (i < media.count && media.material[i] == material);
   return found;
+}
+
+// The media before and behind the wall of a volume that a ray meets from the front or from the back. A ray that meets
+// the back of a wall which it never passed started inside.
+inline Media media_before(Media media, bool front, int material) {
+  if (front || inside_medium(media, material)) return media;
+  return enter_medium(media, material);
+}
+
+inline Media media_behind(Media media, bool front, int material) {
+  if (front) return enter_medium(media, material);
+  return leave_medium(media, material);
 }
 
 #ifdef __cplusplus

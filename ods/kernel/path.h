@@ -6,20 +6,20 @@
 //   start_path(...);
 //   while (path.alive) {
 //     shade(closest_hit(path.ray), settings);
-//     if (path.shadow_pending && !occluded(path.shadow_ray, path.shadow_length)) add_shadow_light();
+//     if (!path.shadow_pending || is_occluded_by_other_than_clear_glass(path.shadow_ray, path.shadow_length)) continue;
+//     for (each surface of clear glass that the shadow ray meets) pass_shadow(closest_hit(path.shadow_ray));
+//     add_shadow_light();
 //   }
 //
 // shade() traces nothing. It consumes a hit, adds light, and leaves the next ray and a shadow ray with the light that
 // the shadow ray would bring. The state is `path`: a member of PathTracer in C++, a global of the invocation in a
-// shader. (A first version passed and returned it by value; the copies cost a third of the time on the CPU.) A path
-// gathers light in two ways, by a ray towards a sampled light and by a scattered ray that happens to hit one, weighted
-// by the power heuristic (Veach 1997).
+// shader. (A first version passed and returned it by value; the copies cost a third of the time on the CPU.)
 //
 // A catcher (an Instance of the role kCatcher) is invisible except for the shadows cast on it. If the first surface of
 // a path is a catcher, the path carries no radiance: it continues straight towards a light, whose direction is sampled
 // as for a white Lambert surface. It records how much of that light arrives with the whole scene present (light_with),
-// and how much would arrive if only catchers and emitters were present (light_without). Anything else in between blocks
-// the light completely, even glass. The sums over a pixel's paths give
+// and how much would arrive if only catchers and emitters were present (light_without). Of all else in between, only
+// clear glass lets light through. The sums over a pixel's paths give
 //
 //   alpha = 1 - light_with / light_without
 //
@@ -32,16 +32,13 @@
 // path alone.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/path_state.h"
-#include "ods/kernel/random.h"
+#include "ods/kernel/path_light.h"
 namespace ods {
 #endif
 
 #ifdef __cplusplus
-struct PathTracer : MediumReader {
+struct PathTracer : PathLight {
 #endif
-
-  PathState path;
 
   // media: the volumes that the camera is in, no_media() in air. The whole path is at ray_time (ods/kernel/surface.h).
   inline void start_path(Ray ray, Media media, uint seed, uint index) {
@@ -54,6 +51,7 @@ struct PathTracer : MediumReader {
     path.pdf = 0.0f;
     path.travelled = 0.0f;
     path.media = media;
+    path.shadow_media = media;
     path.wave = -1;
     path.chosen_wave = -1;
     path.seed = seed;
@@ -80,154 +78,20 @@ struct PathTracer : MediumReader {
     path.other_density = density;
   }
 
-  // What PathSettings::clamp leaves of light that comes by way of so many surfaces.
-  inline float clamped(PathSettings settings, vec3 light, int surfaces) {
-    float mean = (light.x + light.y + light.z) * (1.0f / 3.0f);
-    if (settings.clamp <= 0.0f || surfaces < 2 || mean <= settings.clamp) return 1.0f;
-    return settings.clamp / mean;
-  }
-
-  inline void add_light(vec3 light, vec3 light_for_other) {
-    path.radiance += light;
-    path.alone_radiance += light * path.alone_ratio;
-    path.other_radiance += light_for_other * path.other_ratio;
-  }
-
-  inline void add_shadow_light() {
-    path.radiance += path.shadow_light;
-    path.alone_radiance += path.shadow_alone;
-    path.other_radiance += path.shadow_other;
-  }
-
-  inline vec2 path_random(uint pair) {
-    return random_pair(path.seed, path.index, pair + uint(path.bounce) * kPairsPerBounce);
-  }
-
-  // The random number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
-  inline float alpha_draw(int ray, Hit hit) {
-    if (ray == kHalfAlphaRay) return 0.5f;
-    uint key = hash_pair(hash_pair(path.seed, path.index), uint(path.bounce) * 2u + uint(ray));
-    return unit_float(hash_pair(key, hash_pair(uint(hit.instance), uint(hit.triangle))));
-  }
-
-  // Weight of light that was found with pdf a and could also have been found with pdf b.
-  inline float power_heuristic(float a, float b) {
-    float ratio = b / a;
-    return 1.0f / (1.0f + ratio * ratio);
-  }
-
-  // Weight of light that the path's own ray hit, which light sampling finds with light_pdf.
-  inline float scattered_weight(PathSettings settings, float pdf, float light_pdf) {
-    if (pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
-    if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
-    if (settings.light_sampling == kLightSamplingLightsOnly) return 0.0f;
-    return power_heuristic(pdf, light_pdf);
-  }
-
-  inline void meet_light(PathSettings settings, vec3 light, float light_pdf) {
-    vec3 arriving = path.throughput * light;
-    arriving = arriving * clamped(settings, arriving * path.alone_ratio, path.bounce);
-    float weight = scattered_weight(settings, path.pdf, light_pdf);
-    float other_weight = weight;
-    if (path.other_pdf != path.pdf) other_weight = scattered_weight(settings, path.other_pdf, light_pdf);
-    add_light(arriving * weight, arriving * other_weight);
-  }
-
-  // A lamp as the camera sees it: beyond display white, its rim would be ragged.
-  inline vec3 dimmed(vec3 emission) {
-    return emission * min(1.0f, kSeenLamp / luminance(emission));
-  }
-
-  inline void meet_environment(PathSettings settings) {
-    if (path.bounce == 0) {
-      meet_light(settings, background_radiance(path.ray.direction), 0.0f);
-    } else {
-      meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(path.ray.direction));
-    }
-    path.alive = false;
-  }
-
-  // Continues straight through a surface that does not interact. Shadow rays stop there: only this ray goes beyond it.
-  inline void pass_through(Surface surface, float t) {
+  // The path continues straight through a surface.
+  inline void go_on(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
-    path.pdf = 0.0f;
-    path.other_pdf = 0.0f;
     if (path.bounce == 0) path.both_see = false;
     path.travelled += t;
     path.passed += 1;
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // The unoccluded light that a light source would bring along the path, over its pdf.
-  inline vec3 unshadowed_light(PathSettings settings, Bsdf bsdf, LightSample light, int medium) {
-    BsdfValue scattered = bsdf_value(bsdf, light.direction);
-    float weight = 1.0f;
-    if (light.pdf > 0.0f) weight = 1.0f / light.pdf;
-    if (light.pdf > 0.0f && settings.light_sampling == kLightSamplingBoth) {
-      weight = weight * power_heuristic(light.pdf, scattered.pdf);
-    }
-    return light.radiance * scattered.value * medium_transmittance(medium, light.distance) * weight;
-  }
-
-  // Both ends of the ray are offset from their surfaces: it misses nothing between them, and neither surface stops it.
-  inline void shadow_towards(Surface surface, vec3 direction, float distance, vec3 end) {
-    bool through = dot(direction, surface.geometric) < 0.0f;
-    path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
-    path.shadow_ray.direction = direction;
-    path.shadow_length = distance;
-    if (distance < kFarAway) {
-      vec3 to_light = end - path.shadow_ray.origin;
-      path.shadow_length = length(to_light);
-      path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
-    }
-    path.shadow_pending = path.shadow_length > 0.0f;
-  }
-
-  // Leaves a shadow ray towards a light: of several picked by power, it chooses one by the light that it would bring
-  // here.
-  // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
-  inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, int medium, int beyond) {
-    int candidates = min(scene_light_pick_count(), path.bounce == 0 ? kLightCandidates : 1);
-    if (candidates == 0) return;
-    float draw = path_random(kCandidatePair).x;
-    float total = 0.0f;
-    LightSample chosen = no_light();
-    vec3 chosen_light = vec3(0.0f);
-    float chosen_brightness = 0.0f;
-    for (int i = 0; i < candidates; i++) {
-      uint pair = kLightPair + 3u * uint(i);
-      LightSample light =
-          sample_light(surface.position, path_random(pair), path_random(pair + 1u), path_random(pair + 2u));
-      if (!light.valid) continue;
-      bool through = dot(light.direction, surface.geometric) < 0.0f;
-      vec3 arriving = unshadowed_light(settings, bsdf, light, through ? beyond : medium);
-      float brightness = luminance(arriving);
-      if (!(brightness > 0.0f && brightness < kFarAway)) continue;
-      total += brightness;
-      float share = brightness / total;
-      if (draw < share) {
-        chosen = light;
-        chosen_light = arriving;
-        chosen_brightness = brightness;
-        draw = draw / share;
-      } else {
-        draw = (draw - share) / (1.0f - share);
-      }
-    }
-    if (!(total > 0.0f)) return;
-    vec3 scale = path.throughput * (total / (float(candidates) * chosen_brightness));
-    scale = scale * clamped(settings, chosen_light * scale * path.alone_ratio, path.bounce + 1);
-    path.shadow_light = chosen_light * scale;
-    path.shadow_alone = path.shadow_light * path.alone_ratio;
-    path.shadow_other = path.shadow_light * path.other_ratio;
-    if (path.both_see && path.bounce == 0) {
-      bool through = dot(chosen.direction, surface.geometric) < 0.0f;
-      vec3 for_other = unshadowed_light(settings, path.other, chosen, through ? beyond : medium);
-      float own_share = chosen_brightness / (chosen_brightness + path.other_density * luminance(for_other));
-      path.shadow_other = for_other * scale * (path.other_density * own_share);
-      path.shadow_light = path.shadow_light * own_share;
-    }
-    shadow_towards(surface, chosen.direction, chosen.distance, chosen.end);
+  // The same where shadow rays stop: only this ray goes beyond it.
+  inline void pass_through(Surface surface, float t) {
+    path.pdf = 0.0f;
+    path.other_pdf = 0.0f;
+    go_on(surface, t);
   }
 
   // From here on the path has one colour, for all three.
@@ -298,10 +162,16 @@ struct PathTracer : MediumReader {
     if (path.alive) path.throughput = path.throughput * (1.0f / chance);
   }
 
-  inline void scatter(Surface surface, Bsdf bsdf, Media beyond) {
+  // clear: the glass that the path passes if it passes this surface, at this distance.
+  inline void scatter(Surface surface, Bsdf bsdf, Media beyond, bool clear, float t) {
     vec2 pick = path_random(kScatterPair);
     BsdfSample found = sample_bsdf(bsdf, pick.x, path_random(kDirectionPair));
     path.throughput = path.throughput * found.weight;
+    if (clear && found.through && found.pdf <= 0.0f) {
+      if (surface.volume) path.media = beyond;
+      go_on(surface, t);
+      return;
+    }
     path.ray.origin = offset_point(surface.position, found.through ? -surface.geometric : surface.geometric);
     path.ray.direction = found.direction;
     path.pdf = found.pdf;
@@ -319,15 +189,18 @@ struct PathTracer : MediumReader {
 
   // A ground that goes over into the background has next to no normal and no albedo, as that, or a denoiser would keep
   // them apart. But some normal, as bare sky is what has none.
+  // Behind clear glass it is the surface there: that is what one sees.
   inline void note_first_hit(Surface surface, float t, bool fades) {
     path.depth = path.travelled + t;
     path.normal = fades ? 0.01f * surface.normal : surface.normal;
+    path.albedo = vec3(0.0f);
     if (fades) return;
     path.albedo = surface.layered ? albedo_of_layers(surface, path.ray.direction) : surface.base_color;
+    if (path.passed > 0) path.albedo = path.albedo * min(path.throughput, vec3(1.0f));
   }
 
   // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is not in the light table.
-  inline void catch_shadows(Surface surface, PathSettings settings, int medium) {
+  inline void catch_shadows(Surface surface, PathSettings settings) {
     surface.base_color = vec3(1.0f);
     surface.metallic = 0.0f;
     surface.roughness = 1.0f;
@@ -342,14 +215,14 @@ struct PathTracer : MediumReader {
     if (to_sky) {
       BsdfSample found = sample_bsdf(white, 0.0f, path_random(kDirectionPair));
       path.shadow_light = path.throughput * found.weight * scene_environment().uniform_radiance;
-      shadow_towards(surface, found.direction, kFarAway, vec3(0.0f));
+      shadow_towards(surface, found.direction, kFarAway, vec3(0.0f), path.media);
     } else {
       settings.light_sampling = kLightSamplingLightsOnly;
-      aim_at_light(settings, surface, white, medium, medium);
+      aim_at_light(settings, surface, white, path.media);
     }
     path.caught = true;
     path.both_see = false;
-    path.blocked = false;
+    path.unblocked = 1.0f;
     path.light_without = 0.0f;
     path.light_with = 0.0f;
     path.alive = path.shadow_pending;
@@ -358,28 +231,31 @@ struct PathTracer : MediumReader {
     path.passed = 0;
     path.bounce = 1;
     if (sky && lamps) path.shadow_light = path.shadow_light * 2.0f;
+    path.shadow_alone = path.shadow_light;
   }
 
-  // One step of such a path: it ends at the light, at a catcher or at an emitter, and passes through all else.
+  // One step of such a path: it ends at the light, at a catcher or at an emitter, and passes through all else. Only
+  // clear glass lets light through.
   inline void go_to_light(Hit hit) {
     bool arrived = hit.t < 0.0f || hit.t >= path.shadow_length;
     if (arrived) {
-      path.light_without = luminance(path.shadow_light);
-      path.light_with = path.blocked ? 0.0f : path.light_without;
+      path.light_without = luminance(path.shadow_alone);
+      path.light_with = luminance(path.shadow_light) * path.unblocked;
     }
     path.alive =
         !arrived && scene_instance(hit.instance).role != kCatcher && scene_instance(hit.instance).first_light < 0;
     if (!path.alive) return;
-    path.blocked = true;
-    vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * path.shadow_length;
-    pass_through(surface_at(hit, path.ray.direction, true), hit.t);
-    path.shadow_ray.origin = path.ray.origin;
-    if (path.shadow_length < kFarAway) {
-      vec3 to_light = end - path.ray.origin;
-      path.shadow_length = length(to_light);
-      path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
+    if (is_clear(hit, true)) {
+      vec3 without = path.shadow_alone;
+      pass_shadow(hit);
+      path.shadow_alone = without;
+    } else {
+      path.unblocked = 0.0f;
+      shorten_shadow(surface_at(hit, path.ray.direction, true));
     }
     path.ray = path.shadow_ray;
+    path.passed += 1;
+    if (path.passed > kMaxPassed) path.alive = false;
   }
 
   inline void shade(Hit hit, PathSettings settings) {
@@ -407,19 +283,15 @@ struct PathTracer : MediumReader {
     }
     if (path.bounce == 0 && scene_instance(hit.instance).role == kCatcher) {
       path.depth = path.travelled + hit.t;
-      catch_shadows(surface, settings, medium);
+      catch_shadows(surface, settings);
       return;
     }
 
     Media beyond_media = path.media;
     if (volume) {
-      // A ray that hits the inside of a volume it never entered started inside.
-      if (!surface.front && !inside_medium(path.media, material_index)) {
-        path.media = enter_medium(path.media, material_index);
-        medium = current_medium(path.media);
-      }
-      if (surface.front) beyond_media = enter_medium(path.media, material_index);
-      if (!surface.front) beyond_media = leave_medium(path.media, material_index);
+      path.media = media_before(path.media, surface.front, material_index);
+      medium = current_medium(path.media);
+      beyond_media = media_behind(path.media, surface.front, material_index);
     }
     int beyond = current_medium(beyond_media);
     path.throughput = path.throughput * medium_transmittance(medium, hit.t);
@@ -448,15 +320,24 @@ struct PathTracer : MediumReader {
       path.alive = false;
       return;
     }
-    if (path.bounce == settings.bounces) {
+    bool clear = surface.transmission > 0.0f && is_clear(hit, path.pdf > 0.0f);
+    bool last = path.bounce == settings.bounces;
+    if (last && !clear) {
       path.alive = false;
       return;
     }
-    float eta = volume ? volume_eta(surface, medium, beyond) : surface.ior;
+    float eta = surface.ior;
+    if (volume) eta = clear ? clear_eta(surface, medium, beyond) : volume_eta(surface, medium, beyond);
     Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);
+    if (last) {
+      path.throughput = path.throughput * straight_transmittance(bsdf);
+      path.media = beyond_media;
+      go_on(surface, hit.t);
+      return;
+    }
     if (path.both_see && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
-    if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, medium, beyond);
-    scatter(surface, bsdf, beyond_media);
+    if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, beyond_media);
+    scatter(surface, bsdf, beyond_media, clear, hit.t);
   }
 
 #ifdef __cplusplus

@@ -35,6 +35,7 @@ struct PathState {
 
   Ray shadow_ray;
   float shadow_length;
+  Media shadow_media;  // where it is
   vec3 shadow_light;
   bool shadow_pending;
 
@@ -54,7 +55,7 @@ struct PathState {
   vec3 shadow_alone;
 
   bool caught;          // the first surface is a catcher; the next three fields belong to such a path
-  bool blocked;         // an object that is neither a catcher nor an emitter is between the catcher and the light
+  float unblocked;      // 0: an object that is no catcher, emitter or clear glass stands before the light; else 1
   float light_without;  // luminance that arrives if only catchers and emitters are present
   float light_with;     // luminance that arrives with the whole scene present
 
@@ -65,6 +66,7 @@ struct PathState {
 };
 
 const int kMaxPassed = 1024;
+const uint kPassedStride = 256u;  // bounces for which paths have random numbers of their own after each such surface
 
 // A ray scattered with a smaller pdf than this may have gone almost anywhere: the reduced copies of textures are sharp
 // enough for what it hits, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.

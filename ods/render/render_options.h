@@ -40,6 +40,18 @@ constexpr std::string_view pixel_filter_name(PixelFilter filter) {
   return name_in(kPixelFilterTable, filter);
 }
 
+// How light passes smooth solids of glass and liquid: refracted, which paths find by chance only, or straight, as it
+// passes a window (ods/kernel/path_light.h). What is seen through them refracts either way.
+enum class Caustics { kPath, kStraight };
+inline constexpr NameRow<Caustics> kCausticsTable[] = {
+    {Caustics::kPath, "path"},
+    {Caustics::kStraight, "straight"},
+};
+static_assert(has_every_member(kCausticsTable));
+constexpr std::string_view caustics_name(Caustics caustics) {
+  return name_in(kCausticsTable, caustics);
+}
+
 // How paths find light. Use kBoth; the others exist for tests.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
@@ -68,6 +80,7 @@ struct RenderOptions {
   bool even_noise = true;  // fewer samples where a pixel covers little of the sphere, as near the poles of lat-long
   int bounces = 8;         // a path has up to bounces + 1 segments
   float clamp = 0.0f;      // the most that a path's light brings which has met two surfaces or more; 0: any
+  Caustics caustics = Caustics::kPath;
   Eyes eyes = Eyes::kBothEyes;
   bool share_paths = true;  // light that a path of one eye finds goes to both, where both see the first surface
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide

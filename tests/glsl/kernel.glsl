@@ -27,4 +27,5 @@
 #include "ods/kernel/medium.h"
 #include "ods/kernel/counterpart.h"
 #include "ods/kernel/path_state.h"
+#include "ods/kernel/path_light.h"
 #include "ods/kernel/path.h"

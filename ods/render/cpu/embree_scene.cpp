@@ -86,6 +86,7 @@ struct RayContext {
   int ray;
   uint still;
   uint index;  // of the first ray's sample
+  int clear;   // surfaces of clear glass that a shadow ray met
 };
 
 }  // namespace
@@ -119,8 +120,10 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree calls this for the candidate hits of one or several rays on a surface with alpha.
-static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
+// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or of shadow rays on one that
+// may be clear glass.
+template <bool kShadow>
+static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
   const uint count = arguments->N;
   for (uint i = 0; i < count; i++) {
@@ -134,7 +137,12 @@ static void filter_alpha(const RTCFilterFunctionNArguments* arguments) {
     hit.instance = instance_of(geometry, instance, context->still);
     hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, count, i));
     context->tracer->path.index = context->index + RTCRayN_id(arguments->ray, count, i);
-    if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) arguments->valid[i] = 0;
+    if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
+      arguments->valid[i] = 0;
+    } else if (kShadow && context->ray == kShadowRay && context->tracer->is_clear(hit, true)) {
+      arguments->valid[i] = 0;
+      context->clear++;
+    }
   }
 }
 
@@ -172,10 +180,10 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
   for (uint i = 0; i < mesh.triangle_count; i++) {
     corners[3 * i] = triangles[i].x, corners[3 * i + 1] = triangles[i].y, corners[3 * i + 2] = triangles[i].z;
   }
-  if (scene.materials[static_cast<size_t>(mesh.material)].alpha_mode != kAlphaOpaque) {
-    rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
-    rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
-  }
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  const bool has_alpha = material.alpha_mode != kAlphaOpaque;
+  if (has_alpha) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
+  if (has_alpha || material.transmission > 0.0f) rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitGeometry(geometry);
   return geometry;
@@ -324,6 +332,7 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
   context.ray = ray;
   context.still = still;
   context.index = tracer.path.index;
+  context.clear = 0;
   return context;
 }
 
@@ -344,11 +353,12 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   return hit;
 }
 
-bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int kind) const {
+bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int kind, int* clear) const {
   RTCRay shadow;
   set_ray(shadow, ray, length, tracer.ray_time);
   RayContext context = make_context(tracer, kind, handles_->still_id);
   occlude(handles_->top, context.embree, shadow);
+  if (clear) *clear = context.clear;
   return shadow.tfar < 0.0f;
 }
 

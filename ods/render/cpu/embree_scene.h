@@ -41,7 +41,8 @@ class EmbreeScene {
   // Safe from many threads at once. Each needs its own tracer, which reads the same scene and decides about surfaces
   // with alpha. kind: how it decides, kPathRay, kShadowRay or kHalfAlphaRay.
   Hit closest_hit(PathTracer& tracer, const Ray& ray, int kind) const;
-  bool occluded(PathTracer& tracer, const Ray& ray, float length, int kind = kShadowRay) const;
+  // clear, if wanted: the number of surfaces of clear glass that a shadow ray met. They do not stop it (kernel/path.h).
+  bool occluded(PathTracer& tracer, const Ray& ray, float length, int kind = kShadowRay, int* clear = nullptr) const;
 
   // The same for the first rays of paths, several times as fast. hits and hidden have packet.count entries.
   void closest_hits(PathTracer& tracer, const RayPacket& packet, Hit* hits) const;

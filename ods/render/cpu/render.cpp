@@ -48,6 +48,20 @@ struct Job {
   bool shares;  // paths of one eye bring light to the other
 };
 
+// Whether light comes along the path's shadow ray. Clear glass in between takes its part of it.
+bool reaches_light(Job& job) {
+  PathTracer& tracer = job.tracer;
+  const PathState& path = tracer.path;
+  int clear = 0;
+  if (job.embree.occluded(tracer, path.shadow_ray, path.shadow_length, kShadowRay, &clear)) return false;
+  for (; clear > 0; clear--) {
+    const Hit hit = job.embree.closest_hit(tracer, path.shadow_ray, kShadowRay);
+    if (hit.t < 0.0f || hit.t >= path.shadow_length) break;
+    tracer.pass_shadow(hit);
+  }
+  return true;
+}
+
 // The render loop, from the first hit on. Inlining the whole kernel here, and the camera below, makes it a quarter
 // faster.
 [[gnu::flatten]] void trace_path(Job& job, Hit hit) {
@@ -55,9 +69,7 @@ struct Job {
   const PathState& path = tracer.path;
   while (true) {
     tracer.shade(hit, job.settings);
-    if (path.shadow_pending && !job.embree.occluded(tracer, path.shadow_ray, path.shadow_length)) {
-      tracer.add_shadow_light();
-    }
+    if (path.shadow_pending && reaches_light(job)) tracer.add_shadow_light();
     if (!path.alive) return;
     hit = job.embree.closest_hit(tracer, path.ray, kPathRay);
   }
@@ -389,6 +401,7 @@ struct CpuRenderer::Parts {
   Job make_job(const StereoCamera& stereo, std::span<const Camera> cameras, const RenderOptions& options) const {
     PathTracer here = tracer;
     here.ray_time = 0.5f;
+    here.straight_solids = options.caustics == Caustics::kStraight;
     const Media media =
         media_at(here, stereo.position, [&](const Ray& ray) { return embree->closest_hit(here, ray, kHalfAlphaRay); });
     return {*embree,

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The light that a path finds, in two ways: its own ray happens to hit an emitter, or it aims a shadow ray at a light.
+// The power heuristic weighs them (Veach 1997).
+//
+// Clear glass stops neither: light goes on behind it unbent, less what the glass reflects and absorbs. A path that
+// passes clear glass keeps the pdf of its direction, since a shadow ray could have found what it meets there. A smooth
+// thin sheet is clear. So is a smooth solid if `straight_solids` says so, for light that surfaces scatter: the camera,
+// mirrors and glass see it refract. Rough glass is never clear: what comes through is found where paths meet it.
+#ifdef __cplusplus
+#pragma once
+#include "ods/kernel/path_state.h"
+#include "ods/kernel/random.h"
+namespace ods {
+#endif
+
+#ifdef __cplusplus
+struct PathLight : MediumReader {
+#endif
+
+  PathState path;
+
+  // Light passes smooth solids unbent. The device sets it before a path starts.
+  bool straight_solids = false;
+
+  // What PathSettings::clamp leaves of light that comes by way of so many surfaces.
+  inline float clamped(PathSettings settings, vec3 light, int surfaces) {
+    float mean = (light.x + light.y + light.z) * (1.0f / 3.0f);
+    if (settings.clamp <= 0.0f || surfaces < 2 || mean <= settings.clamp) return 1.0f;
+    return settings.clamp / mean;
+  }
+
+  inline void add_light(vec3 light, vec3 light_for_other) {
+    path.radiance += light;
+    path.alone_radiance += light * path.alone_ratio;
+    path.other_radiance += light_for_other * path.other_ratio;
+  }
+
+  // The random numbers of a bounce, and of a surface that the path meets after it has passed others since.
+  inline uint path_place() {
+    return uint(path.bounce) + kPassedStride * uint(path.passed);
+  }
+
+  inline vec2 path_random(uint pair) {
+    return random_pair(path.seed, path.index, pair + path_place() * kPairsPerBounce);
+  }
+
+  // The random number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
+  inline float alpha_draw(int ray, Hit hit) {
+    if (ray == kHalfAlphaRay) return 0.5f;
+    uint key = hash_pair(hash_pair(path.seed, path.index), path_place() * 2u + uint(ray));
+    return unit_float(hash_pair(key, hash_pair(uint(hit.instance), uint(hit.triangle))));
+  }
+
+  // Weight of light that was found with pdf a and could also have been found with pdf b.
+  inline float power_heuristic(float a, float b) {
+    float ratio = b / a;
+    return 1.0f / (1.0f + ratio * ratio);
+  }
+
+  // Weight of light that the path's own ray hit, which light sampling finds with light_pdf.
+  inline float scattered_weight(PathSettings settings, float pdf, float light_pdf) {
+    if (pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
+    if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
+    if (settings.light_sampling == kLightSamplingLightsOnly) return 0.0f;
+    return power_heuristic(pdf, light_pdf);
+  }
+
+  inline void meet_light(PathSettings settings, vec3 light, float light_pdf) {
+    vec3 arriving = path.throughput * light;
+    arriving = arriving * clamped(settings, arriving * path.alone_ratio, path.bounce);
+    float weight = scattered_weight(settings, path.pdf, light_pdf);
+    float other_weight = weight;
+    if (path.other_pdf != path.pdf) other_weight = scattered_weight(settings, path.other_pdf, light_pdf);
+    add_light(arriving * weight, arriving * other_weight);
+  }
+
+  // A lamp as the camera sees it: beyond display white, its rim would be ragged.
+  inline vec3 dimmed(vec3 emission) {
+    return emission * min(1.0f, kSeenLamp / luminance(emission));
+  }
+
+  inline void meet_environment(PathSettings settings) {
+    if (path.bounce == 0) {
+      path.depth = -1.0f;
+      meet_light(settings, background_radiance(path.ray.direction), 0.0f);
+    } else {
+      meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(path.ray.direction));
+    }
+    path.alive = false;
+  }
+
+  // --- clear glass
+
+  // Whether light goes straight on through a hit: never for the camera and mirrors (scattered: false) in a solid.
+  inline bool is_clear(Hit hit, bool scattered) {
+    Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
+    if (!(material.transmission > 0.0f) || material.unlit == 1) return false;
+    if (material.thickness > 0.0f && !(straight_solids && scattered)) return false;
+    if (material.layers >= 0 && scene_material_layers(material.layers).anisotropy > 0.0f) return false;
+    Corners k = corners_of(hit);
+    float roughness = material.roughness * slot_at(material.metallic_roughness_slot, uv0_of(k), uv1_of(k), false).y;
+    return roughness * roughness < kSmoothAlpha;
+  }
+
+  // The ratio of indices by which clear glass reflects. A ray that leaves a solid unbent meets its wall as steeply as
+  // the refracted one would outside: it is never reflected totally.
+  inline float clear_eta(Surface surface, int medium, int beyond) {
+    if (!surface.volume) return surface.ior;
+    float eta = medium_ior(beyond, -1) / medium_ior(medium, -1);
+    return max(eta, 1.0f / eta);
+  }
+
+  // The shadow ray begins anew behind a surface that it met.
+  inline void shorten_shadow(Surface surface) {
+    vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * min(path.shadow_length, 1e10f);
+    path.shadow_ray.origin = offset_point(surface.position, -surface.geometric);
+    if (path.shadow_length >= kFarAway) return;
+    vec3 to_light = end - path.shadow_ray.origin;
+    path.shadow_length = length(to_light);
+    path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
+  }
+
+  // The shadow ray has met clear glass: it goes on behind it with the light that passes.
+#ifdef __cplusplus
+  [[gnu::noinline, gnu::flatten]]
+#endif
+  inline void
+  pass_shadow(Hit hit) {
+    vec3 direction = path.shadow_ray.direction;
+    int material = scene_mesh(scene_instance(hit.instance).mesh).material;
+    Surface surface = surface_at(hit, direction, false);
+    if (surface.layered) read_layers(hit, surface, direction, false);
+    if (surface.volume) path.shadow_media = media_before(path.shadow_media, surface.front, material);
+    int medium = current_medium(path.shadow_media);
+    if (surface.volume) path.shadow_media = media_behind(path.shadow_media, surface.front, material);
+    int beyond = current_medium(path.shadow_media);
+    vec3 passing = medium_transmittance(medium, hit.t);
+    if (!surface.volume || medium != beyond) {
+      passing = passing * straight_transmittance(make_bsdf(surface, direction, clear_eta(surface, medium, beyond)));
+    }
+    path.shadow_light = path.shadow_light * passing;
+    path.shadow_alone = path.shadow_alone * passing;
+    path.shadow_other = path.shadow_other * passing;
+    shorten_shadow(surface);
+  }
+
+  // The shadow ray reached its light.
+  inline void add_shadow_light() {
+    vec3 passing = medium_transmittance(current_medium(path.shadow_media), path.shadow_length);
+    path.radiance += path.shadow_light * passing;
+    path.alone_radiance += path.shadow_alone * passing;
+    path.other_radiance += path.shadow_other * passing;
+  }
+
+  // --- a shadow ray
+
+  // The light that a light source would bring along the path if nothing were in between, over its pdf.
+  inline vec3 unshadowed_light(PathSettings settings, Bsdf bsdf, LightSample light) {
+    BsdfValue scattered = bsdf_value(bsdf, light.direction);
+    float weight = 1.0f;
+    if (light.pdf > 0.0f) weight = 1.0f / light.pdf;
+    if (light.pdf > 0.0f && settings.light_sampling == kLightSamplingBoth) {
+      weight = weight * power_heuristic(light.pdf, scattered.pdf);
+    }
+    return light.radiance * scattered.value * weight;
+  }
+
+  // Both ends of the ray are offset from their surfaces: it misses nothing between them, and neither surface stops it.
+  // beyond: the media on the surface's other side.
+  inline void shadow_towards(Surface surface, vec3 direction, float distance, vec3 end, Media beyond) {
+    bool through = dot(direction, surface.geometric) < 0.0f;
+    path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
+    path.shadow_ray.direction = direction;
+    path.shadow_length = distance;
+    path.shadow_media = path.media;
+    if (through) path.shadow_media = beyond;
+    if (distance < kFarAway) {
+      vec3 to_light = end - path.shadow_ray.origin;
+      path.shadow_length = length(to_light);
+      path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
+    }
+    path.shadow_pending = path.shadow_length > 0.0f;
+  }
+
+  // Leaves a shadow ray towards a light: of several picked by power, it chooses one by the light that it would bring
+  // here.
+  // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
+  inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, Media beyond) {
+    int candidates = min(scene_light_pick_count(), path.bounce == 0 ? kLightCandidates : 1);
+    if (candidates == 0) return;
+    float draw = path_random(kCandidatePair).x;
+    float total = 0.0f;
+    LightSample chosen = no_light();
+    vec3 chosen_light = vec3(0.0f);
+    float chosen_brightness = 0.0f;
+    for (int i = 0; i < candidates; i++) {
+      uint pair = kLightPair + 3u * uint(i);
+      LightSample light =
+          sample_light(surface.position, path_random(pair), path_random(pair + 1u), path_random(pair + 2u));
+      if (!light.valid) continue;
+      vec3 arriving = unshadowed_light(settings, bsdf, light);
+      float brightness = luminance(arriving);
+      if (!(brightness > 0.0f && brightness < kFarAway)) continue;
+      total += brightness;
+      float share = brightness / total;
+      if (draw < share) {
+        chosen = light;
+        chosen_light = arriving;
+        chosen_brightness = brightness;
+        draw = draw / share;
+      } else {
+        draw = (draw - share) / (1.0f - share);
+      }
+    }
+    if (!(total > 0.0f)) return;
+    vec3 scale = path.throughput * (total / (float(candidates) * chosen_brightness));
+    scale = scale * clamped(settings, chosen_light * scale * path.alone_ratio, path.bounce + 1);
+    path.shadow_light = chosen_light * scale;
+    path.shadow_alone = path.shadow_light * path.alone_ratio;
+    path.shadow_other = path.shadow_light * path.other_ratio;
+    if (path.both_see && path.bounce == 0) {
+      vec3 for_other = unshadowed_light(settings, path.other, chosen);
+      float own_share = chosen_brightness / (chosen_brightness + path.other_density * luminance(for_other));
+      path.shadow_other = for_other * scale * (path.other_density * own_share);
+      path.shadow_light = path.shadow_light * own_share;
+    }
+    shadow_towards(surface, chosen.direction, chosen.distance, chosen.end, beyond);
+  }
+
+#ifdef __cplusplus
+};
+}  // namespace ods
+#endif
