@@ -160,9 +160,9 @@ void add_time(Settings& settings, const TimeOptions& options) {
 }
 
 void add_render(Settings& settings, const ods::RenderOptions& options) {
-  const auto& [width, height, samples, noise, noise_exposure, time_limit, part, even_noise, bounces, clamp,
-               caustics, eyes, share_paths, filter, layers, transparent, statistics, seed, threads, light_sampling, last_tile_first] =
-      options;
+  const auto& [width, height, samples, noise, noise_exposure, time_limit, part, even_noise, bounces, clamp, caustics,
+               indirect, cache_paths, eyes, share_paths, filter, layers, transparent, statistics, seed, threads,
+               light_sampling, last_tile_first] = options;
   add_number(settings, "--width", width);
   add_number(settings, "--height", height);
   add_number(settings, "--samples", samples);
@@ -173,6 +173,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
   add_number(settings, "--bounces", bounces);
   add_float(settings, "--clamp", clamp);
   add(settings, "--caustics", std::string(ods::caustics_name(caustics)));
+  add(settings, "--indirect", std::string(ods::indirect_name(indirect)));
   add(settings, "--eyes", std::string(ods::eyes_name(eyes)));
   add(settings, "--filter", std::string(ods::pixel_filter_name(filter)));
   add_flag(settings, "layers", layers);

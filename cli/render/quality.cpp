@@ -16,7 +16,7 @@
 namespace {
 
 constexpr Quality kQualities[] = {
-    {"draft", 1024, 64, 0.3f}, {"preview", 2048, 1024, 0.04f}, {"final", 4096, 4096, 0.02f}};
+    {"draft", 1024, 64, 0.3f, false}, {"preview", 2048, 1024, 0.04f, false}, {"final", 4096, 4096, 0.02f, true}};
 
 // Noise cannot fall to 0; at 10 everything is clean.
 float parse_noise(const std::string& word) {
@@ -71,6 +71,14 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
                  "remove the noise that is left, both eyes as one; by default for all but .exr and .hdr. An .exr keeps "
                  "the noisy picture as the layer raw. oidn: Intel Open Image Denoise, where it is installed");
   options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
+  options.choice(
+      "--indirect", job.render.indirect, ods::kIndirectTable,
+      "how light finds its way over several surfaces: by whole paths, or by paths that end in a cache of it, "
+      "many times as fast in rooms. By default cache; path for --quality final, .exr and --part");
+  options.choice(
+      "--caustics", job.render.caustics, ods::kCausticsTable,
+      "how light passes solid glass and liquids: refracted, found by chance, or straight as through a window. "
+      "By default straight; path for --quality final");
   options.number("--clamp", job.render.clamp, 0.0f, 1e6f,
                  "the most that one sample of indirect light brings, against bright specks: loses light; 0: no limit");
   options.choice("--filter", job.render.filter, ods::kPixelFilterTable, "pixel filter");
@@ -82,5 +90,10 @@ void finish_quality(const Options& options, const Quality& quality, RenderJob& j
   if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
   if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   job.render.samples = quality.own_samples.value_or(quality.samples);
+  const bool exact = quality.exact || job.part || ods::keeps_layers(job.output);
+  if (!options.given("--indirect")) job.render.indirect = exact ? ods::Indirect::kPath : ods::Indirect::kCache;
+  if (!options.given("--caustics")) {
+    job.render.caustics = quality.exact ? ods::Caustics::kPath : ods::Caustics::kStraight;
+  }
   if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : quality.noise;
 }

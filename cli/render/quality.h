@@ -16,6 +16,7 @@ struct Quality {
   int width;
   int samples;
   float noise;
+  bool exact;  // nothing is cached or simplified
   std::optional<int> own_samples = {};  // those of --samples
 };
 

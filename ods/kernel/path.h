@@ -32,12 +32,12 @@
 // path alone.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/path_light.h"
+#include "ods/kernel/light_cache.h"
 namespace ods {
 #endif
 
 #ifdef __cplusplus
-struct PathTracer : PathLight {
+struct PathTracer : LightCacheReader {
 #endif
 
   // media: the volumes that the camera is in, no_media() in air. The whole path is at ray_time (ods/kernel/surface.h).
@@ -258,6 +258,24 @@ struct PathTracer : PathLight {
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
+  // The path takes the light that it would find from here on out of the cache, if that knows it.
+  inline bool end_in_cache(PathSettings settings, Surface surface, float distance) {
+    vec3 light = cached_light(surface, distance);
+    if (light.x < 0.0f) return false;
+    light = light * path.throughput;
+    light = light * clamped(settings, light * path.alone_ratio, path.bounce + 1);
+    add_light(light, light);
+    path.alive = false;
+    return true;
+  }
+
+  inline void keep_vertex(Surface surface) {
+    path.vertex = cache_place(surface);
+    path.vertex_bounce = path.bounce;
+    path.vertex_throughput = path.throughput;
+    path.vertex_radiance = path.radiance;
+  }
+
   inline void shade(Hit hit, PathSettings settings) {
     path.shadow_pending = false;
     if (path.caught) {
@@ -326,6 +344,8 @@ struct PathTracer : PathLight {
       path.alive = false;
       return;
     }
+    if (settings.keep_vertices) keep_vertex(surface);
+    if (path.bounce > 0 && !clear && end_in_cache(settings, surface, path.travelled + hit.t)) return;
     float eta = surface.ior;
     if (volume) eta = clear ? clear_eta(surface, medium, beyond) : volume_eta(surface, medium, beyond);
     Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);

@@ -15,7 +15,16 @@ const int kLightSamplingBsdfOnly = 2;
 struct PathSettings {
   int bounces;  // a path has at most bounces + 1 segments
   int light_sampling;
-  float clamp;  // the most that light brings which has met two surfaces or more: mean of R, G and B; 0: any
+  bool keep_vertices;  // for whoever fills a light cache
+  float clamp;         // the most that light brings which has met two surfaces or more: mean of R, G and B; 0: any
+};
+
+// Where light can be kept in the light cache, and of which albedo.
+struct CachePlace {
+  vec3 position;
+  vec3 normal;  // of the triangle, on the side that the light leaves
+  vec3 albedo;
+  float cell;  // size of the larger cell, metres; 0: nothing is kept here
 };
 
 struct PathState {
@@ -58,6 +67,12 @@ struct PathState {
   float unblocked;      // 0: an object that is no catcher, emitter or clear glass stands before the light; else 1
   float light_without;  // luminance that arrives if only catchers and emitters are present
   float light_with;     // luminance that arrives with the whole scene present
+
+  // PathSettings::keep_vertices: the surface that shade() met last, before it scatters the path.
+  CachePlace vertex;
+  int vertex_bounce;  // -1: shade() met none
+  vec3 vertex_throughput;
+  vec3 vertex_radiance;  // what the path had found by then
 
   // The first hit, for the layers beside the picture.
   float depth;  // along the camera ray from its own origin; negative: the ray hit nothing

@@ -201,6 +201,13 @@ struct EnvironmentInfo {
   int light;  // index in the light table; -1 if it is not sampled as a light
 };
 
+// A slot of the light cache's table (ods/kernel/light_cache.h).
+struct CacheCell {
+  uint home;
+  uint check;  // 0: the slot is empty
+  vec3 light;  // that leaves, over albedo
+};
+
 // Where a ray hit the scene. (u, v) are the barycentric coordinates of the triangle's second and third corner.
 struct Hit {
   float t;  // distance along the ray; negative if the ray left the scene
@@ -215,5 +222,6 @@ static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 64);
 static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 28 && sizeof(Hit) == 20);
+static_assert(sizeof(CacheCell) == 20);
 }  // namespace ods
 #endif

@@ -31,8 +31,8 @@ const int kTablesSize = kAnisotropicTable + 2 * kAnisotropicCells;
 
 // In GLSL all functions of the kernel are plain functions, included in order. C++ needs a `this` to find the scene, so
 // each header continues the struct of the previous one: SceneView, FilterSampler, TextureReader, SurfaceReader,
-// LayerReader, AlbedoReader, LayeredEvaluator, BsdfEvaluator, LightSampler, MediumReader, and PathTracer, which is
-// complete. The inheritance means no more than that.
+// LayerReader, AlbedoReader, LayeredEvaluator, BsdfEvaluator, LightSampler, MediumReader, PathLight, LightCacheReader,
+// and PathTracer, which is complete. The inheritance means no more than that.
 #ifdef __cplusplus
 struct SceneView {
   const Vertex* vertices = nullptr;
@@ -56,6 +56,9 @@ struct SceneView {
   const EnvironmentTexel* environment_texels = nullptr;
   const AliasEntry* environment_rows = nullptr;
   const float* tables = nullptr;
+  const CacheCell* cache_cells = nullptr;
+  uint cache_mask = 0;  // slots of the light cache - 1, which are a power of two; 0: there is none
+  vec3 cache_viewer{0.0f};
 
   const Vertex& scene_vertex(uint i) const { return vertices[i]; }
   const uvec3& scene_triangle(uint i) const { return triangles[i]; }
@@ -78,6 +81,9 @@ struct SceneView {
   const EnvironmentTexel& scene_environment_texel(int i) const { return environment_texels[i]; }
   const AliasEntry& scene_environment_row(int i) const { return environment_rows[i]; }
   float scene_table(int i) const { return tables[i]; }
+  const CacheCell& scene_cache_cell(uint i) const { return cache_cells[i]; }
+  uint scene_cache_mask() const { return cache_mask; }
+  vec3 scene_cache_viewer() const { return cache_viewer; }
 };
 }  // namespace ods
 #endif

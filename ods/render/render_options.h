@@ -52,6 +52,18 @@ constexpr std::string_view caustics_name(Caustics caustics) {
   return name_in(kCausticsTable, caustics);
 }
 
+// How light finds its way over several surfaces: by whole paths, or by paths that end in a cache, which is filled first
+// (ods/kernel/light_cache.h). The cache is much faster in rooms, and wrong by a few per mille.
+enum class Indirect { kPath, kCache };
+inline constexpr NameRow<Indirect> kIndirectTable[] = {
+    {Indirect::kPath, "path"},
+    {Indirect::kCache, "cache"},
+};
+static_assert(has_every_member(kIndirectTable));
+constexpr std::string_view indirect_name(Indirect indirect) {
+  return name_in(kIndirectTable, indirect);
+}
+
 // How paths find light. Use kBoth; the others exist for tests.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
@@ -81,6 +93,8 @@ struct RenderOptions {
   int bounces = 8;         // a path has up to bounces + 1 segments
   float clamp = 0.0f;      // the most that a path's light brings which has met two surfaces or more; 0: any
   Caustics caustics = Caustics::kPath;
+  Indirect indirect = Indirect::kPath;
+  int cache_paths = 0;  // that fill the cache; 0: a share of the picture's, and for small pictures no cache
   Eyes eyes = Eyes::kBothEyes;
   bool share_paths = true;  // light that a path of one eye finds goes to both, where both see the first surface
   PixelFilter filter = PixelFilter::kBlackmanHarris;  // radius 1.5 pixels; the box is 1 pixel wide

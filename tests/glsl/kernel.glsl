@@ -28,4 +28,5 @@
 #include "ods/kernel/counterpart.h"
 #include "ods/kernel/path_state.h"
 #include "ods/kernel/path_light.h"
+#include "ods/kernel/light_cache.h"
 #include "ods/kernel/path.h"

@@ -17,6 +17,7 @@ layout(buffer_reference, scalar) readonly buffer LightPicks { LightPick at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
 layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
+layout(buffer_reference, scalar) readonly buffer CacheCells { CacheCell at[]; };
 
 struct View {
   Camera camera;
@@ -42,6 +43,9 @@ struct View {
   EnvironmentTexels environment_texels;
   EnvironmentRows environment_rows;
   Tables tables;
+  CacheCells cache_cells;
+  uint cache_mask;
+  vec3 cache_viewer;
 };
 // The maps of a camera that has them.
 layout(binding = 3, scalar) readonly buffer MergeMap { float merge_map[]; };
@@ -72,4 +76,7 @@ EnvironmentInfo scene_environment() { return view.environment; }
 EnvironmentInfo scene_background() { return view.background; }
 EnvironmentTexel scene_environment_texel(int i) { return view.environment_texels.at[i]; }
 AliasEntry scene_environment_row(int i) { return view.environment_rows.at[i]; }
+CacheCell scene_cache_cell(uint i) { return view.cache_cells.at[i]; }
+uint scene_cache_mask() { return view.cache_mask; }
+vec3 scene_cache_viewer() { return view.cache_viewer; }
 float scene_table(int i) { return view.tables.at[i]; }

@@ -120,8 +120,8 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or of shadow rays on one that
-// may be clear glass.
+// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or of shadow rays on one
+// that may be clear glass.
 template <bool kShadow>
 static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -360,6 +360,18 @@ bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int
   occlude(handles_->top, context.embree, shadow);
   if (clear) *clear = context.clear;
   return shadow.tfar < 0.0f;
+}
+
+bool EmbreeScene::reaches_light(PathTracer& tracer) const {
+  const PathState& path = tracer.path;
+  int clear = 0;
+  if (occluded(tracer, path.shadow_ray, path.shadow_length, kShadowRay, &clear)) return false;
+  for (; clear > 0; clear--) {
+    const Hit hit = closest_hit(tracer, path.shadow_ray, kShadowRay);
+    if (hit.t < 0.0f || hit.t >= path.shadow_length) break;
+    tracer.pass_shadow(hit);
+  }
+  return true;
 }
 
 // Embree without AVX-512 checks the rays of unused lanes, too: they are the first ray again.

@@ -41,8 +41,11 @@ class EmbreeScene {
   // Safe from many threads at once. Each needs its own tracer, which reads the same scene and decides about surfaces
   // with alpha. kind: how it decides, kPathRay, kShadowRay or kHalfAlphaRay.
   Hit closest_hit(PathTracer& tracer, const Ray& ray, int kind) const;
-  // clear, if wanted: the number of surfaces of clear glass that a shadow ray met. They do not stop it (kernel/path.h).
+  // clear, if wanted: the number of surfaces of clear glass that a shadow ray met. They do not stop it.
   bool occluded(PathTracer& tracer, const Ray& ray, float length, int kind = kShadowRay, int* clear = nullptr) const;
+
+  // Whether light comes along the path's shadow ray. Clear glass in between takes its part of it.
+  bool reaches_light(PathTracer& tracer) const;
 
   // The same for the first rays of paths, several times as fast. hits and hidden have packet.count entries.
   void closest_hits(PathTracer& tracer, const RayPacket& packet, Hit* hits) const;

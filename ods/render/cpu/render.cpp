@@ -18,7 +18,8 @@
 #include "ods/base/error.h"
 #include "ods/kernel/counterpart.h"
 #include "ods/kernel/path.h"
-#include "ods/render/cpu/embree_scene.h"
+#include "ods/render/cpu/fill_light_cache.h"
+#include "ods/render/cpu/job.h"
 #include "ods/render/keeper.h"
 #include "ods/render/lights.h"
 #include "ods/render/media_at.h"
@@ -32,36 +33,6 @@
 namespace ods {
 namespace {
 
-// Everything that is the same for all pixels.
-struct Job {
-  const EmbreeScene& embree;
-  PathTracer tracer;
-  std::span<const Camera>
-      cameras;    // evenly spaced in time from the shutter's opening to its closing; one: a static camera
-  Camera camera;  // the middle one
-  bool shutter;   // every sample has its own time
-  Media media;    // the volumes that the camera is in
-  RenderOptions options;
-  PathSettings settings;
-  int filter;
-  double unit;  // layer_unit()
-  bool shares;  // paths of one eye bring light to the other
-};
-
-// Whether light comes along the path's shadow ray. Clear glass in between takes its part of it.
-bool reaches_light(Job& job) {
-  PathTracer& tracer = job.tracer;
-  const PathState& path = tracer.path;
-  int clear = 0;
-  if (job.embree.occluded(tracer, path.shadow_ray, path.shadow_length, kShadowRay, &clear)) return false;
-  for (; clear > 0; clear--) {
-    const Hit hit = job.embree.closest_hit(tracer, path.shadow_ray, kShadowRay);
-    if (hit.t < 0.0f || hit.t >= path.shadow_length) break;
-    tracer.pass_shadow(hit);
-  }
-  return true;
-}
-
 // The render loop, from the first hit on. Inlining the whole kernel here, and the camera below, makes it a quarter
 // faster.
 [[gnu::flatten]] void trace_path(Job& job, Hit hit) {
@@ -69,7 +40,7 @@ bool reaches_light(Job& job) {
   const PathState& path = tracer.path;
   while (true) {
     tracer.shade(hit, job.settings);
-    if (path.shadow_pending && reaches_light(job)) tracer.add_shadow_light();
+    if (path.shadow_pending && job.embree.reaches_light(tracer)) tracer.add_shadow_light();
     if (!path.alive) return;
     hit = job.embree.closest_hit(tracer, path.ray, kPathRay);
   }
@@ -411,7 +382,7 @@ struct CpuRenderer::Parts {
             cameras.size() > 1 || scene.motion_keys > 1,
             media,
             options,
-            {options.bounces, static_cast<int>(options.light_sampling), options.clamp},
+            {options.bounces, static_cast<int>(options.light_sampling), false, options.clamp},
             options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
             layer_unit(options),
             can_share(stereo, scene, options)};
@@ -458,7 +429,10 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
   std::vector<Camera> cameras;
   for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
   parts_->arena.execute([&] {
-    const Job job = parts_->make_job(stereo, cameras, options);
+    Job job = parts_->make_job(stereo, cameras, options);
+    std::vector<CacheCell> cells;
+    if (options.indirect == Indirect::kCache) cells = fill_light_cache(job, progress);
+    show_light_cache(job, cells);
     render_passes(job, make_plan(stereo, options), samples, progress, keep);
   });
 }

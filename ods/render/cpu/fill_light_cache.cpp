@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/render/cpu/fill_light_cache.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "ods/base/error.h"
+#include "ods/render/light_cache.h"
+#include "ods/render/moving_camera.h"
+
+namespace ods {
+namespace {
+
+constexpr int kKeptBounces = 4;          // a path's first surfaces are kept
+constexpr int kPathsAtOnce = 1 << 10;    // one thread's
+constexpr int kRoundPaths = 1 << 14;     // between looks at the cells
+constexpr double kWantedError = 0.2;     // of a cell; what a pixel gathers is the mean of many
+constexpr int64_t kSamplesPerPath = 32;  // of one eye, at least
+constexpr int64_t kFewestPaths = 1 << 16;
+
+// A surface that a path has met.
+struct Vertex {
+  CachePlace place;
+  vec3 throughput;
+  vec3 radiance;  // found before it
+};
+
+// What a path brings to its first surfaces, each as if the path had as many bounces left there as one of the picture
+// has after its first.
+class Trail {
+ public:
+  explicit Trail(int bounces) : found_(static_cast<size_t>(bounces) + kKeptBounces + 1) {}
+
+  void begin() { count_ = 0; }
+
+  void meet(const PathState& path) {
+    const auto bounce = static_cast<size_t>(path.vertex_bounce);
+    for (; count_ <= bounce; count_++) found_[count_] = path.vertex_radiance;
+    if (bounce < kKeptBounces) vertices_[bounce] = {path.vertex, path.vertex_throughput, path.vertex_radiance};
+  }
+
+  // left: bounces of a path of the picture after its first.
+  void add_to(LightCacheSums& sums, vec3 at_end, size_t left, bool odd) const {
+    for (size_t b = 0; b < std::min<size_t>(count_, kKeptBounces); b++) {
+      const Vertex& vertex = vertices_[b];
+      const vec3 t = vertex.throughput;
+      const float least = std::min({t.x, t.y, t.z}), most = std::max({t.x, t.y, t.z});
+      if (!(vertex.place.cell > 0.0f) || !(least > 1e-3f * most))
+        continue;  // of a colour that is missing nothing is known
+      const vec3 all = b + left < count_ ? found_[b + left] : at_end;
+      const vec3 light = (all - vertex.radiance) / t;
+      if (light.x >= 0.0f && light.y >= 0.0f && light.z >= 0.0f) sums.add({vertex.place, light, odd});
+    }
+  }
+
+ private:
+  std::vector<vec3> found_;  // by bounce: before the surface there
+  std::array<Vertex, kKeptBounces> vertices_;
+  size_t count_ = 0;
+};
+
+// False if the picture is empty there.
+bool start(Job& job, uint number) {
+  const std::vector<int> eyes = eye_list(job.options.eyes);
+  const uint seed = hash_pair(job.options.seed, 0x6c696768u);
+  const uint index = number / static_cast<uint>(eyes.size());
+  const int eye = eyes[number % eyes.size()];
+  const vec2 uv = random_pair(seed, index, kPixelPair);
+  const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
+  job.tracer.ray_time = job.shutter ? random_pair(seed, index, kTimePair).x : 0.5f;
+  const Camera camera = job.cameras.size() > 1 ? camera_at(job.cameras, job.tracer.ray_time) : job.camera;
+  const Ray ray = camera_ray(camera, eye, uv, uv, lens);
+  if (ray.direction == vec3(0.0f)) return false;
+  job.tracer.start_path(ray, job.media, hash_pair(seed, static_cast<uint>(eye)), index);
+  return true;
+}
+
+[[gnu::flatten]] void trace(Job& job, Trail& trail) {
+  PathTracer& tracer = job.tracer;
+  const PathState& path = tracer.path;
+  trail.begin();
+  while (path.alive) {
+    const Hit hit = job.embree.closest_hit(tracer, path.ray, kPathRay);
+    tracer.path.vertex_bounce = -1;
+    tracer.shade(hit, job.settings);
+    if (path.vertex_bounce >= 0) trail.meet(path);
+    if (path.shadow_pending && job.embree.reaches_light(tracer)) tracer.add_shadow_light();
+  }
+}
+
+void trace_batch(Job job, uint first, LightCacheSums& sums) {
+  Trail trail(job.settings.bounces);
+  const auto left = static_cast<size_t>(job.options.bounces - 1);
+  for (uint i = first; i < first + kPathsAtOnce; i++) {
+    if (!start(job, i)) continue;
+    trace(job, trail);
+    if (!job.tracer.path.caught) trail.add_to(sums, job.tracer.path.radiance, left, (i / 2) % 2 == 1);
+  }
+}
+
+// A cache that few paths have filled is worse than none.
+int64_t paths_wanted(const RenderOptions& options) {
+  if (options.cache_paths > 0) return options.cache_paths;
+  const int64_t share = int64_t{options.width} * options.height * options.samples / kSamplesPerPath;
+  return share < kFewestPaths ? 0 : share;
+}
+
+}  // namespace
+
+std::vector<CacheCell> fill_light_cache(const Job& wanted, const Progress& progress) {
+  if (wanted.options.bounces < 2) return {};  // no path meets a surface whose light could be cached
+  Job job = wanted;
+  job.settings.keep_vertices = true;
+  job.settings.clamp = 0.0f;
+  job.settings.bounces = wanted.options.bounces - 1 + kKeptBounces - 1;
+  job.tracer.cache_viewer = job.camera.center;
+  const int64_t most = paths_wanted(job.options);
+  LightCacheSums sums;
+  int64_t look = 4 * kRoundPaths;
+  for (int64_t done = 0; done < most; done += kRoundPaths) {
+    sums.reserve(size_t{2} * kKeptBounces * kRoundPaths);
+    tbb::parallel_for(0, kRoundPaths / kPathsAtOnce, [&](int i) {
+      if (progress.cancelled && progress.cancelled()) return;
+      trace_batch(job, static_cast<uint>(done) + static_cast<uint>(i * kPathsAtOnce), sums);
+    });
+    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "rendering was stopped");
+    if (done + kRoundPaths < look) continue;
+    if (sums.error() < kWantedError) break;
+    look += look / 2;
+  }
+  return sums.table();
+}
+
+void show_light_cache(Job& job, const std::vector<CacheCell>& cells) {
+  job.tracer.cache_viewer = job.camera.center;
+  job.tracer.cache_cells = cells.data();
+  job.tracer.cache_mask = cells.empty() ? 0u : static_cast<uint>(cells.size() - 1);
+}
+
+}  // namespace ods

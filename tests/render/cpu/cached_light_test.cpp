@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures whose indirect light comes out of a cache.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ods/render/cpu/render.h"
+#include "tests/support/pictures.h"
+
+namespace ods {
+namespace {
+
+Material matte(vec3 albedo, vec3 emission = vec3(0.0f)) {
+  Material material = default_material();
+  material.base_color = vec4(albedo, 1.0f);
+  material.emission = emission;
+  material.ior = 1.0f;
+  material.double_sided = 1;
+  return material;
+}
+
+RenderOptions cached(int width, int samples) {
+  RenderOptions options = small_render(width, samples);
+  options.indirect = Indirect::kCache;
+  options.cache_paths = 1 << 18;
+  return options;
+}
+
+double mean_over_eyes(const Picture& picture, int channel) {
+  double sum = 0.0;
+  size_t count = 0;
+  for (const EyeImage& eye : picture.eyes) {
+    for (size_t i = 0; i < eye.radiance.pixels.size(); i += 3, count++) {
+      sum += double{eye.radiance.pixels[i + static_cast<size_t>(channel)]};
+    }
+  }
+  return sum / static_cast<double>(count);
+}
+
+// All walls glow and reflect: after b bounces the light is the sum of b + 1 terms, whatever cached it.
+TEST(CachedLight, GlowingBoxHasEveryBounce) {
+  for (const int bounces : {2, 3, 8}) {
+    Scene scene;
+    const vec3 albedo(0.5f, 0.7f, 0.2f);
+    add_box(scene, vec3(-2, -1, -3), vec3(2, 1.5f, 3), add_material(scene, matte(albedo, vec3(1.0f))));
+    RenderOptions options = cached(32, 64);
+    options.bounces = bounces;
+    const Picture picture = render_cpu(scene, StereoCamera{}, options);
+    for (int c = 0; c < 3; c++) {
+      double expected = 0.0;
+      for (int b = 0; b <= bounces; b++) expected += std::pow(double{albedo[c]}, b);
+      EXPECT_NEAR(mean_over_eyes(picture, c) / expected, 1.0, 5e-3) << bounces << " bounces, channel " << c;
+    }
+  }
+}
+
+// A room with a lamp behind a screen: most light is indirect. A shelf and a pillar are closer than a cell.
+Scene room() {
+  Scene scene;
+  const int white = add_material(scene, matte(vec3(0.8f)));
+  const int red = add_material(scene, matte(vec3(0.7f, 0.2f, 0.1f)));
+  const int lamp = add_material(scene, matte(vec3(0.0f), vec3(40.0f)));
+  add_box(scene, vec3(-3, -1.2f, -3), vec3(3, 1.4f, 3), white);
+  add_box(scene, vec3(-2.9f, 0.2f, -1), vec3(-2.6f, 0.24f, 1), red);
+  add_box(scene, vec3(1, -1.2f, -2), vec3(1.1f, 1.4f, -1.9f), red);
+  add_rectangle(scene, vec3(-0.4f, 1.0f, -2.6f), vec3(0.8f, 0, 0), vec3(0, 0, 0.8f), lamp);
+  add_rectangle(scene, vec3(-0.6f, 0.9f, -2.7f), vec3(1.2f, 0, 0), vec3(0, 0, 1.2f), white);
+  return scene;
+}
+
+TEST(CachedLight, AgreesWithPaths) {
+  const Scene scene = room();
+  RenderOptions options = cached(64, 512);
+  options.eyes = Eyes::kBothEyes;
+  options.cache_paths = 1 << 20;
+  const Picture fast = render_cpu(scene, StereoCamera{}, options);
+  options.indirect = Indirect::kPath;
+  const Picture exact = render_cpu(scene, StereoCamera{}, options);
+  for (int c = 0; c < 3; c++) EXPECT_NEAR(mean_over_eyes(fast, c) / mean_over_eyes(exact, c), 1.0, 0.01);
+  // Blocks of 8x8 pixels: noise and cache together.
+  for (int y = 0; y < 32; y += 8) {
+    for (int x = 0; x < 64; x += 8) {
+      double a = 0.0, b = 0.0;
+      for (int i = 0; i < 64; i++) {
+        a += double{fast.eyes[0].radiance.at(x + i % 8, y + i / 8)[1]};
+        b += double{exact.eyes[0].radiance.at(x + i % 8, y + i / 8)[1]};
+      }
+      EXPECT_NEAR(a / b, 1.0, 0.06) << x << "," << y;
+    }
+  }
+}
+
+TEST(CachedLight, IsLessNoisy) {
+  const Scene scene = room();
+  RenderOptions options = cached(64, 64);
+  options.statistics = true;
+  const Picture fast = render_cpu(scene, StereoCamera{}, options);
+  options.indirect = Indirect::kPath;
+  const Picture exact = render_cpu(scene, StereoCamera{}, options);
+  EXPECT_LT(mean_of(fast.eyes[0].variance).value(), 0.5 * mean_of(exact.eyes[0].variance).value());
+}
+
+// A dark room beside a bright one, behind a wall thinner than a cell.
+TEST(CachedLight, StaysOnItsSideOfAWall) {
+  Scene scene;
+  const int white = add_material(scene, matte(vec3(0.8f)));
+  const int lamp = add_material(scene, matte(vec3(0.0f), vec3(100.0f)));
+  add_box(scene, vec3(-3, -1.2f, -3), vec3(3, 1.4f, 3), white);
+  add_box(scene, vec3(3.05f, -1.2f, -3), vec3(6, 1.4f, 3), white);
+  add_rectangle(scene, vec3(4, 1.3f, -0.5f), vec3(1, 0, 0), vec3(0, 0, 1), lamp);
+  const Picture dark = render_cpu(scene, StereoCamera{}, cached(64, 16));
+  for (const float value : dark.eyes[0].radiance.pixels) ASSERT_EQ(value, 0.0f);
+  // A door: the camera now sees both, and cells of both rooms are filled.
+  Scene open = scene;
+  StereoCamera camera;
+  camera.position = vec3(2.9f, 0.0f, 0.0f);
+  const Picture near_wall = render_cpu(scene, camera, cached(64, 16));
+  for (const float value : near_wall.eyes[0].radiance.pixels) ASSERT_EQ(value, 0.0f);
+}
+
+TEST(CachedLight, SameBitsForAnyThreads) {
+  const Scene scene = room();
+  RenderOptions options = cached(32, 16);
+  options.eyes = Eyes::kBothEyes;
+  options.threads = 1;
+  const uint64_t alone = digest(render_cpu(scene, StereoCamera{}, options));
+  for (const int threads : {2, 5}) {
+    options.threads = threads;
+    EXPECT_EQ(digest(render_cpu(scene, StereoCamera{}, options)), alone) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace ods
