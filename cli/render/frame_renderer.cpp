@@ -14,6 +14,7 @@
 #include "ods/kernel/random.h"
 #include "ods/render/render_target.h"
 #include "ods/scene/builtin/builtin.h"
+#include "ods/scene/sheet_glass.h"
 #include "ods/scene/shutter.h"
 #include "ods/stage/exposure.h"
 #include "ods/stage/place.h"
@@ -70,6 +71,15 @@ void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
   warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
 }
 
+// Says once what --caustics straight simplifies.
+void note_straight_light(const RenderJob& job, const ods::Scene& scene) {
+  if (job.render.caustics != ods::Caustics::kStraight) return;
+  const std::vector<std::string> solids = ods::smooth_solids(scene);
+  if (solids.empty()) return;
+  const std::string others = solids.size() == 1 ? "" : fmt::format(" and {} more", solids.size() - 1);
+  note(fmt::format("light passes solid glass ('{}'{}) unbent; --caustics path refracts it", solids.front(), others));
+}
+
 constexpr size_t kLooks = 5;  // at a video, spread evenly
 
 bool is_looked_at(const RenderJob& job) {
@@ -104,6 +114,7 @@ std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
   } else {
     place_camera(job_.camera, scene_);  // prints a note with the position
     check_view(job_, scene_, shot.cameras.front().position);
+    note_straight_light(job_, scene_);
     renderer_.emplace(scene_, job_.render.threads);
   }
   change_ = {};

@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr Quality kQualities[] = {
+constexpr QualityPreset kPresets[] = {
     {"draft", 1024, 64, 0.3f, false}, {"preview", 2048, 1024, 0.04f, false}, {"final", 4096, 4096, 0.02f, true}};
 
 // Noise cannot fall to 0; at 10 everything is clean.
@@ -43,27 +43,22 @@ double parse_time_limit(const std::string& word) {
 }  // namespace
 
 void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
-  quality = kQualities[1];
+  quality.preset = kPresets[1];
   options.group("Quality");
   std::string sizes;
   std::vector<std::string> names;
-  for (const Quality& q : kQualities) {
+  for (const QualityPreset& q : kPresets) {
     sizes += fmt::format(", {} {} x {} x {:g}", q.name, q.width, q.samples, q.noise);
     names.emplace_back(q.name);
   }
   options.choice(
-      "--quality", names, std::string(quality.name),
-      [&](size_t i) {
-        const auto own_samples = quality.own_samples;
-        quality = kQualities[i];
-        quality.own_samples = own_samples;
-      },
+      "--quality", names, std::string(quality.preset.name), [&](size_t i) { quality.preset = kPresets[i]; },
       "set width, --samples and --noise together" + sizes);
   options.custom(
       "--noise", "LEVEL|none", "", [&](const std::string& word) { job.render.noise = parse_noise(word); },
       "parts of the picture that are as clean as this get no more samples; in Cycles' measure, where 0.01 is its "
       "default. none: every pixel gets all samples");
-  options.number("--samples", quality.own_samples, 1, ods::kMaxSamples, "the most samples that a pixel gets");
+  options.number("--samples", quality.samples, 1, ods::kMaxSamples, "the most samples that a pixel gets");
   options.custom(
       "--time-limit", "TIME", "", [&](const std::string& word) { job.render.time_limit = parse_time_limit(word); },
       "the best picture that takes no longer, for each frame of a video: 90s, 10m, 1.5h. It depends on the machine");
@@ -72,11 +67,11 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
                  "the noisy picture as the layer raw. oidn: Intel Open Image Denoise, where it is installed");
   options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
   options.choice(
-      "--indirect", job.render.indirect, ods::kIndirectTable,
+      "--indirect", quality.indirect, ods::kIndirectTable,
       "how light finds its way over several surfaces: by whole paths, or by paths that end in a cache of it, "
       "many times as fast in rooms. By default cache; path for --quality final, .exr and --part");
   options.choice(
-      "--caustics", job.render.caustics, ods::kCausticsTable,
+      "--caustics", quality.caustics, ods::kCausticsTable,
       "how light passes solid glass and liquids: refracted, found by chance, or straight as through a window. "
       "By default straight; path for --quality final");
   options.number("--clamp", job.render.clamp, 0.0f, 1e6f,
@@ -87,13 +82,12 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
 }
 
 void finish_quality(const Options& options, const Quality& quality, RenderJob& job) {
-  if (!options.given("--width") && !options.given("--size")) job.render.width = quality.width;
+  const QualityPreset& preset = quality.preset;
+  if (!options.given("--width") && !options.given("--size")) job.render.width = preset.width;
   if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
-  job.render.samples = quality.own_samples.value_or(quality.samples);
-  const bool exact = quality.exact || job.part || ods::keeps_layers(job.output);
-  if (!options.given("--indirect")) job.render.indirect = exact ? ods::Indirect::kPath : ods::Indirect::kCache;
-  if (!options.given("--caustics")) {
-    job.render.caustics = quality.exact ? ods::Caustics::kPath : ods::Caustics::kStraight;
-  }
-  if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : quality.noise;
+  job.render.samples = quality.samples.value_or(preset.samples);
+  const bool exact = preset.exact || job.part || keeps_light(job.output);
+  job.render.indirect = quality.indirect.value_or(exact ? ods::Indirect::kPath : ods::Indirect::kCache);
+  job.render.caustics = quality.caustics.value_or(preset.exact ? ods::Caustics::kPath : ods::Caustics::kStraight);
+  if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : preset.noise;
 }

@@ -7,17 +7,25 @@
 #include <string_view>
 
 #include "cli/console/options.h"
+#include "ods/render/render_options.h"
 
 struct RenderJob;
 
-// A preset of --quality; --width, --samples and --noise take precedence.
-struct Quality {
+// A preset of --quality.
+struct QualityPreset {
   std::string_view name;
   int width;
   int samples;
   float noise;
-  bool exact;  // nothing is cached or simplified
-  std::optional<int> own_samples = {};  // those of --samples
+  bool exact;  // no light cache, no straight caustics
+};
+
+// The preset, and the options that take precedence over it besides --width and --noise.
+struct Quality {
+  QualityPreset preset;
+  std::optional<int> samples;
+  std::optional<ods::Indirect> indirect;
+  std::optional<ods::Caustics> caustics;
 };
 
 // Options in a group of their own, and what remains to be done after parsing.

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "ods/kernel/layer_lobes.h"
 #include "ods/scene/placement.h"
 
 namespace ods {
@@ -72,27 +73,50 @@ bool is_closed(const Scene& scene, const Mesh& mesh) {
   return volume > 1e-6 * std::pow(area, 1.5);  // two coincident sheets enclose nothing
 }
 
-std::vector<SheetGlass> find_sheet_glass(const Scene& scene) {
+static std::string name_of(const Scene& scene, int material) {
+  const auto i = static_cast<size_t>(material);
+  const bool named = i < scene.material_names.size() && !scene.material_names[i].empty();
+  return named ? scene.material_names[i] : "material " + std::to_string(material);
+}
+
+// Calls function(mesh) for each mesh that a visible instance shows.
+template <typename Function>
+static void each_visible_mesh(const Scene& scene, const Function& function) {
   std::vector<char> shown(scene.meshes.size(), 0);
   for (size_t i = 0; i < scene.instances.size(); i++) {
     if (!is_hidden(scene, i)) shown[static_cast<size_t>(scene.instances[i].mesh)] = 1;
   }
-  std::map<int, SheetGlass> found;
   for (size_t i = 0; i < scene.meshes.size(); i++) {
-    const Mesh& mesh = scene.meshes[i];
-    if (shown[i] == 0 || !is_sheet_glass(material_of(scene, mesh))) continue;
+    if (shown[i] != 0) function(scene.meshes[i]);
+  }
+}
+
+std::vector<SheetGlass> find_sheet_glass(const Scene& scene) {
+  std::map<int, SheetGlass> found;
+  each_visible_mesh(scene, [&](const Mesh& mesh) {
+    if (!is_sheet_glass(material_of(scene, mesh))) return;
     SheetGlass& glass = found[mesh.material];
     glass.material = mesh.material;
+    glass.name = name_of(scene, mesh.material);
     (is_closed(scene, mesh) ? glass.closed_meshes : glass.open_meshes)++;
-  }
+  });
   std::vector<SheetGlass> list;
-  for (auto& [material, glass] : found) {
-    const auto i = static_cast<size_t>(material);
-    if (i < scene.material_names.size()) glass.name = scene.material_names[i];
-    if (glass.name.empty()) glass.name = "material " + std::to_string(material);
-    list.push_back(std::move(glass));
-  }
+  for (auto& [material, glass] : found) list.push_back(std::move(glass));
   return list;
+}
+
+std::vector<std::string> smooth_solids(const Scene& scene) {
+  std::map<int, std::string> found;
+  each_visible_mesh(scene, [&](const Mesh& mesh) {
+    const Material& material = material_of(scene, mesh);
+    const bool solid = material.transmission > 0.0f && material.thickness > 0.0f && material.unlit == 0;
+    if (solid && material.roughness * material.roughness < kSmoothAlpha) {
+      found[mesh.material] = name_of(scene, mesh.material);
+    }
+  });
+  std::vector<std::string> names;
+  for (auto& [material, name] : found) names.push_back(std::move(name));
+  return names;
 }
 
 // Another material like this one, with the same name, animated likewise.

@@ -23,6 +23,9 @@ struct SheetGlass {
 // Those that visible instances show.
 std::vector<SheetGlass> find_sheet_glass(const Scene& scene);
 
+// The names of smooth transmissive materials with a volume that visible instances show.
+std::vector<std::string> smooth_solids(const Scene& scene);
+
 // Whether a mesh encloses a volume, as it stands now: at every edge, as many of its triangles run in one direction as
 // in the other, and their normals point outwards on the whole. Vertices at the same position count as one.
 bool is_closed(const Scene& scene, const Mesh& mesh);

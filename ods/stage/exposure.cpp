@@ -77,6 +77,7 @@ RenderOptions first_look(const RenderOptions& options) {
   look.samples = kLookSamples;
   look.bounces = options.bounces;
   look.clamp = options.clamp;
+  look.caustics = options.caustics;
   look.eyes = Eyes::kMonoEye;
   look.filter = PixelFilter::kBox;
   look.layers = true;  // for its depth
