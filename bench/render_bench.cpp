@@ -55,7 +55,7 @@ struct TracedRay {
 // The rays of a render of both eyes, one sample for each pixel, in its order.
 std::vector<TracedRay> record_rays(const EmbreeScene& embree, PathTracer tracer, const Camera& camera, int width) {
   std::vector<TracedRay> rays;
-  const PathSettings settings{8, kLightSamplingBoth, 0.0f};
+  const PathSettings settings{8, kLightSamplingBoth, false, 0.0f};
   for (int i = 0; i < width * width; i++) {
     const int x = i % width, y = i / width % (width / 2), eye = i / (width * width / 2);
     const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),

@@ -149,15 +149,17 @@ std::vector<Splash> splashes_of(const NoisyPicture& noisy, const std::vector<Out
   return splashes;
 }
 
-// Light that falls on a surface shows the surface's own colours, so textures stay.
-void add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
+// Light that falls on a surface shows the surface's own colours, so textures stay. Returns the light that is too much
+// to go unnoticed there.
+vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
   struct Share {
     size_t pixel;
-    vec3 radiance;
+    vec3 radiance;  // of the light that it gets
   };
   const EyeImage& eye = noisy.eye(splash.eye);
   std::vector<Share> shares;
   vec3 sum(0.0f);
+  float here = 0.0f;  // the light that is there, with the same weights
   const int reach = static_cast<int>(splash.radius);
   for (int dy = -reach; dy <= reach; dy++) {
     for (int dx = -reach; dx <= reach; dx++) {
@@ -172,12 +174,37 @@ void add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
       if (weight == 0.0f) continue;
       shares.push_back({pixel, weight * divisor(eye, pixel)});
       sum += shares.back().radiance;
+      here += weight * std::max(mean_of(light_at(level, pixel) * divisor(eye, pixel)), 0.0f);
     }
   }
+  if (shares.empty()) return splash.light;
+  const float part = std::min(kSeen * here / std::max(mean_of(splash.light), 1e-20f), 1.0f);
   for (const Share& share : shares) {
-    const vec3 light = splash.light * share.radiance / (sum * divisor(eye, share.pixel));
+    const vec3 light = part * splash.light * share.radiance / (sum * divisor(eye, share.pixel));
     for (int c = 0; c < 3; c++) level.light[3 * share.pixel + static_cast<size_t>(c)] += light[c];
   }
+  return (1.0f - part) * splash.light;
+}
+
+// Brightens all noisy pixels of both eyes by the same factor, to bring this much light.
+void brighten(const NoisyPicture& noisy, float light, std::vector<Level>& levels) {
+  double all = 0.0;
+  const auto each = [&](const auto& visit) {
+    for (size_t eye = 0; eye < levels.size(); eye++) {
+      for (size_t pixel = 0; pixel < levels[eye].variance.size(); pixel++) {
+        if (unpack_variance(levels[eye].variance[pixel]) > 0.0f && is_known(levels[eye], pixel)) visit(eye, pixel);
+      }
+    }
+  };
+  each([&](size_t eye, size_t pixel) {
+    const vec3 radiance = light_at(levels[eye], pixel) * divisor(noisy.eye(static_cast<int>(eye)), pixel);
+    all += std::max(static_cast<double>(mean_of(radiance)), 0.0);
+  });
+  if (!(all > 0.0)) return;
+  const auto factor = static_cast<float>(1.0 + static_cast<double>(light) / all);
+  each([&](size_t eye, size_t pixel) {
+    for (size_t c = 0; c < 3; c++) levels[eye].light[3 * pixel + c] *= factor;
+  });
 }
 
 }  // namespace
@@ -213,11 +240,13 @@ void spread_outliers(const NoisyPicture& noisy, const std::vector<Outlier>& outl
   if (outliers.empty()) return;
   const std::vector<Splash> splashes = splashes_of(noisy, outliers, both, levels);
   // Each eye's in their order: sums have the same bits for any number of threads.
+  std::vector<vec3> left(levels.size(), vec3(0.0f));
   tbb::parallel_for(size_t{0}, levels.size(), [&](size_t eye) {
     for (const Splash& splash : splashes) {
-      if (splash.eye == static_cast<int>(eye)) add_splash(noisy, splash, levels[eye]);
+      if (splash.eye == static_cast<int>(eye)) left[eye] += add_splash(noisy, splash, levels[eye]);
     }
   });
+  brighten(noisy, mean_of(std::accumulate(left.begin(), left.end(), vec3(0.0f))), levels);
 }
 
 }  // namespace ods

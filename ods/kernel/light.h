@@ -11,6 +11,9 @@
 namespace ods {
 #endif
 
+// That the environment is seen in a direction that leads through no portal, though there are some.
+const float kChanceBesidePortals = 0.05f;
+
 const float kFarAway = 1e30f;  // distance of the environment and of directional lights
 
 struct LightSample {
@@ -19,6 +22,7 @@ struct LightSample {
   vec3 end;       // where a shadow ray ends, just in front of the light; unused at kFarAway
   vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the probability of picking them
   float pdf;      // per solid angle, including the probability of picking the light
+  float chance;   // a guess at how likely nothing hides it: it steers what is sampled, not what comes out
   bool valid;
 };
 
@@ -29,6 +33,7 @@ inline LightSample no_light() {
   light.end = vec3(0.0f);
   light.radiance = vec3(0.0f);
   light.pdf = 0.0f;
+  light.chance = 1.0f;
   light.valid = false;
   return light;
 }
@@ -86,23 +91,84 @@ struct LightSampler : BsdfEvaluator {
     return 4.0f * kPi / float(info.width) * sin(float(2 * y + 1) * step) * sin(step);
   }
 
-  // Pdf per solid angle with which sample_light() finds the environment in this direction.
-  inline float environment_pdf(vec3 direction) {
-    EnvironmentInfo info = scene_environment();
-    if (info.light < 0) return 0.0f;
-    vec2 uv = direction_to_lat_long(direction);
-    int x = clamp(int(uv.x * float(info.width)), 0, info.width - 1);
-    int y = clamp(int(uv.y * float(info.height)), 0, info.height - 1);
-    float pick = scene_light(info.light).probability * scene_environment_row(y).probability *
-                 scene_environment_texel(y * info.width + x).entry.probability;
-    return pick / environment_texel_angle(info, y);
-  }
-
   // Pdf per solid angle of the points of a triangle light, seen from a distance along a direction.
   // area: the triangle's normal; its length is the triangle's area.
   inline float triangle_pdf(float pick, vec3 area, vec3 direction, float distance) {
     float projected = abs(dot(area, direction));
     return projected > 0.0f ? pick * distance * distance / projected : 0.0f;
+  }
+
+  // --- portals: half of the directions towards the environment lead through them
+
+  inline vec3 portal_area(Portal portal) {
+    return cross(portal.along, portal.across);
+  }
+
+  // Roughly the solid angle of a portal; 0 in its plane, where it has none.
+  inline float portal_weight(Portal portal, vec3 from) {
+    vec3 area = portal_area(portal);
+    vec3 to_middle = portal.corner + 0.5f * (portal.along + portal.across) - from;
+    float distance2 = dot(to_middle, to_middle) + 0.5f * length(area);
+    return abs(dot(area, to_middle)) / (distance2 * sqrt(distance2));
+  }
+
+  // The distance at which a ray passes a portal; negative: it does not.
+  inline float portal_distance(Portal portal, vec3 from, vec3 direction) {
+    vec3 area = portal_area(portal);
+    float along_ray = dot(area, direction);
+    if (abs(along_ray) < 1e-12f) return -1.0f;
+    float t = dot(area, portal.corner - from) / along_ray;
+    vec3 at = from + direction * t - portal.corner;
+    float u = dot(at, portal.along) / dot(portal.along, portal.along);
+    float v = dot(at, portal.across) / dot(portal.across, portal.across);
+    return min(min(u, 1.0f - u), min(v, 1.0f - v)) >= 0.0f ? t : -1.0f;
+  }
+
+  // Pdf per solid angle of sample_portal()'s directions.
+  inline float portal_pdf(vec3 from, vec3 direction) {
+    float weights = 0.0f;
+    float pdf = 0.0f;
+    for (int i = 0; i < scene_portal_count(); i++) {
+      Portal portal = scene_portal(i);
+      float weight = portal_weight(portal, from);
+      weights += weight;
+      float distance = portal_distance(portal, from, direction);
+      if (distance > 0.0f) pdf += weight * triangle_pdf(1.0f, portal_area(portal), direction, distance);
+    }
+    return weights > 0.0f ? pdf / weights : 0.0f;
+  }
+
+  // A direction through one of the portals.
+  inline vec3 sample_portal(vec3 from, float pick, vec2 uv) {
+    float weights = 0.0f;
+    for (int i = 0; i < scene_portal_count(); i++) weights += portal_weight(scene_portal(i), from);
+    float left = pick * weights;
+    int chosen = 0;
+    for (int i = 0; i < scene_portal_count() - 1; i++) {
+      left -= portal_weight(scene_portal(i), from);
+      if (left < 0.0f) break;
+      chosen = i + 1;
+    }
+    Portal portal = scene_portal(chosen);
+    return normalize(portal.corner + portal.along * uv.x + portal.across * uv.y - from);
+  }
+
+  // Pdf per solid angle with which the table of the environment's texels finds this direction.
+  inline float texel_pdf(EnvironmentInfo info, vec3 direction) {
+    vec2 uv = direction_to_lat_long(direction);
+    int x = clamp(int(uv.x * float(info.width)), 0, info.width - 1);
+    int y = clamp(int(uv.y * float(info.height)), 0, info.height - 1);
+    float pick = scene_environment_row(y).probability * scene_environment_texel(y * info.width + x).entry.probability;
+    return pick / environment_texel_angle(info, y);
+  }
+
+  // Pdf per solid angle with which sample_light() finds the environment in this direction.
+  inline float environment_pdf(vec3 from, vec3 direction) {
+    EnvironmentInfo info = scene_environment();
+    if (info.light < 0) return 0.0f;
+    float pdf = texel_pdf(info, direction);
+    if (scene_portal_count() > 0) pdf = 0.5f * (pdf + portal_pdf(from, direction));
+    return scene_light(info.light).probability * pdf;
   }
 
   // Pdf with which sample_light() finds the triangle that a ray hit at this distance.
@@ -128,7 +194,7 @@ struct LightSampler : BsdfEvaluator {
     vec3 area = cross(triangle.ab, triangle.ac) * 0.5f;
     vec3 point = triangle.a + triangle.ab * hit.u + triangle.ac * hit.v;
     vec3 to_light = point - from;
-    LightSample result;
+    LightSample result = no_light();
     result.end = offset_point(point, normalize(dot(area, to_light) > 0.0f ? -area : area));
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
@@ -146,8 +212,7 @@ struct LightSampler : BsdfEvaluator {
   }
 
   inline LightSample sample_punctual(Light light, vec3 from) {
-    LightSample result;
-    result.pdf = 0.0f;
+    LightSample result = no_light();
     result.valid = true;
     result.distance = kFarAway;
     result.direction = -light.direction;
@@ -168,8 +233,7 @@ struct LightSampler : BsdfEvaluator {
   }
 
   // cell chooses row and column, uv the point within the texel.
-  inline LightSample sample_environment(vec2 cell, vec2 uv) {
-    EnvironmentInfo info = scene_environment();
+  inline vec3 sample_texel(EnvironmentInfo info, vec2 cell, vec2 uv) {
     float place = cell.x * float(info.height);
     int row = min(int(place), info.height - 1);
     row = alias_pick(scene_environment_row(row), row, place - float(row));
@@ -181,13 +245,24 @@ struct LightSampler : BsdfEvaluator {
     float bottom = cos(kPi * float(row + 1) / float(info.height));
     float height = mix(top, bottom, uv.y);
     float r = sqrt(max(1.0f - height * height, 0.0f));
-    LightSample result;
-    result.direction = vec3(r * sin(theta), height, -r * cos(theta));
+    return vec3(r * sin(theta), height, -r * cos(theta));
+  }
+
+  inline LightSample sample_environment(vec3 from, vec2 cell, vec2 uv) {
+    LightSample result = no_light();
+    EnvironmentInfo info = scene_environment();
+    bool by_portals = scene_portal_count() > 0;
+    bool through = by_portals && cell.x < 0.5f;
+    if (by_portals) cell.x = fract(2.0f * cell.x);
+    if (through) result.direction = sample_portal(from, cell.y, uv);
+    if (!through) result.direction = sample_texel(info, cell, uv);
     result.distance = kFarAway;
     result.end = result.direction;
     result.radiance = environment_radiance(result.direction);
-    result.pdf = environment_pdf(result.direction);
-    result.valid = result.pdf > 0.0f;
+    result.pdf = environment_pdf(from, result.direction);
+    bool leads_out = by_portals && portal_pdf(from, result.direction) > 0.0f;
+    if (by_portals && !leads_out) result.chance = kChanceBesidePortals;
+    result.valid = result.pdf > 0.0f && (leads_out || !through);
     return result;
   }
 
@@ -199,7 +274,7 @@ struct LightSampler : BsdfEvaluator {
     LightPick slot = scene_light_pick(index);
     Light light = scene_light(pick.y < slot.threshold ? slot.light : slot.alias);
     if (light.kind == kLightTriangle) return sample_triangle(light, from, uv);
-    if (light.kind == kLightEnvironment) return sample_environment(cell, uv);
+    if (light.kind == kLightEnvironment) return sample_environment(from, cell, uv);
     return sample_punctual(light, from);
   }
 

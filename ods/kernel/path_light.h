@@ -86,7 +86,8 @@ struct PathLight : MediumReader {
       path.depth = -1.0f;
       meet_light(settings, background_radiance(path.ray.direction), 0.0f);
     } else {
-      meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(path.ray.direction));
+      vec3 from = path.ray.origin - path.ray.direction * path.travelled;
+      meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(from, path.ray.direction));
     }
     path.alive = false;
   }
@@ -201,7 +202,7 @@ struct PathLight : MediumReader {
           sample_light(surface.position, path_random(pair), path_random(pair + 1u), path_random(pair + 2u));
       if (!light.valid) continue;
       vec3 arriving = unshadowed_light(settings, bsdf, light);
-      float brightness = luminance(arriving);
+      float brightness = luminance(arriving) * light.chance;
       if (!(brightness > 0.0f && brightness < kFarAway)) continue;
       total += brightness;
       float share = brightness / total;
@@ -222,7 +223,8 @@ struct PathLight : MediumReader {
     path.shadow_other = path.shadow_light * path.other_ratio;
     if (path.both_see && path.bounce == 0) {
       vec3 for_other = unshadowed_light(settings, path.other, chosen);
-      float own_share = chosen_brightness / (chosen_brightness + path.other_density * luminance(for_other));
+      float own = luminance(chosen_light);
+      float own_share = own / (own + path.other_density * luminance(for_other));
       path.shadow_other = for_other * scale * (path.other_density * own_share);
       path.shadow_light = path.shadow_light * own_share;
     }

@@ -192,6 +192,13 @@ struct EnvironmentTexel {
   AliasEntry entry;  // within its row; the rows have their own table
 };
 
+// A rectangle through which a room sees the environment, such as a window pane: corner + u * along + v * across.
+struct Portal {
+  vec3 corner;
+  vec3 along;   // at right angles to across
+  vec3 across;
+};
+
 // What the kernel knows of an environment besides its texels.
 struct EnvironmentInfo {
   vec3 uniform_radiance;  // used if width = 0
@@ -222,6 +229,6 @@ static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 64);
 static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 28 && sizeof(Hit) == 20);
-static_assert(sizeof(CacheCell) == 20);
+static_assert(sizeof(CacheCell) == 20 && sizeof(Portal) == 36);
 }  // namespace ods
 #endif

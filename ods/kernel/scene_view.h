@@ -55,6 +55,8 @@ struct SceneView {
   EnvironmentInfo background = {};
   const EnvironmentTexel* environment_texels = nullptr;
   const AliasEntry* environment_rows = nullptr;
+  const Portal* portals = nullptr;
+  int portal_count = 0;  // 0: the environment may be anywhere
   const float* tables = nullptr;
   const CacheCell* cache_cells = nullptr;
   uint cache_mask = 0;  // slots of the light cache - 1, which are a power of two; 0: there is none
@@ -80,6 +82,8 @@ struct SceneView {
   const EnvironmentInfo& scene_background() const { return background; }
   const EnvironmentTexel& scene_environment_texel(int i) const { return environment_texels[i]; }
   const AliasEntry& scene_environment_row(int i) const { return environment_rows[i]; }
+  const Portal& scene_portal(int i) const { return portals[i]; }
+  int scene_portal_count() const { return portal_count; }
   float scene_table(int i) const { return tables[i]; }
   const CacheCell& scene_cache_cell(uint i) const { return cache_cells[i]; }
   uint scene_cache_mask() const { return cache_mask; }

@@ -17,6 +17,7 @@ layout(buffer_reference, scalar) readonly buffer LightPicks { LightPick at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
 layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
+layout(buffer_reference, scalar) readonly buffer Portals { Portal at[]; };
 layout(buffer_reference, scalar) readonly buffer CacheCells { CacheCell at[]; };
 
 struct View {
@@ -42,6 +43,8 @@ struct View {
   LightPicks light_picks;
   EnvironmentTexels environment_texels;
   EnvironmentRows environment_rows;
+  Portals portals;
+  int portal_count;
   Tables tables;
   CacheCells cache_cells;
   uint cache_mask;
@@ -79,4 +82,6 @@ AliasEntry scene_environment_row(int i) { return view.environment_rows.at[i]; }
 CacheCell scene_cache_cell(uint i) { return view.cache_cells.at[i]; }
 uint scene_cache_mask() { return view.cache_mask; }
 vec3 scene_cache_viewer() { return view.cache_viewer; }
+Portal scene_portal(int i) { return view.portals.at[i]; }
+int scene_portal_count() { return view.portal_count; }
 float scene_table(int i) { return view.tables.at[i]; }

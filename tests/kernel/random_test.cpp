@@ -295,9 +295,28 @@ TEST(Density, Lights) {
     const Hit hit = meet_lamp(kernel, w);
     return hit.t < 0.0f ? 0.0 : double{kernel.hit_light_pdf(hit, w, hit.t)};
   };
-  const auto environment = [&](vec3 w) { return double{kernel.environment_pdf(w)}; };
+  const auto environment = [&](vec3 w) { return double{kernel.environment_pdf(vec3(0.0f), w)}; };
   EXPECT_GT(density_p(32, triangles, [&](Dice& dice) { return draw(dice, false); }), significance(2));
   EXPECT_GT(density_p(32, environment, [&](Dice& dice) { return draw(dice, true); }), significance(2));
+}
+
+// Half of the directions towards the sky lead through windows: two that face the viewer, one in line with it.
+TEST(Density, SkyThroughPortals) {
+  const Scene scene = lit_scene();
+  const LightTable table = make_lights(scene);
+  LightSampler kernel = reader_of(scene, table);
+  const Portal portals[] = {{vec3(-1, -1, -2), vec3(1.5f, 0, 0.5f), vec3(0, 1, 0)},
+                            {vec3(2, 0, -1), vec3(0, 0, 2), vec3(0.3f, 0.8f, 0)},
+                            {vec3(0, 1, 0), vec3(0, 1, 0), vec3(0, 0, 1)}};
+  kernel.portals = portals;
+  kernel.portal_count = 3;
+  const auto draw = [&](Dice& dice) {
+    const vec2 pick = dice.pair();
+    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair(), dice.pair());
+    return light.valid && light.distance > 1e29f ? light.direction : vec3(0.0f);
+  };
+  const auto density = [&](vec3 w) { return double{kernel.environment_pdf(vec3(0.0f), w)}; };
+  EXPECT_GT(density_p(32, density, draw), significance(1));
 }
 
 // Each sample says what a ray in its direction would see, and with which density.
@@ -314,7 +333,7 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
     ASSERT_NEAR(length(light.direction), 1.0f, 1e-6f);
     if (light.distance > 1e29f) {
       EXPECT_EQ(light.radiance, kernel.environment_radiance(light.direction));
-      EXPECT_EQ(light.pdf, kernel.environment_pdf(light.direction));
+      EXPECT_EQ(light.pdf, kernel.environment_pdf(vec3(0.0f), light.direction));
     } else if (const Hit hit = meet_lamp(kernel, light.direction); hit.t > 0.0f) {
       lamps++;
       EXPECT_NEAR(light.distance, hit.t, 1e-5f);

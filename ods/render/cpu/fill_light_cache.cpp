@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "ods/base/error.h"
@@ -21,6 +22,8 @@ constexpr int kRoundPaths = 1 << 14;     // between looks at the cells
 constexpr double kWantedError = 0.2;     // of a cell; what a pixel gathers is the mean of many
 constexpr int64_t kSamplesPerPath = 16;  // of one eye: the paths take a tenth of the time
 constexpr int64_t kFewestPaths = 1 << 16;
+constexpr int64_t kMostPaths = 1 << 22;
+constexpr double kPathsPerSecond = 2e4;  // of a time limit
 
 // A surface that a path has met.
 struct Vertex {
@@ -107,7 +110,8 @@ int64_t paths_wanted(const RenderOptions& options) {
   if (options.cache_paths > 0) return options.cache_paths;
   const int expected = options.noise > 0.0f ? options.samples / 4 : options.samples;  // most pixels are clean by then
   const int64_t share = int64_t{options.width} * options.height * expected / kSamplesPerPath;
-  return share < kFewestPaths ? 0 : share;
+  const int64_t most = options.time_limit > 0.0 ? std::llrint(options.time_limit * kPathsPerSecond) : kMostPaths;
+  return share < kFewestPaths ? 0 : std::clamp(most, kFewestPaths, std::min(share, kMostPaths));
 }
 
 }  // namespace

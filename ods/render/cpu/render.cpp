@@ -26,6 +26,7 @@
 #include "ods/render/moving_camera.h"
 #include "ods/render/passes.h"
 #include "ods/render/picture_samples.h"
+#include "ods/render/portals.h"
 #include "ods/render/render_target.h"
 #include "ods/render/sampling_plan.h"
 #include "ods/scene/catchers.h"
@@ -365,7 +366,22 @@ struct CpuRenderer::Parts {
       lights = make_lights(scene);
       embree.emplace(scene);
       set_scene(tracer, scene, lights);
+      portals = find_portals(scene);
     });
+  }
+
+  // Aims at the environment through portals, if the viewer sees it through them.
+  void use_portals(PathTracer& here, vec3 viewer) const {
+    if (lights.environment.light < 0) return;
+    const auto escapes = [&](vec3 direction) {
+      Ray ray{viewer, direction};
+      here.start_path(ray, no_media(), 0u, 0u);
+      here.path.shadow_ray = ray;
+      return !embree->occluded(here, ray, kFarAway);
+    };
+    if (!show_the_sky(portals, viewer, escapes)) return;
+    here.portals = portals.data();
+    here.portal_count = static_cast<int>(portals.size());
   }
 
   // Precondition: the cameras outlive the job.
@@ -373,6 +389,7 @@ struct CpuRenderer::Parts {
     PathTracer here = tracer;
     here.ray_time = 0.5f;
     here.straight_solids = options.caustics == Caustics::kStraight;
+    use_portals(here, stereo.position);
     const Media media =
         media_at(here, stereo.position, [&](const Ray& ray) { return embree->closest_hit(here, ray, kHalfAlphaRay); });
     return {*embree,
@@ -391,6 +408,7 @@ struct CpuRenderer::Parts {
   const Scene& scene;
   mutable tbb::task_arena arena;
   LightTable lights;
+  std::vector<Portal> portals;
   std::optional<EmbreeScene> embree;
   PathTracer tracer;
 };
@@ -403,6 +421,7 @@ void CpuRenderer::update(const SceneChange& change) {
   if (change.instances.empty() && change.meshes.empty() && !change.lights && !change.materials) return;
   parts_->arena.execute([&] {
     update_lights(parts_->scene, parts_->lights);
+    parts_->portals = find_portals(parts_->scene);
     parts_->embree->update(change);
     set_scene(parts_->tracer, parts_->scene, parts_->lights);
   });

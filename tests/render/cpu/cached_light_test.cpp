@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ods/render/cpu/render.h"
+#include "ods/render/render_target.h"
 #include "tests/support/pictures.h"
 
 namespace ods {
@@ -118,6 +119,45 @@ TEST(CachedLight, StaysOnItsSideOfAWall) {
   camera.position = vec3(2.9f, 0.0f, 0.0f);
   const Picture near_wall = render_cpu(scene, camera, cached(64, 16));
   for (const float value : near_wall.eyes[0].radiance.pixels) ASSERT_EQ(value, 0.0f);
+}
+
+// The cells are the same whatever part of the samples is rendered, and whenever.
+TEST(CachedLight, ResumedAndInParts) {
+  const Scene scene = room();
+  RenderOptions options = cached(32, 16);
+  options = with_height(options, StereoCamera{});
+  const CpuRenderer renderer(scene);
+  const StereoCamera camera;
+  PictureSamples whole = no_samples(options);
+  renderer.sample({&camera, 1}, options, whole);
+  std::vector<int64_t> sum(whole.eyes[0].light.size());
+  for (int part = 1; part <= 4; part++) {
+    RenderOptions share = options;
+    share.part = {part, 4};
+    PictureSamples samples = no_samples(share);
+    renderer.sample({&camera, 1}, share, samples);
+    for (size_t i = 0; i < sum.size(); i++) sum[i] += samples.eyes[0].light[i];
+  }
+  EXPECT_EQ(sum, whole.eyes[0].light);
+}
+
+// Lamps of no size and of a million times the usual light, a tiny room, one in a landscape: every pixel is a number,
+// and no brighter than what paths find.
+TEST(CachedLight, StrangeScenesAreFinite) {
+  for (const float scale : {1e-3f, 1.0f, 300.0f}) {
+    Scene scene;
+    const int white = add_material(scene, matte(vec3(0.8f)));
+    const int lamp = add_material(scene, matte(vec3(0.0f), vec3(1e6f)));
+    add_box(scene, vec3(-3, -1.2f, -3) * scale, vec3(3, 1.4f, 3) * scale, white);
+    add_rectangle(scene, vec3(-0.1f, 1.3f, -2) * scale, vec3(0.2f, 0, 0) * scale, vec3(0, 0, 0.2f) * scale, lamp);
+    add_rectangle(scene, vec3(0, 1, 0) * scale, vec3(0.2f, 0, 0) * scale, vec3(0.2f, 0, 0) * scale, lamp);
+    RenderOptions options = cached(32, 32);
+    const Picture fast = render_cpu(scene, StereoCamera{}, options);
+    options.indirect = Indirect::kPath;
+    const Picture exact = render_cpu(scene, StereoCamera{}, options);
+    for (const float value : fast.eyes[0].radiance.pixels) ASSERT_TRUE(std::isfinite(value));
+    EXPECT_NEAR(mean_over_eyes(fast, 1) / mean_over_eyes(exact, 1), 1.0, 0.05) << scale;
+  }
 }
 
 TEST(CachedLight, SameBitsForAnyThreads) {
