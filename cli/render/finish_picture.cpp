@@ -47,8 +47,5 @@ std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoC
     if (!job.render.layers) eye.depth = eye.normal = eye.albedo = ods::Image();
     if (!keeps_statistics) eye.variance = eye.samples = ods::Image();
   }
-  ods::SaveOptions save = job.save;
-  save.attributes.push_back({"ods:indirect", std::string(ods::indirect_name(job.render.indirect))});
-  save.attributes.push_back({"ods:caustics", std::string(ods::caustics_name(job.render.caustics))});
-  return ods::save_picture(picture, camera, save, path);
+  return ods::save_picture(picture, camera, job.save, path);
 }

@@ -18,6 +18,7 @@ constexpr int kReach = 2;                  // of the window that tells an outlie
 constexpr float kMostOfNeighbours = 2.0f;  // an outlier is brighter than all neighbours' light, over this
 constexpr float kSigmas = 3.0f;            // brighter than its surroundings by more of its own deviations: no outlier
 constexpr float kSeen = 0.03f;             // share of the light that spread light adds at most, if it can
+constexpr float kMostSeen = 0.1f;          // and at most this share: the rest brightens the whole picture
 constexpr float kNarrowest = 8.0f, kWidest = 64.0f;  // radius in pixels over which light is spread
 constexpr double kVisits = 8.0;                      // of a pixel by outliers, on average; bounds the time
 
@@ -178,7 +179,7 @@ vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
     }
   }
   if (shares.empty()) return splash.light;
-  const float part = std::min(kSeen * here / std::max(mean_of(splash.light), 1e-20f), 1.0f);
+  const float part = std::min(kMostSeen * here / std::max(mean_of(splash.light), 1e-20f), 1.0f);
   for (const Share& share : shares) {
     const vec3 light = part * splash.light * share.radiance / (sum * divisor(eye, share.pixel));
     for (int c = 0; c < 3; c++) level.light[3 * share.pixel + static_cast<size_t>(c)] += light[c];
@@ -186,11 +187,11 @@ vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
   return (1.0f - part) * splash.light;
 }
 
-// Brightens all noisy pixels of both eyes by the same factor, to bring this much light.
-void brighten(const NoisyPicture& noisy, float light, std::vector<Level>& levels) {
+// Brightens all noisy pixels of these eyes by the same factor, to bring this much light.
+void brighten(const NoisyPicture& noisy, float light, size_t first_eye, size_t end, std::vector<Level>& levels) {
   double all = 0.0;
   const auto each = [&](const auto& visit) {
-    for (size_t eye = 0; eye < levels.size(); eye++) {
+    for (size_t eye = first_eye; eye < end; eye++) {
       for (size_t pixel = 0; pixel < levels[eye].variance.size(); pixel++) {
         if (unpack_variance(levels[eye].variance[pixel]) > 0.0f && is_known(levels[eye], pixel)) visit(eye, pixel);
       }
@@ -246,7 +247,11 @@ void spread_outliers(const NoisyPicture& noisy, const std::vector<Outlier>& outl
       if (splash.eye == static_cast<int>(eye)) left[eye] += add_splash(noisy, splash, levels[eye]);
     }
   });
-  brighten(noisy, mean_of(std::accumulate(left.begin(), left.end(), vec3(0.0f))), levels);
+  if (both) {
+    brighten(noisy, mean_of(std::accumulate(left.begin(), left.end(), vec3(0.0f))), 0, levels.size(), levels);
+    return;
+  }
+  for (size_t eye = 0; eye < levels.size(); eye++) brighten(noisy, mean_of(left[eye]), eye, eye + 1, levels);
 }
 
 }  // namespace ods

@@ -23,7 +23,8 @@ struct Outlier {
 std::vector<Outlier> take_outliers(const NoisyPicture& noisy, std::vector<Level>& levels);
 
 // Adds the outliers' light to the pixels around them, the wider the brighter it is: as little as possible is to be seen
-// of it. both: half of the light goes to the place in the other eye that shows the same surface; needs depth.
+// of it. What would be seen nevertheless brightens the whole picture a little. both: half of the light goes to the
+// place in the other eye that shows the same surface; needs depth.
 void spread_outliers(const NoisyPicture& noisy, const std::vector<Outlier>& outliers, bool both,
                      std::vector<Level>& levels);
 

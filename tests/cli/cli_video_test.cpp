@@ -245,6 +245,8 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--denoise", "none"},
     {"--bounces", "2"},
     {"--clamp", "3"},
+    {"--caustics", "path"},
+    {"--indirect", "path"},
     {"--filter", "box"},
     {"--seed", "7"},
 };

@@ -26,7 +26,6 @@
 #include "ods/kernel/light.h"
 #include "ods/kernel/medium.h"
 #include "ods/kernel/counterpart.h"
-#include "ods/kernel/path_state.h"
 #include "ods/kernel/path_light.h"
 #include "ods/kernel/light_cache.h"
 #include "ods/kernel/path.h"

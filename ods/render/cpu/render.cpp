@@ -26,7 +26,6 @@
 #include "ods/render/moving_camera.h"
 #include "ods/render/passes.h"
 #include "ods/render/picture_samples.h"
-#include "ods/render/portals.h"
 #include "ods/render/render_target.h"
 #include "ods/render/sampling_plan.h"
 #include "ods/scene/catchers.h"

@@ -28,7 +28,7 @@ std::optional<CeilingLamp> place_lamp(vec3 eye, const Clearance& clearance);
 CeilingLamp lamp_at(vec3 position, const Clearance& clearance);
 
 // Adds the lamp, so bright that a white Lambert floor beneath it has a radiance of 0.4 by its direct light. It is
-// visible from below only. The camera sees it no brighter than kSeenLamp (ods/kernel/path_state.h), as its full
+// visible from below only. The camera sees it no brighter than kSeenLamp (ods/kernel/path_light.h), as its full
 // radiance, some 100 times that of the floor, would leave it a ragged rim; mirrors and glass show it in full.
 void add_lamp(Scene& scene, const CeilingLamp& lamp);
 
