@@ -173,7 +173,7 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
 TEST_F(Farm, ThePlanNamesEveryFile) {
   const std::string at = folder.path("");
   const auto placed = [&](const std::string& words) { return std::regex_replace(words, std::regex("@"), at); };
-  for (const std::string& name : {"views", "out"}) std::filesystem::create_directory(at + name);
+  for (const char* name : {"views", "out"}) std::filesystem::create_directory(at + name);
   ASSERT_EQ(run(placed("render -q furnace --width 32 --samples 1 --sidecar -o @in.png")), 0) << err;
   ASSERT_EQ(run(placed("render -q furnace --width 32 --samples 1 --eyes mono -o @map.exr")), 0) << err;
   ASSERT_EQ(run(placed("rig -q --nearest 1 --width 64 -o @rig.json")), 0) << err;
