@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How good denoised pictures look: denoise_quality_bench [FOLDER]. It renders what the folder lacks, so a second run,
+// with another denoiser, takes seconds. Results of other denoisers, or of an older one, that lie beside a picture
+// (room_16.exr: room_16.LABEL.exr) are judged in the same run.
+//
+// shown: RMSE of what a screen shows, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h. plain
+// and edge: shown, of pixels without and with a step in normal or albedo beside them. blotch: RMSE of the means of 8x8
+// pixels, of plain ones only. energy: the sum of light over the raw picture's.
+//
+// The truth is not needed for the errors: see denoise_bench.cpp. FLIP has the mean of A and B for its reference.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "bench/subjects.h"
+#include "ods/denoise/denoise.h"
+#include "ods/denoise/stored_noise.h"
+#include "ods/image/tone.h"
+#include "ods/picture/load_eyes.h"
+#include "ods/picture/save.h"
+#include "ods/picture/stored_picture.h"
+#include "ods/render/cpu/render.h"
+#include "ods/stage/exposure.h"
+#include "tests/support/flip.h"
+
+namespace {
+
+using namespace ods;
+namespace fs = std::filesystem;
+
+struct Row {
+  const char* name;
+  const char* file = "";  // in the folder or below SHARED_SCENES; empty: the built-in scene
+  int width;
+  int samples;  // of A and B
+};
+
+constexpr Row kRows[] = {{"room", "", 256, 768},
+                         {"interior", "interior.glb", 384, 512},
+                         {"atrium", "atrium.glb", 384, 512},
+                         {"toys", "", 384, 512},
+                         {"wineglass", "", 384, 512},
+                         {"mirrors", "", 384, 512}};
+
+struct Opened {
+  Picture picture;
+  StereoCamera camera;
+};
+
+std::string path_of(const Row& row, const fs::path& folder) {
+  if (!*row.file) return row.name;
+  const fs::path here = folder / row.file;
+  return fs::exists(here) ? here : fs::path(SHARED_SCENES) / row.file;
+}
+
+std::optional<Opened> opened(const Row& row, const fs::path& folder, const std::string& file, int samples,
+                             uint32_t seed) {
+  const fs::path path = folder / file;
+  if (!fs::exists(path)) {
+    const std::string from = path_of(row, folder);
+    if (*row.file && !fs::exists(from)) return {};
+    Scene scene = load_scene(from, {});
+    StereoCamera camera;
+    camera.position = default_view(scene).position;
+    RenderOptions options;
+    options.width = row.width, options.samples = samples, options.seed = seed, options.statistics = true;
+    save_picture(render_cpu(scene, camera, options, {}), camera, {}, path);
+  }
+  const StoredPicture stored = open_picture(path);
+  return Opened{read_noise(stored, {}, path).picture, stored.camera};
+}
+
+Picture radiance_of(const fs::path& path) {
+  Picture picture;
+  for (Image& eye : load_eyes(path).eyes) picture.eyes.emplace_back().radiance = std::move(eye);
+  return picture;
+}
+
+// What the screen shows, linear or encoded.
+Image on_screen(const Image& light, float exposure, bool encode) {
+  Image result = light;
+  for (size_t i = 0; i < light.pixels.size(); i += 3) {
+    const vec3 c =
+        tone_map(vec3(light.pixels[i], light.pixels[i + 1], light.pixels[i + 2]), exposure, ToneCurve::kNeutral);
+    for (size_t k = 0; k < 3; k++) {
+      const float value = c[static_cast<int>(k)];
+      result.pixels[i + k] = encode ? srgb_encode(value) : value;
+    }
+  }
+  return result;
+}
+
+// 1 where a step in normal or albedo is beside.
+std::vector<char> edges_of(const EyeImage& eye) {
+  const int width = eye.normal.width, height = eye.normal.height;
+  std::vector<char> edges(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (int y = 0; y < height; y++) {
+    for (int x = 0; x < width; x++) {
+      float most = 0.0f;
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
+        const int nx = (x + dx + width) % width, ny = std::clamp(y + dy, 0, height - 1);
+        for (int c = 0; c < 3; c++) {
+          most = std::max({most, 0.5f * std::abs(eye.normal.at(x, y)[c] - eye.normal.at(nx, ny)[c]),
+                           std::abs(eye.albedo.at(x, y)[c] - eye.albedo.at(nx, ny)[c])});
+        }
+      }
+      edges[static_cast<size_t>(y * width + x)] = most > 0.05f;
+    }
+  }
+  return edges;
+}
+
+struct Judged {
+  double shown = 0.0, plain = 0.0, edge = 0.0, blotch = 0.0, flip = 0.0, energy = 0.0;
+};
+
+// Sums of products of two errors.
+struct Sum {
+  double sum = 0.0, count = 0.0;
+  void add(double product) { sum += product, count += 1.0; }
+  double root() const { return std::sqrt(std::max(sum / std::max(count, 1.0), 0.0)); }
+};
+
+class Judge {
+ public:
+  Judge(const Opened& a, const Opened& b) {
+    exposure_ = suitable_exposure(std::vector<Picture>{a.picture}).value_or(0.0f);
+    for (size_t e = 0; e < a.picture.eyes.size(); e++) {
+      const EyeImage &one = a.picture.eyes[e], &two = b.picture.eyes[e];
+      a_.push_back(on_screen(one.radiance, exposure_, true)), b_.push_back(on_screen(two.radiance, exposure_, true));
+      edges_.push_back(edges_of(one));
+      Image mean = one.radiance;
+      for (size_t i = 0; i < mean.pixels.size(); i++) mean.pixels[i] = 0.5f * (mean.pixels[i] + two.radiance.pixels[i]);
+      mean_.push_back(on_screen(mean, exposure_, false));
+    }
+  }
+
+  Judged of(const Picture& picture, const Picture& raw) const {
+    Sum shown, plain, edge, blotch;
+    Judged result;
+    double light = 0.0, before = 0.0;
+    for (size_t e = 0; e < picture.eyes.size(); e++) {
+      const Image& radiance = picture.eyes[e].radiance;
+      const Image d = on_screen(radiance, exposure_, true);
+      for (size_t i = 0; i < d.pixels.size(); i++) {
+        const double product = double{d.pixels[i] - a_[e].pixels[i]} * double{d.pixels[i] - b_[e].pixels[i]};
+        shown.add(product), (edges_[e][i / 3] ? edge : plain).add(product);
+        light += double{radiance.pixels[i]}, before += double{raw.eyes[e].radiance.pixels[i]};
+      }
+      add_blotches(d, e, blotch);
+      result.flip +=
+          flip_error(mean_[e], on_screen(radiance, exposure_, false)) / static_cast<double>(picture.eyes.size());
+    }
+    result.shown = shown.root(), result.plain = plain.root(), result.edge = edge.root();
+    result.blotch = blotch.root(), result.energy = light / before;
+    return result;
+  }
+  float exposure() const { return exposure_; }
+
+ private:
+  void add_blotches(const Image& d, size_t e, Sum& blotch) const {
+    constexpr int kSize = 8;
+    for (int y = 0; y + kSize <= d.height; y += kSize) {
+      for (int x = 0; x + kSize <= d.width; x += kSize) {
+        double one[3] = {}, two[3] = {}, count = 0.0;
+        for (int i = 0; i < kSize * kSize; i++) {
+          const int px = x + i % kSize, py = y + i / kSize;
+          if (edges_[e][static_cast<size_t>(py * d.width + px)]) continue;
+          count += 1.0;
+          for (int c = 0; c < 3; c++) {
+            one[c] += double{d.at(px, py)[c] - a_[e].at(px, py)[c]};
+            two[c] += double{d.at(px, py)[c] - b_[e].at(px, py)[c]};
+          }
+        }
+        if (count < kSize * kSize / 2) continue;
+        for (int c = 0; c < 3; c++) blotch.add(one[c] * two[c] / (count * count));
+      }
+    }
+  }
+
+  float exposure_;
+  std::vector<Image> a_, b_, mean_;
+  std::vector<std::vector<char>> edges_;
+};
+
+void print(const std::string& name, const std::string& label, const Judged& judged, double seconds) {
+  fmt::print("{:14} {:8} {:7.4f} {:7.4f} {:7.4f} {:7.4f} {:7.4f} {:8.4f} {:7.3f}\n", name, label, judged.shown,
+             judged.plain, judged.edge, judged.blotch, judged.flip, judged.energy, seconds);
+}
+
+// Other results of the picture in this file.
+std::vector<std::pair<std::string, fs::path>> others_of(const fs::path& folder, const std::string& stem) {
+  std::vector<std::pair<std::string, fs::path>> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with(stem + ".") || !name.ends_with(".exr") || name == stem + ".exr") continue;
+    others.push_back({name.substr(stem.size() + 1, name.size() - stem.size() - 5), entry.path()});
+  }
+  std::sort(others.begin(), others.end());
+  return others;
+}
+
+void judge_row(const Row& row, const fs::path& folder) {
+  const std::string name = row.name;
+  const auto a = opened(row, folder, name + "_a.exr", row.samples, 101);
+  const auto b = opened(row, folder, name + "_b.exr", row.samples, 102);
+  if (!a || !b) return fmt::print("{:14} skipped: no {}\n", name, row.file);
+  const Judge judge(*a, *b);
+  for (const int samples : {4, 16, 64}) {
+    const std::string stem = fmt::format("{}_{}", name, samples);
+    Opened one = *opened(row, folder, stem + ".exr", samples, 1);
+    const Picture raw = one.picture;
+    print(stem, "raw", judge.of(raw, raw), 0.0);
+    for (const auto& [label, path] : others_of(folder, stem)) print(stem, label, judge.of(radiance_of(path), raw), 0.0);
+    const double seconds = seconds_of([&] { denoise(one.picture, one.camera); }).cpu;
+    print(stem, "own", judge.of(one.picture, raw), seconds);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const fs::path folder = argc > 1 ? argv[1] : "denoise_quality";
+  fs::create_directories(folder);
+  fmt::print("{:14} {:8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "", "", "shown", "plain", "edge", "blotch",
+             "FLIP", "energy", "CPU s");
+  for (const Row& row : kRows) {
+    if (argc > 2 && std::string(argv[2]) != row.name) continue;
+    judge_row(row, folder);
+  }
+}
