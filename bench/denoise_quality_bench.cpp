@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How good denoised pictures look: denoise_quality_bench [FOLDER]. It renders what the folder lacks, so a second run,
-// with another denoiser, takes seconds. Results of other denoisers, or of an older one, that lie beside a picture
-// (room_16.exr: room_16.LABEL.exr) are judged in the same run.
+// How good denoised pictures look: denoise_quality_bench [FOLDER [SCENE]]. It renders what the folder lacks, so a
+// second run, with another denoiser, takes seconds. Results of other denoisers, or of an older one, that lie beside a
+// picture (room_16.exr: room_16.LABEL.exr) are judged in the same run.
 //
 // shown: RMSE of what a screen shows, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h. plain
 // and edge: shown, of pixels without and with a step in normal or albedo beside them. blotch: RMSE of the means of 8x8
@@ -225,7 +225,7 @@ void judge_row(const Row& row, const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const fs::path folder = argc > 1 ? argv[1] : "denoise_quality";
+  const fs::path folder = argc > 1 ? argv[1] : "build/denoise_quality";
   fs::create_directories(folder);
   fmt::print("{:14} {:8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "", "", "shown", "plain", "edge", "blotch",
              "FLIP", "energy", "CPU s");

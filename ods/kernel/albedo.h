@@ -4,8 +4,7 @@
 // What lobes reflect of light that comes from everywhere, from the tables (ods/render/tables.h).
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/ggx.h"
-#include "ods/kernel/sheen.h"
+#include "ods/kernel/microfacets.h"
 #include "ods/kernel/surface_layers.h"
 namespace ods {
 #endif

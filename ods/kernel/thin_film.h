@@ -7,7 +7,7 @@
 // The outside is air, also under a clearcoat (the reading of the Khronos sample viewer).
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/ggx.h"
+#include "ods/kernel/microfacets.h"
 namespace ods {
 #endif
 

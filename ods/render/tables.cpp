@@ -8,9 +8,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "ods/kernel/ggx.h"
+#include "ods/kernel/microfacets.h"
 #include "ods/kernel/scene_view.h"
-#include "ods/kernel/sheen.h"
 
 namespace ods {
 

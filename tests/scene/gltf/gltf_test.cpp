@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "ods/base/error.h"
-#include "ods/kernel/ggx.h"
+#include "ods/kernel/microfacets.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/scene_check.h"
 
@@ -407,8 +407,7 @@ TEST(Gltf, TexturesAndTheirSamplers) {
 
 TEST(Gltf, ExtensionsThatAreNotRendered) {
   GltfBuilder file = make_triangle();
-  file.json["extensionsUsed"] = {"KHR_materials_other", "KHR_materials_other", "VENDOR_thing",
-                                 "KHR_materials_ior"};
+  file.json["extensionsUsed"] = {"KHR_materials_other", "KHR_materials_other", "VENDOR_thing", "KHR_materials_ior"};
   const Scene scene = file.load();
   ASSERT_EQ(scene.warnings.size(), 2u);
   EXPECT_NE(scene.warnings[0].find("KHR_materials_other"), std::string::npos);
