@@ -5,9 +5,10 @@
 // second run, with another denoiser, takes seconds. Results of other denoisers, or of an older one, that lie beside a
 // picture (room_16.exr: room_16.LABEL.exr) are judged in the same run.
 //
-// shown: RMSE of what a screen shows, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h. plain
-// and edge: shown, of pixels without and with a step in normal or albedo beside them. blotch: RMSE of the means of 8x8
-// pixels, of plain ones only. energy: the sum of light over the raw picture's.
+// shown: RMSE of what a screen shows, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h.
+// room_16c: with a light cache, as drafts have it. plain and edge: shown, of pixels without and with a step in normal
+// or albedo beside them. blotch: RMSE of the means of 8x8 pixels, of plain ones only. energy: the sum of light over the
+// raw picture's.
 //
 // The truth is not needed for the errors: see denoise_bench.cpp. FLIP has the mean of A and B for its reference.
 #include <fmt/format.h>
@@ -40,12 +41,14 @@ struct Row {
   int samples;  // of A and B
 };
 
-constexpr Row kRows[] = {{"room", "", 256, 768},
-                         {"interior", "interior.glb", 384, 512},
-                         {"atrium", "atrium.glb", 384, 512},
-                         {"toys", "", 384, 512},
-                         {"wineglass", "", 384, 512},
-                         {"mirrors", "", 384, 512}};
+constexpr Row kRows[] = {{"room", "", 256, 512},
+                         {"interior", "interior.glb", 384, 256},
+                         {"atrium", "atrium.glb", 384, 256},
+                         {"toys", "", 384, 256},
+                         {"wineglass", "", 384, 256},
+                         {"mirrors", "", 384, 256}};
+
+constexpr int kCachePaths = 1 << 20;  // what a draft of a useful size fills its light cache with
 
 struct Opened {
   Picture picture;
@@ -59,7 +62,7 @@ std::string path_of(const Row& row, const fs::path& folder) {
 }
 
 std::optional<Opened> opened(const Row& row, const fs::path& folder, const std::string& file, int samples,
-                             uint32_t seed) {
+                             uint32_t seed, bool cached = false) {
   const fs::path path = folder / file;
   if (!fs::exists(path)) {
     const std::string from = path_of(row, folder);
@@ -69,6 +72,7 @@ std::optional<Opened> opened(const Row& row, const fs::path& folder, const std::
     camera.position = default_view(scene).position;
     RenderOptions options;
     options.width = row.width, options.samples = samples, options.seed = seed, options.statistics = true;
+    if (cached) options.indirect = Indirect::kCache, options.cache_paths = kCachePaths;
     save_picture(render_cpu(scene, camera, options, {}), camera, {}, path);
   }
   const StoredPicture stored = open_picture(path);
@@ -211,9 +215,9 @@ void judge_row(const Row& row, const fs::path& folder) {
   const auto b = opened(row, folder, name + "_b.exr", row.samples, 102);
   if (!a || !b) return fmt::print("{:14} skipped: no {}\n", name, row.file);
   const Judge judge(*a, *b);
-  for (const int samples : {4, 16, 64}) {
-    const std::string stem = fmt::format("{}_{}", name, samples);
-    Opened one = *opened(row, folder, stem + ".exr", samples, 1);
+  for (const auto& [samples, cached] : {std::pair{4, false}, {16, false}, {16, true}, {64, false}}) {
+    const std::string stem = fmt::format("{}_{}{}", name, samples, cached ? "c" : "");
+    Opened one = *opened(row, folder, stem + ".exr", samples, 1, cached);
     const Picture raw = one.picture;
     print(stem, "raw", judge.of(raw, raw), 0.0);
     for (const auto& [label, path] : others_of(folder, stem)) print(stem, label, judge.of(radiance_of(path), raw), 0.0);

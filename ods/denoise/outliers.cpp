@@ -160,7 +160,7 @@ vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
   const EyeImage& eye = noisy.eye(splash.eye);
   std::vector<Share> shares;
   vec3 sum(0.0f);
-  float here = 0.0f;  // the light that is there, with the same weights
+  float here = 0.0f;  // the light already in those pixels, with the same weights
   const int reach = static_cast<int>(splash.radius);
   for (int dy = -reach; dy <= reach; dy++) {
     for (int dx = -reach; dx <= reach; dx++) {

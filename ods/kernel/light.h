@@ -162,13 +162,18 @@ struct LightSampler : BsdfEvaluator {
     return pick / environment_texel_angle(info, y);
   }
 
+  // by_portal: portal_pdf() in this direction.
+  inline float texel_or_portal_pdf(EnvironmentInfo info, vec3 direction, float by_portal) {
+    float pdf = texel_pdf(info, direction);
+    if (scene_portal_count() > 0) pdf = 0.5f * (pdf + by_portal);
+    return scene_light(info.light).probability * pdf;
+  }
+
   // Pdf per solid angle with which sample_light() finds the environment in this direction.
   inline float environment_pdf(vec3 from, vec3 direction) {
     EnvironmentInfo info = scene_environment();
     if (info.light < 0) return 0.0f;
-    float pdf = texel_pdf(info, direction);
-    if (scene_portal_count() > 0) pdf = 0.5f * (pdf + portal_pdf(from, direction));
-    return scene_light(info.light).probability * pdf;
+    return texel_or_portal_pdf(info, direction, portal_pdf(from, direction));
   }
 
   // Pdf with which sample_light() finds the triangle that a ray hit at this distance.
@@ -259,8 +264,9 @@ struct LightSampler : BsdfEvaluator {
     result.distance = kFarAway;
     result.end = result.direction;
     result.radiance = environment_radiance(result.direction);
-    result.pdf = environment_pdf(from, result.direction);
-    bool leads_out = by_portals && portal_pdf(from, result.direction) > 0.0f;
+    float by_portal = portal_pdf(from, result.direction);
+    bool leads_out = by_portal > 0.0f;
+    result.pdf = texel_or_portal_pdf(info, result.direction, by_portal);
     if (by_portals && !leads_out) result.chance = kChanceBesidePortals;
     result.valid = result.pdf > 0.0f && (leads_out || !through);
     return result;

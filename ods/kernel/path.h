@@ -278,6 +278,7 @@ struct PathTracer : LightCacheReader {
 
   inline void shade(Hit hit, PathSettings settings) {
     path.shadow_pending = false;
+    path.vertex_bounce = -1;
     if (path.caught) {
       go_to_light(hit);
       return;

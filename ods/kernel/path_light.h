@@ -222,14 +222,18 @@ struct PathLight : MediumReader {
     return max(eta, 1.0f / eta);
   }
 
+  // Turns the shadow ray so that it ends there.
+  inline void end_shadow_at(vec3 end) {
+    vec3 to_light = end - path.shadow_ray.origin;
+    path.shadow_length = length(to_light);
+    path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
+  }
+
   // The shadow ray begins anew behind a surface that it met.
   inline void shorten_shadow(Surface surface) {
     vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * min(path.shadow_length, 1e10f);
     path.shadow_ray.origin = offset_point(surface.position, -surface.geometric);
-    if (path.shadow_length >= kFarAway) return;
-    vec3 to_light = end - path.shadow_ray.origin;
-    path.shadow_length = length(to_light);
-    path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
+    if (path.shadow_length < kFarAway) end_shadow_at(end);
   }
 
   // The shadow ray has met clear glass: it goes on behind it with the light that passes.
@@ -286,11 +290,7 @@ struct PathLight : MediumReader {
     path.shadow_length = distance;
     path.shadow_media = path.media;
     if (through) path.shadow_media = beyond;
-    if (distance < kFarAway) {
-      vec3 to_light = end - path.shadow_ray.origin;
-      path.shadow_length = length(to_light);
-      path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
-    }
+    if (distance < kFarAway) end_shadow_at(end);
     path.shadow_pending = path.shadow_length > 0.0f;
   }
 

@@ -3,7 +3,6 @@
 //
 // The scene's lights as the kernel picks them: in proportion to their power.
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "ods/kernel/scene_view.h"
@@ -35,16 +34,5 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights);
 
 // Walker's alias table for weights that are finite and not negative; if all are zero they count as equal.
 std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights);
-
-// --- portals: the window panes through which a room sees its sky. Aimed at the whole sky, most rays would meet walls
-
-// The flat, nearly rectangular panes of clear thin glass, the largest first, at most kMostPortals. Panes may be single
-// sheets or thin boxes, and many may be one mesh.
-inline constexpr size_t kMostPortals = 8;
-std::vector<Portal> find_portals(const Scene& scene);
-
-// Whether the viewer sees the sky hardly anywhere but through the portals. escapes: whether a ray from the viewer
-// leaves the scene, where clear glass does not stop it.
-bool show_the_sky(const std::vector<Portal>& portals, vec3 viewer, const std::function<bool(vec3 direction)>& escapes);
 
 }  // namespace ods

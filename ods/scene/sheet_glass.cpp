@@ -15,16 +15,25 @@ namespace ods {
 
 using glm::dvec3;
 
+static bool is_glass(const Material& material) {
+  return material.transmission > 0.0f && material.unlit == 0;
+}
+
 static bool is_sheet_glass(const Material& material) {
-  return material.transmission > 0.0f && !(material.thickness > 0.0f) && material.unlit == 0;
+  return is_glass(material) && !(material.thickness > 0.0f);
+}
+
+bool is_smooth_glass(const Material& material) {
+  return is_glass(material) && material.roughness * material.roughness < kSmoothAlpha;
 }
 
 static const Material& material_of(const Scene& scene, const Mesh& mesh) {
   return scene.materials[static_cast<size_t>(mesh.material)];
 }
 
-// For each of a mesh's vertices a number that those at the same position share.
-static std::vector<uint> merge_positions(const Vertex* vertices, uint count) {
+std::vector<uint> merge_positions(const Scene& scene, const Mesh& mesh) {
+  const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
+  const uint count = mesh.vertex_count;
   const auto before = [&](uint a, uint b) {
     const vec3 p = vertices[a].position, q = vertices[b].position;
     return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
@@ -41,7 +50,7 @@ static std::vector<uint> merge_positions(const Vertex* vertices, uint count) {
 
 bool is_closed(const Scene& scene, const Mesh& mesh) {
   const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
-  const std::vector<uint> merged = merge_positions(vertices, mesh.vertex_count);
+  const std::vector<uint> merged = merge_positions(scene, mesh);
   struct Edge {
     uint low, high;
     int direction;  // 1: from low to high
@@ -109,10 +118,7 @@ std::vector<std::string> smooth_solids(const Scene& scene) {
   std::map<int, std::string> found;
   each_visible_mesh(scene, [&](const Mesh& mesh) {
     const Material& material = material_of(scene, mesh);
-    const bool solid = material.transmission > 0.0f && material.thickness > 0.0f && material.unlit == 0;
-    if (solid && material.roughness * material.roughness < kSmoothAlpha) {
-      found[mesh.material] = name_of(scene, mesh.material);
-    }
+    if (is_smooth_glass(material) && material.thickness > 0.0f) found[mesh.material] = name_of(scene, mesh.material);
   });
   std::vector<std::string> names;
   for (auto& [material, name] : found) names.push_back(std::move(name));

@@ -23,8 +23,14 @@ struct SheetGlass {
 // Those that visible instances show.
 std::vector<SheetGlass> find_sheet_glass(const Scene& scene);
 
+// Glass that stays smooth if its roughness has no texture.
+bool is_smooth_glass(const Material& material);
+
 // The names of smooth transmissive materials with a volume that visible instances show.
 std::vector<std::string> smooth_solids(const Scene& scene);
+
+// For each of a mesh's vertices the number of one at the same position, the same for all of them.
+std::vector<uint> merge_positions(const Scene& scene, const Mesh& mesh);
 
 // Whether a mesh encloses a volume, as it stands now: at every edge, as many of its triangles run in one direction as
 // in the other, and their normals point outwards on the whole. Vertices at the same position count as one.

@@ -27,7 +27,7 @@ TEST(Flip, PlainPicturesDifferByTheirColours) {
   EXPECT_NEAR(flip_error(filled(0, 0, 0), filled(1, 1, 1)), 0.95f + (white - 0.4f) / 0.6f * 0.05f, 2e-3f);
 }
 
-// A fine chequer is grey for who sees it from far away, a coarse one is not.
+// From far away a fine chequer looks grey, a coarse one does not.
 TEST(Flip, DetailThatNobodySeesIsNoError) {
   const auto chequer = [](int size) {
     Image image = filled(0.25f, 0.25f, 0.25f);

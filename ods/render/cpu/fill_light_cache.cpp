@@ -11,7 +11,6 @@
 
 #include "ods/base/error.h"
 #include "ods/render/light_cache.h"
-#include "ods/render/moving_camera.h"
 
 namespace ods {
 namespace {
@@ -67,40 +66,29 @@ class Trail {
 };
 
 // False if the picture is empty there.
-bool start(Job& job, uint number) {
-  const std::vector<int> eyes = eye_list(job.options.eyes);
+bool start(Job& job, const std::vector<int>& eyes, uint number) {
   const uint seed = hash_pair(job.options.seed, 0x6c696768u);
   const uint index = number / static_cast<uint>(eyes.size());
   const int eye = eyes[number % eyes.size()];
   const vec2 uv = random_pair(seed, index, kPixelPair);
-  const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
-  job.tracer.ray_time = job.shutter ? random_pair(seed, index, kTimePair).x : 0.5f;
-  const Camera camera = job.cameras.size() > 1 ? camera_at(job.cameras, job.tracer.ray_time) : job.camera;
-  const Ray ray = camera_ray(camera, eye, uv, uv, lens);
-  if (ray.direction == vec3(0.0f)) return false;
-  job.tracer.start_path(ray, job.media, hash_pair(seed, static_cast<uint>(eye)), index);
+  const FirstRay first = first_ray(job, eye, uv, uv, seed, index);
+  if (first.ray.direction == vec3(0.0f)) return false;
+  job.tracer.ray_time = first.time;
+  job.tracer.start_path(first.ray, job.media, hash_pair(seed, static_cast<uint>(eye)), index);
   return true;
 }
 
-[[gnu::flatten]] void trace(Job& job, Trail& trail) {
-  PathTracer& tracer = job.tracer;
-  const PathState& path = tracer.path;
-  trail.begin();
-  while (path.alive) {
-    const Hit hit = job.embree.closest_hit(tracer, path.ray, kPathRay);
-    tracer.path.vertex_bounce = -1;
-    tracer.shade(hit, job.settings);
-    if (path.vertex_bounce >= 0) trail.meet(path);
-    if (path.shadow_pending && job.embree.reaches_light(tracer)) tracer.add_shadow_light();
-  }
-}
-
 void trace_batch(Job job, uint first, LightCacheSums& sums) {
+  const std::vector<int> eyes = eye_list(job.options.eyes);
   Trail trail(job.settings.bounces);
   const auto left = static_cast<size_t>(job.options.bounces - 1);
   for (uint i = first; i < first + kPathsAtOnce; i++) {
-    if (!start(job, i)) continue;
-    trace(job, trail);
+    if (!start(job, eyes, i)) continue;
+    trail.begin();
+    PathTracer& tracer = job.tracer;
+    trace_path(job, job.embree.closest_hit(tracer, tracer.path.ray, kPathRay), [&](const PathState& path) {
+      if (path.vertex_bounce >= 0) trail.meet(path);
+    });
     if (!job.tracer.path.caught) trail.add_to(sums, job.tracer.path.radiance, left, (i / 2) % 2 == 1);
   }
 }

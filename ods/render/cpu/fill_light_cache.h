@@ -11,9 +11,8 @@
 namespace ods {
 
 // Traces whole paths from all over the picture and keeps what they find at each surface, until the cells are certain or
-// the paths take a tenth of the picture's time. Small pictures get no cache. The result depends on the scene, the camera and the options only, and not on
-// options.part or the number of threads.
-// Errors: ErrorKind::kCancelled.
+// the paths take a tenth of the picture's time. Small pictures get no cache. The result depends on the scene, the
+// camera and the options only, and not on options.part or the number of threads. Errors: ErrorKind::kCancelled.
 std::vector<CacheCell> fill_light_cache(const Job& job, const Progress& progress);
 
 // Lets the job's paths end in these cells, which must outlive it; in none if there are none.

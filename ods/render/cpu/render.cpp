@@ -17,34 +17,20 @@
 
 #include "ods/base/error.h"
 #include "ods/kernel/counterpart.h"
-#include "ods/kernel/path.h"
 #include "ods/render/cpu/fill_light_cache.h"
 #include "ods/render/cpu/job.h"
 #include "ods/render/keeper.h"
 #include "ods/render/lights.h"
 #include "ods/render/media_at.h"
-#include "ods/render/moving_camera.h"
 #include "ods/render/passes.h"
 #include "ods/render/picture_samples.h"
 #include "ods/render/render_target.h"
 #include "ods/render/sampling_plan.h"
 #include "ods/scene/catchers.h"
+#include "ods/scene/portals.h"
 
 namespace ods {
 namespace {
-
-// The render loop, from the first hit on. Inlining the whole kernel here, and the camera below, makes it a quarter
-// faster.
-[[gnu::flatten]] void trace_path(Job& job, Hit hit) {
-  PathTracer& tracer = job.tracer;
-  const PathState& path = tracer.path;
-  while (true) {
-    tracer.shade(hit, job.settings);
-    if (path.shadow_pending && job.embree.reaches_light(tracer)) tracer.add_shadow_light();
-    if (!path.alive) return;
-    hit = job.embree.closest_hit(tracer, path.ray, kPathRay);
-  }
-}
 
 vec2 pixel_center(const Job& job, int x, int y) {
   return {(static_cast<float>(x) + 0.5f) / static_cast<float>(job.options.width),
@@ -181,12 +167,10 @@ struct FirstHits {
     const uint index = packet.index + static_cast<uint>(i);
     const vec2 place = random_pair(packet.seed, index, kPixelPair);
     out.uv[i] = job.tracer.filtered_position(job.filter, x, y, job.options.width, job.options.height, place);
-    const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(packet.seed, index, kLensPair) : vec2(0.0f);
-    packet.times[i] = job.shutter ? random_pair(packet.seed, index, kTimePair).x : 0.5f;
-    packet.rays[i] = job.cameras.size() > 1
-                         ? camera_ray(camera_at(job.cameras, packet.times[i]), eye, home, out.uv[i], lens)
-                         : camera_ray(job.camera, eye, home, out.uv[i], lens);
-    if (packet.rays[i].direction == vec3(0.0f)) return false;
+    const FirstRay first_of = first_ray(job, eye, home, out.uv[i], packet.seed, index);
+    if (first_of.ray.direction == vec3(0.0f)) return false;
+    packet.rays[i] = first_of.ray;
+    packet.times[i] = first_of.time;
   }
   job.embree.closest_hits(job.tracer, packet, out.hits);
   return true;
@@ -204,7 +188,7 @@ struct FirstHits {
     found.exists = false;
     back.lengths[i] = 0.0f;
     if (out.hits[i].t < 0.0f) continue;
-    const Camera camera = job.cameras.size() > 1 ? camera_at(job.cameras, back.times[i]) : job.camera;
+    const Camera camera = camera_at_time(job, back.times[i]);
     found = counterpart_of(camera, job.filter, size, eye, pixel, out.uv[i], ray.direction,
                            ray.origin + ray.direction * out.hits[i].t);
     if (!found.exists) continue;
@@ -250,7 +234,7 @@ bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRa
     const Counterpart& other = start.counterparts[i];
     const float theirs = job.shares && other.exists ? weight_in(pass, other.x, other.y) : 0.0f;
     if (theirs > 0.0f) job.tracer.share_path(other.direction, other.density * theirs / ours);
-    trace_path(job, start.hits[i]);
+    trace_path(job, start.hits[i], [](const PathState&) {});
     if (theirs > 0.0f) {
       add_shared(job.tracer.path, static_cast<size_t>(other.y) * width + static_cast<size_t>(other.x), *target.other);
     }
@@ -299,9 +283,9 @@ void render_slice(const Job& job, const Pass& pass, int begin, int end, PictureS
     const size_t eye = static_cast<size_t>(work / per_eye);
     render_block(job, pass, work % per_eye, {samples.eyes[eye], job.shares ? &samples.eyes[1 - eye] : nullptr});
     done++;
-    if (progress.report && reporting.try_lock()) {
+    if (!progress.report) return;
+    if (const std::unique_lock free(reporting, std::try_to_lock); free) {
       progress.report(static_cast<double>(done) / total);
-      reporting.unlock();
     }
   });
   if (stop) throw Error(ErrorKind::kCancelled, "rendering was stopped");
@@ -373,9 +357,8 @@ struct CpuRenderer::Parts {
   void use_portals(PathTracer& here, vec3 viewer) const {
     if (lights.environment.light < 0) return;
     const auto escapes = [&](vec3 direction) {
-      Ray ray{viewer, direction};
+      const Ray ray{viewer, direction};
       here.start_path(ray, no_media(), 0u, 0u);
-      here.path.shadow_ray = ray;
       return !embree->occluded(here, ray, kFarAway);
     };
     if (!show_the_sky(portals, viewer, escapes)) return;
@@ -388,7 +371,6 @@ struct CpuRenderer::Parts {
     PathTracer here = tracer;
     here.ray_time = 0.5f;
     here.straight_solids = options.caustics == Caustics::kStraight;
-    use_portals(here, stereo.position);
     const Media media =
         media_at(here, stereo.position, [&](const Ray& ray) { return embree->closest_hit(here, ray, kHalfAlphaRay); });
     return {*embree,
@@ -420,7 +402,9 @@ void CpuRenderer::update(const SceneChange& change) {
   if (change.instances.empty() && change.meshes.empty() && !change.lights && !change.materials) return;
   parts_->arena.execute([&] {
     update_lights(parts_->scene, parts_->lights);
-    parts_->portals = find_portals(parts_->scene);
+    if (!change.instances.empty() || !change.meshes.empty() || change.materials) {
+      parts_->portals = find_portals(parts_->scene);
+    }
     parts_->embree->update(change);
     set_scene(parts_->tracer, parts_->scene, parts_->lights);
   });
@@ -448,6 +432,7 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
   for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
   parts_->arena.execute([&] {
     Job job = parts_->make_job(stereo, cameras, options);
+    parts_->use_portals(job.tracer, stereo.position);
     std::vector<CacheCell> cells;
     if (options.indirect == Indirect::kCache) cells = fill_light_cache(job, progress);
     show_light_cache(job, cells);

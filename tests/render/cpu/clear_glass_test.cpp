@@ -64,6 +64,14 @@ Scene floor_below(const Sheets& sheets, double half = 400.0) {
   return scene;
 }
 
+PunctualLight sun_from(vec3 direction, float irradiance = 1.0f) {
+  PunctualLight sun;
+  sun.kind = kLightDirectional;
+  sun.direction = direction;
+  sun.intensity = vec3(irradiance);
+  return sun;
+}
+
 // Light that meets the floor once.
 RenderOptions floor_render(int samples) {
   RenderOptions options = small_render(16, samples);
@@ -98,11 +106,7 @@ TEST(ClearGlass, SunThroughSheets) {
   for (const Sheets& sheets : kSheets) {
     Scene scene = floor_below(sheets);
     const double cosine = 0.6;
-    PunctualLight sun;
-    sun.kind = kLightDirectional;
-    sun.direction = vec3(0.8f, -0.6f, 0.0f);
-    sun.intensity = vec3(3.0f);
-    scene.lights.push_back(sun);
+    scene.lights.push_back(sun_from(vec3(0.8f, -0.6f, 0.0f), 3.0f));
     const double expected = kFloor / kPiD * 3.0 * cosine * sheets.transmittance(cosine);
     expect_floor(
         scene, floor_render(4), [&](glm::dvec3) { return expected; }, 1e-4, name_of(sheets));
@@ -113,10 +117,7 @@ TEST(ClearGlass, SunThroughSheets) {
 TEST(ClearGlass, BothEyesGetTheSameSun) {
   const Sheets sheets{2, 1.5, 0.7};
   Scene scene = floor_below(sheets);
-  PunctualLight sun;
-  sun.kind = kLightDirectional;
-  sun.direction = vec3(0.0f, -1.0f, 0.0f);
-  scene.lights.push_back(sun);
+  scene.lights.push_back(sun_from(vec3(0.0f, -1.0f, 0.0f)));
   RenderOptions options = floor_render(64);
   options.eyes = Eyes::kBothEyes;
   const double expected = kFloor / kPiD * sheets.transmittance(1.0);
@@ -202,10 +203,7 @@ TEST(ClearGlass, AlphaSheetAgrees) {
       sheet.alpha_mode = kAlphaBlend;
     }
     add_plane(scene, kAbove, 400.0, add_material(scene, sheet));
-    PunctualLight sun;
-    sun.kind = kLightDirectional;
-    sun.direction = vec3(0.8f, -0.6f, 0.0f);
-    scene.lights.push_back(sun);
+    scene.lights.push_back(sun_from(vec3(0.8f, -0.6f, 0.0f)));
     const double expected = kFloor / kPiD * 0.6 * 0.5;
     expect_floor(
         scene, floor_render(4096), [&](glm::dvec3) { return expected; }, 1e-2, alpha ? "alpha" : "glass");
@@ -219,10 +217,7 @@ TEST(ClearGlass, RoughSheetKeepsTheEnergy) {
   Material frosted = glass(1.0);
   frosted.roughness = 0.5f;
   add_plane(scene, 1.0, 4000.0, add_material(scene, frosted));
-  PunctualLight sun;
-  sun.kind = kLightDirectional;
-  sun.direction = vec3(0.0f, -1.0f, 0.0f);
-  scene.lights.push_back(sun);
+  scene.lights.push_back(sun_from(vec3(0.0f, -1.0f, 0.0f)));
   RenderOptions options = floor_render(8192);
   options.bounces = 2;
   expect_floor(
@@ -250,10 +245,7 @@ TEST(ClearGlass, StraightThroughASolid) {
       add_plane(scene, 25.0, 20.0, add_material(scene, glow));
       scene.materials.back().double_sided = 1;
     } else {
-      PunctualLight sun;
-      sun.kind = kLightDirectional;
-      sun.direction = vec3(0.8f, -0.6f, 0.0f);
-      scene.lights.push_back(sun);
+      scene.lights.push_back(sun_from(vec3(0.8f, -0.6f, 0.0f)));
     }
     const auto radiance = [&](glm::dvec3 place) {
       return area ? lamp_on_floor(place, 20.0, 25.0, through) : kFloor / kPiD * 0.6 * through(0.6);
@@ -271,10 +263,7 @@ TEST(ClearGlass, StraightOutOfASolid) {
   water.attenuation_color = vec3(static_cast<float>(std::exp(-0.3)));
   // Its bottom and walls are below the floor and far away; the camera is above the water.
   add_box(scene, vec3(-350, -1.5, -350), vec3(350, -0.5, 350), add_material(scene, water));
-  PunctualLight sun;
-  sun.kind = kLightDirectional;
-  sun.direction = vec3(0.0f, -1.0f, 0.0f);
-  scene.lights.push_back(sun);
+  scene.lights.push_back(sun_from(vec3(0.0f, -1.0f, 0.0f)));
   RenderOptions options = floor_render(4096);
   options.caustics = Caustics::kStraight;
   // The floor is seen by way of a refraction that loses the same share again. Only the pixels straight below are known.

@@ -6,7 +6,7 @@
 
 #include "ods/kernel/light.h"
 #include "ods/render/cpu/render.h"
-#include "ods/render/lights.h"
+#include "ods/scene/portals.h"
 #include "tests/support/pictures.h"
 
 namespace ods {

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Portals: the window panes through which a room sees its sky. Most rays that aim at the whole sky meet walls.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "ods/scene/scene.h"
+
+namespace ods {
+
+// The flat, nearly rectangular panes of clear thin glass, the largest first, at most kMostPortals. Panes may be single
+// sheets or thin boxes, and many may be one mesh.
+inline constexpr size_t kMostPortals = 8;
+std::vector<Portal> find_portals(const Scene& scene);
+
+// Whether the viewer sees the sky hardly anywhere but through the portals. escapes: whether a ray from the viewer
+// leaves the scene, where clear glass does not stop it.
+bool show_the_sky(const std::vector<Portal>& portals, vec3 viewer, const std::function<bool(vec3 direction)>& escapes);
+
+}  // namespace ods
