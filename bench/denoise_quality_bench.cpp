@@ -42,7 +42,7 @@ struct Row {
 };
 
 constexpr Row kRows[] = {{"room", "", 256, 512},
-                         {"interior", "interior.glb", 384, 256},
+                         {"interior", "interior.glb", 384, 1024},
                          {"atrium", "atrium.glb", 384, 256},
                          {"toys", "", 384, 256},
                          {"wineglass", "", 384, 256},
@@ -136,7 +136,7 @@ class Judge {
     exposure_ = suitable_exposure(std::vector<Picture>{a.picture}).value_or(0.0f);
     for (size_t e = 0; e < a.picture.eyes.size(); e++) {
       const EyeImage &one = a.picture.eyes[e], &two = b.picture.eyes[e];
-      a_.push_back(on_screen(one.radiance, exposure_, true)), b_.push_back(on_screen(two.radiance, exposure_, true));
+      a_.push_back(one.radiance), b_.push_back(two.radiance);
       edges_.push_back(edges_of(one));
       Image mean = one.radiance;
       for (size_t i = 0; i < mean.pixels.size(); i++) mean.pixels[i] = 0.5f * (mean.pixels[i] + two.radiance.pixels[i]);
@@ -150,13 +150,15 @@ class Judge {
     double light = 0.0, before = 0.0;
     for (size_t e = 0; e < picture.eyes.size(); e++) {
       const Image& radiance = picture.eyes[e].radiance;
-      const Image d = on_screen(radiance, exposure_, true);
-      for (size_t i = 0; i < d.pixels.size(); i++) {
-        const double product = double{d.pixels[i] - a_[e].pixels[i]} * double{d.pixels[i] - b_[e].pixels[i]};
+      for (size_t i = 0; i < radiance.pixels.size(); i += 3) {
+        const vec3 d = light_at(radiance, i);
+        const double product = seen(d, light_at(a_[e], i), light_at(b_[e], i));
         shown.add(product), (edges_[e][i / 3] ? edge : plain).add(product);
-        light += double{radiance.pixels[i]}, before += double{raw.eyes[e].radiance.pixels[i]};
+        for (size_t c = i; c < i + 3; c++) {
+          light += double{radiance.pixels[c]}, before += double{raw.eyes[e].radiance.pixels[c]};
+        }
       }
-      add_blotches(d, e, blotch);
+      add_blotches(radiance, e, blotch);
       result.flip +=
           flip_error(mean_[e], on_screen(radiance, exposure_, false)) / static_cast<double>(picture.eyes.size());
     }
@@ -167,22 +169,37 @@ class Judge {
   float exposure() const { return exposure_; }
 
  private:
+  static vec3 light_at(const Image& image, size_t i) {
+    return {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
+  }
+
+  // The product of two errors as a screen shows them, mean of the channels: in light, times the tone curve's slope. A
+  // noisy truth has the right mean in light, but not on a curve.
+  double seen(vec3 d, vec3 a, vec3 b) const {
+    const auto shown = [&](vec3 light) {
+      const vec3 c = tone_map(light, exposure_, ToneCurve::kNeutral);
+      return vec3(srgb_encode(c.x), srgb_encode(c.y), srgb_encode(c.z));
+    };
+    const vec3 truth = 0.5f * (a + b), apart = abs(d - truth) + 1e-3f * (d + truth) + 1e-6f;
+    const vec3 slope = (shown(truth + apart) - shown(max(truth - apart, vec3(0.0f)))) /
+                       (truth + apart - max(truth - apart, vec3(0.0f)));
+    const vec3 product = (d - a) * (d - b) * slope * slope;
+    return double{product.x + product.y + product.z} / 3.0;
+  }
+
   void add_blotches(const Image& d, size_t e, Sum& blotch) const {
     constexpr int kSize = 8;
     for (int y = 0; y + kSize <= d.height; y += kSize) {
       for (int x = 0; x + kSize <= d.width; x += kSize) {
-        double one[3] = {}, two[3] = {}, count = 0.0;
+        vec3 mean(0.0f), one(0.0f), two(0.0f);
+        float count = 0.0f;
         for (int i = 0; i < kSize * kSize; i++) {
           const int px = x + i % kSize, py = y + i / kSize;
           if (edges_[e][static_cast<size_t>(py * d.width + px)]) continue;
-          count += 1.0;
-          for (int c = 0; c < 3; c++) {
-            one[c] += double{d.at(px, py)[c] - a_[e].at(px, py)[c]};
-            two[c] += double{d.at(px, py)[c] - b_[e].at(px, py)[c]};
-          }
+          const size_t at = 3 * static_cast<size_t>(py * d.width + px);
+          count += 1.0f, mean += light_at(d, at), one += light_at(a_[e], at), two += light_at(b_[e], at);
         }
-        if (count < kSize * kSize / 2) continue;
-        for (int c = 0; c < 3; c++) blotch.add(one[c] * two[c] / (count * count));
+        if (count >= kSize * kSize / 2) blotch.add(seen(mean / count, one / count, two / count));
       }
     }
   }

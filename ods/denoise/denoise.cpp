@@ -13,13 +13,16 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/denoise/detail.h"
+#include "ods/denoise/edges.h"
 #include "ods/denoise/filter.h"
 #include "ods/denoise/outliers.h"
 
 namespace ods {
 namespace {
 
-constexpr FilterPass kPasses[] = {{1, 2.0f, 2.0f}, {2}, {4}, {8}, {16, 1.0f}};
+// The narrower a pass, the more of what it takes away is noise.
+constexpr FilterPass kPasses[] = {{1, 2.0f}, {2, 2.0f}, {4, 1.5f}, {8, 1.5f}, {16, 1.5f}};
 
 // Counts blocks of all passes; the thread that finishes one reports.
 class Steps {
@@ -86,7 +89,6 @@ void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
   open_noisy(frame.noisy, beside.picture, beside.camera);
   frame.levels = first_levels(frame.noisy);
   take_outliers(frame.noisy, frame.levels);  // their light is not this frame's
-  smooth_variance(frame.noisy, frame.levels);
   frame.beside = &beside;
 }
 
@@ -100,7 +102,6 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
     for (EyeImage& eye : picture.eyes) eye.variance = eye.samples = Image();
   }
   const std::vector<Outlier> outliers = take_outliers(noisy, levels);
-  smooth_variance(noisy, levels);
   std::vector<Level> next = levels;
   const bool knows_surfaces = has_depth(picture);
   const bool both = options.both_eyes && picture.eyes.size() == 2 && knows_surfaces;
@@ -108,17 +109,40 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
   if (knows_surfaces) {
     for (const FrameBeside& frame : options.beside) open_frame(beside.emplace_back(), frame);
   }
-  Steps steps(progress, std::size(kPasses) * count_blocks(noisy));
-  for (FilterPass pass : kPasses) {
-    if (!both) pass.other_eye = 0.0f;
+  std::vector<FilterPass> passes(std::begin(kPasses), std::end(kPasses));
+  expect_noise(passes);
+  std::vector<Level> details;  // their light; variance and share are those of the first pass
+  for (const Level& level : levels) details.push_back({std::vector<float>(level.light.size(), 0.0f), {}, {}});
+  Steps steps(progress, 2 * passes.size() * count_blocks(noisy));
+  if (both || !beside.empty()) {
+    for_each_block(noisy, [&](Block& block) {
+      if (!steps.stopped()) merge_views(noisy, levels, next, both, beside, block);
+    });
+    std::swap(levels, next);
+  }
+  for (const FilterPass& pass : passes) {
     for_each_block(noisy, [&](Block& block) {
       if (steps.stopped()) return;
-      filter_block(noisy, levels, next, pass, beside, block);
+      filter_block(noisy, levels, next, pass, block);
+      steps.done();
+    });
+    for_each_block(noisy, [&](Block& block) {
+      if (steps.stopped()) return;
+      add_detail(noisy, levels, next, pass, details[static_cast<size_t>(block.eye)].light, block);
       steps.done();
     });
     if (steps.stopped()) throw Error(ErrorKind::kCancelled, "denoising was stopped");
     std::swap(levels, next);
+    if (pass.stride > 1) continue;
+    for (size_t e = 0; e < levels.size(); e++) {
+      details[e].variance = levels[e].variance, details[e].share = levels[e].share;
+    }
   }
+  for (size_t e = 0; e < levels.size(); e++) {
+    std::transform(levels[e].light.begin(), levels[e].light.end(), details[e].light.begin(), details[e].light.begin(),
+                   std::plus<>());
+  }
+  fit_edges(noisy, details, levels);
   spread_outliers(noisy, outliers, both, levels);
   put_back(noisy, levels, picture);
   if (progress.report) progress.report(1.0);
@@ -130,7 +154,7 @@ void denoise(Picture& picture, const StereoCamera& camera, const DenoiseOptions&
   assert(!picture.eyes.empty() && picture.eyes.size() <= 2);
   assert(!picture.eyes.front().variance.pixels.empty() && !picture.eyes.back().variance.pixels.empty());
   const Image& first = picture.eyes[0].radiance;
-  const size_t pixel = 28 + 14 * options.beside.size();
+  const size_t pixel = 45 + 15 * options.beside.size();
   check_memory(pixel * static_cast<size_t>(first.width) * static_cast<size_t>(first.height) * picture.eyes.size(),
                "denoising", "a smaller picture or a single eye needs less");
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);

@@ -3,19 +3,21 @@
 //
 // Removes the noise of a path traced picture, both eyes as one, from what the renderer knows about each pixel.
 //
-// A pixel becomes a weighted mean of pixels around it, in growing windows. A pixel takes part if, given the variance of
-// both, the two means do not differ significantly (Sakai et al., "A Statistical Approach to Monte Carlo Denoising",
-// 2024), and if its normal and albedo are similar. Light is averaged without the albedo, so textures stay. Windows
-// continue over the seam, the poles and the edges of cube faces. Where depth is known, the second set of candidates is
-// the same surface in the other eye's picture: both eyes get the same light, and less noise.
+// Its steps, in order:
 //
-// Fireflies are replaced by what is around them first, and their light is spread widely at the end
-// (ods/denoise/outliers.h).
+// - Fireflies are replaced by what is around them. Their light is spread widely at the end (ods/denoise/outliers.h).
+// - Where depth is known, a pixel takes light from the same surface in the other eye's picture, and in the frames
+//   of a video before and after, followed by the exact motion of camera and scene. It does if the two means do not
+//   differ significantly, given the variance of both (Sakai et al., "A Statistical Approach to Monte Carlo Denoising",
+//   2024).
+// - Five passes, each in a window twice as wide, average pixels of similar normals and albedos (ods/denoise/filter.h).
+//   What a pass takes away comes back as far as it is more than noise (ods/denoise/detail.h).
+// - Pixels on edges become what the surfaces beside them make of their normals and albedos (ods/denoise/edges.h).
 //
-// Frames of a video find a third set of candidates in the frames before and after them: the same surface, followed
-// by the exact motion of camera and scene. So the noise that is left flickers less.
+// Light is averaged without the albedo, so textures stay. Windows continue over the seam, the poles and the edges of
+// cube faces.
 //
-// The picture converges to the truth: with more samples the variance falls and fewer pixels agree. A pixel whose
+// The picture converges to the truth: with more samples the variance falls and more detail comes back. A pixel whose
 // variance is 0, as its neighbours', keeps its bits, and so does the bare sky (no hit, no normal).
 #pragma once
 #include <span>
@@ -64,7 +66,7 @@ struct DenoiseOptions {
 // Replaces the radiance by the denoised one; the same bits for any number of threads. Needs the layer `variance`; uses
 // `samples`, `normal`, `albedo` and `depth` if they are present. Variance that is NaN, infinite, negative, or of fewer
 // than 2 samples counts as unknown and is taken from the neighbours. Radiance that is not finite becomes the mean of
-// the neighbours, if there are any. Needs 28 bytes for each pixel beside the picture, and 14 for each of a frame beside
+// the neighbours, if there are any. Needs 45 bytes for each pixel beside the picture, and 15 for each of a frame beside
 // it. Throws Error(kInput) if no pixel has a usable variance, Error(kMemory), Error(kCancelled). Precondition: one or
 // two eyes of equal size with radiance and variance.
 void denoise(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options = {},

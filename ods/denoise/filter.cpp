@@ -13,38 +13,17 @@
 namespace ods {
 namespace {
 
-constexpr int kBlockWidth = 256;
 constexpr int kBlockHeight = 64;
-constexpr int kRadius = 2;       // of a window, in strides
+constexpr int kRadius = 2;  // of a window, in strides
+constexpr int kWindow = 2 * kRadius + 1;
 constexpr int kMostStretch = 8;  // of a window sideways
-
-// A row's pixels and one of their neighbours each.
-struct RowPair {
-  const float* own[kPlaneCount];
-  const float* next[kPlaneCount];
-};
-
-RowPair pair_rows(const Block& block, int y, int dx, int dy) {
-  RowPair pair;
-  for (int p = 0; p < kPlaneCount; p++) {
-    pair.own[p] = block.row(static_cast<Plane>(p), y);
-    pair.next[p] = block.row(static_cast<Plane>(p), y + dy) + dx;
-  }
-  return pair;
-}
-
-inline float squared_distance(const RowPair& pair, Plane first, int x) {
-  const float a = pair.own[first][x] - pair.next[first][x];
-  const float b = pair.own[first + 1][x] - pair.next[first + 1][x];
-  const float c = pair.own[first + 2][x] - pair.next[first + 2][x];
-  return a * a + b * b + c * c;
-}
 
 // Of the pixels of a row of a block.
 struct Sums {
   float weight[kBlockWidth];
   float light[3][kBlockWidth];
   float variance[kBlockWidth];  // with the squares of the weights
+  float share[kBlockWidth];     // of the window's candidates that take part
 };
 
 // A pixel of unknown light begins with nothing, and agrees with everybody.
@@ -58,21 +37,25 @@ void begin_sums(const Block& block, int y, Sums& sums) {
   }
 }
 
-// What is still far noisier than the other after the narrowest pass is no sample of the same light: the silhouette of a
-// lamp, of which nobody knows how much a pixel shows. Neither takes from the other, or wide windows would repeat it.
+// Whether light is apart by more than five of its deviations: at the edge of a shadow, the noise beside it would stay.
+inline float alike_light(float distance, float own, float theirs) {
+  return light_weight(distance, 4.0f * ((own >= 0.0f ? own : 1e30f) + theirs));
+}
+
+// What is far noisier than the other is no sample of the same light: the silhouette of a lamp, of which nobody knows
+// how much a pixel shows. Neither takes from the other, or wide windows would repeat it.
 inline float alike_noise(float own, float theirs) {
   constexpr float kMostRatio = 1e4f;
+  if (own < 0.0f) return 1.0f;
   return std::min(kMostRatio * std::min(own, theirs) / (std::max(own, theirs) + 1e-30f), 1.0f);
 }
 
 void add_neighbours(const RowPair& pair, int count, float share, bool is_wide, Sums& sums) {
   for (int x = 0; x < count; x++) {
     const float own = pair.own[kVariance][x], theirs = pair.next[kVariance][x];
-    const float variance = (own >= 0.0f ? own : 1e30f) + theirs;
     const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
-    const float weight = share * alike * light_weight(squared_distance(pair, kRed, x), variance);
-    const float gate = is_wide && own >= 0.0f ? alike_noise(own, theirs) : 1.0f;
-    const float used = theirs >= 0.0f ? weight * gate : 0.0f;
+    const float gate = is_wide ? alike_noise(own, theirs) : alike_light(squared_distance(pair, kRed, x), own, theirs);
+    const float used = theirs >= 0.0f ? share * alike * gate : 0.0f;
     sums.weight[x] += used;
     sums.light[0][x] += used * pair.next[kRed][x];
     sums.light[1][x] += used * pair.next[kGreen][x];
@@ -81,25 +64,21 @@ void add_neighbours(const RowPair& pair, int count, float share, bool is_wide, S
   }
 }
 
-// A pixel that resembles no other, at the edge of a thing, turns to those beside it: else an outlier there would stay.
-void add_beside(const Block& block, int y, Sums& sums) {
-  constexpr float kAlone = 0.25f;  // weight of all neighbours below which a pixel is alone
+// Candidates that pixels of the passes before share count once.
+void finish_window(const Block& block, int y, const PassNoise& noise, Sums& sums) {
+  float all = 0.0f;
+  for (int i = 0; i < kWindow * kWindow; i++) all += window_weight(i % kWindow - kRadius, i / kWindow - kRadius);
+  const float* before = block.row(kShare, y);
   for (int x = 0; x < block.inside.right - block.inside.left; x++) {
-    const float own = block.row(kVariance, y)[x];
-    if (!(own > 0.0f) || sums.weight[x] > 1.0f + kAlone) continue;
-    for (int i = 0; i < 9; i++) {
-      const RowPair pair = pair_rows(block, y, i % 3 - 1, i / 3 - 1);
-      const float theirs = pair.next[kVariance][x];
-      if (i == 4 || theirs < 0.0f) continue;
-      const float weight = 0.5f * light_weight(squared_distance(pair, kRed, x), own + theirs);
-      sums.weight[x] += weight;
-      for (int c = 0; c < 3; c++) sums.light[c][x] += weight * pair.next[kRed + c][x];
-      sums.variance[x] += weight * weight * theirs;
-    }
+    sums.share[x] = std::clamp((sums.weight[x] - 1.0f) / (all - 1.0f), 0.0f, 1.0f);
+    sums.variance[x] *= 1.0f + (noise.growth - 1.0f) * before[x] * sums.share[x];
   }
 }
 
-// The nine pixels around the place where another view shows the same.
+constexpr float kEyeWeight = 1.0f;  // both eyes get the same light
+constexpr float kFrameWeight = 2.0f;
+
+// Light of other views takes part if it does not differ significantly: it may be a reflection.
 void add_view(const NoisyPicture& noisy, const Block& block, const NoisyView& view, const ViewPlace& place, float share,
               int x, int y, Sums& sums) {
   const int at = x - block.inside.left;
@@ -108,11 +87,11 @@ void add_view(const NoisyPicture& noisy, const Block& block, const NoisyView& vi
   const vec3 normal = normal_at(eye, noisy.index(x, y)), albedo = albedo_at(eye, noisy.index(x, y));
   const auto plane = [&](int p) { return block.row(static_cast<Plane>(p), y)[at]; };
   const vec3 light(plane(kRed), plane(kGreen), plane(kBlue));
-  const vec2 middle = floor(place.at) + 0.5f;
-  for (int i = 0; i < 9; i++) {
-    const vec2 there = middle + vec2(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 - 1));
-    const auto texel = neighbour_of(view.noisy, view.eye, place.cell, static_cast<int>(std::floor(there.x)),
-                                    static_cast<int>(std::floor(there.y)));
+  const vec2 corner = floor(place.at - 0.5f);
+  for (int i = 0; i < 4; i++) {
+    const vec2 there = corner + vec2(static_cast<float>(i % 2), static_cast<float>(i / 2));
+    const auto texel =
+        neighbour_of(view.noisy, view.eye, place.cell, static_cast<int>(there.x), static_cast<int>(there.y));
     if (!texel) continue;
     const Level& level = view.levels[static_cast<size_t>(texel->source_eye)];
     const EyeImage& shown = view.noisy.eye(texel->source_eye);
@@ -121,8 +100,8 @@ void add_view(const NoisyPicture& noisy, const Block& block, const NoisyView& vi
     const vec3 seen(level.light[3 * pixel], level.light[3 * pixel + 1], level.light[3 * pixel + 2]);
     if (theirs < 0.0f || !std::isfinite(seen.x + seen.y + seen.z)) continue;
     const vec3 dn = normal_at(shown, pixel) - normal, da = albedo_at(shown, pixel) - albedo;
-    const vec2 off = there - place.at;
-    const float weight = share * taper(dot(off, off) / 6.0f) * feature_weight(dot(dn, dn), dot(da, da)) *
+    const vec2 near = 1.0f - abs(there + 0.5f - place.at);
+    const float weight = share * near.x * near.y * feature_weight(dot(dn, dn), dot(da, da)) *
                          light_weight(dot(seen - light, seen - light), (own >= 0.0f ? own : 1e30f) + theirs);
     sums.weight[at] += weight;
     for (int c = 0; c < 3; c++) sums.light[c][at] += weight * seen[c];
@@ -136,30 +115,35 @@ bool stays(vec2 place, int x, int y) {
   return std::max(moved.x, moved.y) < 2.0f;
 }
 
-void add_frame(const NoisyPicture& noisy, const NoisyFrame& frame, const Block& block, float share, vec3 surface, int x,
-               int y, Sums& sums) {
+void add_frame(const NoisyPicture& noisy, const NoisyFrame& frame, const Block& block, vec3 surface, int x, int y,
+               Sums& sums) {
   const FrameBeside& beside = *frame.beside;
   if (!beside.places.empty()) surface = beside.places[static_cast<size_t>(block.eye)][noisy.index(x, y)];
   const NoisyView view{frame.noisy, frame.levels, block.eye};
   const auto place = place_in_view(view, surface);
-  if (place && !(beside.same_noise && stays(place->at, x, y))) add_view(noisy, block, view, *place, share, x, y, sums);
+  if (place && !(beside.same_noise && stays(place->at, x, y)))
+    add_view(noisy, block, view, *place, kFrameWeight, x, y, sums);
+}
+
+// The eyes share paths: half of the other eye's noise is this eye's, and does not go away.
+void share_noise(float own, Sums& sums, int at) {
+  if (own >= 0.0f) sums.variance[at] = 0.5f * (sums.variance[at] + own * sums.weight[at] * sums.weight[at]);
 }
 
 // The other eye, and the frames beside this one.
-void add_views(const NoisyPicture& noisy, const std::vector<Level>& from, const Block& block, FilterPass pass,
+void add_views(const NoisyPicture& noisy, const std::vector<Level>& from, const Block& block, bool both,
                const std::deque<NoisyFrame>& beside, int y, Sums& sums) {
-  if (pass.other_eye == 0.0f && (pass.other_frame == 0.0f || beside.empty())) return;
   for (int x = block.inside.left; x < block.inside.right; x++) {
     if (block.row(kVariance, y)[x - block.inside.left] == 0.0f) continue;
     const auto surface = surface_at(noisy, block.eye, x, y);
     if (!surface) continue;
-    if (pass.other_eye > 0.0f) {
+    if (both) {
       const NoisyView view{noisy, from, 1 - block.eye};
       const auto place = place_in_view(view, *surface);
-      if (place) add_view(noisy, block, view, *place, pass.other_eye, x, y, sums);
+      if (place) add_view(noisy, block, view, *place, kEyeWeight, x, y, sums);
+      share_noise(block.row(kVariance, y)[x - block.inside.left], sums, x - block.inside.left);
     }
-    if (pass.other_frame == 0.0f) continue;
-    for (const NoisyFrame& frame : beside) add_frame(noisy, frame, block, pass.other_frame, *surface, x, y, sums);
+    for (const NoisyFrame& frame : beside) add_frame(noisy, frame, block, *surface, x, y, sums);
   }
 }
 
@@ -176,19 +160,9 @@ void store_row(const NoisyPicture& noisy, const Block& block, const std::vector<
     for (size_t c = 0; c < 3; c++) {
       after.light[3 * pixel + c] = stays ? before.light[3 * pixel + c] : sums.light[c][at] / weight;
     }
+    after.share[pixel] = static_cast<uint8_t>(std::lrint(255.0f * sums.share[at]));
     after.variance[pixel] = stays ? before.variance[pixel] : pack_variance(sums.variance[at] / (weight * weight));
   }
-}
-
-// Towards the poles of a lat-long picture the columns are denser. The square root of it serves the error best: what is
-// near in the picture is more alike. Narrow windows are not stretched, or columns between the candidates would differ.
-int stretch_of(const NoisyPicture& noisy, FilterPass pass, int y) {
-  const Projection& projection = noisy.camera.projection;
-  if (projection.kind != kLatLong || pass.stride < 4) return 1;
-  const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(noisy.height());
-  const float level = std::cos(projection.center.y + (0.5f - v) * projection.span.y);
-  const float wide = 1.0f / std::sqrt(std::max(level, 1e-4f));
-  return std::clamp(static_cast<int>(std::lround(wide)), 1, kMostStretch);
 }
 
 struct BlockPlace {
@@ -228,12 +202,76 @@ void for_each_block(const NoisyPicture& noisy, const std::function<void(Block& b
   });
 }
 
-void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to, FilterPass pass,
-                  const std::deque<NoisyFrame>& beside, Block& block) {
+RowPair pair_rows(const Block& block, int y, int dx, int dy) {
+  RowPair pair;
+  for (int p = 0; p < kPlaneCount; p++) {
+    pair.own[p] = block.row(static_cast<Plane>(p), y);
+    pair.next[p] = block.row(static_cast<Plane>(p), y + dy) + dx;
+  }
+  return pair;
+}
+
+// The square root of how much denser the columns are serves the error best: what is near in the picture is more alike.
+// Narrow windows are not stretched, or columns between the candidates would differ.
+int stretch_of(const NoisyPicture& noisy, const FilterPass& pass, int y) {
+  const Projection& projection = noisy.camera.projection;
+  if (projection.kind != kLatLong || pass.stride < 4) return 1;
+  const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(noisy.height());
+  const float level = std::cos(projection.center.y + (0.5f - v) * projection.span.y);
+  const float wide = 1.0f / std::sqrt(std::max(level, 1e-4f));
+  return std::clamp(static_cast<int>(std::lround(wide)), 1, kMostStretch);
+}
+
+void set_margin(const NoisyPicture& noisy, const FilterPass& pass, int reach, Block& block) {
   int widest = 1;
   for (int y = block.inside.top; y < block.inside.bottom; y++) widest = std::max(widest, stretch_of(noisy, pass, y));
-  block.across = kRadius * pass.stride * widest;
-  block.down = kRadius * pass.stride;
+  block.across = reach * pass.stride * widest;
+  block.down = reach * pass.stride;
+}
+
+// Windows are products of one across and one down, so one dimension is enough: their numbers are squared.
+void expect_noise(std::span<FilterPass> passes) {
+  float all = 0.0f, squares = 0.0f;
+  for (int d = -kRadius; d <= kRadius; d++)
+    all += window_weight(d, 0), squares += window_weight(d, 0) * window_weight(d, 0);
+  std::vector<float> before = {1.0f};  // of a pixel's mean, the share of each pixel around it
+  const auto product = [](const std::vector<float>& a, const std::vector<float>& b) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < a.size(); i++) sum += a[i] * b[i];
+    return sum * sum;
+  };
+  for (FilterPass& pass : passes) {
+    const size_t step = static_cast<size_t>(pass.stride), reach = kRadius * step;
+    std::vector<float> after(before.size() + 2 * reach, 0.0f), same(after.size(), 0.0f);
+    std::copy(before.begin(), before.end(), same.begin() + static_cast<ptrdiff_t>(reach));
+    for (size_t i = 0; i < before.size(); i++) {
+      for (size_t d = 0; d < kWindow; d++) {
+        after[i + d * step] += before[i] * window_weight(static_cast<int>(d) - kRadius, 0) / all;
+      }
+    }
+    const float was = product(same, same), is = product(after, after), alone = squares / (all * all);
+    pass.noise.growth = is / (was * alone * alone);
+    pass.noise.detail = (was + is - 2.0f * product(same, after)) / was;
+    before = after;
+  }
+}
+
+void merge_views(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to, bool both,
+                 const std::deque<NoisyFrame>& beside, Block& block) {
+  block.across = block.down = 0;
+  load_block(noisy, from, block);
+  Sums sums;
+  for (int y = block.inside.top; y < block.inside.bottom; y++) {
+    begin_sums(block, y, sums);
+    std::fill_n(sums.share, kBlockWidth, 0.0f);
+    add_views(noisy, from, block, both, beside, y, sums);
+    store_row(noisy, block, from, y, sums, to);
+  }
+}
+
+void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to,
+                  const FilterPass& pass, Block& block) {
+  set_margin(noisy, pass, kRadius, block);
   load_block(noisy, from, block);
   Sums sums;
   for (int y = block.inside.top; y < block.inside.bottom; y++) {
@@ -242,13 +280,11 @@ void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std
     for (int dy = -kRadius; dy <= kRadius; dy++) {
       for (int dx = -kRadius; dx <= kRadius; dx++) {
         if (dx == 0 && dy == 0) continue;
-        const float share = std::exp(-static_cast<float>(dx * dx + dy * dy) / 4.5f);
         const RowPair pair = pair_rows(block, y, dx * pass.stride * stretch, dy * pass.stride);
-        add_neighbours(pair, block.inside.right - block.inside.left, share, pass.stride > 1, sums);
+        add_neighbours(pair, block.inside.right - block.inside.left, window_weight(dx, dy), pass.stride > 1, sums);
       }
     }
-    if (pass.stride == 1) add_beside(block, y, sums);
-    add_views(noisy, from, block, pass, beside, y, sums);
+    finish_window(block, y, pass.noise, sums);
     store_row(noisy, block, from, y, sums, to);
   }
 }

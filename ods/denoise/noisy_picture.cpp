@@ -71,8 +71,7 @@ vec3 albedo_at(const EyeImage& eye, size_t pixel) {
 }
 
 vec3 divisor(const EyeImage& eye, size_t pixel) {
-  constexpr float kUncoloured = 0.05f;  // about what a polished surface reflects
-  return eye.albedo.pixels.empty() ? vec3(1.0f) : albedo_at(eye, pixel) + kUncoloured;
+  return eye.albedo.pixels.empty() ? vec3(1.0f) : divisor_of(albedo_at(eye, pixel));
 }
 
 bool is_bare_sky(const EyeImage& eye, size_t pixel) {
@@ -96,7 +95,7 @@ static float variance_at(const EyeImage& eye, size_t pixel, vec3 divided_by) {
 Level first_level(const NoisyPicture& noisy, int which) {
   const EyeImage& eye = noisy.eye(which);
   const size_t count = static_cast<size_t>(noisy.width()) * static_cast<size_t>(noisy.height());
-  Level level{std::vector<float>(3 * count), std::vector<uint16_t>(count)};
+  Level level{std::vector<float>(3 * count), std::vector<uint16_t>(count), std::vector<uint8_t>(count)};
   tbb::parallel_for(0, noisy.height(), [&](int y) {
     for (int x = 0; x < noisy.width(); x++) {
       const size_t i = noisy.index(x, y);
@@ -104,26 +103,24 @@ Level first_level(const NoisyPicture& noisy, int which) {
       const float* radiance = &eye.radiance.pixels[3 * i];
       // A light of NaN marks a pixel that needs one.
       for (size_t c = 0; c < 3; c++) level.light[3 * i + c] = radiance[c] / by[static_cast<int>(c)];
-      level.variance[i] = pack_variance(variance_at(eye, i, by));
+      level.variance[i] = pack_variance(is_bare_sky(eye, i) ? 0.0f : variance_at(eye, i, by));
     }
   });
   return level;
 }
 
-static void put_pixel(const NoisyPicture& noisy, const std::vector<Level>& levels, const std::optional<Texel>& from,
-                      Block& block, size_t to) {
-  if (!from) {
-    for (std::vector<float>& plane : block.planes) plane[to] = 0.0f;
-    block.planes[kVariance][to] = kUnknown;
-    return;
-  }
-  const Level& level = levels[static_cast<size_t>(from->source_eye)];
-  const EyeImage& eye = noisy.eye(from->source_eye);
-  const size_t i = noisy.index(from->x, from->y);
+static void put_nothing(Block& block, size_t to) {
+  for (std::vector<float>& plane : block.planes) plane[to] = 0.0f;
+  block.planes[kVariance][to] = kUnknown;
+}
+
+static void put_pixel(const Level& level, const EyeImage& eye, size_t i, bool features, Block& block, size_t to) {
   const float* light = &level.light[3 * i];
   const bool is_known = std::isfinite(light[0] + light[1] + light[2]);
   for (size_t c = 0; c < 3; c++) block.planes[kRed + c][to] = is_known ? light[c] : 0.0f;
   block.planes[kVariance][to] = is_known ? unpack_variance(level.variance[i]) : kUnknown;
+  block.planes[kShare][to] = static_cast<float>(level.share[i]) * (1.0f / 255.0f);
+  if (!features) return;
   const vec3 normal = normal_at(eye, i), albedo = albedo_at(eye, i);
   for (int c = 0; c < 3; c++) {
     block.planes[static_cast<size_t>(kNormalX + c)][to] = normal[c];
@@ -131,7 +128,7 @@ static void put_pixel(const NoisyPicture& noisy, const std::vector<Level>& level
   }
 }
 
-void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block) {
+void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block, bool features) {
   const Cell& inside = block.inside;
   const size_t count =
       static_cast<size_t>(block.stride()) * static_cast<size_t>(inside.bottom - inside.top + 2 * block.down);
@@ -139,7 +136,13 @@ void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Blo
   size_t to = 0;
   for (int y = inside.top - block.down; y < inside.bottom + block.down; y++) {
     for (int x = inside.left - block.across; x < inside.right + block.across; x++, to++) {
-      put_pixel(noisy, levels, texel_at(noisy, block.eye, block.cell, x, y), block, to);
+      const auto from = texel_at(noisy, block.eye, block.cell, x, y);
+      if (!from) {
+        put_nothing(block, to);
+        continue;
+      }
+      const auto eye = static_cast<size_t>(from->source_eye);
+      put_pixel(levels[eye], noisy.eye(from->source_eye), noisy.index(from->x, from->y), features, block, to);
     }
   }
 }

@@ -28,6 +28,7 @@ inline constexpr float kUnknown = -1.0f;  // as a variance
 struct Level {
   std::vector<float> light;        // 3 per pixel: radiance / divisor()
   std::vector<uint16_t> variance;  // mean of the channels
+  std::vector<uint8_t> share;      // 255: the pass before took all of its candidates; 0: none
 };
 
 struct NoisyPicture {
@@ -56,6 +57,10 @@ std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell
 std::optional<Texel> texel_at(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y);
 
 // By what the radiance is divided: the albedo, and a little for light that the albedo does not colour.
+inline vec3 divisor_of(vec3 albedo) {
+  constexpr float kUncoloured = 0.05f;  // about what a polished surface reflects
+  return albedo + kUncoloured;
+}
 vec3 divisor(const EyeImage& eye, size_t pixel);
 
 vec3 normal_at(const EyeImage& eye, size_t pixel);
@@ -64,10 +69,23 @@ vec3 albedo_at(const EyeImage& eye, size_t pixel);
 // Whether the pixel shows nothing but the sky, which has no noise.
 bool is_bare_sky(const EyeImage& eye, size_t pixel);
 
-// The first level, from radiance and variance.
+// The first level, from radiance and variance. The bare sky has none.
 Level first_level(const NoisyPicture& noisy, int eye);
 
-enum Plane { kRed, kGreen, kBlue, kVariance, kNormalX, kNormalY, kNormalZ, kAlbedoR, kAlbedoG, kAlbedoB, kPlaneCount };
+enum Plane {
+  kRed,
+  kGreen,
+  kBlue,
+  kVariance,
+  kNormalX,
+  kNormalY,
+  kNormalZ,
+  kAlbedoR,
+  kAlbedoG,
+  kAlbedoB,
+  kShare,
+  kPlaneCount
+};
 
 // Part of a cell with a margin around it.
 struct Block {
@@ -79,12 +97,12 @@ struct Block {
   std::array<std::vector<float>, kPlaneCount> planes;
 
   int stride() const { return inside.right - inside.left + 2 * across; }
-  // The row of the eye's row y, from the column inside.left; those of the margin are before and after the part.
-  const float* row(Plane plane, int y) const {
-    return planes[plane].data() + static_cast<ptrdiff_t>(y - inside.top + down) * stride() + across;
-  }
+  // Where in a plane the eye's row y begins, at the column inside.left; the margin's columns are before and after.
+  ptrdiff_t offset(int y) const { return static_cast<ptrdiff_t>(y - inside.top + down) * stride() + across; }
+  const float* row(Plane plane, int y) const { return planes[plane].data() + offset(y); }
 };
 
-void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block);
+// features: false: leaves normals and albedos as they are.
+void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Block& block, bool features = true);
 
 }  // namespace ods

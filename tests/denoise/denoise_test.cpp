@@ -202,7 +202,8 @@ TEST(Denoise, AFireflyLeavesNoPattern) {
       for (size_t i = 0; i < glow.radiance.pixels.size(); i++) {
         glow.radiance.pixels[i] -= clean.eyes[0].radiance.pixels[i];
       }
-      EXPECT_LT(roughest(glow), 0.05f) << where;
+      // A pixel like no other keeps its own noise.
+      EXPECT_LT(roughest(glow), is_edge ? 0.1f : 0.05f) << where;
       EXPECT_LT(*std::max_element(glow.radiance.pixels.begin(), glow.radiance.pixels.end()), 0.15f) << where;
       EXPECT_NEAR(light_of(glow), 3.0 * 300.0, 9.0) << where;
     }
