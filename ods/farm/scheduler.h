@@ -5,7 +5,7 @@
 //
 //   slurm       an array of jobs per group (as many arrays as it takes), and submit.sh, which sends them in order
 //   openjd      template.json and parameter_values.json of the base specification jobtemplate-2023-09: a job bundle
-//   opencue     job.xml of cjsl-1.16: a layer per group
+//   opencue     job.xml of cjsl-1.15: a layer per group
 //   flamenco    a job type in JavaScript
 //   kubernetes  an Indexed Job per group, and submit.sh, which applies one after the other
 //   deadline    a pair of job_info and plugin_info per group, for the plug-in CommandLine of Deadline 10, and submit.sh
