@@ -102,7 +102,7 @@ TEST_F(Farm, FramesAndViewsAreShared) {
     EXPECT_TRUE(folder.read(fmt::format("s.{}.png", frame)) == folder.read(fmt::format("t.{}.png", frame))) << frame;
   }
   ASSERT_EQ(run("rig -q --nearest 1 --width 64 -o " + folder.path("rig.json")), 0) << err;
-  ASSERT_EQ(run("submit -q --to kubernetes --mount / --chunk 20 -- render furnace --samples 1 --rig " +
+  ASSERT_EQ(run("submit -q --to kubernetes --cpus 1 --mount / --chunk 20 -- render furnace --samples 1 --rig " +
                 folder.path("rig.json") + " -o " + folder.path("views/0007/####.exr")),
             0)
       << err;
@@ -164,7 +164,7 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
   EXPECT_EQ(plan("a")["groups"][0]["command"], lint);
   for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes", "deadline"}) {
     const std::string convert = "-- convert " + folder.path("in.exr") + " --to cube-3x2 -o " + folder.path(to + ".png");
-    ASSERT_EQ(run("submit -q --mount / --to " + to + " " + convert), 0) << err;
+    ASSERT_EQ(run("submit -q --cpus 2 --mount / --to " + to + " " + convert), 0) << err;
     EXPECT_EQ(plan(to)["groups"].size(), 1u);
   }
 }
@@ -215,7 +215,7 @@ TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
 
 TEST_F(Farm, DryRunsWriteNothing) {
   for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes", "deadline"}) {
-    ASSERT_EQ(run(fmt::format("submit --to {} --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
+    ASSERT_EQ(run(fmt::format("submit --to {} --cpus 2 --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
                               video())),
               0)
         << err;
@@ -282,7 +282,7 @@ TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
       {"submit --to slurm -- render toys --parts 4 --noise 0.1 -o " + at + "a.png", 2, "--noise"},
       {"submit --to slurm -- render toys --parts 9 --samples 4 -o " + at + "a.png", 2, "4 samples cannot be 9 parts"},
       {"submit --to slurm --sbatch partition -- render toys --parts 4 -o " + at + "a.png", 2, "--sbatch"},
-      {"submit --to kubernetes --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
+      {"submit --to kubernetes --cpus 1 --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
       {"submit --to openjd --copy-scene -- video toys --confine / --frames 1-2 -o " + at + "a.mp4", 2, "--confine"},
       {"submit --to slurm -- view " + at, 2, "one of video, render, stitch, convert"},
       {"submit --to slurm -- convart a.png -o " + at + "b.png", 2, "convert"},
