@@ -444,6 +444,33 @@ TEST_F(Schedulers, DeadlineGetsAPairOfFilesPerJob) {
   EXPECT_NE(sent.find("JobDependencies=abc123\n"), std::string::npos);
 }
 
+// It may fail by its exit code, by what it prints, or with the second job only.
+TEST_F(Schedulers, DeadlineStopsAtAJobThatIsNotTaken) {
+  set_names({"scene.glb"});
+  write(Scheduler::kDeadline);
+  struct Failure {
+    std::string command;
+    std::string out;
+    size_t asked;
+  };
+  const std::string why = "submit.sh: deadlinecommand has not taken ";
+  const std::vector<Failure> failures = {
+      {"echo JobID=abc123; exit 3", "JobID=abc123\n" + why + "frames (exit code 3); nothing behind it was sent\n", 1},
+      {"echo 'Error: no plug-in'", "Error: no plug-in\n" + why + "frames (exit code 0); nothing behind it was sent\n",
+       1},
+      {"case $1 in video*) exit 1 ;; esac; echo JobID=abc-123",
+       "abc-123 frames\n\n" + why + "video (exit code 1); nothing behind it was sent\n", 2}};
+  for (const Failure& failure : failures) {
+    folder.write("asked", "");
+    folder.write("deadlinecommand", "#!/bin/sh\necho x >>" + folder.path("asked") + "\n" + failure.command + "\n");
+    const Ran ran = run_line(
+        fmt::format("chmod +x {0}/deadlinecommand; PATH={0}:$PATH sh {1}", folder.path(""), in_folder("submit.sh")));
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.out, failure.out);
+    EXPECT_EQ(folder.read("asked").size(), 2 * failure.asked);
+  }
+}
+
 // Of a hundred thousand tasks: as long as one of ten, but for Slurm's arrays.
 TEST_F(Schedulers, ManyTasksAreFewFiles) {
   plan.groups[0].tasks = 100'000;
