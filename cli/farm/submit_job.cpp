@@ -104,8 +104,9 @@ std::string usual_folder(const std::string& output) {
 
 ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
   ods::FarmPlan plan;
-  plan.folder = ods::absolute_folder(job.folder.empty() ? usual_folder(split.output) : job.folder);
-  plan.name = ods::plan_name(job.name.empty() ? fs::path(plan.folder).stem().native() : job.name);
+  const std::string usual = usual_folder(split.output);
+  plan.folder = ods::absolute_folder(job.folder.empty() ? usual : job.folder);
+  plan.name = ods::plan_name(job.name.empty() ? fs::path(usual).stem().native() : job.name);
   plan.program = job.program;
   plan.cpus = job.cpus > 0 ? job.cpus : split.threads.value_or(0);
   plan.memory = job.memory ? static_cast<size_t>(static_cast<double>(*job.memory) * 1e9) : split.memory;

@@ -213,11 +213,19 @@ TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
   EXPECT_EQ(plan("a")["groups"][0]["tasks"], 2);
 }
 
+TEST_F(Farm, AJobHasTheNameOfWhatItMakes) {
+  ASSERT_EQ(run("submit -q --to openjd --chunk 1 -o " + folder.path("bundle") + " -- " + video() + " --frames 1-2"), 0)
+      << err;
+  EXPECT_EQ(json::parse(folder.read("bundle/plan.json"))["name"], "a");
+  EXPECT_EQ(json::parse(folder.read("bundle/template.json"))["name"], "a");
+}
+
 TEST_F(Farm, DryRunsWriteNothing) {
   for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes", "deadline"}) {
-    ASSERT_EQ(run(fmt::format("submit --to {} --cpus 2 --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
-                              video())),
-              0)
+    ASSERT_EQ(
+        run(fmt::format("submit --to {} --cpus 2 --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
+                        video())),
+        0)
         << err;
     EXPECT_NE(out.find("\"tasks\": 200"), std::string::npos) << out;
     EXPECT_NE(out.find("# " + folder.path("a.farm/plan.json")), std::string::npos) << out;
@@ -282,7 +290,8 @@ TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
       {"submit --to slurm -- render toys --parts 4 --noise 0.1 -o " + at + "a.png", 2, "--noise"},
       {"submit --to slurm -- render toys --parts 9 --samples 4 -o " + at + "a.png", 2, "4 samples cannot be 9 parts"},
       {"submit --to slurm --sbatch partition -- render toys --parts 4 -o " + at + "a.png", 2, "--sbatch"},
-      {"submit --to kubernetes --cpus 1 --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
+      {"submit --to kubernetes --cpus 1 --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2,
+       "--mount"},
       {"submit --to openjd --copy-scene -- video toys --confine / --frames 1-2 -o " + at + "a.mp4", 2, "--confine"},
       {"submit --to slurm -- view " + at, 2, "one of video, render, stitch, convert"},
       {"submit --to slurm -- convart a.png -o " + at + "b.png", 2, "convert"},
