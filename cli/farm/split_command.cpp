@@ -44,7 +44,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Split = std::optional<SplitCommand>;
 
-const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart"};
+const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "-q"};
 const Words kByMachine = {"--threads", "--progress"};
 const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
 
@@ -152,7 +152,7 @@ Split split_video(const Words& words) {
 }
 
 // Options that decide what becomes of the samples: the merge has them.
-const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone", "-q"};
+const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone"};
 
 // Parts of another picture would be taken for finished, and refused by the merge.
 void check_parts(const RenderJob& first, const ods::FrameNames& names) {

@@ -40,7 +40,7 @@ void print(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
 // Replaces what an earlier submission left, but for the logs.
 void write(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
   std::error_code ignored;
-  fs::remove_all(plan.folder + "/ended", ignored);
+  for (const char* name : {"/ended", "/starts"}) fs::remove_all(plan.folder + name, ignored);
   for (const ods::FarmFile& file : files) ods::write_file(plan.folder + "/" + file.name, file.text);
 }
 

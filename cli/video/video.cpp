@@ -24,8 +24,8 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
   stitch.output = job.render.output;
   stitch.save = job.render.save;
   stitch.layout = job.render.save.layout;
-  stitch.skip_existing = true, stitch.says_files = false;
-  stitch.claims = !job.render.time.only.empty();  // else the video has it
+  stitch.skip_existing = true;
+  stitch.claims = stitch.says_files = !job.render.time.only.empty();  // else the video has the claim
   if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
   journal.plan(ods::parse_frames(job.render.time.frames));
   stitch.frames = job.render.time.frames;

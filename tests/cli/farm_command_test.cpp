@@ -79,6 +79,18 @@ TEST_F(Farm, AVideoInTasksHasTheBitsOfOneProcess) {
   EXPECT_TRUE(folder.read("a.mp4") == folder.read("b.mp4"));
 }
 
+TEST_F(Farm, ATaskOfAVideoNamesTheFramesThatItMakes) {
+  for (const std::string denoise : {"none", "own"}) {
+    const std::string name = denoise + ".mp4",
+                      task = video(name) + " --frames 1-6 --denoise " + denoise + " --only 2/3";
+    ASSERT_EQ(run(task), 0) << err;
+    const std::string frame = folder.path(name + ".frames/frame.00000");
+    EXPECT_EQ(out, frame + "3.exr\n" + frame + "4.exr\n");
+    ASSERT_EQ(run(task), 0) << err;
+    EXPECT_EQ(out, "") << "nothing was made";
+  }
+}
+
 TEST_F(Farm, APictureInPartsHasTheBitsOfOneMachine) {
   const std::string still = " toys --width 32 --samples 16 --exposure 1 -o ";
   ASSERT_EQ(run("submit --to openjd -- render" + still + folder.path("p.png") + " --parts 5 --denoise own"), 0) << err;

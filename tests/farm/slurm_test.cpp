@@ -36,19 +36,127 @@ TEST_F(Schedulers, SlurmRunsEveryTaskOnce) {
   EXPECT_EQ(folder.read("film's.farm/ended/frames.12"), "0\n");
 }
 
-// sleep is none, or this test would wait.
-TEST_F(Schedulers, SlurmTriesAgainWhatMayGetBetter) {
+// A cluster of three nodes that starts a task again as long as it is put back into the queue, on the first node that it
+// does not exclude.
+class SlurmStarts : public Schedulers {
+ protected:
+  void SetUp() override {
+    Schedulers::SetUp();
+    set_names({"scene.glb"});
+    program("scontrol", "echo \"$@\" >>\"$0.log\"\n");
+    program("sinfo",
+            "case \"$*\" in *'%N %m %c'*) printf 'one 8000 4\ntwo 8000 4\nsmall 2 4\n' ;; *) printf '8000\n8000\n2\n' "
+            ";; esac\n");
+  }
+
+  void program(const std::string& name, const std::string& script) {
+    folder.write(name, "#!/bin/sh\n" + script);
+    run_line("chmod +x " + folder.path(name));
+  }
+
+  // The nodes of the task's starts, and the exit code of the last.
+  std::string run(const std::string& script, const std::string& environment = "") {
+    for (const char* name : {"starts", "ended", "logs"}) std::filesystem::remove_all(plan.folder + "/" + name);
+    std::string starts, excluded;
+    for (int start = 0; start < 9; start++) {
+      const std::string node = excluded.find("one") == std::string::npos ? "one" : "two";
+      folder.write("scontrol.log", "");
+      const Ran ran =
+          run_line(fmt::format("PATH={}:$PATH; export SLURM_JOB_ID=9 SLURM_JOB_PARTITION=all SLURM_ARRAY_TASK_ID=2 "
+                               "SLURMD_NODENAME={} {}; sh {}",
+                               folder.path(""), node, environment, in_folder(script)));
+      starts += node + " ";
+      said_to_slurm = folder.read("scontrol.log");
+      if (said_to_slurm.find("requeue 9") == std::string::npos) return starts + fmt::format("{}", ran.code);
+      if (const size_t at = said_to_slurm.find("ExcNodeList="); at != std::string::npos) {
+        excluded = said_to_slurm.substr(at, said_to_slurm.find('\n', at) - at);
+      }
+    }
+    return starts + "for ever";
+  }
+
+  std::string log() const { return folder.read("film's.farm/logs/frames.2.log"); }
+
+  std::string said_to_slurm;
+};
+
+TEST_F(SlurmStarts, WhatMayGetBetterIsTriedElsewhere) {
   write(Scheduler::kSlurm);
-  for (const auto& [code, tries] : std::map<int, int>{{0, 1}, {1, 3}, {2, 1}, {3, 3}, {4, 3}, {139, 3}}) {
-    folder.write("ods", fmt::format("#!/bin/sh\necho x >>{}\nexit {}\n", folder.path("tries"), code));
-    folder.write("tries", "");
-    folder.write("sleep", "#!/bin/sh\n");
-    const std::string line =
-        fmt::format("chmod +x {0}/sleep; PATH={0}:$PATH SLURM_JOB_ID=9 SLURM_ARRAY_TASK_ID=2 sh {1}", folder.path(""),
-                    in_folder("frames-1.sbatch"));
-    EXPECT_EQ(run_line(line).code, code);
-    EXPECT_EQ(folder.read("tries").size(), 2u * static_cast<size_t>(tries)) << code;
+  for (const auto& [code, starts] : std::map<int, std::string>{{0, "one 0"},
+                                                               {1, "one two two 1"},
+                                                               {2, "one 2"},
+                                                               {3, "one two two 3"},
+                                                               {4, "one two two 4"},
+                                                               {139, "one two two 139"}}) {
+    program("ods", fmt::format("exit {}\n", code));
+    EXPECT_EQ(run("frames-1.sbatch"), starts);
     EXPECT_EQ(folder.read("film's.farm/ended/frames.2"), fmt::format("{}\n", code));
+  }
+  wishes.extras = {"--time=1:00:00", "-C", "fast"};  // who names nodes has them
+  write(Scheduler::kSlurm);
+  EXPECT_EQ(run("frames-1.sbatch"), "one one one 139");
+  program("scontrol", "exit 1\n");
+  EXPECT_EQ(run("frames-1.sbatch"), "one 139") << "where nothing may be put back";
+}
+
+// The time limit, as Slurm announces it: a signal to the script.
+TEST_F(SlurmStarts, ATaskThatIsLateGoesOnWhileItMakesFiles) {
+  const std::string late = "kill -USR1 $PPID\nsleep 60 &\ntrap 'kill $!; exit 143' TERM\nwait\n";
+  write(Scheduler::kSlurm);
+  program("ods", late);
+  EXPECT_EQ(run("frames-1.sbatch"), "one two two 143");
+  EXPECT_NE(log().find("time limit was over three times before a file was made"), std::string::npos) << log();
+  const std::string made = "\"" + plan.folder + "/logs/frames.2.files\"";
+  program("ods", "echo x.exr\n[ $(wc -l <" + made + ") -lt 5 ] || exit 0\n" + late);
+  EXPECT_EQ(run("frames-1.sbatch"), "one one one one one 0");
+  EXPECT_EQ(folder.read("film's.farm/logs/frames.2.files"), "x.exr\nx.exr\nx.exr\nx.exr\nx.exr\n");
+}
+
+TEST_F(SlurmStarts, APartGoesOnWhileItGrows) {
+  const std::string parts = folder.path("p.parts/part_####.exr"),
+                    growing = folder.path("p.parts/part_0002.exr.unfinished");
+  std::filesystem::create_directory(folder.path("p.parts"));
+  plan.groups = {{"parts", {"render", "room", "-o", parts}, "--part", 3}};
+  write(Scheduler::kSlurm);
+  const std::string late = "kill -USR1 $PPID\nsleep 60 &\ntrap 'kill $!; exit 143' TERM\nwait\n";
+  program("ods", "echo more >>" + growing + "\n[ $(wc -l <" + growing + ") -lt 6 ] || exit 0\n" + late);
+  EXPECT_EQ(run("parts-1.sbatch"), "one one one one one one 0");
+}
+
+// A script that is killed with its node says nothing; its starts count all the same.
+TEST_F(SlurmStarts, ATaskThatTakesItsNodesDownEnds) {
+  write(Scheduler::kSlurm);
+  program("ods", "kill -9 $PPID\n");
+  const auto start = [&](int job) {
+    return run_line(
+               fmt::format("PATH={}:$PATH; export SLURM_JOB_ID={} SLURM_ARRAY_TASK_ID=2 SLURMD_NODENAME=one; sh {}",
+                           folder.path(""), job, in_folder("frames-1.sbatch")))
+        .code;
+  };
+  for (int i = 0; i < 3; i++) EXPECT_EQ(start(9), 137);
+  EXPECT_EQ(start(9), 1);
+  EXPECT_NE(log().find("three starts have ended without a file and without a word, on one one one"), std::string::npos);
+  EXPECT_EQ(folder.read("film's.farm/ended/frames.2"), "1\n");
+  program("ods", "");
+  EXPECT_EQ(start(10), 0) << "another job has starts of its own";
+}
+
+TEST_F(SlurmStarts, AfterAKillItGetsMoreMemory) {
+  write(Scheduler::kSlurm);
+  program("ods", "exit 137\n");
+  run("frames-1.sbatch", "SLURM_MEM_PER_NODE=3000");
+  EXPECT_EQ(said_to_slurm, "") << "of the last start";
+  for (const auto& [memory, more] : std::map<int, std::string>{{3000, "6000"}, {5000, "8000"}, {8000, ""}}) {
+    std::filesystem::remove_all(plan.folder + "/starts");
+    folder.write("scontrol.log", "");
+    run_line(
+        fmt::format("PATH={}:$PATH; export SLURM_JOB_ID=9 SLURM_JOB_PARTITION=all SLURM_ARRAY_TASK_ID=2 "
+                    "SLURMD_NODENAME=one SLURM_MEM_PER_NODE={}; sh {}",
+                    folder.path(""), memory, in_folder("frames-1.sbatch")));
+    const std::string words = folder.read("scontrol.log");
+    EXPECT_EQ(words.find("MinMemoryNode=") != std::string::npos, !more.empty()) << words;
+    EXPECT_NE(words.find(more.empty() ? "requeue" : "MinMemoryNode=" + more + "\n"), std::string::npos) << words;
+    EXPECT_NE(words.find("ExcNodeList=one\n"), std::string::npos) << words;
   }
 }
 

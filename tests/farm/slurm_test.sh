@@ -177,6 +177,20 @@ test_a_task_fails() {
   say "a task that fails three times is shown with its last line"
 }
 
+# A limit of a minute is announced at once.
+test_a_frame_is_too_long() {
+  slurmd -N two
+  wait_for 60 "the node two" scontrol update NodeName=two State=RESUME
+  wait_for 60 "two nodes" sh -c '[ "$(sinfo --noheader --states=idle --format=%D)" = 2 ]'
+  "$ods" submit -q --to slurm --chunk 2 --sbatch --time=1 -- video room --frames 1-2 --width 2048 --samples 64 --threads 1 \
+    -o "$here/farm/long_360_TB.mp4"
+  if timeout 400 "$ods" jobs long_360_TB --follow >"$here/followed" 2>&1; then die "a frame that never ends is not said"; fi
+  grep "long_360_TB frames 1: exit code 143: ods: error: the time limit was over three times" "$here/followed" ||
+    die "$(cat "$here/followed")"
+  [ "$(sort -u "$here/farm/long_360_TB.farm/starts/frames.1" | wc -l)" = 2 ] || die "it was not tried on another node"
+  say "a frame that is longer than the time limit ends after three starts, on both nodes"
+}
+
 test_cancel_and_go_on() {
   "$ods" submit -q --to slurm --chunk 4 -- $frames -o "$here/farm/again_360_TB.mp4"
   wait_for 120 "frames" sh -c "ls '$here'/farm/again_360_TB.mp4.frames/frame.00000[2-9].exr >/dev/null 2>&1"
@@ -228,5 +242,6 @@ fi
 test_a_node_dies
 if [ "${2:-}" = quick ]; then exit; fi
 test_a_task_fails
+test_a_frame_is_too_long
 test_cancel_and_go_on
 say "passed"
