@@ -109,7 +109,14 @@ SplitCommand begin(std::vector<GivenWord>& given) {
 
 void count(SplitCommand& split, const std::string& noun, const std::vector<int>& numbers) {
   if (numbers.empty()) throw UsageError("there is nothing to make");
-  split.noun = noun, split.count = numbers.size(), split.first = numbers.front();
+  split.noun = noun, split.count = numbers.size(), split.numbers = numbers;
+}
+
+// The group that is split, of what was counted; its tasks are not yet. files: the names of what it makes.
+ods::TaskGroup split_group(const SplitCommand& split, const std::string& name, Words command, const std::string& option,
+                           const std::string& files) {
+  if (files.find("%V") != std::string::npos) return {name, std::move(command), option};  // two files each
+  return {name, std::move(command), option, 1, files, ods::frames_text(split.numbers)};
 }
 
 // --- the commands ---------------------------------------------------------------------------------------------------
@@ -146,7 +153,7 @@ Split split_video(const Words& words) {
     VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames);
   };
   given = without(given, kByFarm);
-  split.groups = {{"frames", command_words("video", given), "--only"},
+  split.groups = {split_group(split, "frames", command_words("video", given), "--only", frame_pattern(split.output)),
                   {"video", command_words("video", given, kLate), ""}};
   return split;
 }
@@ -191,7 +198,8 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   for (const GivenWord& word : only(given, kOfMerge)) {
     if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);
   }
-  split.groups = {{"parts", render, "--part", job.parts}, {"merge", command_words("merge", of_merge, kLate), ""}};
+  split.groups = {split_group(split, "parts", render, "--part", pattern),
+                  {"merge", command_words("merge", of_merge, kLate), ""}};
 }
 
 void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
@@ -199,7 +207,8 @@ void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const
   std::vector<int> views(rig.views.size());
   std::iota(views.begin(), views.end(), 1);
   count(split, "view", views);
-  split.groups = {{"views", command_words("render", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+  split.groups = {split_group(split, "views", command_words("render", without(given, kByFarm), {"--skip-existing"}),
+                              "--only", split.output)};
 }
 
 Split split_render(const Words& words) {
@@ -220,7 +229,8 @@ Split split_render(const Words& words) {
     split_views(split, given, job);
   } else if (frames) {
     count(split, "frame", frames_of(job));
-    split.groups = {{"frames", command_words("render", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+    split.groups = {split_group(split, "frames", command_words("render", without(given, kByFarm), {"--skip-existing"}),
+                                "--only", split.output)};
   } else if (job.parts > 0) {
     split_parts(split, given, job);
   } else {
@@ -243,7 +253,8 @@ Split split_stitch(const Words& words) {
   count(split, "frame", ods::parse_frames(job.frames));
   const size_t samples = static_cast<size_t>(rig.eye.width) * static_cast<size_t>(rig.eye.height) * rig.eyes.size();
   split.memory = (size_t{1} << 30) + 64 * samples;
-  split.groups = {{"frames", command_words("stitch", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+  split.groups = {split_group(split, "frames", command_words("stitch", without(given, kByFarm), {"--skip-existing"}),
+                              "--only", split.output)};
   return split;
 }
 
@@ -285,7 +296,8 @@ Split split_other(const OtherCommand& command, const Words& words) {
   const std::string from = command.frames ? given.at(*command.frames).value : "";
   if (ods::frame_names(from) && ods::frame_names(split.output)) {
     count(split, "frame", frames_of(from, given));
-    split.groups = {{"frames", command_words(name, without(given, kByFarm), {"--skip-existing"}), "--only"}};
+    split.groups = {split_group(split, "frames", command_words(name, without(given, kByFarm), {"--skip-existing"}),
+                                "--only", split.output)};
     return split;
   }
   if (split.output.empty() && command.in_place) {

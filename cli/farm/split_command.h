@@ -21,7 +21,7 @@ struct SplitCommand {
   std::optional<int> threads;             // that the command asks for
   std::string noun;                       // what the tasks make: "frame", "part", "view"
   size_t count = 0;                       // of these
-  int first = 0;                          // number of the first
+  std::vector<int> numbers;               // theirs
   std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
 };
 

@@ -108,6 +108,7 @@ ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
   plan.folder = ods::absolute_folder(job.folder.empty() ? usual : job.folder);
   plan.name = ods::plan_name(job.name.empty() ? fs::path(usual).stem().native() : job.name);
   plan.program = job.program;
+  plan.scheduler = ods::name_in(ods::kSchedulerTable, *job.to);
   plan.cpus = job.cpus > 0 ? job.cpus : split.threads.value_or(0);
   plan.memory = job.memory ? static_cast<size_t>(static_cast<double>(*job.memory) * 1e9) : split.memory;
   plan.paths = split.paths;
@@ -125,12 +126,12 @@ int count_tasks(const SubmitJob& job, const SplitCommand& split) {
   std::vector<std::string> words = {kThisProgram};
   const ods::TaskGroup& group = split.groups.front();
   words.insert(words.end(), group.command.begin(), group.command.end());
-  words.insert(words.end(), {group.option, fmt::format("{}", split.first), "-q"});
-  note(fmt::format("making {} {} here, for its time; --chunk N goes without", split.noun, split.first));
+  words.insert(words.end(), {group.option, fmt::format("{}", split.numbers.front()), "-q"});
+  note(fmt::format("making {} {} here, for its time; --chunk N goes without", split.noun, split.numbers.front()));
   const auto start = std::chrono::steady_clock::now();
   const auto result = run_program(words, ProgramErrors::kShown);
   if (!result || result->code != 0) {
-    throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.first,
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.numbers.front(),
                                                          ods::shell_line({words.begin() + 1, words.end()})));
   }
   const double seconds = std::max(seconds_since(start), 1e-3);

@@ -44,6 +44,10 @@ bool is_empty(const std::string& folder) {
 
 }  // namespace
 
+std::string frame_pattern(const std::string& video) {
+  return video + ".frames/" + kFrame;
+}
+
 VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart, JournalUse use,
                            std::chrono::seconds patience)
     : claim_(use == JournalUse::kAlone ? ods::claim(video, patience) : nullptr),

@@ -28,11 +28,15 @@ Json json_of(const TaskGroup& group) {
   if (group.option.empty()) return json;
   json["option"] = group.option;
   json["tasks"] = group.tasks;
+  if (group.files.empty()) return json;
+  json["files"] = group.files;
+  json["numbers"] = group.numbers;
   return json;
 }
 
 TaskGroup group_of(const Json& json) {
-  return {json.at("name"), json.at("command"), json.value("option", ""), json.value("tasks", 1)};
+  return {json.at("name"),        json.at("command"),      json.value("option", ""),
+          json.value("tasks", 1), json.value("files", ""), json.value("numbers", "")};
 }
 
 Json json_of(const PlanPath& path) {
@@ -56,8 +60,9 @@ std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group
 }
 
 std::string write_plan(const FarmPlan& plan) {
-  Json json = {{kMark, kVersion},   {"name", plan.name},     {"folder", plan.folder},  {"program", plan.program},
-               {"cpus", plan.cpus}, {"memory", plan.memory}, {"paths", Json::array()}, {"groups", Json::array()}};
+  Json json = {{kMark, kVersion},       {"name", plan.name},       {"scheduler", plan.scheduler},
+               {"folder", plan.folder}, {"program", plan.program}, {"cpus", plan.cpus},
+               {"memory", plan.memory}, {"paths", Json::array()},  {"groups", Json::array()}};
   for (const PlanPath& path : plan.paths) json["paths"].push_back(json_of(path));
   for (const TaskGroup& group : plan.groups) json["groups"].push_back(json_of(group));
   return json.dump(2) + "\n";
@@ -73,6 +78,7 @@ FarmPlan read_plan(std::string_view text, const std::string& path) {
     FarmPlan plan{json.at("name"), json.at("folder"), json.at("program"), json.at("cpus"), json.at("memory"), {}, {}};
     for (const Json& each : json.at("paths")) plan.paths.push_back(path_of(each));
     for (const Json& each : json.at("groups")) plan.groups.push_back(group_of(each));
+    plan.scheduler = json.value("scheduler", "");
     return plan;
   } catch (const nlohmann::json::exception& error) {
     throw bad(error.what());

@@ -19,6 +19,7 @@ struct TaskGroup {
   std::vector<std::string> command;  // the words after "ods"
   std::string option;                // "--only", "--part", or empty
   int tasks = 1;
+  std::string files = {}, numbers = {};  // what the tasks make: "/disk/out.####.exr", "1-100" (ods/files/frames.h)
 };
 
 struct PlanPath {
@@ -35,6 +36,7 @@ struct FarmPlan {
   size_t memory = 0;              // bytes that a task takes
   std::vector<PlanPath> paths;    // that the commands name
   std::vector<TaskGroup> groups;  // each starts when the one before is done
+  std::string scheduler = {};     // that it was written for: "slurm"; empty: not known
 };
 
 // The program and the words of task `number`, counted from 1.

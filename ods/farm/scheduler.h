@@ -53,7 +53,8 @@ struct SchedulerRow {
 
 inline constexpr SchedulerRow kSchedulerTable[] = {
     {Scheduler::kSlurm, "slurm", write_slurm, "sh submit.sh"},
-    {Scheduler::kOpenJd, "openjd", write_openjd, "deadline bundle submit ., or openjd run template.json --step NAME -p file://openjd_parameters.json"},
+    {Scheduler::kOpenJd, "openjd", write_openjd,
+     "deadline bundle submit ., or openjd run template.json --step NAME -p file://openjd_parameters.json"},
     {Scheduler::kOpenCue, "opencue", write_opencue, "send job.xml with opencue.api.launchSpec()"},
     {Scheduler::kFlamenco, "flamenco", write_flamenco, "copy the script into the Manager's folder scripts"},
     {Scheduler::kKubernetes, "kubernetes", write_kubernetes, "sh submit.sh"},

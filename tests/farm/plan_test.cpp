@@ -16,8 +16,14 @@ FarmPlan example() {
   plan.program = "ods";
   plan.cpus = 4;
   plan.memory = 3'000'000'000;
+  plan.scheduler = "slurm";
   plan.paths = {{"/disk/a scene.glb"}, {"/disk/film.mp4", true}, {"/disk/views", false, true}};
-  plan.groups = {{"frames", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "--only", 7},
+  plan.groups = {{"frames",
+                  {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"},
+                  "--only",
+                  7,
+                  "/disk/film.mp4.frames/frame.######.exr",
+                  "1-70"},
                  {"video", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "", 1}};
   return plan;
 }
@@ -35,6 +41,9 @@ TEST(Plan, ComesBackFromItsFile) {
   EXPECT_EQ(back.memory, plan.memory);
   ASSERT_EQ(back.groups.size(), 2u);
   EXPECT_EQ(back.groups[0].tasks, 7);
+  EXPECT_EQ(back.groups[0].files, plan.groups[0].files);
+  EXPECT_EQ(back.groups[0].numbers, "1-70");
+  EXPECT_EQ(back.scheduler, "slurm");
   EXPECT_EQ(back.groups[1].option, "");
   EXPECT_TRUE(back.paths[1].is_output);
   EXPECT_TRUE(back.paths[2].is_folder);
