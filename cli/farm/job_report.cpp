@@ -13,11 +13,11 @@
 #include <set>
 
 #include "cli/farm/queue.h"
+#include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/farm/plan.h"
 #include "ods/files/file_input.h"
 #include "ods/files/frames.h"
-#include "ods/files/read_file.h"
 
 namespace fs = std::filesystem;
 
@@ -165,9 +165,7 @@ bool JobReport::is_done() const {
 }
 
 JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& queued) {
-  const std::vector<unsigned char> bytes = ods::read_file(folder + "/plan.json", size_t{64} << 20);
-  const ods::FarmPlan plan =
-      ods::read_plan({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, folder + "/plan.json");
+  const ods::FarmPlan plan = ods::open_plan(folder);
   const std::map<std::string, ods::SlurmArray> arrays = sent_arrays(folder);
   std::vector<ods::SlurmTask> tasks;
   const auto is_own = [&](const ods::SlurmTask& t) {

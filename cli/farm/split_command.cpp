@@ -14,6 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/denoised_frames.h"
 #include "cli/render/finish_picture.h"
 #include "cli/render/frame_settings.h"
 #include "cli/render/render_frames.h"
@@ -148,9 +149,11 @@ Split split_video(const Words& words) {
     frames = frames_of(job.render);
   }
   split.memory = memory_of(split, job.render);
+  split.restart = job.restart;
+  split.halo = !has_rig && draws_on_neighbours(job.render) ? 1 : 0;
   count(split, "frame", frames);
   split.prepare = [output = split.output, settings, frames, restart = job.restart] {
-    VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames);
+    VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames, frames);
   };
   given = without(given, kByFarm);
   split.groups = {split_group(split, "frames", command_words("video", given), "--only", frame_pattern(split.output)),

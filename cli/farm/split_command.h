@@ -19,9 +19,11 @@ struct SplitCommand {
   std::vector<std::string> scene_files;   // beside the scene: buffers and pictures
   size_t memory = 0;                      // bytes
   std::optional<int> threads;             // that the command asks for
+  bool restart = false;                   // what is there is discarded
   std::string noun;                       // what the tasks make: "frame", "part", "view"
   size_t count = 0;                       // of these
   std::vector<int> numbers;               // theirs
+  int halo = 0;                           // on each side of a task's own, that it renders for the denoiser
   std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
 };
 

@@ -10,6 +10,7 @@
 
 #include "cli/console/console.h"
 #include "cli/farm/copy_inputs.h"
+#include "cli/farm/finished.h"
 #include "cli/farm/programs.h"
 #include "cli/farm/queue.h"
 #include "cli/farm/submit_job.h"
@@ -69,6 +70,14 @@ void send(const ods::FarmPlan& plan) {
   note(fmt::format("ods jobs {} --follow shows how it goes on", ods::shell_word(plan.name)));
 }
 
+std::string halo_text(const SplitCommand& split, int tasks) {
+  const double cost = ods::halo_cost(split.halo, tasks, split.count);
+  if (cost == 0.0) return "";
+  const bool much = cost > ods::kMostHaloCost;
+  return fmt::format("; {:.0f} % more frames are rendered for the denoiser, which draws on those beside a task's own{}",
+                     100.0 * cost, much ? " (a larger --chunk needs fewer)" : "");
+}
+
 std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
   const ods::TaskGroup& first = plan.groups.front();
   std::string text = first.option.empty()
@@ -76,6 +85,7 @@ std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
                          : fmt::format("{}: {} {}{} in {} task{}", plan.name, split.count, split.noun,
                                        split.count == 1 ? "" : "s", first.tasks, first.tasks == 1 ? "" : "s");
   for (size_t i = 1; i < plan.groups.size(); i++) text += fmt::format(", then {}", plan.groups[i].name);
+  text += halo_text(split, first.tasks);
   return text + fmt::format("; {:.1f} GB each", static_cast<double>(plan.memory) * 1e-9);
 }
 
@@ -93,6 +103,9 @@ void submit(int argc, char** argv) {
   ods::check_writable(plan.folder + "/plan.json");
   scheduler.write(plan, job.wishes);  // throws for what it cannot be told
   if (is_slurm && !job.dry) check_idle(plan);
+  if (!job.dry && !split->restart && is_finished(plan, *split)) {
+    return note(fmt::format("'{}' is finished: nothing is to be done; remove it to make it again", split->output));
+  }
   if (!job.dry) {
     copy_files(copies);
     split->prepare();

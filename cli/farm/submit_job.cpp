@@ -134,8 +134,9 @@ int count_tasks(const SubmitJob& job, const SplitCommand& split) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.numbers.front(),
                                                          ods::shell_line({words.begin() + 1, words.end()})));
   }
+  const int rendered = split.count > 1 ? 1 + split.halo : 1;
   const double seconds = std::max(seconds_since(start), 1e-3);
-  const int chunk = ods::suitable_chunk(seconds, split.count);
+  const int chunk = ods::suitable_chunk(seconds / rendered, split.count, split.halo);
   note(fmt::format("it took {}: tasks of {} (--chunk {})", duration_text(seconds), chunk, chunk));
   return ods::tasks_for(split.count, chunk);
 }

@@ -15,6 +15,7 @@
 #include "ods/base/json_reader.h"
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
+#include "ods/files/read_file.h"
 
 namespace ods {
 
@@ -85,6 +86,12 @@ FarmPlan read_plan(std::string_view text, const std::string& path) {
   }
 }
 
+FarmPlan open_plan(const std::string& folder) {
+  const std::string path = folder + "/plan.json";
+  const std::vector<unsigned char> bytes = read_file(path, size_t{64} << 20);
+  return read_plan({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+}
+
 std::string absolute_folder(const std::string& path) {
   std::string folder = std::filesystem::absolute(path).lexically_normal().native();
   while (folder.size() > 1 && folder.ends_with("/")) folder.pop_back();
@@ -112,12 +119,17 @@ void check_quotable(const FarmPlan& plan) {
   for (const TaskGroup& group : plan.groups) std::ranges::for_each(group.command, check);
 }
 
-int suitable_chunk(double seconds_per_frame, size_t frames) {
+double halo_cost(int halo, int tasks, size_t frames) {
+  return 2.0 * halo * (tasks - 1) / static_cast<double>(frames);  // the film's ends have nothing beyond
+}
+
+int suitable_chunk(double seconds_per_frame, size_t frames, int halo) {
   assert(seconds_per_frame > 0.0 && frames > 0);
   const double kSeconds = 600.0;
   const auto by_time = std::clamp(kSeconds / seconds_per_frame, 1.0, 1e6);
   const auto by_machines = std::max(1.0, std::ceil(static_cast<double>(frames) / 16.0));
-  return static_cast<int>(std::min(by_time, by_machines));
+  const auto by_halo = std::ceil(2.0 * halo / kMostHaloCost);
+  return static_cast<int>(std::max(std::min(by_time, by_machines), by_halo));
 }
 
 int tasks_for(size_t frames, int chunk) {

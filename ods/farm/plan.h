@@ -47,6 +47,9 @@ std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group
 std::string write_plan(const FarmPlan& plan);
 FarmPlan read_plan(std::string_view text, const std::string& path);
 
+// plan.json of a job's folder. Throws Error(kInput), also if it cannot be read.
+FarmPlan open_plan(const std::string& folder);
+
 // A folder's absolute path, without a slash at its end.
 std::string absolute_folder(const std::string& path);
 
@@ -59,9 +62,16 @@ void check_quotable(const FarmPlan& plan);
 
 // --- how many tasks -------------------------------------------------------------------------------------------------
 
+// Frames that tasks render beyond their own, over all frames: those beside a task's own, `halo` on each side, which
+// another task renders, too. Precondition: tasks > 0, frames > 0.
+double halo_cost(int halo, int tasks, size_t frames);
+
+// What a chunk of ours costs at most in that way.
+inline constexpr double kMostHaloCost = 0.25;
+
 // Frames of a task that takes about ten minutes, if the frames are not so few that machines would be idle: at least
-// sixteen tasks. Precondition: seconds_per_frame > 0, frames > 0.
-int suitable_chunk(double seconds_per_frame, size_t frames);
+// sixteen tasks, unless that would cost more than kMostHaloCost. Precondition: seconds_per_frame > 0, frames > 0.
+int suitable_chunk(double seconds_per_frame, size_t frames, int halo);
 
 // Tasks of at most `chunk` frames.
 int tasks_for(size_t frames, int chunk);

@@ -83,11 +83,27 @@ TEST(Plan, WordsWithLineBreaksAreRefused) {
 }
 
 TEST(Plan, ATaskTakesTenMinutesAndNoMachineIsIdle) {
-  EXPECT_EQ(suitable_chunk(6.0, 100'000), 100);
-  EXPECT_EQ(suitable_chunk(6.0, 320), 20);
-  EXPECT_EQ(suitable_chunk(3600.0, 100), 1);
-  EXPECT_EQ(suitable_chunk(0.001, 5), 1);
-  EXPECT_EQ(suitable_chunk(1e-6, 1'000'000), 62'500);
+  for (const int halo : {0, 1}) {
+    EXPECT_EQ(suitable_chunk(6.0, 100'000, halo), 100);
+    EXPECT_EQ(suitable_chunk(6.0, 320, halo), 20);
+    EXPECT_EQ(suitable_chunk(1e-6, 1'000'000, halo), 62'500);
+  }
+  EXPECT_EQ(suitable_chunk(3600.0, 100, 0), 1);
+  EXPECT_EQ(suitable_chunk(0.001, 5, 0), 1);
+}
+
+// Each of two neighbouring tasks renders a frame of the other.
+TEST(Plan, FramesBesideATasksOwnCostAtMostAQuarter) {
+  EXPECT_DOUBLE_EQ(halo_cost(1, 10, 100), 0.18);
+  EXPECT_DOUBLE_EQ(halo_cost(1, 100, 100), 1.98);
+  EXPECT_DOUBLE_EQ(halo_cost(1, 1, 5), 0.0);
+  EXPECT_DOUBLE_EQ(halo_cost(0, 100, 100), 0.0);
+  for (const double seconds : {0.001, 6.0, 3600.0, 1e6}) {
+    for (size_t frames = 1; frames < 500; frames++) {
+      const int chunk = suitable_chunk(seconds, frames, 1);
+      EXPECT_LE(halo_cost(1, tasks_for(frames, chunk), frames), kMostHaloCost) << seconds << " " << frames;
+    }
+  }
 }
 
 TEST(Plan, TasksHoldAllFrames) {
