@@ -117,7 +117,7 @@ void count(SplitCommand& split, const std::string& noun, const std::vector<int>&
 ods::TaskGroup split_group(const SplitCommand& split, const std::string& name, Words command, const std::string& option,
                            const std::string& files) {
   if (files.find("%V") != std::string::npos) return {name, std::move(command), option};  // two files each
-  return {name, std::move(command), option, 1, files, ods::frames_text(split.numbers)};
+  return {name, std::move(command), option, 1, 0, files, ods::frames_text(split.numbers)};
 }
 
 // --- the commands ---------------------------------------------------------------------------------------------------
@@ -180,6 +180,15 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   }
 }
 
+// docs/farm.md says where the numbers come from.
+size_t merge_memory(const RenderJob& job) {
+  const bool denoised = denoiser_of(job) != ods::Denoiser::kNone;
+  const size_t of_pixel = denoised ? 84 : ods::keeps_layers(job.output) ? 40 : 12;
+  const size_t pixels = static_cast<size_t>(job.render.width) * static_cast<size_t>(job.render.height);
+  const size_t parts = std::min(static_cast<size_t>(job.parts), size_t{200});
+  return ods::eye_list(job.render.eyes).size() * pixels * of_pixel + ((parts + 50 + 512) << 20);
+}
+
 void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
   refuse(given, {"--noise", "--time-limit", "--save-unfinished"},
          "parts are exact shares of a fixed number of samples (--samples)");
@@ -187,8 +196,8 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   std::iota(parts.begin(), parts.end(), 1);
   count(split, "part", parts);
   const std::string pattern = split.output + ".parts/part_####.exr";
-  std::vector<GivenWord> of_part =
-      without(without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar"});
+  std::vector<GivenWord> of_part = without(
+      without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar", "--keep-parts"});
   of_part.push_back({"-o", pattern});
   const Words render = command_words("render", of_part, {"--skip-existing", "--resume"});
   RenderJob checked;
@@ -201,8 +210,12 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   for (const GivenWord& word : only(given, kOfMerge)) {
     if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);
   }
+  Words merge = kLate;
+  if (!job.keep_parts) merge.push_back("--remove-parts");
+  split.memory = memory_of(split, checked);
+  split.disk = static_cast<size_t>(job.parts) * ods::samples_bytes(options_to_finish(checked));
   split.groups = {split_group(split, "parts", render, "--part", pattern),
-                  {"merge", command_words("merge", of_merge, kLate), ""}};
+                  {"merge", command_words("merge", of_merge, merge), "", 1, merge_memory(job)}};
 }
 
 void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {

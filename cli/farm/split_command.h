@@ -17,7 +17,8 @@ struct SplitCommand {
   std::vector<ods::TaskGroup> groups;     // the first is split; its tasks are not counted yet
   std::vector<ods::PlanPath> paths;       // that the commands name
   std::vector<std::string> scene_files;   // beside the scene: buffers and pictures
-  size_t memory = 0;                      // bytes
+  size_t memory = 0;                      // bytes that a task takes
+  size_t disk = 0;                        // that all parts take, at most
   std::optional<int> threads;             // that the command asks for
   bool restart = false;                   // what is there is discarded
   std::string noun;                       // what the tasks make: "frame", "part", "view"

@@ -11,6 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/farm/copy_inputs.h"
 #include "cli/farm/finished.h"
+#include "cli/farm/job_summary.h"
 #include "cli/farm/programs.h"
 #include "cli/farm/queue.h"
 #include "cli/farm/submit_job.h"
@@ -70,25 +71,6 @@ void send(const ods::FarmPlan& plan) {
   note(fmt::format("ods jobs {} --follow shows how it goes on", ods::shell_word(plan.name)));
 }
 
-std::string halo_text(const SplitCommand& split, int tasks) {
-  const double cost = ods::halo_cost(split.halo, tasks, split.count);
-  if (cost == 0.0) return "";
-  const bool much = cost > ods::kMostHaloCost;
-  return fmt::format("; {:.0f} % more frames are rendered for the denoiser, which draws on those beside a task's own{}",
-                     100.0 * cost, much ? " (a larger --chunk needs fewer)" : "");
-}
-
-std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
-  const ods::TaskGroup& first = plan.groups.front();
-  std::string text = first.option.empty()
-                         ? fmt::format("{}: {} in one task", plan.name, first.name)
-                         : fmt::format("{}: {} {}{} in {} task{}", plan.name, split.count, split.noun,
-                                       split.count == 1 ? "" : "s", first.tasks, first.tasks == 1 ? "" : "s");
-  for (size_t i = 1; i < plan.groups.size(); i++) text += fmt::format(", then {}", plan.groups[i].name);
-  text += halo_text(split, first.tasks);
-  return text + fmt::format("; {:.1f} GB each", static_cast<double>(plan.memory) * 1e-9);
-}
-
 void submit(int argc, char** argv) {
   SubmitJob job;
   if (!read_submit_job(job, argc, argv)) return;
@@ -115,7 +97,7 @@ void submit(int argc, char** argv) {
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
   files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
-  note(summary(plan, *split));
+  say_job(plan, *split);
   if (job.dry) return print(files, plan);
   write(files, plan);
   if (is_slurm) return send(plan);

@@ -113,6 +113,8 @@ ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
   plan.memory = job.memory ? static_cast<size_t>(static_cast<double>(*job.memory) * 1e9) : split.memory;
   plan.paths = split.paths;
   plan.groups = split.groups;
+  if (!job.memory) return plan;
+  for (ods::TaskGroup& group : plan.groups) group.memory = 0;
   return plan;
 }
 

@@ -32,8 +32,8 @@ std::string argument(const std::string& text) {
   return json_text(doubled);
 }
 
-std::string resources(const FarmPlan& plan) {
-  const std::string both = fmt::format("{{cpu: {}, memory: {}Mi}}", plan.cpus, (plan.memory >> 20) + 1);
+std::string resources(const FarmPlan& plan, const TaskGroup& group) {
+  const std::string both = fmt::format("{{cpu: {}, memory: {}Mi}}", plan.cpus, (memory_of(plan, group) >> 20) + 1);
   return fmt::format("requests: {0}\n            limits: {0}", both);
 }
 
@@ -76,7 +76,7 @@ spec:
           persistentVolumeClaim: {{claimName: {}}}
 )",
                      object_name(plan.name, group.name), group.tasks, std::min(group.tasks, 100),
-                     json_text(wishes.image), argument(line), resources(plan), json_text(wishes.mount),
+                     json_text(wishes.image), argument(line), resources(plan, group), json_text(wishes.mount),
                      json_text(wishes.volume));
 }
 

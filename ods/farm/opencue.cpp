@@ -35,7 +35,7 @@ std::string layer_of(const FarmPlan& plan, const TaskGroup& group) {
       </layer>
 )",
                      group.name, group.option.empty() ? "Util" : "Render", xml_text(line), range, plan.cpus,
-                     (plan.memory >> 20) + 1);
+                     (memory_of(plan, group) >> 20) + 1);
 }
 
 std::string depend_of(const FarmPlan& plan, const TaskGroup& group, const TaskGroup& before) {

@@ -79,7 +79,7 @@ Json step_of(const FarmPlan& plan, const TaskGroup& group, const std::vector<Pat
   }
   Json amounts = Json::array();
   if (plan.cpus > 0) amounts.push_back({{"name", "amount.worker.vcpu"}, {"min", plan.cpus}});
-  amounts.push_back({{"name", "amount.worker.memory"}, {"min", plan.memory >> 20}});
+  amounts.push_back({{"name", "amount.worker.memory"}, {"min", memory_of(plan, group) >> 20}});
   step["hostRequirements"]["amounts"] = amounts;
   step["script"]["actions"]["onRun"] = {
       {"command", "{{Param.Program}}"},

@@ -26,6 +26,7 @@ constexpr int kVersion = 1;
 
 Json json_of(const TaskGroup& group) {
   Json json = {{"name", group.name}, {"command", group.command}};
+  if (group.memory > 0) json["memory"] = group.memory;
   if (group.option.empty()) return json;
   json["option"] = group.option;
   json["tasks"] = group.tasks;
@@ -36,8 +37,13 @@ Json json_of(const TaskGroup& group) {
 }
 
 TaskGroup group_of(const Json& json) {
-  return {json.at("name"),        json.at("command"),      json.value("option", ""),
-          json.value("tasks", 1), json.value("files", ""), json.value("numbers", "")};
+  return {json.at("name"),
+          json.at("command"),
+          json.value("option", ""),
+          json.value("tasks", 1),
+          json.value("memory", size_t{0}),
+          json.value("files", ""),
+          json.value("numbers", "")};
 }
 
 Json json_of(const PlanPath& path) {
@@ -50,6 +56,10 @@ PlanPath path_of(const Json& json) {
 }
 
 }  // namespace
+
+size_t memory_of(const FarmPlan& plan, const TaskGroup& group) {
+  return group.memory > 0 ? group.memory : plan.memory;
+}
 
 std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number) {
   assert(number >= 1 && number <= group.tasks);

@@ -19,6 +19,7 @@ struct TaskGroup {
   std::vector<std::string> command;  // the words after "ods"
   std::string option;                // "--only", "--part", or empty
   int tasks = 1;
+  size_t memory = 0;                     // bytes that a task takes; 0: as the plan says
   std::string files = {}, numbers = {};  // what the tasks make: "/disk/out.####.exr", "1-100" (ods/files/frames.h)
 };
 
@@ -33,11 +34,14 @@ struct FarmPlan {
   std::string folder;             // absolute: for the plan, what is sent, and the tasks' logs
   std::string program;            // ods, as the tasks' machines call it
   int cpus = 0;                   // processors of a task; 0: all of a machine
-  size_t memory = 0;              // bytes that a task takes
+  size_t memory = 0;              // bytes that a task takes, if its group does not say
   std::vector<PlanPath> paths;    // that the commands name
   std::vector<TaskGroup> groups;  // each starts when the one before is done
   std::string scheduler = {};     // that it was written for: "slurm"; empty: not known
 };
+
+// What a task of the group takes, in bytes.
+size_t memory_of(const FarmPlan& plan, const TaskGroup& group);
 
 // The program and the words of task `number`, counted from 1.
 std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number);

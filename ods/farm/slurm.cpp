@@ -40,7 +40,7 @@ std::string directives(const FarmPlan& plan, const Array& array, const Scheduler
   if (!array.group.option.empty()) text += fmt::format("#SBATCH --array=1-{}\n", array.tasks);
   text += "#SBATCH --output=/dev/null\n#SBATCH --requeue\n#SBATCH --signal=B:USR1@60\n#SBATCH --ntasks=1\n";
   text += plan.cpus > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", plan.cpus) : "#SBATCH --exclusive\n";
-  text += fmt::format("#SBATCH --mem={}M\n", (plan.memory + (1 << 20) - 1) >> 20);
+  text += fmt::format("#SBATCH --mem={}M\n", (memory_of(plan, array.group) + (1 << 20) - 1) >> 20);
   for (const std::string& extra : wishes.extras) text += fmt::format("#SBATCH {}\n", extra);
   return text;
 }

@@ -52,10 +52,43 @@ TEST_F(Farm, APictureInPartsHasTheBitsOfOneMachine) {
   const json made = plan("p");
   EXPECT_EQ(made["groups"][0]["option"], "--part");
   run_all(made);
-  run_task(made["groups"][0], 3);  // twice does no harm
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p.png.parts"))) << "merged";
+  run_task(made["groups"][1], 1);  // twice does no harm
   ASSERT_EQ(run("render" + still + folder.path("q.png") + " --noise none --denoise own"), 0) << err;
   EXPECT_TRUE(folder.read("p.png") == folder.read("q.png"));
   EXPECT_GT(folder.read("p.png").size(), 100u);
+}
+
+TEST_F(Farm, WhatPartsTakeIsSaidAndTheyGoAfterTheMerge) {
+  const std::string still = "submit --to openjd -- render room --width 128 --samples 4 --denoise own --parts 4 -o ";
+  ASSERT_EQ(run(still + folder.path("p.exr") + " --keep-parts"), 0) << err;
+  std::smatch said;
+  const std::string text = err;
+  ASSERT_TRUE(std::regex_search(text, said, std::regex("parts take up to ([0-9.]+) MB on disk together, .* are free")))
+      << err;
+  const double most = 1e6 * std::stod(said[1]);
+  EXPECT_NE(err.find("memory of a task: parts 0."), std::string::npos) << err;
+  EXPECT_NE(err.find("GB, merge 0."), std::string::npos) << err;
+  const json made = plan("p");
+  EXPECT_NE(made["groups"][1]["memory"], made["memory"]);
+  run_all(made);
+  double bytes = 0.0;
+  for (int part = 1; part <= 4; part++) {
+    bytes +=
+        static_cast<double>(std::filesystem::file_size(folder.path(fmt::format("p.exr.parts/part_{:04}.exr", part))));
+  }
+  EXPECT_LE(bytes, most);
+  EXPECT_GT(bytes, 0.3 * most) << "an estimate, not any large number";
+  ASSERT_EQ(run("merge " + folder.path("p.exr.parts/part_####.exr") + " --remove-parts -q -o " + folder.path("q.exr")), 0)
+      << err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p.exr.parts/part_0001.exr")));
+  ASSERT_EQ(run(still + folder.path("p.exr") + " --keep-parts"), 0) << err;
+  EXPECT_NE(err.find("is finished"), std::string::npos) << err;
+  ASSERT_EQ(run("submit --dry-run --memory 3 --to openjd -- render room --width 16384 --samples 64 --parts 64 -o " +
+                folder.path("huge.exr")),
+            0);
+  EXPECT_NE(err.find("memory of a task: parts 3.0 GB, merge 3.0 GB"), std::string::npos) << err;
+  EXPECT_NE(err.find("parts take up to "), std::string::npos) << err;
 }
 
 // The exposure of frames that are pictures is that of the whole.

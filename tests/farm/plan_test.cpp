@@ -22,6 +22,7 @@ FarmPlan example() {
                   {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"},
                   "--only",
                   7,
+                  size_t{1} << 30,
                   "/disk/film.mp4.frames/frame.######.exr",
                   "1-70"},
                  {"video", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "", 1}};
@@ -42,6 +43,8 @@ TEST(Plan, ComesBackFromItsFile) {
   ASSERT_EQ(back.groups.size(), 2u);
   EXPECT_EQ(back.groups[0].tasks, 7);
   EXPECT_EQ(back.groups[0].files, plan.groups[0].files);
+  EXPECT_EQ(memory_of(back, back.groups[0]), size_t{1} << 30);
+  EXPECT_EQ(memory_of(back, back.groups[1]), plan.memory);
   EXPECT_EQ(back.groups[0].numbers, "1-70");
   EXPECT_EQ(back.scheduler, "slurm");
   EXPECT_EQ(back.groups[1].option, "");
