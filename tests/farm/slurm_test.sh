@@ -172,7 +172,7 @@ test_a_task_fails() {
   "$ods" submit -q --to slurm --chunk 2 -- video "$here/gone.gltf" -o "$here/farm/gone_360_TB.mp4" --frames 1-2 --width 32
   rm "$here/gone.gltf"
   if timeout 300 "$ods" jobs gone_360_TB --follow >"$here/followed" 2>&1; then die "a failed task is not said"; fi
-  grep "gone_360_TB frames 1: exit code 3: ods: error: .*gone.gltf" "$here/followed" || die "$(cat "$here/followed")"
+  grep "gone_360_TB frames 1: on one, exit code 3: ods: error: .*gone.gltf" "$here/followed" || die "$(cat "$here/followed")"
   [ "$(grep -c "^frames 1 of 1, try" "$here/farm/gone_360_TB.farm/logs/frames.1.log")" = 3 ] || die "it was not tried thrice"
   say "a task that fails three times is shown with its last line"
 }
@@ -185,7 +185,7 @@ test_a_frame_is_too_long() {
   "$ods" submit -q --to slurm --chunk 2 --sbatch --time=1 -- video room --frames 1-2 --width 2048 --samples 64 --threads 1 \
     -o "$here/farm/long_360_TB.mp4"
   if timeout 400 "$ods" jobs long_360_TB --follow >"$here/followed" 2>&1; then die "a frame that never ends is not said"; fi
-  grep "long_360_TB frames 1: exit code 143: ods: error: the time limit was over three times" "$here/followed" ||
+  grep "long_360_TB frames 1: on one, two, exit code 143: ods: error: the time limit was over three times" "$here/followed" ||
     die "$(cat "$here/followed")"
   [ "$(sort -u "$here/farm/long_360_TB.farm/starts/frames.1" | wc -l)" = 2 ] || die "it was not tried on another node"
   say "a frame that is longer than the time limit ends after three starts, on both nodes"
