@@ -24,7 +24,7 @@ struct RenderedFrames {
 };
 
 // Renders a video's frames for a caller that processes them further; prints their names only with --only, when they are
-// all that is made. Passes these numbers to `planned` before rendering the first. Throws UsageError if nothing moves and
-// no length was given.
+// all that is made. Passes these numbers to `planned` before rendering the first. Throws UsageError if nothing moves
+// and no length was given.
 RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
                              const std::function<void(const std::vector<int>& frames)>& planned);
