@@ -3,19 +3,21 @@
 #include "cli/farm/job_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
-#include "cli/console/progress.h"
 #include "cli/farm/queue.h"
+#include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/farm/plan.h"
 #include "ods/files/file_input.h"
-#include "ods/files/read_file.h"
+#include "ods/files/frames.h"
 
 namespace fs = std::filesystem;
 
@@ -62,6 +64,41 @@ std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
   return ended;
 }
 
+// The files "GROUP.NUMBER" have a line per start, "JOB MADE NODE".
+void add_starts(GroupReport& report, const std::string& folder) {
+  std::error_code error;
+  fs::directory_iterator entries(folder + "/starts", error);
+  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    const std::string name = entries->path().filename().native();
+    if (!name.starts_with(report.name + ".")) continue;
+    std::ifstream file(entries->path());
+    std::set<std::string> jobs, nodes;
+    int starts = 0;
+    for (std::string job, made, node; file >> job >> made >> node; starts++) jobs.insert(job), nodes.insert(node);
+    report.restarts += starts - static_cast<int>(jobs.size());
+    for (FailedTask& task : report.failed) {
+      if (name == fmt::format("{}.{}", report.name, task.number))
+        task.nodes = fmt::format("{}", fmt::join(nodes, ", "));
+    }
+  }
+}
+
+// The frames of a video are gone when it is there.
+std::optional<std::pair<int, int>> count_made(const ods::TaskGroup& group, bool all_done) {
+  const std::optional<ods::FrameNames> names = ods::frame_names(group.files);
+  if (!names) return std::nullopt;
+  const std::vector<int> numbers = ods::parse_frames(group.numbers);
+  const int all = static_cast<int>(numbers.size());
+  if (all_done) return std::pair(all, all);
+  try {
+    const std::vector<int> there = ods::frames_on_disk(*names);
+    const auto is_there = [&](int number) { return std::ranges::binary_search(there, number); };
+    return std::pair(static_cast<int>(std::ranges::count_if(numbers, is_there)), all);
+  } catch (const ods::Error&) {  // no folder yet
+    return std::pair(0, all);
+  }
+}
+
 bool is_active(TaskState state) {
   return state == TaskState::kWaiting || state == TaskState::kRunning;
 }
@@ -86,20 +123,26 @@ GroupReport report_group(const ods::TaskGroup& group, const KnownTasks& known, c
     if (task.state == TaskState::kWaiting) report.waiting++;
     if (task.state != TaskState::kFailed) continue;
     const std::string log = fmt::format("{}/logs/{}.{}.log", folder, group.name, number);
-    report.failed.push_back({number, task.why, report.failed.size() < 20 ? last_line(log) : ""});
+    report.failed.push_back({number, task.why, report.failed.size() < 20 ? last_line(log) : "", ""});
   }
   report.lost = group.tasks - report.done - report.running - report.waiting - static_cast<int>(report.failed.size());
+  report.made = count_made(group, report.done == group.tasks);
+  add_starts(report, folder);
   return report;
 }
 
-// By the tasks that are done, as if as many ran until the end as now.
-void estimate(GroupReport& report, const std::vector<ods::SlurmTask>& tasks) {
+// The nodes, and the time left by the tasks that are done, as if as many ran until the end as now.
+void add_queue(GroupReport& report, const std::vector<ods::SlurmTask>& queued,
+               const std::vector<ods::SlurmTask>& ended) {
   double seconds = 0.0, spent = 0.0;
   int done = 0;
-  for (const ods::SlurmTask& task : tasks) {
-    if (task.group != report.name) continue;
-    if (task.state == TaskState::kDone) seconds += task.seconds, done++;
-    if (task.state == TaskState::kRunning) spent += task.seconds;
+  for (const ods::SlurmTask& task : queued) {
+    if (task.group != report.name || task.state != TaskState::kRunning) continue;
+    spent += task.seconds;
+    if (!task.node.empty()) report.nodes[task.node]++;
+  }
+  for (const ods::SlurmTask& task : ended) {
+    if (task.group == report.name && task.state == TaskState::kDone) seconds += task.seconds, done++;
   }
   if (done == 0 || report.running == 0) return;
   const double each = seconds / done, tasks_left = report.running + report.waiting;
@@ -107,6 +150,11 @@ void estimate(GroupReport& report, const std::vector<ods::SlurmTask>& tasks) {
 }
 
 }  // namespace
+
+// Plans of earlier versions do not say.
+bool JobReport::is_known() const {
+  return scheduler.empty() || scheduler == "slurm";
+}
 
 bool JobReport::is_over() const {
   return std::ranges::all_of(groups, [](const GroupReport& g) { return g.running + g.waiting == 0; });
@@ -117,9 +165,7 @@ bool JobReport::is_done() const {
 }
 
 JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& queued) {
-  const std::vector<unsigned char> bytes = ods::read_file(folder + "/plan.json", size_t{64} << 20);
-  const ods::FarmPlan plan =
-      ods::read_plan({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, folder + "/plan.json");
+  const ods::FarmPlan plan = ods::open_plan(folder);
   const std::map<std::string, ods::SlurmArray> arrays = sent_arrays(folder);
   std::vector<ods::SlurmTask> tasks;
   const auto is_own = [&](const ods::SlurmTask& t) {
@@ -131,35 +177,10 @@ JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask
   std::vector<ods::SlurmTask> accounted = accounted_tasks(arrays);
   std::erase_if(accounted, [](const ods::SlurmTask& t) { return is_active(t.state); });
   add_tasks(known, accounted);
-  JobReport report{plan.name, folder, {}};
+  JobReport report{plan.name, folder, plan.scheduler, {}};
   for (const ods::TaskGroup& group : plan.groups) {
     report.groups.push_back(report_group(group, known[group.name], folder));
-    estimate(report.groups.back(), accounted.empty() ? tasks : accounted);
+    add_queue(report.groups.back(), tasks, accounted.empty() ? tasks : accounted);
   }
   return report;
-}
-
-std::string report_text(const std::vector<JobReport>& jobs) {
-  std::string text = fmt::format("{:24} {:8} {:>7} {:>8} {:>8} {:>7}  {}\n", "job", "tasks", "done", "running",
-                                 "waiting", "failed", "left");
-  for (const JobReport& job : jobs) {
-    for (const GroupReport& group : job.groups) {
-      const std::string left = group.seconds_left ? duration_text(*group.seconds_left) : "";
-      text += fmt::format("{:24} {:8} {:>7} {:>8} {:>8} {:>7}  {}\n", &group == &job.groups.front() ? job.name : "",
-                          group.name, group.done, group.running, group.waiting, group.failed.size(), left);
-    }
-  }
-  for (const JobReport& job : jobs) {
-    for (const GroupReport& group : job.groups) {
-      if (group.lost > 0) {
-        text += fmt::format("{} {}: {} neither ended nor in the queue; submit it again\n", job.name, group.name,
-                            group.lost);
-      }
-      for (const FailedTask& task : group.failed) {
-        text += fmt::format("{} {} {}: {}{}{}\n", job.name, group.name, task.number, task.why,
-                            task.last.empty() ? "" : ": ", task.last);
-      }
-    }
-  }
-  return text;
 }

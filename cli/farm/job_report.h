@@ -3,36 +3,44 @@
 //
 // How a job on the farm gets on: from its folder and from what Slurm says.
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ods/farm/slurm_answers.h"
 
 struct FailedTask {
   int number = 0;
-  std::string why;   // "exit code 3", or Slurm's word: "TIMEOUT"
-  std::string last;  // line of its log
+  std::string why;    // "exit code 3", or Slurm's word: "TIMEOUT"
+  std::string last;   // line of its log
+  std::string nodes;  // of its starts: "one, two"
 };
 
 struct GroupReport {
   std::string name;
   int done = 0, running = 0, waiting = 0;
-  int lost = 0;  // neither ended nor in the queue: cancelled long ago, or never sent
+  int lost = 0;                             // neither ended nor in the queue: cancelled long ago, or never sent
+  int restarts = 0;                         // of all tasks
+  std::map<std::string, int> nodes;         // how many tasks run on each
+  std::optional<std::pair<int, int>> made;  // frames, parts or views that are there, of so many
   std::vector<FailedTask> failed;
   std::optional<double> seconds_left;
 };
 
 struct JobReport {
-  std::string name, folder;
+  std::string name, folder, scheduler;
   std::vector<GroupReport> groups;
-  bool is_over() const;  // nothing runs or waits
-  bool is_done() const;  // all tasks are
+  bool is_known() const;  // what its tasks do, because Slurm or the tasks say so
+  bool is_over() const;   // nothing runs or waits
+  bool is_done() const;   // all tasks are
 };
 
 // tasks: of Slurm's queue, of any job. The tasks of jobs that Slurm has forgotten are known by what they left in the
 // folder. Throws ods::Error(kInput) if the folder has no plan.
 JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& tasks);
 
-// As a table and the failed tasks, for people.
+// As a table and the failed tasks, for people; and as JSON (docs/farm.md has its keys).
 std::string report_text(const std::vector<JobReport>& jobs);
+std::string report_json(const std::vector<JobReport>& jobs);

@@ -25,11 +25,12 @@ namespace {
 constexpr const char* kExamples =
     "  ods jobs                            all that Slurm knows of\n"
     "  ods jobs scene_360_TB --follow      until it is over\n"
-    "  ods jobs renders/scene_360_TB.farm  by its folder, also when Slurm has forgotten it";
+    "  ods jobs renders/scene_360_TB.farm  by its folder, also when Slurm has forgotten it\n"
+    "  ods jobs --json";
 
 struct JobsWishes {
   std::string name;
-  bool follow = false;
+  bool follow = false, json = false;
 };
 
 bool is_folder_of_job(const std::string& name) {
@@ -46,7 +47,13 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
                      "there is no Slurm here: squeue is not found, or fails; ods jobs FOLDER reads a job's folder");
   }
   const std::vector<ods::SlurmTask> tasks = queue.value_or(std::vector<ods::SlurmTask>());
-  if (by_folder) return {report_job(ods::absolute_folder(wishes.name), tasks)};
+  if (by_folder) {
+    const JobReport job = report_job(ods::absolute_folder(wishes.name), tasks);
+    if (wishes.follow && !job.is_known()) {
+      throw UsageError(fmt::format("--follow asks Slurm, and '{}' was written for {}", job.name, job.scheduler));
+    }
+    return {job};
+  }
   std::set<std::string> folders;
   for (const ods::SlurmTask& task : tasks) folders.insert(task.folder);
   std::vector<JobReport> jobs;
@@ -75,6 +82,7 @@ void jobs(int argc, char** argv) {
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
                "show it again every five seconds until all is over; exit code 1 if not all is done");
+  options.flag("--json", wishes.json, "print it as JSON");
   options.group("Console");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
@@ -83,7 +91,7 @@ void jobs(int argc, char** argv) {
   std::string before;
   while (true) {
     found = find_jobs(wishes);
-    const std::string text = found.empty() ? "no jobs\n" : report_text(found);
+    const std::string text = wishes.json ? report_json(found) : found.empty() ? "no jobs\n" : report_text(found);
     if (text != before) std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
     before = text;

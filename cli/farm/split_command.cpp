@@ -14,6 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/denoised_frames.h"
 #include "cli/render/finish_picture.h"
 #include "cli/render/frame_settings.h"
 #include "cli/render/render_frames.h"
@@ -44,7 +45,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Split = std::optional<SplitCommand>;
 
-const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart"};
+const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "-q"};
 const Words kByMachine = {"--threads", "--progress"};
 const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
 
@@ -109,7 +110,14 @@ SplitCommand begin(std::vector<GivenWord>& given) {
 
 void count(SplitCommand& split, const std::string& noun, const std::vector<int>& numbers) {
   if (numbers.empty()) throw UsageError("there is nothing to make");
-  split.noun = noun, split.count = numbers.size(), split.first = numbers.front();
+  split.noun = noun, split.count = numbers.size(), split.numbers = numbers;
+}
+
+// The group that is split, of what was counted; its tasks are not yet. files: the names of what it makes.
+ods::TaskGroup split_group(const SplitCommand& split, const std::string& name, Words command, const std::string& option,
+                           const std::string& files) {
+  if (files.find("%V") != std::string::npos) return {name, std::move(command), option};  // two files each
+  return {name, std::move(command), option, 1, 0, files, ods::frames_text(split.numbers)};
 }
 
 // --- the commands ---------------------------------------------------------------------------------------------------
@@ -141,18 +149,20 @@ Split split_video(const Words& words) {
     frames = frames_of(job.render);
   }
   split.memory = memory_of(split, job.render);
+  split.restart = job.restart;
+  split.halo = !has_rig && draws_on_neighbours(job.render) ? 1 : 0;
   count(split, "frame", frames);
   split.prepare = [output = split.output, settings, frames, restart = job.restart] {
-    VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames);
+    VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames, frames);
   };
   given = without(given, kByFarm);
-  split.groups = {{"frames", command_words("video", given), "--only"},
+  split.groups = {split_group(split, "frames", command_words("video", given), "--only", frame_pattern(split.output)),
                   {"video", command_words("video", given, kLate), ""}};
   return split;
 }
 
 // Options that decide what becomes of the samples: the merge has them.
-const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone", "-q"};
+const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone"};
 
 // Parts of another picture would be taken for finished, and refused by the merge.
 void check_parts(const RenderJob& first, const ods::FrameNames& names) {
@@ -170,6 +180,15 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   }
 }
 
+// docs/farm.md says where the numbers come from.
+size_t merge_memory(const RenderJob& job) {
+  const bool denoised = denoiser_of(job) != ods::Denoiser::kNone;
+  const size_t of_pixel = denoised ? 84 : ods::keeps_layers(job.output) ? 40 : 12;
+  const size_t pixels = static_cast<size_t>(job.render.width) * static_cast<size_t>(job.render.height);
+  const size_t parts = std::min(static_cast<size_t>(job.parts), size_t{200});
+  return ods::eye_list(job.render.eyes).size() * pixels * of_pixel + ((parts + 50 + 512) << 20);
+}
+
 void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
   refuse(given, {"--noise", "--time-limit", "--save-unfinished"},
          "parts are exact shares of a fixed number of samples (--samples)");
@@ -177,8 +196,8 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   std::iota(parts.begin(), parts.end(), 1);
   count(split, "part", parts);
   const std::string pattern = split.output + ".parts/part_####.exr";
-  std::vector<GivenWord> of_part =
-      without(without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar"});
+  std::vector<GivenWord> of_part = without(
+      without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar", "--keep-parts"});
   of_part.push_back({"-o", pattern});
   const Words render = command_words("render", of_part, {"--skip-existing", "--resume"});
   RenderJob checked;
@@ -191,7 +210,12 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   for (const GivenWord& word : only(given, kOfMerge)) {
     if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);
   }
-  split.groups = {{"parts", render, "--part", job.parts}, {"merge", command_words("merge", of_merge, kLate), ""}};
+  Words merge = kLate;
+  if (!job.keep_parts) merge.push_back("--remove-parts");
+  split.memory = memory_of(split, checked);
+  split.disk = static_cast<size_t>(job.parts) * ods::samples_bytes(options_to_finish(checked));
+  split.groups = {split_group(split, "parts", render, "--part", pattern),
+                  {"merge", command_words("merge", of_merge, merge), "", 1, merge_memory(job)}};
 }
 
 void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const RenderJob& job) {
@@ -199,7 +223,8 @@ void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const
   std::vector<int> views(rig.views.size());
   std::iota(views.begin(), views.end(), 1);
   count(split, "view", views);
-  split.groups = {{"views", command_words("render", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+  split.groups = {split_group(split, "views", command_words("render", without(given, kByFarm), {"--skip-existing"}),
+                              "--only", split.output)};
 }
 
 Split split_render(const Words& words) {
@@ -220,7 +245,8 @@ Split split_render(const Words& words) {
     split_views(split, given, job);
   } else if (frames) {
     count(split, "frame", frames_of(job));
-    split.groups = {{"frames", command_words("render", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+    split.groups = {split_group(split, "frames", command_words("render", without(given, kByFarm), {"--skip-existing"}),
+                                "--only", split.output)};
   } else if (job.parts > 0) {
     split_parts(split, given, job);
   } else {
@@ -243,7 +269,8 @@ Split split_stitch(const Words& words) {
   count(split, "frame", ods::parse_frames(job.frames));
   const size_t samples = static_cast<size_t>(rig.eye.width) * static_cast<size_t>(rig.eye.height) * rig.eyes.size();
   split.memory = (size_t{1} << 30) + 64 * samples;
-  split.groups = {{"frames", command_words("stitch", without(given, kByFarm), {"--skip-existing"}), "--only"}};
+  split.groups = {split_group(split, "frames", command_words("stitch", without(given, kByFarm), {"--skip-existing"}),
+                              "--only", split.output)};
   return split;
 }
 
@@ -285,7 +312,8 @@ Split split_other(const OtherCommand& command, const Words& words) {
   const std::string from = command.frames ? given.at(*command.frames).value : "";
   if (ods::frame_names(from) && ods::frame_names(split.output)) {
     count(split, "frame", frames_of(from, given));
-    split.groups = {{"frames", command_words(name, without(given, kByFarm), {"--skip-existing"}), "--only"}};
+    split.groups = {split_group(split, "frames", command_words(name, without(given, kByFarm), {"--skip-existing"}),
+                                "--only", split.output)};
     return split;
   }
   if (split.output.empty() && command.in_place) {

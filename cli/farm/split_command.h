@@ -17,11 +17,14 @@ struct SplitCommand {
   std::vector<ods::TaskGroup> groups;     // the first is split; its tasks are not counted yet
   std::vector<ods::PlanPath> paths;       // that the commands name
   std::vector<std::string> scene_files;   // beside the scene: buffers and pictures
-  size_t memory = 0;                      // bytes
+  size_t memory = 0;                      // bytes that a task takes
+  size_t disk = 0;                        // that all parts take, at most
   std::optional<int> threads;             // that the command asks for
+  bool restart = false;                   // what is there is discarded
   std::string noun;                       // what the tasks make: "frame", "part", "view"
   size_t count = 0;                       // of these
-  int first = 0;                          // number of the first
+  std::vector<int> numbers;               // theirs
+  int halo = 0;                           // on each side of a task's own, that it renders for the denoiser
   std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
 };
 

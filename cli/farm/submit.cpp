@@ -10,6 +10,8 @@
 
 #include "cli/console/console.h"
 #include "cli/farm/copy_inputs.h"
+#include "cli/farm/finished.h"
+#include "cli/farm/job_summary.h"
 #include "cli/farm/programs.h"
 #include "cli/farm/queue.h"
 #include "cli/farm/submit_job.h"
@@ -40,7 +42,7 @@ void print(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
 // Replaces what an earlier submission left, but for the logs.
 void write(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
   std::error_code ignored;
-  fs::remove_all(plan.folder + "/ended", ignored);
+  for (const char* name : {"/ended", "/starts"}) fs::remove_all(plan.folder + name, ignored);
   for (const ods::FarmFile& file : files) ods::write_file(plan.folder + "/" + file.name, file.text);
 }
 
@@ -69,16 +71,6 @@ void send(const ods::FarmPlan& plan) {
   note(fmt::format("ods jobs {} --follow shows how it goes on", ods::shell_word(plan.name)));
 }
 
-std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
-  const ods::TaskGroup& first = plan.groups.front();
-  std::string text = first.option.empty()
-                         ? fmt::format("{}: {} in one task", plan.name, first.name)
-                         : fmt::format("{}: {} {}{} in {} task{}", plan.name, split.count, split.noun,
-                                       split.count == 1 ? "" : "s", first.tasks, first.tasks == 1 ? "" : "s");
-  for (size_t i = 1; i < plan.groups.size(); i++) text += fmt::format(", then {}", plan.groups[i].name);
-  return text + fmt::format("; {:.1f} GB each", static_cast<double>(plan.memory) * 1e-9);
-}
-
 void submit(int argc, char** argv) {
   SubmitJob job;
   if (!read_submit_job(job, argc, argv)) return;
@@ -93,6 +85,9 @@ void submit(int argc, char** argv) {
   ods::check_writable(plan.folder + "/plan.json");
   scheduler.write(plan, job.wishes);  // throws for what it cannot be told
   if (is_slurm && !job.dry) check_idle(plan);
+  if (!job.dry && !split->restart && is_finished(plan, *split)) {
+    return note(fmt::format("'{}' is finished: nothing is to be done; remove it to make it again", split->output));
+  }
   if (!job.dry) {
     copy_files(copies);
     split->prepare();
@@ -102,7 +97,7 @@ void submit(int argc, char** argv) {
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
   files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
-  note(summary(plan, *split));
+  say_job(plan, *split);
   if (job.dry) return print(files, plan);
   write(files, plan);
   if (is_slurm) return send(plan);

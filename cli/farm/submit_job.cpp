@@ -104,13 +104,17 @@ std::string usual_folder(const std::string& output) {
 
 ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
   ods::FarmPlan plan;
-  plan.folder = ods::absolute_folder(job.folder.empty() ? usual_folder(split.output) : job.folder);
-  plan.name = ods::plan_name(job.name.empty() ? fs::path(plan.folder).stem().native() : job.name);
+  const std::string usual = usual_folder(split.output);
+  plan.folder = ods::absolute_folder(job.folder.empty() ? usual : job.folder);
+  plan.name = ods::plan_name(job.name.empty() ? fs::path(usual).stem().native() : job.name);
   plan.program = job.program;
+  plan.scheduler = ods::name_in(ods::kSchedulerTable, *job.to);
   plan.cpus = job.cpus > 0 ? job.cpus : split.threads.value_or(0);
   plan.memory = job.memory ? static_cast<size_t>(static_cast<double>(*job.memory) * 1e9) : split.memory;
   plan.paths = split.paths;
   plan.groups = split.groups;
+  if (!job.memory) return plan;
+  for (ods::TaskGroup& group : plan.groups) group.memory = 0;
   return plan;
 }
 
@@ -124,16 +128,17 @@ int count_tasks(const SubmitJob& job, const SplitCommand& split) {
   std::vector<std::string> words = {kThisProgram};
   const ods::TaskGroup& group = split.groups.front();
   words.insert(words.end(), group.command.begin(), group.command.end());
-  words.insert(words.end(), {group.option, fmt::format("{}", split.first), "-q"});
-  note(fmt::format("making {} {} here, for its time; --chunk N goes without", split.noun, split.first));
+  words.insert(words.end(), {group.option, fmt::format("{}", split.numbers.front()), "-q"});
+  note(fmt::format("making {} {} here, for its time; --chunk N goes without", split.noun, split.numbers.front()));
   const auto start = std::chrono::steady_clock::now();
   const auto result = run_program(words, ProgramErrors::kShown);
   if (!result || result->code != 0) {
-    throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.first,
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.numbers.front(),
                                                          ods::shell_line({words.begin() + 1, words.end()})));
   }
+  const int rendered = split.count > 1 ? 1 + split.halo : 1;
   const double seconds = std::max(seconds_since(start), 1e-3);
-  const int chunk = ods::suitable_chunk(seconds, split.count);
+  const int chunk = ods::suitable_chunk(seconds / rendered, split.count, split.halo);
   note(fmt::format("it took {}: tasks of {} (--chunk {})", duration_text(seconds), chunk, chunk));
   return ods::tasks_for(split.count, chunk);
 }

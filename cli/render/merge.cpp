@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods merge: puts the parts of a picture together.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
@@ -10,11 +14,28 @@
 #include "cli/render/merge_job.h"
 #include "ods/render/part_file.h"
 
+namespace fs = std::filesystem;
+
 namespace {
 
 ods::Picture picture_of(MergeJob& job, const ods::Progress& progress) {
   if (job.parts.empty()) return ods::develop(std::move(job.samples), job.picture.options);
   return ods::merge_parts(job.parts, job.picture.options, progress);
+}
+
+// The folder that ods submit makes for them gets another name first, so that a run that is killed here leaves all or
+// none of them under their own.
+void remove_parts(const MergeJob& job) {
+  const fs::path folder = job.render.output + ".parts", merged = job.render.output + ".merged-parts";
+  const auto lies_there = [&](const std::string& part) { return fs::path(part).parent_path() == folder; };
+  std::error_code error;
+  const bool together = std::ranges::all_of(job.parts, lies_there);
+  if (together) fs::rename(folder, merged, error);
+  for (const std::string& part : job.parts) {
+    fs::remove(together && !error ? merged / fs::path(part).filename() : fs::path(part), error);
+    if (error) warn(fmt::format("'{}' cannot be removed: {}", part, error.message()));
+  }
+  if (together) fs::remove(merged, error);  // if nothing else is in it
 }
 
 void merge_and_save(MergeJob& job, ProgressLines& lines) {
@@ -26,6 +47,7 @@ void merge_and_save(MergeJob& job, ProgressLines& lines) {
   lines.report(1.0, seconds_since(start), {"merge", 0, 0, job.render.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
+  if (job.remove_parts) remove_parts(job);
 }
 
 void merge(int argc, char** argv) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/picture/metadata/sidecar.h"
+#include "ods/picture/save.h"
 #include "ods/render/part_file.h"
 
 namespace {
@@ -133,12 +135,25 @@ void open_words(MergeJob& job, const std::vector<std::string>& words, bool incom
   }
 }
 
+// Whether an earlier run has merged and removed the parts: a farm may run a task twice.
+bool are_merged(const MergeJob& job, const std::vector<std::string>& words) {
+  const auto is_gone = [](const std::string& word) {
+    const auto names = ods::frame_names(word);
+    std::error_code ignored;
+    if (!names) return !std::filesystem::exists(word, ignored);
+    return !std::filesystem::exists(std::filesystem::path(names->before).parent_path(), ignored) ||
+           ods::frames_on_disk(*names).empty();
+  };
+  return job.remove_parts && ods::is_saved(job.render.output) && std::ranges::all_of(words, is_gone);
+}
+
 void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& layout, bool& incomplete) {
   RenderJob& render = job.render;
   options.arguments(ValueKind::input_file("PART"), job.parts, "the parts; # in a name stands for any number");
   options.group("Output");
   options.text("-o,--output", ValueKind::output_file(), render.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
+  options.flag("--remove-parts", job.remove_parts, "remove the parts when the picture is saved");
   options.flag("--incomplete", incomplete, "make the picture even if parts are missing; it is noisier");
   add_wait_option(options, render.wait, "parts");
   add_layout_option(options, layout, "how both eyes share the file; by default as rendered", "--layout");
@@ -191,7 +206,11 @@ bool read_merge_job(MergeJob& job, int argc, char** argv) {
   const std::string& output = job.render.output;
   if (output.empty()) throw UsageError("no output file: add -o picture.exr");
   if (job.parts.empty()) throw UsageError("no parts: name the files that ods render --part has made");
-  open_words(job, std::vector<std::string>(job.parts), incomplete);
+  const std::vector<std::string> words = job.parts;
+  if (are_merged(job, words)) return note(fmt::format("'{}' exists already, and its parts are gone", output)), false;
+  open_words(job, words, incomplete);
+  if (job.remove_parts && job.parts.empty())
+    throw UsageError("--remove-parts: there are no parts, but unfinished samples");
   finish_options(job, layout);
   if (!job.parts.empty()) leave_out_layers(job);
   if (!options.given("--exposure")) job.render.save.exposure = job.picture.exposure;

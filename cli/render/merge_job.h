@@ -16,7 +16,9 @@ struct MergeJob {
   ods::StereoCamera camera;
   ods::Layout layout = ods::Layout::kTopBottom;  // as rendered
   RenderJob render;                              // how the picture is finished
+  bool remove_parts = false;                     // when it is saved
 };
 
-// False if help was requested. Opens the files. Throws UsageError and ods::Error, if the parts do not make a picture.
+// False if help was requested, or if nothing is left to do: the parts are gone, since they were merged. Opens the
+// files. Throws UsageError and ods::Error, if the parts do not make a picture.
 bool read_merge_job(MergeJob& job, int argc, char** argv);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <set>
@@ -97,7 +98,7 @@ size_t render_all(FrameRenderer& renderer, const TimeOptions& time, const std::v
 // Renders and saves those of a video's frames that are missing, each denoised together with those beside it; `shared`:
 // as in render_all().
 void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all,
-                     const std::vector<Frame>& missing, bool shared, const StepReport& report) {
+                     const std::vector<Frame>& missing, bool shared, const StepReport& report, const Saved& saved) {
   std::map<int, size_t> places;  // in `all`, of the missing ones
   for (const Frame& frame : missing) places[frame.number] = 0;
   std::set<size_t> wanted;
@@ -111,7 +112,7 @@ void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::v
   int made = 0;
   const auto make = [&](size_t index) {
     const ProgressStep step{"render", ++made, static_cast<int>(wanted.size()), all[index].path};
-    frames.make(index, [&](double done) { report(done, step); });
+    saved(frames.make(index, [&](double done) { report(done, step); }));
   };
   if (shared) {
     make_shared_frames(files_of(missing), "frame", [&](size_t i) { make(places.at(missing[i].number)); });
@@ -189,10 +190,13 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     say_room(job, frames);
+    const auto saved = [&](const Rendered& frame) {
+      if (shared) std::ranges::for_each(frame.files, announce_file);
+    };
     if (draws_on_neighbours(job)) {
-      render_denoised(job, renderer, all, frames, shared, report);
+      render_denoised(job, renderer, all, frames, shared, report, saved);
     } else {
-      render_all(renderer, time, frames, shared, report, [](const Rendered&) {});
+      render_all(renderer, time, frames, shared, report, saved);
     }
   }
   return {numbers, exposure};

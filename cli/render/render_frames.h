@@ -23,7 +23,8 @@ struct RenderedFrames {
   float exposure = 0.0f;     // stops, to show them with
 };
 
-// Renders a video's frames for a caller that processes them further: prints no file names. Passes these numbers to
-// `planned` before rendering the first. Throws UsageError if nothing moves and no length was given.
+// Renders a video's frames for a caller that processes them further; prints their names only with --only, when they are
+// all that is made. Passes these numbers to `planned` before rendering the first. Throws UsageError if nothing moves
+// and no length was given.
 RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
                              const std::function<void(const std::vector<int>& frames)>& planned);

@@ -62,7 +62,8 @@ void add_long_options(Options& options, RenderJob& job) {
   options.custom(
       "--part", "I/N", "", [&](const std::string& word) { read_part(word, job); },
       "render one of N parts of the samples as an .exr, for ods merge: 3/8; # in the file's name is the part");
-  options.number("--parts", job.parts, 2, 4096, "with ods submit: render this many parts, and merge them");
+  options.number("--parts", job.parts, 2, 4096, "with ods submit: render this many parts, merge and remove them");
+  options.flag("--keep-parts", job.keep_parts, "with --parts: leave the parts when they are merged");
 }
 
 // Parts are exact shares of a fixed number of samples.
@@ -140,6 +141,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
+  if (job.keep_parts && job.parts == 0) throw UsageError("--keep-parts needs --parts N");
   if (job.parts > 0 && !for_farm) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
   const auto part_names = job.part ? ods::frame_names(job.output) : std::nullopt;
   if (part_names) job.output = part_names->path(job.part->number);

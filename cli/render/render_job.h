@@ -28,6 +28,7 @@ struct RenderJob {
   std::string rig;                // a slit rig: render its views instead of the camera's picture
   std::optional<ods::Part> part;  // of the samples
   int parts = 0;                  // --parts, for ods submit
+  bool keep_parts = false;        // likewise: when they are merged
   float wait = 0.0f;              // seconds: for files that other machines have written
   std::vector<GivenWord> given;   // the command line
   bool resume = false;            // a still picture goes on from what an interrupted run has kept

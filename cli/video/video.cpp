@@ -24,10 +24,11 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
   stitch.output = job.render.output;
   stitch.save = job.render.save;
   stitch.layout = job.render.save.layout;
-  stitch.skip_existing = true, stitch.says_files = false;
-  stitch.claims = !job.render.time.only.empty();  // else the video has it
+  stitch.skip_existing = true;
+  stitch.claims = stitch.says_files = !job.render.time.only.empty();  // else the video has the claim
   if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
-  journal.plan(ods::parse_frames(job.render.time.frames));
+  const std::vector<int> frames = ods::parse_frames(job.render.time.frames);
+  journal.plan(frames, own_frames(job.render.time.only, frames));
   stitch.frames = job.render.time.frames;
   stitch.only = job.render.time.only;
   return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
@@ -55,7 +56,9 @@ void make_video(VideoJob job, ProgressLines& lines) {
     journal.check();
     lines.report(kRendering * done, seconds_since(start), step);
   };
-  const auto planned = [&](const std::vector<int>& numbers) { journal.plan(numbers); };
+  const auto planned = [&](const std::vector<int>& numbers) {
+    journal.plan(numbers, own_frames(render.time.only, numbers));
+  };
   const RenderedFrames made =
       rig ? stitch_views(job, *rig, journal, rendered) : render_frames(render, rendered, planned);
   if (!render.time.only.empty()) return lines.clear();

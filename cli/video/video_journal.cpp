@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <thread>
 
 #include "cli/console/console.h"
@@ -43,6 +44,10 @@ bool is_empty(const std::string& folder) {
 }
 
 }  // namespace
+
+std::string frame_pattern(const std::string& video) {
+  return video + ".frames/" + kFrame;
+}
 
 VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart, JournalUse use,
                            std::chrono::seconds patience)
@@ -121,15 +126,24 @@ void VideoJournal::write_note() const {
   ods::write_file(note_path(), note);
 }
 
-void VideoJournal::plan(const std::vector<int>& frames) {
+void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& own) {
   const ods::FrameNames names = *ods::frame_names(pattern());
-  for (const int frame : frames) {
-    const fs::file_type type = type_of(names.path(frame));
-    if (type == fs::file_type::not_found || (type == fs::file_type::regular && frames_.contains(frame))) continue;
+  const auto refuse = [&](int frame) {
     throw UsageError(
         fmt::format("'{}' is not a frame of this video; remove it, or choose another -o", names.path(frame)));
+  };
+  std::set<int> added;
+  std::ranges::copy_if(frames, std::inserter(added, added.end()), [&](int f) { return !frames_.contains(f); });
+  const std::vector<int> there = added.empty() ? std::vector<int>() : ods::frames_on_disk(names);
+  for (const int frame : there) {
+    if (added.contains(frame)) refuse(frame);
   }
-  frames_.insert(frames.begin(), frames.end());
+  for (const int frame : own) {
+    const fs::file_type type = type_of(names.path(frame));
+    if (type != fs::file_type::not_found && type != fs::file_type::regular) refuse(frame);
+  }
+  if (added.empty()) return;
+  frames_.merge(added);
   write_note();
 }
 

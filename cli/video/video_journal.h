@@ -17,6 +17,9 @@
 #include "cli/render/frame_settings.h"
 #include "ods/files/claim.h"
 
+// The names of a video's frames (ods/files/frames.h).
+std::string frame_pattern(const std::string& video);
+
 enum class JournalUse { kAlone, kShared };
 
 class VideoJournal {
@@ -34,11 +37,12 @@ class VideoJournal {
   ~VideoJournal();
 
   const std::string& folder() const { return folder_; }
-  std::string pattern() const;  // of the frames' names (ods/files/frames.h)
+  std::string pattern() const;  // frame_pattern()
 
-  // Records which frames the job will make, before it makes the first. Throws UsageError if a file for one of them
-  // exists that no job of ours made; ods::Error(kOutput).
-  void plan(const std::vector<int>& frames);
+  // Records which frames the job will make, before it makes the first; own: those of this process. Throws UsageError if
+  // a file for one of them exists that no job of ours made; ods::Error(kOutput). Of frames that are recorded already it
+  // looks at its own only.
+  void plan(const std::vector<int>& frames, const std::vector<int>& own);
 
   // Throws ods::Error(kOutput) if another machine has taken the video over. Call it regularly.
   void check() const {

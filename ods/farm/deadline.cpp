@@ -46,19 +46,30 @@ std::string job_info(const FarmPlan& plan, const TaskGroup& group) {
   return text;
 }
 
+constexpr const char* kSubmit = R"sh(#!/bin/sh
+# Sends the jobs to Deadline 10, each behind the one before; prints their numbers. Stops at the first that is not taken.
+set -eu
+cd "$(dirname "$0")"
+before=
+send() {  # GROUP
+  cp "$1.job_info" "$1.sent.job_info"
+  [ -z "$before" ] || echo "JobDependencies=$before" >>"$1.sent.job_info"
+  code=0
+  answer=$(deadlinecommand "$1.sent.job_info" "$1.plugin_info") || code=$?
+  before=$(printf '%s\n' "$answer" | sed -n 's/^JobID=\([[:alnum:]-]*\).*/\1/p')
+  if [ $code != 0 ] || [ -z "$before" ]; then
+    printf '%s\n' "$answer" "submit.sh: deadlinecommand has not taken $1 (exit code $code); nothing behind it was sent" >&2
+    exit 1
+  fi
+  echo "$before $1"
+}
+)sh";
+
 }  // namespace
 
 std::vector<FarmFile> write_deadline(const FarmPlan& plan, const SchedulerWishes&) {
   std::vector<FarmFile> files;
-  std::string submit =
-      "#!/bin/sh\n# Sends the jobs to Deadline 10, each behind the one before; prints their numbers.\nset -eu\n"
-      "cd \"$(dirname \"$0\")\"\nbefore=\n"
-      "send() {  # GROUP\n"
-      "  cp \"$1.job_info\" \"$1.sent.job_info\"\n"
-      "  [ -z \"$before\" ] || echo \"JobDependencies=$before\" >>\"$1.sent.job_info\"\n"
-      "  before=$(deadlinecommand \"$1.sent.job_info\" \"$1.plugin_info\" | sed -n 's/^JobID=//p')\n"
-      "  echo \"$before $1\"\n"
-      "}\n";
+  std::string submit = kSubmit;
   for (const TaskGroup& group : plan.groups) {
     files.push_back({group.name + ".job_info", job_info(plan, group)});
     files.push_back({group.name + ".plugin_info",

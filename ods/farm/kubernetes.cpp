@@ -13,9 +13,11 @@ namespace ods {
 
 namespace {
 
-// Of an object: small letters, digits and "-", at most 63, with an end that is no "-".
+// Of an object: small letters, digits and "-", with an end that is no "-". A pod's host name has the task's number
+// behind it, and is at most 63 long.
 std::string object_name(const std::string& plan, const std::string& group) {
-  std::string name = plan.substr(0, 62 - group.size()) + "-" + group;
+  const size_t kLongest = 63 - std::string("-1000000").size();
+  std::string name = plan.substr(0, kLongest - 1 - group.size()) + "-" + group;
   for (char& c : name) {
     c = std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
                                                     : '-';
@@ -30,17 +32,16 @@ std::string argument(const std::string& text) {
   return json_text(doubled);
 }
 
-std::string resources(const FarmPlan& plan) {
-  const size_t memory = (plan.memory >> 20) + 1;
-  const std::string cpus = plan.cpus > 0 ? fmt::format("cpu: {}, ", plan.cpus) : "";
-  return fmt::format("requests: {{{0}memory: {1}Mi}}\n            limits: {{{0}memory: {1}Mi}}", cpus, memory);
+std::string resources(const FarmPlan& plan, const TaskGroup& group) {
+  const std::string both = fmt::format("{{cpu: {}, memory: {}Mi}}", plan.cpus, (memory_of(plan, group) >> 20) + 1);
+  return fmt::format("requests: {0}\n            limits: {0}", both);
 }
 
 // An exit code of 2 is a command line that is wrong on every machine; an evicted pod is no failure of its task.
 std::string job_of(const FarmPlan& plan, const TaskGroup& group, const SchedulerWishes& wishes) {
   std::vector<std::string> words = {"exec", plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
-  if (plan.cpus > 0) words.insert(words.end(), {"--threads", fmt::format("{}", plan.cpus)});
+  words.insert(words.end(), {"--threads", fmt::format("{}", plan.cpus)});
   std::string line = shell_line(words);
   if (!group.option.empty()) {
     line += fmt::format(" {} \"$((JOB_COMPLETION_INDEX + 1))/{}\"", group.option, group.tasks);
@@ -59,7 +60,7 @@ spec:
       - action: FailJob
         onExitCodes: {{containerName: ods, operator: In, values: [2]}}
       - action: Ignore
-        onPodConditions: [{{type: DisruptionTarget}}]
+        onPodConditions: [{{type: DisruptionTarget, status: "True"}}]
   template:
     spec:
       restartPolicy: Never
@@ -75,7 +76,7 @@ spec:
           persistentVolumeClaim: {{claimName: {}}}
 )",
                      object_name(plan.name, group.name), group.tasks, std::min(group.tasks, 100),
-                     json_text(wishes.image), argument(line), resources(plan), json_text(wishes.mount),
+                     json_text(wishes.image), argument(line), resources(plan, group), json_text(wishes.mount),
                      json_text(wishes.volume));
 }
 
@@ -88,21 +89,55 @@ void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
   }
 }
 
+constexpr const char* kSubmit = R"sh(#!/bin/sh
+# Sends the jobs to the cluster that kubectl knows, each when the one before is complete, and waits for the last; ends
+# with 1 when one fails. Started again it goes on: a job that runs is waited for, one that has ended is sent anew, and
+# its tasks skip what is there.
+set -eu
+cd "$(dirname "$0")"
+die() {
+  echo "submit.sh: $*" >&2
+  exit 1
+}
+look() {  # JOB OPTION...: sets ended
+  conditions=$(kubectl get job "$@" --output='jsonpath={.status.conditions[?(@.status=="True")].type}') || return 1
+  case " $conditions " in
+    *" Complete "*) ended=complete ;;
+    *" Failed "*) ended=failed ;;
+    *) ended=no ;;
+  esac
+}
+run() {  # JOB FILE
+  look "$1" --ignore-not-found
+  [ $ended = no ] || kubectl delete job "$1"
+  kubectl apply -f "$2" ||
+    die "kubectl has not taken $2; if $1 runs with other numbers or is another's: kubectl delete job $1, or another --name"
+  misses=0
+  while :; do
+    if look "$1"; then misses=0; else misses=$((misses + 1)); fi
+    [ $misses -lt 12 ] || die "kubectl get job $1 has failed for a minute"
+    [ $misses != 0 ] || [ $ended = no ] || break
+    sleep 5
+  done
+  [ $ended = complete ] || die "$1 has failed: kubectl describe job $1; kubectl logs --selector=job-name=$1"
+  echo "$1 is complete"
+}
+)sh";
+
 }  // namespace
 
 std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerWishes& wishes) {
   check_mount(plan, wishes);
+  if (plan.cpus == 0) {
+    throw Error(ErrorKind::kUsage,
+                "Kubernetes has no word for a whole machine: --cpus N says how many of its processors");
+  }
   std::vector<FarmFile> files;
-  std::string submit =
-      "#!/bin/sh\n# Applies the jobs, one after the other; kubectl has to know the cluster.\nset -eu\ncd \"$(dirname "
-      "\"$0\")\"\n";
+  std::string submit = kSubmit;
   for (const TaskGroup& group : plan.groups) {
-    const std::string file = group.name + ".yaml", name = object_name(plan.name, group.name);
+    const std::string file = group.name + ".yaml";
     files.push_back({file, job_of(plan, group, wishes)});
-    submit += fmt::format("kubectl apply -f {}\n", file);
-    if (&group != &plan.groups.back()) {
-      submit += fmt::format("kubectl wait --for=condition=complete --timeout=-1s job/{}\n", name);
-    }
+    submit += fmt::format("run {} {}\n", object_name(plan.name, group.name), file);
   }
   files.push_back({"submit.sh", submit});
   return files;

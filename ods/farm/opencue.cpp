@@ -9,7 +9,14 @@ namespace ods {
 
 namespace {
 
-// OpenCue fills in #IFRAME#, the task's number. Its own jobs of frames in chunks run over the end.
+// Cuebot takes at least three characters.
+std::string job_name(const std::string& plan) {
+  return plan.size() < 3 ? "job_" + plan : plan;
+}
+
+// OpenCue fills in #IFRAME#, the task's number. Its own jobs of frames in chunks run over the end. No layer is of type
+// Post: Cuebot moves those into a job of their own, where no dependency of this one finds them. Cores without a point
+// are hundredths of one.
 std::string layer_of(const FarmPlan& plan, const TaskGroup& group) {
   std::vector<std::string> words = {plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
@@ -21,14 +28,14 @@ std::string layer_of(const FarmPlan& plan, const TaskGroup& group) {
         <cmd>{}</cmd>
         <range>{}</range>
         <chunk>1</chunk>
-        <cores>{}</cores>
+        <cores>{}.0</cores>
         <threadable>true</threadable>
         <memory>{}m</memory>
         <services><service>shell</service></services>
       </layer>
 )",
-                     group.name, group.option.empty() ? "Post" : "Render", xml_text(line), range, plan.cpus,
-                     (plan.memory >> 20) + 1);
+                     group.name, group.option.empty() ? "Util" : "Render", xml_text(line), range, plan.cpus,
+                     (memory_of(plan, group) >> 20) + 1);
 }
 
 std::string depend_of(const FarmPlan& plan, const TaskGroup& group, const TaskGroup& before) {
@@ -39,7 +46,7 @@ std::string depend_of(const FarmPlan& plan, const TaskGroup& group, const TaskGr
       <onlayer>{2}</onlayer>
     </depend>
 )",
-                     plan.name, group.name, before.name);
+                     job_name(plan.name), group.name, before.name);
 }
 
 }  // namespace
@@ -51,8 +58,8 @@ std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes&
     if (&group != &plan.groups.front()) depends += depend_of(plan, group, *(&group - 1));
   }
   const std::string text = fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
-<!DOCTYPE spec PUBLIC "SPI Cue Specification Language" "http://localhost:8080/spcue/dtd/cjsl-1.16.dtd">
-<!-- show, shot, user and uid are yours: sed 's/SHOW/ours/; s/SHOT/sh010/; s/USER/me/; s/UID/1000/' -->
+<!DOCTYPE spec PUBLIC "SPI Cue Specification Language" "http://localhost:8080/spcue/dtd/cjsl-1.15.dtd">
+<!-- show, shot, user and uid are yours: sed 's/>SHOW</>ours</; s/>SHOT</>sh010</; s/>USER</>me</; s/>UID</>1000</' -->
 <spec>
   <show>SHOW</show>
   <shot>SHOT</shot>
@@ -68,7 +75,7 @@ std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes&
 {}  </depends>
 </spec>
 )",
-                                       plan.name, layers, depends);
+                                       job_name(plan.name), layers, depends);
   return {{"job.xml", text}};
 }
 

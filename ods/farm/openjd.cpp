@@ -79,7 +79,7 @@ Json step_of(const FarmPlan& plan, const TaskGroup& group, const std::vector<Pat
   }
   Json amounts = Json::array();
   if (plan.cpus > 0) amounts.push_back({{"name", "amount.worker.vcpu"}, {"min", plan.cpus}});
-  amounts.push_back({{"name", "amount.worker.memory"}, {"min", plan.memory >> 20}});
+  amounts.push_back({{"name", "amount.worker.memory"}, {"min", memory_of(plan, group) >> 20}});
   step["hostRequirements"]["amounts"] = amounts;
   step["script"]["actions"]["onRun"] = {
       {"command", "{{Param.Program}}"},
@@ -102,17 +102,19 @@ std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes&)
                                                      {"description", "ods, as the workers call it"},
                                                      {"userInterface", {{"control", "LINE_EDIT"}}}}})},
               {"steps", Json::array()}};
-  Json values = Json::array({{{"name", "Program"}, {"value", plan.program}}});
+  Json values = Json::array({{{"name", "Program"}, {"value", plan.program}}}), flat = {{"Program", plan.program}};
   for (const PathParameter& parameter : parameters) {
     job["parameterDefinitions"].push_back(definition_of(parameter));
     const std::string inside = plan.folder + "/";  // of the bundle: such paths are relative
     const std::string& path = parameter.path.path;
     values.push_back(
         {{"name", parameter.name}, {"value", path.starts_with(inside) ? path.substr(inside.size()) : path}});
+    flat[parameter.name] = path;
   }
   for (const TaskGroup& group : plan.groups) job["steps"].push_back(step_of(plan, group, parameters));
   return {{"template.json", job.dump(2) + "\n"},
-          {"parameter_values.json", Json{{"parameterValues", values}}.dump(2) + "\n"}};
+          {"parameter_values.json", Json{{"parameterValues", values}}.dump(2) + "\n"},
+          {"openjd_parameters.json", flat.dump(2) + "\n"}};
 }
 
 }  // namespace ods

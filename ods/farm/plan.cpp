@@ -15,6 +15,7 @@
 #include "ods/base/json_reader.h"
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
+#include "ods/files/read_file.h"
 
 namespace ods {
 
@@ -25,14 +26,24 @@ constexpr int kVersion = 1;
 
 Json json_of(const TaskGroup& group) {
   Json json = {{"name", group.name}, {"command", group.command}};
+  if (group.memory > 0) json["memory"] = group.memory;
   if (group.option.empty()) return json;
   json["option"] = group.option;
   json["tasks"] = group.tasks;
+  if (group.files.empty()) return json;
+  json["files"] = group.files;
+  json["numbers"] = group.numbers;
   return json;
 }
 
 TaskGroup group_of(const Json& json) {
-  return {json.at("name"), json.at("command"), json.value("option", ""), json.value("tasks", 1)};
+  return {json.at("name"),
+          json.at("command"),
+          json.value("option", ""),
+          json.value("tasks", 1),
+          json.value("memory", size_t{0}),
+          json.value("files", ""),
+          json.value("numbers", "")};
 }
 
 Json json_of(const PlanPath& path) {
@@ -46,6 +57,10 @@ PlanPath path_of(const Json& json) {
 
 }  // namespace
 
+size_t memory_of(const FarmPlan& plan, const TaskGroup& group) {
+  return group.memory > 0 ? group.memory : plan.memory;
+}
+
 std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number) {
   assert(number >= 1 && number <= group.tasks);
   std::vector<std::string> words = {plan.program};
@@ -56,8 +71,9 @@ std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group
 }
 
 std::string write_plan(const FarmPlan& plan) {
-  Json json = {{kMark, kVersion},   {"name", plan.name},     {"folder", plan.folder},  {"program", plan.program},
-               {"cpus", plan.cpus}, {"memory", plan.memory}, {"paths", Json::array()}, {"groups", Json::array()}};
+  Json json = {{kMark, kVersion},       {"name", plan.name},       {"scheduler", plan.scheduler},
+               {"folder", plan.folder}, {"program", plan.program}, {"cpus", plan.cpus},
+               {"memory", plan.memory}, {"paths", Json::array()},  {"groups", Json::array()}};
   for (const PlanPath& path : plan.paths) json["paths"].push_back(json_of(path));
   for (const TaskGroup& group : plan.groups) json["groups"].push_back(json_of(group));
   return json.dump(2) + "\n";
@@ -73,10 +89,17 @@ FarmPlan read_plan(std::string_view text, const std::string& path) {
     FarmPlan plan{json.at("name"), json.at("folder"), json.at("program"), json.at("cpus"), json.at("memory"), {}, {}};
     for (const Json& each : json.at("paths")) plan.paths.push_back(path_of(each));
     for (const Json& each : json.at("groups")) plan.groups.push_back(group_of(each));
+    plan.scheduler = json.value("scheduler", "");
     return plan;
   } catch (const nlohmann::json::exception& error) {
     throw bad(error.what());
   }
+}
+
+FarmPlan open_plan(const std::string& folder) {
+  const std::string path = folder + "/plan.json";
+  const std::vector<unsigned char> bytes = read_file(path, size_t{64} << 20);
+  return read_plan({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 std::string absolute_folder(const std::string& path) {
@@ -106,12 +129,17 @@ void check_quotable(const FarmPlan& plan) {
   for (const TaskGroup& group : plan.groups) std::ranges::for_each(group.command, check);
 }
 
-int suitable_chunk(double seconds_per_frame, size_t frames) {
+double halo_cost(int halo, int tasks, size_t frames) {
+  return 2.0 * halo * (tasks - 1) / static_cast<double>(frames);  // the film's ends have nothing beyond
+}
+
+int suitable_chunk(double seconds_per_frame, size_t frames, int halo) {
   assert(seconds_per_frame > 0.0 && frames > 0);
   const double kSeconds = 600.0;
   const auto by_time = std::clamp(kSeconds / seconds_per_frame, 1.0, 1e6);
   const auto by_machines = std::max(1.0, std::ceil(static_cast<double>(frames) / 16.0));
-  return static_cast<int>(std::min(by_time, by_machines));
+  const auto by_halo = std::ceil(2.0 * halo / kMostHaloCost);
+  return static_cast<int>(std::max(std::min(by_time, by_machines), by_halo));
 }
 
 int tasks_for(size_t frames, int chunk) {

@@ -19,6 +19,8 @@ struct TaskGroup {
   std::vector<std::string> command;  // the words after "ods"
   std::string option;                // "--only", "--part", or empty
   int tasks = 1;
+  size_t memory = 0;                     // bytes that a task takes; 0: as the plan says
+  std::string files = {}, numbers = {};  // what the tasks make: "/disk/out.####.exr", "1-100" (ods/files/frames.h)
 };
 
 struct PlanPath {
@@ -32,10 +34,14 @@ struct FarmPlan {
   std::string folder;             // absolute: for the plan, what is sent, and the tasks' logs
   std::string program;            // ods, as the tasks' machines call it
   int cpus = 0;                   // processors of a task; 0: all of a machine
-  size_t memory = 0;              // bytes that a task takes
+  size_t memory = 0;              // bytes that a task takes, if its group does not say
   std::vector<PlanPath> paths;    // that the commands name
   std::vector<TaskGroup> groups;  // each starts when the one before is done
+  std::string scheduler = {};     // that it was written for: "slurm"; empty: not known
 };
+
+// What a task of the group takes, in bytes.
+size_t memory_of(const FarmPlan& plan, const TaskGroup& group);
 
 // The program and the words of task `number`, counted from 1.
 std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number);
@@ -44,6 +50,9 @@ std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group
 // messages.
 std::string write_plan(const FarmPlan& plan);
 FarmPlan read_plan(std::string_view text, const std::string& path);
+
+// plan.json of a job's folder. Throws Error(kInput), also if it cannot be read.
+FarmPlan open_plan(const std::string& folder);
 
 // A folder's absolute path, without a slash at its end.
 std::string absolute_folder(const std::string& path);
@@ -57,9 +66,16 @@ void check_quotable(const FarmPlan& plan);
 
 // --- how many tasks -------------------------------------------------------------------------------------------------
 
+// Frames that tasks render beyond their own, over all frames: those beside a task's own, `halo` on each side, which
+// another task renders, too. Precondition: tasks > 0, frames > 0.
+double halo_cost(int halo, int tasks, size_t frames);
+
+// What a chunk of ours costs at most in that way.
+inline constexpr double kMostHaloCost = 0.25;
+
 // Frames of a task that takes about ten minutes, if the frames are not so few that machines would be idle: at least
-// sixteen tasks. Precondition: seconds_per_frame > 0, frames > 0.
-int suitable_chunk(double seconds_per_frame, size_t frames);
+// sixteen tasks, unless that would cost more than kMostHaloCost. Precondition: seconds_per_frame > 0, frames > 0.
+int suitable_chunk(double seconds_per_frame, size_t frames, int halo);
 
 // Tasks of at most `chunk` frames.
 int tasks_for(size_t frames, int chunk);

@@ -4,8 +4,9 @@
 // A plan in the words of each scheduler: files to read and send. Nothing here sends them.
 //
 //   slurm       an array of jobs per group (as many arrays as it takes), and submit.sh, which sends them in order
-//   openjd      template.json and parameter_values.json of the base specification jobtemplate-2023-09: a job bundle
-//   opencue     job.xml of cjsl-1.16: a layer per group
+//   openjd      template.json of the base specification jobtemplate-2023-09, with parameter_values.json a job bundle;
+//               openjd_parameters.json has the same values for the command openjd
+//   opencue     job.xml of cjsl-1.15: a layer per group
 //   flamenco    a job type in JavaScript
 //   kubernetes  an Indexed Job per group, and submit.sh, which applies one after the other
 //   deadline    a pair of job_info and plugin_info per group, for the plug-in CommandLine of Deadline 10, and submit.sh
@@ -52,7 +53,8 @@ struct SchedulerRow {
 
 inline constexpr SchedulerRow kSchedulerTable[] = {
     {Scheduler::kSlurm, "slurm", write_slurm, "sh submit.sh"},
-    {Scheduler::kOpenJd, "openjd", write_openjd, "openjd run template.json, or deadline bundle submit ."},
+    {Scheduler::kOpenJd, "openjd", write_openjd,
+     "deadline bundle submit ., or openjd run template.json --step NAME -p file://openjd_parameters.json"},
     {Scheduler::kOpenCue, "opencue", write_opencue, "send job.xml with opencue.api.launchSpec()"},
     {Scheduler::kFlamenco, "flamenco", write_flamenco, "copy the script into the Manager's folder scripts"},
     {Scheduler::kKubernetes, "kubernetes", write_kubernetes, "sh submit.sh"},

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 #include "ods/base/quote.h"
 #include "ods/farm/scheduler.h"
 #include "ods/farm/slurm_answers.h"
+#include "ods/files/frames.h"
 
 namespace ods {
 
@@ -37,7 +40,7 @@ std::string directives(const FarmPlan& plan, const Array& array, const Scheduler
   if (!array.group.option.empty()) text += fmt::format("#SBATCH --array=1-{}\n", array.tasks);
   text += "#SBATCH --output=/dev/null\n#SBATCH --requeue\n#SBATCH --signal=B:USR1@60\n#SBATCH --ntasks=1\n";
   text += plan.cpus > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", plan.cpus) : "#SBATCH --exclusive\n";
-  text += fmt::format("#SBATCH --mem={}M\n", (plan.memory + (1 << 20) - 1) >> 20);
+  text += fmt::format("#SBATCH --mem={}M\n", (memory_of(plan, array.group) + (1 << 20) - 1) >> 20);
   for (const std::string& extra : wishes.extras) text += fmt::format("#SBATCH {}\n", extra);
   return text;
 }
@@ -46,45 +49,106 @@ std::string command_line(const FarmPlan& plan, const TaskGroup& group) {
   std::vector<std::string> words = {plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
   std::string line = fmt::format("{} --threads \"{}\"", shell_line(words), kLimit);
-  if (!group.option.empty()) line += fmt::format(" {} \"$task/{}\"", group.option, group.tasks);
+  if (!group.option.empty()) line += fmt::format(" {} \"$task/{}\" >>\"$files\"", group.option, group.tasks);
   return line;
 }
 
-// The log has a line per try. A command line that is wrong (exit code 2) is so on every machine; all else is tried
-// again, since disks fill and empty, and network disks show files late. At the end of the time limit the task goes back
-// into the queue; its next machine finds what it left.
+// What a part has before its file is there; nothing for other groups.
+std::string unfinished_file(const TaskGroup& group) {
+  const auto output = std::ranges::find(group.command, "-o");
+  if (group.option != "--part" || output == group.command.end()) return "";
+  const std::optional<FrameNames> names = frame_names(*std::next(output));
+  if (!names) return "";
+  return fmt::format("{}$(printf %0{}d \"$task\"){}", shell_word(names->before), names->digits,
+                     shell_word(names->after + ".unfinished"));
+}
+
+// A line per start is in "starts", what the command makes in "files". A command line that is wrong (exit code 2) is so
+// on every machine; all else goes back into the queue, for another node if there is one, since disks fill and empty,
+// network disks show files late, and machines break; so does a task at the end of its time limit, whose next start
+// finds what it left. The third start without a file is the last, also of a task whose node dies under it or takes it
+// back.
 constexpr const char* kScript = R"sh(#!/bin/sh
 {0}
 folder={1}
 task={2}
-mkdir -p "$folder/logs" "$folder/ended"
+unfinished={6}
+node=${{SLURMD_NODENAME:-$(hostname)}}
+starts="$folder/starts/{3}.$task" files="$folder/logs/{3}.$task.files"
+mkdir -p "$folder/logs" "$folder/ended" "$folder/starts"
 rm -f "$folder/ended/{3}.$task"
 exec >>"$folder/logs/{3}.$task.log" 2>&1
+touch "$files" "$starts"
+
+# What there is of the task, as a word.
+made() {{ echo "$(wc -l <"$files")$(stat -c /%Y/%s "$unfinished" 2>/dev/null)"; }}
+before=$(made)
+# The nodes of this job's starts that found no more than this one did.
+in_vain() {{ sed -n "s|^$SLURM_JOB_ID $before ||p" "$starts"; }}
+is_stuck() {{ [ "$(made)" = "$before" ] && [ "$(in_vain | wc -l)" -ge 3 ]; }}
+end() {{
+  echo "$1" >"$folder/ended/{3}.$task"
+  exit "$1"
+}}
+
+# Slurm ends this script for it, but not at once.
+again() {{  # CODE
+  trap '' TERM
+  scontrol requeue "$SLURM_JOB_ID" || end "$1"
+  nodes() {{ sinfo --noheader --Node --partition="$SLURM_JOB_PARTITION" "$@"; }}
+  fits="\$2 >= ${{SLURM_MEM_PER_NODE:-0}} && \$3 >= ${{SLURM_CPUS_PER_TASK:-1}} {{print \$1}}"
+  tried=$(in_vain | sort -u)
+  if [ "{7}" = anywhere ] && [ "$(made)" = "$before" ] &&
+    nodes --states=idle,mixed,allocated --format='%N %m %c' | awk "$fits" | grep -qvxF "$tried"; then
+    scontrol update JobId="$SLURM_JOB_ID" ExcNodeList="$(echo "$tried" | paste -sd ,)"
+  fi
+  most=$(nodes --format=%m | sort -n | tail -n 1) memory=${{SLURM_MEM_PER_NODE:-0}}
+  more=$((2 * memory < ${{most:-0}} ? 2 * memory : ${{most:-0}}))
+  if [ "$1" = 137 ] && [ $memory -gt 0 ] && [ $more -gt "$memory" ]; then
+    scontrol update JobId="$SLURM_JOB_ID" MinMemoryNode=$more
+  fi
+  exit "$1"
+}}
+
+if is_stuck; then
+  echo "ods: error: three starts have ended without a file and without a word, on $(in_vain | paste -sd ' ')"
+  end 1
+fi
+echo "$SLURM_JOB_ID $before $node" >>"$starts"
 late=no
 trap 'late=yes; kill -TERM "$child"' USR1
-for try in 1 2 3; do
-  echo "{3} $task of {4}, try $try, job $SLURM_JOB_ID on $(hostname), $(date)"
-  {5} &
-  child=$!
-  code=0
-  wait "$child" || code=$?
-  if [ $late = yes ]; then
-    wait "$child" || :
-    scontrol requeue "$SLURM_JOB_ID"
-    exit 143
-  fi
-  case $code in 0 | 2) break ;; esac
-  [ $try = 3 ] || sleep $((5 * try))
-done
-echo "$code" >"$folder/ended/{3}.$task"
-exit "$code"
+echo "{3} $task of {4}, try $(in_vain | wc -l), job $SLURM_JOB_ID on $node, $(date)"
+{5} &
+child=$!
+code=0
+wait "$child" || code=$?
+if [ $late = yes ]; then
+  wait "$child" || :
+  code=143
+fi
+case $code in 0 | 2) end "$code" ;; esac
+is_stuck || again "$code"
+[ $late = no ] ||
+  echo "ods: error: the time limit was over three times before a file was made: more time (--sbatch --time=...) or less work"
+end "$code"
 )sh";
+
+// Whether no option of sbatch says which nodes may have the tasks.
+bool runs_anywhere(const SchedulerWishes& wishes) {
+  constexpr std::array<std::string_view, 9> kOthers = {"--partition", "-p", "--time",    "-t",    "--qos",
+                                                       "-q",          "-A", "--account", "--nice"};
+  return std::ranges::all_of(wishes.extras, [&](const std::string& extra) {
+    const std::string name = extra.starts_with("--") ? extra.substr(0, extra.find_first_of("= ")) : extra.substr(0, 2);
+    return std::ranges::find(kOthers, name) != kOthers.end();
+  });
+}
 
 std::string script_of(const FarmPlan& plan, const Array& array, const SchedulerWishes& wishes) {
   const std::string task =
       array.group.option.empty() ? "1" : fmt::format("$((SLURM_ARRAY_TASK_ID + {}))", array.before);
   return fmt::format(kScript, directives(plan, array, wishes), shell_word(plan.folder), task, array.group.name,
-                     array.group.tasks, command_line(plan, array.group));
+                     array.group.tasks, command_line(plan, array.group), unfinished_file(array.group),
+                     runs_anywhere(wishes) ? "anywhere" : "where told");
 }
 
 constexpr const char* kSubmit = R"sh(#!/bin/sh

@@ -69,16 +69,25 @@ void for_each_line(std::string_view text, const Use& use) {
   while (!text.empty()) use(take_field(text, '\n'));
 }
 
-SlurmTask task_of(std::string_view job, const SlurmArray& array, int index, std::string_view word, double seconds) {
-  return {std::string(job), array.folder,      array.group, array.before + index,
-          state_of(word),   std::string(word), seconds};
+SlurmTask task_of(std::string_view job, const SlurmArray& array, int index, std::string_view word, double seconds,
+                  std::string_view node = "") {
+  const TaskState state = state_of(word);
+  return {std::string(job),
+          array.folder,
+          array.group,
+          array.before + index,
+          state,
+          std::string(word),
+          seconds,
+          state == TaskState::kRunning ? std::string(node) : ""};
 }
 
 // A job has a hundred keys, and there are many jobs.
 bool keep_what_is_read(int depth, json::parse_event_t event, json& parsed) {
   constexpr int kDepthOfJob = 3;
-  constexpr std::array<std::string_view, 8> kKeys = {"array_job_id", "array_task_id", "array_task_string", "comment",
-                                                     "job_id",       "job_state",     "start_time",        "end_time"};
+  constexpr std::array<std::string_view, 9> kKeys = {"array_job_id", "array_task_id", "array_task_string",
+                                                     "comment",      "job_id",        "job_state",
+                                                     "start_time",   "end_time",      "nodes"};
   if (event != json::parse_event_t::key || depth != kDepthOfJob) return true;
   return std::ranges::find(kKeys, parsed.get_ref<const std::string&>()) != kKeys.end();
 }
@@ -137,8 +146,10 @@ std::vector<SlurmTask> read_queue(std::string_view text) {
   for_each_line(text, [&](std::string_view line) {
     const std::string_view job = take_field(line, '|'), index = take_field(line, '|'), word = take_field(line, '|');
     const double seconds = seconds_of(take_field(line, '|'));
+    const std::string_view node = take_field(line, '|');
     const std::optional<SlurmArray> array = array_of_comment(line);
-    if (array && !word.empty()) tasks.push_back(task_of(job, *array, number_of(index).value_or(1), word, seconds));
+    if (array && !word.empty())
+      tasks.push_back(task_of(job, *array, number_of(index).value_or(1), word, seconds, node));
   });
   return tasks;
 }
@@ -157,7 +168,8 @@ std::optional<std::vector<SlurmTask>> read_queue_json(std::string_view text, dou
     const double seconds = started ? std::max(0.0, std::min(end > 0.0 ? end : now, now) - start) : 0.0;
     const double id = number_in(job, "array_job_id").value_or(0.0);
     const std::string name = fmt::format("{:.0f}", id > 0.0 ? id : number_in(job, "job_id").value_or(0.0));
-    for (const int index : indices_of(job)) tasks.push_back(task_of(name, *array, index, word, seconds));
+    for (const int index : indices_of(job))
+      tasks.push_back(task_of(name, *array, index, word, seconds, word_in(job, "nodes")));
   }
   return tasks;
 }

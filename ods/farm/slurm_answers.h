@@ -27,8 +27,9 @@ struct SlurmTask {
   std::string folder, group;  // of the plan
   int number = 1;             // of the task in its group
   TaskState state = TaskState::kWaiting;
-  std::string word;      // Slurm's own word for it: "PENDING", "TIMEOUT"
-  double seconds = 0.0;  // how long it has run
+  std::string word;       // Slurm's own word for it: "PENDING", "TIMEOUT"
+  double seconds = 0.0;   // how long it has run
+  std::string node = {};  // on which it runs
 };
 
 // Identifies an array: the beginning of its comment in Slurm, behind which ":FOLDER" stands. before: the tasks of the
@@ -43,7 +44,7 @@ struct SlurmArray {
 std::optional<SlurmArray> array_of_comment(std::string_view comment);
 
 // squeue with kQueueWords, a line per task.
-inline constexpr const char* kQueueWords[] = {"--noheader", "--array", "--states=all", "--format=%F|%K|%T|%M|%k"};
+inline constexpr const char* kQueueWords[] = {"--noheader", "--array", "--states=all", "--format=%F|%K|%T|%M|%N|%k"};
 std::vector<SlurmTask> read_queue(std::string_view text);
 
 // squeue --json; now: seconds since 1970. Nothing if the text is not JSON.

@@ -162,7 +162,7 @@ class Pages : public ::testing::Test {
     program("sbatch", "id=$(($(wc -l <" + queue + ") + 1))\n" +
                           "for word; do case $word in --comment=*) comment=${word#--comment=} ;; esac; done\n" +
                           "tasks=$(sed -n 's/^#SBATCH --array=1-//p' \"$word\")\n" +
-                          "for task in $(seq ${tasks:-1}); do echo \"$id|$task|COMPLETED|0:01|$comment\" >>" + queue +
+                          "for task in $(seq ${tasks:-1}); do echo \"$id|$task|COMPLETED|0:01||$comment\" >>" + queue +
                           "; done\necho $id");
     static const std::string path = std::getenv("PATH");
     setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);

@@ -1,67 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods submit and ods jobs, with programs in the places of Slurm's; tests/farm/slurm_test.sh has the real ones.
+// ods submit.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
-#include "tests/support/cli_runner.h"
-#include "tests/support/programs.h"
+#include "tests/support/farm.h"
 
 namespace {
 
-using nlohmann::json;
-
-class Farm : public Cli {
- protected:
-  void SetUp() override {
-    program("scontrol", "echo 'MaxArraySize = 6'; echo 'MaxJobCount = 100'");
-    program("squeue", "[ \"$1\" != --json ] || exit 1\ncat " + tools.path("queue"));
-    program("sbatch", "n=$(cat " + tools.path("n") + ")\necho $((n + 1)) >" + tools.path("n") + "\necho $n\n");
-    program("sacct", "echo 'Slurm accounting storage is disabled' >&2; exit 1");
-    tools.write("queue", "");
-    tools.write("n", "7");
-    setenv("PATH", (tools.path("") + ":" + own_path).c_str(), 1);
-  }
-  void TearDown() override { setenv("PATH", own_path.c_str(), 1); }
-
-  void program(const std::string& name, const std::string& script) {
-    tools.write(name, "#!/bin/sh\n" + script + "\n");
-    ods::run_line("chmod +x " + tools.path(name));
-  }
-
-  // A small command whose output lies in the folder.
-  std::string video(const std::string& name = "a.mp4") const {
-    return "video toys --width 32 --samples 4 --fps 10 -o " + folder.path(name);
-  }
-
-  json plan(const std::string& name) const { return json::parse(folder.read(name + ".farm/plan.json")); }
-
-  // Runs a task of the plan, as anybody may.
-  int run_task(const json& group, int number) {
-    std::vector<std::string> words = group["command"];
-    if (group.contains("option")) {
-      words.push_back(group["option"]);
-      words.push_back(fmt::format("{}/{}", number, group["tasks"].get<int>()));
-    }
-    Ods task(words);
-    const int code = task.finish();
-    EXPECT_EQ(code, 0) << task.err;
-    return code;
-  }
-
-  void run_all(const json& plan) {
-    for (const json& group : plan["groups"]) {
-      for (int number = group.value("tasks", 1); number >= 1; number--) run_task(group, number);
-    }
-  }
-
-  ods::TemporaryFolder tools;
-  const std::string own_path = std::getenv("PATH");
-};
+constexpr const char* kTriangle =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
 TEST_F(Farm, AVideoInTasksHasTheBitsOfOneProcess) {
   ASSERT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-11 --keep-frames"), 0) << err;
@@ -79,16 +34,61 @@ TEST_F(Farm, AVideoInTasksHasTheBitsOfOneProcess) {
   EXPECT_TRUE(folder.read("a.mp4") == folder.read("b.mp4"));
 }
 
+TEST_F(Farm, ATaskOfAVideoNamesTheFramesThatItMakes) {
+  for (const std::string denoise : {"none", "own"}) {
+    const std::string name = denoise + ".mp4",
+                      task = video(name) + " --frames 1-6 --denoise " + denoise + " --only 2/3";
+    ASSERT_EQ(run(task), 0) << err;
+    const std::string frame = folder.path(name + ".frames/frame.00000");
+    EXPECT_EQ(out, frame + "3.exr\n" + frame + "4.exr\n");
+    ASSERT_EQ(run(task), 0) << err;
+    EXPECT_EQ(out, "") << "nothing was made";
+  }
+}
+
 TEST_F(Farm, APictureInPartsHasTheBitsOfOneMachine) {
   const std::string still = " toys --width 32 --samples 16 --exposure 1 -o ";
   ASSERT_EQ(run("submit --to openjd -- render" + still + folder.path("p.png") + " --parts 5 --denoise own"), 0) << err;
   const json made = plan("p");
   EXPECT_EQ(made["groups"][0]["option"], "--part");
   run_all(made);
-  run_task(made["groups"][0], 3);  // twice does no harm
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p.png.parts"))) << "merged";
+  run_task(made["groups"][1], 1);  // twice does no harm
   ASSERT_EQ(run("render" + still + folder.path("q.png") + " --noise none --denoise own"), 0) << err;
   EXPECT_TRUE(folder.read("p.png") == folder.read("q.png"));
   EXPECT_GT(folder.read("p.png").size(), 100u);
+}
+
+TEST_F(Farm, WhatPartsTakeIsSaidAndTheyGoAfterTheMerge) {
+  const std::string still = "submit --to openjd -- render room --width 128 --samples 4 --denoise own --parts 4 -o ";
+  ASSERT_EQ(run(still + folder.path("p.exr") + " --keep-parts"), 0) << err;
+  std::smatch said;
+  const std::string text = err;
+  ASSERT_TRUE(std::regex_search(text, said, std::regex("parts take up to ([0-9.]+) MB on disk together, .* are free")))
+      << err;
+  const double most = 1e6 * std::stod(said[1]);
+  EXPECT_NE(err.find("memory of a task: parts 0."), std::string::npos) << err;
+  EXPECT_NE(err.find("GB, merge 0."), std::string::npos) << err;
+  const json made = plan("p");
+  EXPECT_NE(made["groups"][1]["memory"], made["memory"]);
+  run_all(made);
+  double bytes = 0.0;
+  for (int part = 1; part <= 4; part++) {
+    bytes +=
+        static_cast<double>(std::filesystem::file_size(folder.path(fmt::format("p.exr.parts/part_{:04}.exr", part))));
+  }
+  EXPECT_LE(bytes, most);
+  EXPECT_GT(bytes, 0.3 * most) << "an estimate, not any large number";
+  ASSERT_EQ(run("merge " + folder.path("p.exr.parts/part_####.exr") + " --remove-parts -q -o " + folder.path("q.exr")), 0)
+      << err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p.exr.parts/part_0001.exr")));
+  ASSERT_EQ(run(still + folder.path("p.exr") + " --keep-parts"), 0) << err;
+  EXPECT_NE(err.find("is finished"), std::string::npos) << err;
+  ASSERT_EQ(run("submit --dry-run --memory 3 --to openjd -- render room --width 16384 --samples 64 --parts 64 -o " +
+                folder.path("huge.exr")),
+            0);
+  EXPECT_NE(err.find("memory of a task: parts 3.0 GB, merge 3.0 GB"), std::string::npos) << err;
+  EXPECT_NE(err.find("parts take up to "), std::string::npos) << err;
 }
 
 // The exposure of frames that are pictures is that of the whole.
@@ -102,7 +102,7 @@ TEST_F(Farm, FramesAndViewsAreShared) {
     EXPECT_TRUE(folder.read(fmt::format("s.{}.png", frame)) == folder.read(fmt::format("t.{}.png", frame))) << frame;
   }
   ASSERT_EQ(run("rig -q --nearest 1 --width 64 -o " + folder.path("rig.json")), 0) << err;
-  ASSERT_EQ(run("submit -q --to kubernetes --mount / --chunk 20 -- render furnace --samples 1 --rig " +
+  ASSERT_EQ(run("submit -q --to kubernetes --cpus 1 --mount / --chunk 20 -- render furnace --samples 1 --rig " +
                 folder.path("rig.json") + " -o " + folder.path("views/0007/####.exr")),
             0)
       << err;
@@ -164,7 +164,7 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
   EXPECT_EQ(plan("a")["groups"][0]["command"], lint);
   for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes", "deadline"}) {
     const std::string convert = "-- convert " + folder.path("in.exr") + " --to cube-3x2 -o " + folder.path(to + ".png");
-    ASSERT_EQ(run("submit -q --mount / --to " + to + " " + convert), 0) << err;
+    ASSERT_EQ(run("submit -q --cpus 2 --mount / --to " + to + " " + convert), 0) << err;
     EXPECT_EQ(plan(to)["groups"].size(), 1u);
   }
 }
@@ -207,17 +207,79 @@ TEST_F(Farm, ThePlanNamesEveryFile) {
 }
 
 TEST_F(Farm, WithoutAChunkTheFirstFrameIsMeasured) {
-  ASSERT_EQ(run("submit --to slurm -- " + video() + " --frames 3-4 --keep-frames"), 0) << err;
+  ASSERT_EQ(run("submit --to slurm -- " + video() + " --frames 3-4 --keep-frames --denoise none"), 0) << err;
   EXPECT_NE(err.find("making frame 3 here"), std::string::npos) << err;
   EXPECT_GT(folder.read("a.mp4.frames/frame.000003.exr").size(), 100u);
   EXPECT_EQ(plan("a")["groups"][0]["tasks"], 2);
 }
 
+TEST_F(Farm, AJobHasTheNameOfWhatItMakes) {
+  ASSERT_EQ(run("submit -q --to openjd --chunk 1 -o " + folder.path("bundle") + " -- " + video() + " --frames 1-2"), 0)
+      << err;
+  EXPECT_EQ(json::parse(folder.read("bundle/plan.json"))["name"], "a");
+  EXPECT_EQ(json::parse(folder.read("bundle/template.json"))["name"], "a");
+}
+
+TEST_F(Farm, WhatTheDenoiserCostsIsSaid) {
+  const std::string own = video() + " --denoise own";
+  ASSERT_EQ(run("submit --to openjd --chunk 2 -- " + own + " --frames 1-20"), 0) << err;
+  EXPECT_NE(err.find("20 frames in 10 tasks, then video; 90 % more frames are rendered for the denoiser"),
+            std::string::npos)
+      << err;
+  EXPECT_NE(err.find("a larger --chunk needs fewer"), std::string::npos) << err;
+  ASSERT_EQ(run("submit --to openjd --chunk 2 -- " + video() + " --denoise none --frames 1-20"), 0) << err;
+  EXPECT_EQ(err.find("denoiser"), std::string::npos) << err;
+  ASSERT_EQ(run("submit --to openjd -- " + own + " --frames 1-20"), 0) << err;  // chunks of eight
+  EXPECT_EQ(plan("a")["groups"][0]["tasks"], 3) << err;
+}
+
+TEST_F(Farm, AFinishedVideoIsNotMadeAgain) {
+  namespace fs = std::filesystem;
+  ods::TemporaryFolder source;
+  const std::string scene = source.path("scene.gltf"), note = folder.path("a.farm/plan.json");
+  source.write("scene.gltf", kTriangle);
+  const auto submit = [&](const std::string& more) {
+    EXPECT_EQ(run("submit --to slurm --chunk 2 -- video " + scene + " --width 32 --frames 1-2 --denoise none -o " +
+                  folder.path("a.mp4 ") + more),
+              0)
+        << err;
+    EXPECT_EQ(out.empty(), err.find("a.mp4' is finished") != std::string::npos) << out << err;
+    return out.empty() ? "finished" : "sent";
+  };
+  const auto make_older = [](const std::string& file) {
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24));
+  };
+  make_older(scene);
+  EXPECT_STREQ(submit("--samples 1"), "sent");
+  run_all(plan("a"));
+  EXPECT_STREQ(submit("--samples 1"), "finished");
+  EXPECT_STREQ(submit("--samples 1 --threads 2"), "finished");
+  EXPECT_FALSE(fs::exists(folder.path("a.mp4.frames")));
+  EXPECT_STREQ(submit("--samples 1 --restart"), "sent");
+  make_older(note);
+  EXPECT_STREQ(submit("--samples 1"), "finished");
+  fs::last_write_time(scene, fs::file_time_type::clock::now());
+  EXPECT_STREQ(submit("--samples 1"), "sent") << "the scene is another one";
+  make_older(scene), make_older(note);
+  EXPECT_STREQ(submit("--samples 2"), "sent") << "that is another video";
+}
+
+// A folder in the place of a frame is no frame of ours; only the task that wants it looks.
+TEST_F(Farm, ATaskLooksAtItsOwnFramesOnly) {
+  ASSERT_EQ(run("submit -q --to openjd --chunk 2 -- " + video() + " --denoise none --frames 1-8"), 0) << err;
+  std::filesystem::create_directories(folder.path("a.mp4.frames/frame.000007.exr"));
+  const std::string task = video() + " --denoise none --frames 1-8 --only ";
+  EXPECT_EQ(run(task + "1/4"), 0) << err;
+  EXPECT_EQ(run(task + "4/4"), 2);
+  EXPECT_NE(err.find("frame.000007.exr' is not a frame of this video"), std::string::npos) << err;
+}
+
 TEST_F(Farm, DryRunsWriteNothing) {
   for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes", "deadline"}) {
-    ASSERT_EQ(run(fmt::format("submit --to {} --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
-                              video())),
-              0)
+    ASSERT_EQ(
+        run(fmt::format("submit --to {} --cpus 2 --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
+                        video())),
+        0)
         << err;
     EXPECT_NE(out.find("\"tasks\": 200"), std::string::npos) << out;
     EXPECT_NE(out.find("# " + folder.path("a.farm/plan.json")), std::string::npos) << out;
@@ -282,7 +344,8 @@ TEST_F(Farm, BadWishesAreOneLineAndLeaveNothing) {
       {"submit --to slurm -- render toys --parts 4 --noise 0.1 -o " + at + "a.png", 2, "--noise"},
       {"submit --to slurm -- render toys --parts 9 --samples 4 -o " + at + "a.png", 2, "4 samples cannot be 9 parts"},
       {"submit --to slurm --sbatch partition -- render toys --parts 4 -o " + at + "a.png", 2, "--sbatch"},
-      {"submit --to kubernetes --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2, "--mount"},
+      {"submit --to kubernetes --cpus 1 --chunk 1 --mount /x -- video toys --frames 1-2 -o " + at + "a.mp4", 2,
+       "--mount"},
       {"submit --to openjd --copy-scene -- video toys --confine / --frames 1-2 -o " + at + "a.mp4", 2, "--confine"},
       {"submit --to slurm -- view " + at, 2, "one of video, render, stitch, convert"},
       {"submit --to slurm -- convart a.png -o " + at + "b.png", 2, "convert"},
@@ -356,10 +419,10 @@ TEST_F(Farm, WithoutSlurmItIsSaid) {
 
 TEST_F(Farm, WhatIsInTheQueueIsNotSentAgain) {
   ASSERT_EQ(run("submit -q --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 0) << err;
-  tools.write("queue", "7|1|RUNNING|0:05|ods:frames:0:" + folder.path("a.farm") + "\n");
+  tools.write("queue", "7|1|RUNNING|0:05|one|ods:frames:0:" + folder.path("a.farm") + "\n");
   EXPECT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 2);
   EXPECT_NE(err.find("tasks in the queue, job 7"), std::string::npos) << err;
-  tools.write("queue", "7|1|CANCELLED|0:05|ods:frames:0:" + folder.path("a.farm") + "\n");
+  tools.write("queue", "7|1|CANCELLED|0:05||ods:frames:0:" + folder.path("a.farm") + "\n");
   EXPECT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 0) << err;
 }
 
@@ -367,52 +430,6 @@ TEST_F(Farm, WhatSlurmRefusesIsAnError) {
   program("sbatch", "echo 'sbatch: error: no partition' >&2; exit 1");
   EXPECT_EQ(run("submit --to slurm --chunk 4 -- " + video() + " --frames 1-8"), 4);
   EXPECT_NE(err.find("sbatch: error: no partition\n"), std::string::npos) << err;
-}
-
-// --- jobs -----------------------------------------------------------------------------------------------------------
-
-TEST_F(Farm, JobsOfTenThousandTasks) {
-  program("scontrol", "echo 'MaxArraySize = 20000'; echo 'MaxJobCount = 100000'");
-  ASSERT_EQ(run("submit -q --to slurm --chunk 1 -- " + video() + " --frames 1-10000"), 0) << err;
-  std::string queue;
-  for (int task = 1; task <= 10000; task++) {
-    const char* const state = task <= 6000   ? "COMPLETED"
-                              : task <= 6040 ? "RUNNING"
-                              : task == 6041 ? "TIMEOUT"
-                                             : "PENDING";
-    queue +=
-        fmt::format("7|{}|{}|0:{}|ods:frames:0:{}\n", task, state, task <= 6000 ? "10" : "04", folder.path("a.farm"));
-  }
-  tools.write("queue",
-              queue + "8|N/A|PENDING|0:00|ods:video:0:" + folder.path("a.farm") + "\n99|1|RUNNING|0:01|(null)\n");
-  ASSERT_EQ(run("jobs"), 0) << err;
-  EXPECT_NE(out.find("frames      6000       40     3959       1  16:36 min\n"), std::string::npos) << out;
-  EXPECT_NE(out.find("video          0        0        1       0  \n"), std::string::npos) << out;
-  EXPECT_NE(out.find("a frames 6041: TIMEOUT"), std::string::npos) << out;
-  const std::string all = out;
-  ASSERT_EQ(run("jobs a"), 0) << err;
-  EXPECT_EQ(out, all);
-}
-
-TEST_F(Farm, AFailedTaskIsShownWithItsLastLine) {
-  ASSERT_EQ(run("submit -q --to slurm --chunk 4 -- " + video() + " --frames 1-12"), 0) << err;
-  for (const char* name : {"ended", "logs"}) std::filesystem::create_directories(folder.path("a.farm/") + name);
-  folder.write("a.farm/ended/frames.1", "0\n");
-  folder.write("a.farm/ended/frames.2", "3\n");
-  folder.write("a.farm/logs/frames.2.log", "frames 2 of 3, try 3\nods: error: cannot read 'x.glb': no such file\n");
-  program("squeue", "exit 1");  // Slurm has forgotten it, and is down
-  ASSERT_EQ(run("jobs " + folder.path("a.farm")), 0) << err;
-  EXPECT_NE(out.find("frames         1        0        0       1  \n"), std::string::npos) << out;
-  EXPECT_NE(out.find("a frames: 1 neither ended nor in the queue; submit it again\n"), std::string::npos) << out;
-  EXPECT_NE(out.find("a frames 2: exit code 3: ods: error: cannot read 'x.glb': no such file\n"), std::string::npos)
-      << out;
-  EXPECT_EQ(run("jobs --follow " + folder.path("a.farm")), 1);
-  EXPECT_NE(err.find("'a' is over, and not all of it is done"), std::string::npos) << err;
-}
-
-TEST_F(Farm, NoJobsIsNoError) {
-  ASSERT_EQ(run("jobs"), 0) << err;
-  EXPECT_EQ(out, "no jobs\n");
 }
 
 }  // namespace

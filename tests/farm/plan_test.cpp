@@ -16,8 +16,15 @@ FarmPlan example() {
   plan.program = "ods";
   plan.cpus = 4;
   plan.memory = 3'000'000'000;
+  plan.scheduler = "slurm";
   plan.paths = {{"/disk/a scene.glb"}, {"/disk/film.mp4", true}, {"/disk/views", false, true}};
-  plan.groups = {{"frames", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "--only", 7},
+  plan.groups = {{"frames",
+                  {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"},
+                  "--only",
+                  7,
+                  size_t{1} << 30,
+                  "/disk/film.mp4.frames/frame.######.exr",
+                  "1-70"},
                  {"video", {"video", "/disk/a scene.glb", "-o", "/disk/film.mp4"}, "", 1}};
   return plan;
 }
@@ -35,6 +42,11 @@ TEST(Plan, ComesBackFromItsFile) {
   EXPECT_EQ(back.memory, plan.memory);
   ASSERT_EQ(back.groups.size(), 2u);
   EXPECT_EQ(back.groups[0].tasks, 7);
+  EXPECT_EQ(back.groups[0].files, plan.groups[0].files);
+  EXPECT_EQ(memory_of(back, back.groups[0]), size_t{1} << 30);
+  EXPECT_EQ(memory_of(back, back.groups[1]), plan.memory);
+  EXPECT_EQ(back.groups[0].numbers, "1-70");
+  EXPECT_EQ(back.scheduler, "slurm");
   EXPECT_EQ(back.groups[1].option, "");
   EXPECT_TRUE(back.paths[1].is_output);
   EXPECT_TRUE(back.paths[2].is_folder);
@@ -74,11 +86,27 @@ TEST(Plan, WordsWithLineBreaksAreRefused) {
 }
 
 TEST(Plan, ATaskTakesTenMinutesAndNoMachineIsIdle) {
-  EXPECT_EQ(suitable_chunk(6.0, 100'000), 100);
-  EXPECT_EQ(suitable_chunk(6.0, 320), 20);
-  EXPECT_EQ(suitable_chunk(3600.0, 100), 1);
-  EXPECT_EQ(suitable_chunk(0.001, 5), 1);
-  EXPECT_EQ(suitable_chunk(1e-6, 1'000'000), 62'500);
+  for (const int halo : {0, 1}) {
+    EXPECT_EQ(suitable_chunk(6.0, 100'000, halo), 100);
+    EXPECT_EQ(suitable_chunk(6.0, 320, halo), 20);
+    EXPECT_EQ(suitable_chunk(1e-6, 1'000'000, halo), 62'500);
+  }
+  EXPECT_EQ(suitable_chunk(3600.0, 100, 0), 1);
+  EXPECT_EQ(suitable_chunk(0.001, 5, 0), 1);
+}
+
+// Each of two neighbouring tasks renders a frame of the other.
+TEST(Plan, FramesBesideATasksOwnCostAtMostAQuarter) {
+  EXPECT_DOUBLE_EQ(halo_cost(1, 10, 100), 0.18);
+  EXPECT_DOUBLE_EQ(halo_cost(1, 100, 100), 1.98);
+  EXPECT_DOUBLE_EQ(halo_cost(1, 1, 5), 0.0);
+  EXPECT_DOUBLE_EQ(halo_cost(0, 100, 100), 0.0);
+  for (const double seconds : {0.001, 6.0, 3600.0, 1e6}) {
+    for (size_t frames = 1; frames < 500; frames++) {
+      const int chunk = suitable_chunk(seconds, frames, 1);
+      EXPECT_LE(halo_cost(1, tasks_for(frames, chunk), frames), kMostHaloCost) << seconds << " " << frames;
+    }
+  }
 }
 
 TEST(Plan, TasksHoldAllFrames) {

@@ -6,234 +6,17 @@
 #include "ods/farm/scheduler.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "ods/base/error.h"
-#include "ods/base/quote.h"
-#include "tests/support/programs.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/schedulers.h"
 
 namespace ods {
 namespace {
 
 using nlohmann::json;
-
-// Names that break what is quoted badly. Deadline's command line cannot hold all of them.
-const std::vector<std::string> kNames = {"it's a \"scene\".glb", "$HOME `id` $(id).glb", "naïve 日本 & <b> #IFRAME.glb",
-                                         "back\\slash;|*?.glb"};
-
-class Schedulers : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder.write("ods", "#!/bin/sh\nprintf '%s\\n' \"$@\" >\"" + folder.path("said") + "\"\n");
-    run_line("chmod +x " + folder.path("ods"));
-    set_names(kNames);
-  }
-
-  void set_names(const std::vector<std::string>& names) {
-    plan = FarmPlan();
-    plan.name = "film_1";
-    plan.folder = folder.path("film's.farm");
-    plan.program = folder.path("ods");
-    plan.memory = 3 << 20;
-    std::vector<std::string> words = {"video"};
-    for (const std::string& name : names) words.push_back("/disk/" + name), plan.paths.push_back({words.back()});
-    words.insert(words.end(), {"-o", "/disk/out put.mp4"});
-    plan.paths.push_back({"/disk/out put.mp4", true});
-    plan.groups = {{"frames", words, "--only", 12}, {"video", words, "", 1}};
-    std::filesystem::create_directories(plan.folder);
-  }
-
-  std::vector<FarmFile> write(Scheduler scheduler) {
-    wishes.mount = "/disk";
-    std::vector<FarmFile> files = row_in(kSchedulerTable, scheduler).write(plan, wishes);
-    for (const FarmFile& file : files) folder.write("film's.farm/" + file.name, file.text);
-    return files;
-  }
-
-  std::string text_of(const std::vector<FarmFile>& files, const std::string& name) {
-    for (const FarmFile& file : files) {
-      if (file.name == name) return file.text;
-    }
-    ADD_FAILURE() << "there is no " << name;
-    return "";
-  }
-
-  std::string in_folder(const std::string& name) const { return shell_word(plan.folder + "/" + name); }
-
-  // How a task has to be called, a word per line; more: what the scheduler's own words are, behind the command.
-  std::string expected(size_t group, int number, const std::vector<std::string>& more = {}) const {
-    const TaskGroup& tasks = plan.groups[group];
-    std::string lines;
-    for (const std::string& word : tasks.command) lines += word + "\n";
-    for (const std::string& word : more) lines += word + "\n";
-    if (!tasks.option.empty()) lines += fmt::format("{}\n{}/{}\n", tasks.option, number, tasks.tasks);
-    return lines;
-  }
-
-  std::string said() const { return folder.read("said"); }
-
-  // What a script of Python makes of a file of the folder.
-  std::string by_python(const std::string& script, const std::string& file) const {
-    folder.write("script.py", "import sys\ntext = open(sys.argv[1], encoding='utf-8').read()\n" + script);
-    return run_line("PYTHONIOENCODING=utf-8 python3 " + folder.path("script.py") + " " + in_folder(file)).out;
-  }
-
-  TemporaryFolder folder;
-  FarmPlan plan;
-  SchedulerWishes wishes;
-};
-
-TEST_F(Schedulers, SlurmRunsEveryTaskOnce) {
-  wishes.largest_array = 6;
-  wishes.extras = {"--partition=render", "--time=2:00:00"};
-  plan.cpus = 4;
-  const std::vector<FarmFile> files = write(Scheduler::kSlurm);
-  ASSERT_EQ(files.size(), 5u);  // 12 tasks in arrays of five
-  std::set<std::string> calls;
-  for (int array = 1; array <= 3; array++) {
-    const std::string name = fmt::format("frames-{}.sbatch", array), text = text_of(files, name);
-    EXPECT_NE(text.find("#SBATCH --partition=render\n#SBATCH --time=2:00:00\n"), std::string::npos);
-    EXPECT_NE(text.find("#SBATCH --cpus-per-task=4\n"), std::string::npos);
-    EXPECT_NE(text.find(fmt::format("#SBATCH --array=1-{}\n", array == 3 ? 2 : 5)), std::string::npos) << text;
-    for (int index = 1; index <= (array == 3 ? 2 : 5); index++) {
-      const std::string line =
-          fmt::format("SLURM_JOB_ID=9 SLURM_CPUS_PER_TASK=4 SLURM_ARRAY_TASK_ID={} sh {}", index, in_folder(name));
-      EXPECT_EQ(run_line(line).code, 0);
-      EXPECT_EQ(said(), expected(0, 5 * (array - 1) + index, {"--threads", "4"}));
-      calls.insert(said());
-    }
-  }
-  EXPECT_EQ(calls.size(), 12u);
-  EXPECT_EQ(run_line("SLURM_JOB_ID=9 SLURM_CPUS_ON_NODE=2 sh " + in_folder("video-1.sbatch")).code, 0);
-  EXPECT_EQ(said(), expected(1, 1, {"--threads", "2"}));
-  EXPECT_EQ(folder.read("film's.farm/ended/frames.12"), "0\n");
-}
-
-// sleep is none, or this test would wait.
-TEST_F(Schedulers, SlurmTriesAgainWhatMayGetBetter) {
-  write(Scheduler::kSlurm);
-  for (const auto& [code, tries] : std::map<int, int>{{0, 1}, {1, 3}, {2, 1}, {3, 3}, {4, 3}, {139, 3}}) {
-    folder.write("ods", fmt::format("#!/bin/sh\necho x >>{}\nexit {}\n", folder.path("tries"), code));
-    folder.write("tries", "");
-    folder.write("sleep", "#!/bin/sh\n");
-    const std::string line =
-        fmt::format("chmod +x {0}/sleep; PATH={0}:$PATH SLURM_JOB_ID=9 SLURM_ARRAY_TASK_ID=2 sh {1}", folder.path(""),
-                    in_folder("frames-1.sbatch"));
-    EXPECT_EQ(run_line(line).code, code);
-    EXPECT_EQ(folder.read("tries").size(), 2u * static_cast<size_t>(tries)) << code;
-    EXPECT_EQ(folder.read("film's.farm/ended/frames.2"), fmt::format("{}\n", code));
-  }
-}
-
-TEST_F(Schedulers, SlurmSendsGroupsInOrderAndCancelsWhatIsAlone) {
-  wishes.largest_array = 9;
-  write(Scheduler::kSlurm);
-  folder.write("sbatch", "#!/bin/sh\nn=$(cat " + folder.path("n") + ")\n[ $n != \"$FAIL\" ] || exit 1\nn=$((n + 1))\n" +
-                             "echo $n >" + folder.path("n") + "\nprintf '%s\\n' \"$@\" >>" + folder.path("log") +
-                             "\necho \"$n;farm\"\n");
-  folder.write("scancel", "#!/bin/sh\necho \"$@\" >" + folder.path("cancelled") + "\n");
-  const std::string line =
-      fmt::format("chmod +x {0}/sbatch {0}/scancel; PATH={0}:$PATH sh {1}", folder.path(""), in_folder("submit.sh"));
-  folder.write("n", "70");
-  const Ran all = run_line(line);
-  EXPECT_EQ(all.code, 0);
-  EXPECT_EQ(all.out,
-            "71 frames-1.sbatch ods:frames:0\n72 frames-2.sbatch ods:frames:8\n73 video-1.sbatch ods:video:0\n");
-  const std::string log = folder.read("log");
-  EXPECT_NE(log.find("--comment=ods:frames:8:" + plan.folder + "\n"), std::string::npos) << log;
-  EXPECT_NE(log.find("--dependency=afterok:71:72\n"), std::string::npos) << log;
-  folder.write("n", "70");
-  EXPECT_NE(run_line("export FAIL=72; " + line).code, 0);
-  EXPECT_EQ(folder.read("cancelled"), "71 72\n");
-}
-
-TEST_F(Schedulers, OpenJdIsAJobTemplateOfTheBaseSpecification) {
-  set_names({"it's a \"scene\".glb", "$HOME `id` 日本.glb"});
-  plan.paths.push_back({"/disk/views", false, true});
-  plan.groups[0].command.push_back("/disk/views/####.exr");
-  const std::vector<FarmFile> files = write(Scheduler::kOpenJd);
-  const json job = json::parse(text_of(files, "template.json"));
-  const json values = json::parse(text_of(files, "parameter_values.json"));
-  EXPECT_EQ(job["specificationVersion"], "jobtemplate-2023-09");
-  EXPECT_FALSE(job.contains("extensions"));
-  EXPECT_LE(job["name"].get<std::string>().size(), 128u);
-  std::map<std::string, std::string> value;
-  for (const json& each : values["parameterValues"]) value["Param." + each["name"].get<std::string>()] = each["value"];
-  ASSERT_EQ(job["parameterDefinitions"].size(), value.size());
-  for (const json& each : job["parameterDefinitions"]) {
-    EXPECT_TRUE(value.contains("Param." + each["name"].get<std::string>()));
-    EXPECT_TRUE(each["type"] == "PATH" || each["type"] == "STRING");
-    const json flow = each["name"] == "Output1" ? "OUT" : "IN";
-    EXPECT_TRUE(each["type"] != "PATH" || each["dataFlow"] == flow) << each;
-  }
-  ASSERT_EQ(job["steps"].size(), 2u);
-  EXPECT_EQ(job["steps"][0]["parameterSpace"]["taskParameterDefinitions"],
-            json::parse(R"([{"name": "Task", "type": "INT", "range": "1-12"}])"));
-  EXPECT_EQ(job["steps"][1]["dependencies"], json::parse(R"([{"dependsOn": "frames"}])"));
-  value["Task.Param.Task"] = "7";
-  for (size_t step = 0; step < 2; step++) {
-    const json& action = job["steps"][step]["script"]["actions"]["onRun"];
-    EXPECT_EQ(action["cancelation"]["mode"], "NOTIFY_THEN_TERMINATE");
-    EXPECT_LE(action["cancelation"]["notifyPeriodInSeconds"], 600);
-    std::string lines;
-    for (std::string word : action["args"]) {
-      EXPECT_LE(word.size(), 1024u);
-      for (const auto& [name, to] : value) {
-        const size_t at = word.find("{{" + name + "}}");
-        if (at != std::string::npos) word.replace(at, name.size() + 4, to);
-      }
-      EXPECT_EQ(word.find("{{"), std::string::npos) << word;
-      lines += word + "\n";
-    }
-    EXPECT_EQ(lines, expected(step, 7, {"--progress", "openjd"}));
-  }
-}
-
-// The part of cjsl-1.16 that is used, by the order that OpenCue expects.
-constexpr const char* kDtd =
-    "<!ELEMENT spec (facility?,dept?,show,shot,user,email?,uid?,job*,depends*)>\n"
-    "<!ELEMENT job (paused?,priority?,maxretries?,maxcores?,os?,env*,layers?)><!ATTLIST job name NMTOKEN #REQUIRED>\n"
-    "<!ELEMENT layers (layer+)>\n"
-    "<!ELEMENT layer (cmd,range,chunk,cores?,threadable?,memory?,tags?,env*,services?)>\n"
-    "<!ATTLIST layer name NMTOKEN #REQUIRED type (Render | Util | Post) #REQUIRED>\n"
-    "<!ELEMENT services (service+)><!ELEMENT depends (depend*)>\n"
-    "<!ELEMENT depend (depjob,deplayer?,depframe?,onjob,onlayer?,onframe?)>\n"
-    "<!ATTLIST depend anyframe NMTOKEN #IMPLIED type (LAYER_ON_LAYER|FRAME_BY_FRAME) #REQUIRED>\n";
-
-TEST_F(Schedulers, OpenCueIsValidAndItsCommandsAreOurs) {
-  for (const char* program : {"xmllint", "python3"}) {
-    const std::string why = missing(program, std::string("command -v ") + program);
-    if (!why.empty()) GTEST_SKIP() << why;
-  }
-  const std::vector<FarmFile> files = write(Scheduler::kOpenCue);
-  std::string dtd = kDtd;
-  for (const char* leaf : {"show", "shot", "user", "uid", "paused", "maxretries", "cmd", "range", "chunk", "cores",
-                           "threadable", "memory", "service", "depjob", "deplayer", "onjob", "onlayer"}) {
-    dtd += fmt::format("<!ELEMENT {} (#PCDATA)*>\n", leaf);
-  }
-  folder.write("cue.dtd", dtd);
-  const Ran valid =
-      run_line("xmllint --nonet --noout --dtdvalid " + folder.path("cue.dtd") + " " + in_folder("job.xml"));
-  EXPECT_EQ(valid.code, 0) << valid.out;
-  const std::string commands = by_python(
-      "import xml.etree.ElementTree as E, json\n"
-      "print(json.dumps([[l.get('name'), l.find('cmd').text, l.find('range').text] for l in "
-      "E.fromstring(text).iter('layer')]))",
-      "job.xml");
-  const json layers = json::parse(commands);
-  ASSERT_EQ(layers.size(), 2u) << commands;
-  EXPECT_EQ(layers[0][2], "1-12");
-  for (size_t group = 0; group < 2; group++) {
-    std::string line = layers[group][1];
-    const size_t at = line.find("#IFRAME#");
-    if (group == 0) line.replace(at, 8, "11");
-    EXPECT_EQ(run_line(line).code, 0);
-    EXPECT_EQ(said(), expected(group, 11));
-  }
-}
 
 // Flamenco runs the script in an engine of its own; node knows the same language.
 TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
@@ -270,40 +53,6 @@ TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 13u);
 }
 
-TEST_F(Schedulers, KubernetesIsAnIndexedJobThatStopsOnWrongCommands) {
-  if (const std::string why = missing("python3-yaml", "python3 -c 'import yaml'"); !why.empty()) GTEST_SKIP() << why;
-  plan.cpus = 3;
-  const std::vector<FarmFile> files = write(Scheduler::kKubernetes);
-  for (size_t group = 0; group < 2; group++) {
-    const std::string file = group == 0 ? "frames.yaml" : "video.yaml";
-    const json job = json::parse(by_python("import yaml, json\nprint(json.dumps(yaml.safe_load(text)))", file));
-    EXPECT_EQ(job["apiVersion"], "batch/v1");
-    EXPECT_EQ(job["metadata"]["name"], group == 0 ? "film-1-frames" : "film-1-video");
-    const json& spec = job["spec"];
-    EXPECT_EQ(spec["completionMode"], "Indexed");
-    EXPECT_EQ(spec["completions"], group == 0 ? 12 : 1);
-    EXPECT_EQ(spec["backoffLimitPerIndex"], 2);
-    EXPECT_EQ(spec["podFailurePolicy"]["rules"][0], json::parse(R"({"action": "FailJob",
-                "onExitCodes": {"containerName": "ods", "operator": "In", "values": [2]}})"));
-    EXPECT_EQ(spec["template"]["spec"]["restartPolicy"], "Never");  // as podFailurePolicy wants
-    const json& container = spec["template"]["spec"]["containers"][0];
-    EXPECT_EQ(container["resources"]["limits"], json::parse(R"({"cpu": 3, "memory": "4Mi"})"));
-    EXPECT_EQ(container["command"][0], "/bin/sh");
-    std::string line = container["command"][2];
-    for (size_t at = 0; (at = line.find("$$", at)) != std::string::npos; at++) line.erase(at, 1);  // as Kubernetes does
-    EXPECT_EQ(run_line("JOB_COMPLETION_INDEX=6 sh -c " + shell_word(line)).code, 0);
-    EXPECT_EQ(said(), expected(group, 7, {"--threads", "3"}));
-  }
-  folder.write("kubectl", "#!/bin/sh\necho \"$@\"\n");
-  const Ran ran =
-      run_line(fmt::format("chmod +x {0}/kubectl; PATH={0}:$PATH sh {1}", folder.path(""), in_folder("submit.sh")));
-  EXPECT_EQ(
-      ran.out,
-      "apply -f frames.yaml\nwait --for=condition=complete --timeout=-1s job/film-1-frames\napply -f video.yaml\n");
-  wishes.mount = "/elsewhere";
-  EXPECT_THROW(write_kubernetes(plan, wishes), Error);
-}
-
 TEST_F(Schedulers, DeadlineGetsAPairOfFilesPerJob) {
   if (const std::string why = missing("python3", "command -v python3"); !why.empty()) GTEST_SKIP() << why;
   EXPECT_THROW(write_deadline(plan, wishes), Error) << "it cannot be told of quotes";
@@ -332,12 +81,39 @@ TEST_F(Schedulers, DeadlineGetsAPairOfFilesPerJob) {
   EXPECT_NE(sent.find("JobDependencies=abc123\n"), std::string::npos);
 }
 
+// It may fail by its exit code, by what it prints, or with the second job only.
+TEST_F(Schedulers, DeadlineStopsAtAJobThatIsNotTaken) {
+  set_names({"scene.glb"});
+  write(Scheduler::kDeadline);
+  struct Failure {
+    std::string command;
+    std::string out;
+    size_t asked;
+  };
+  const std::string why = "submit.sh: deadlinecommand has not taken ";
+  const std::vector<Failure> failures = {
+      {"echo JobID=abc123; exit 3", "JobID=abc123\n" + why + "frames (exit code 3); nothing behind it was sent\n", 1},
+      {"echo 'Error: no plug-in'", "Error: no plug-in\n" + why + "frames (exit code 0); nothing behind it was sent\n",
+       1},
+      {"case $1 in video*) exit 1 ;; esac; echo JobID=abc-123",
+       "abc-123 frames\n\n" + why + "video (exit code 1); nothing behind it was sent\n", 2}};
+  for (const Failure& failure : failures) {
+    folder.write("asked", "");
+    folder.write("deadlinecommand", "#!/bin/sh\necho x >>" + folder.path("asked") + "\n" + failure.command + "\n");
+    const Ran ran = run_line(
+        fmt::format("chmod +x {0}/deadlinecommand; PATH={0}:$PATH sh {1}", folder.path(""), in_folder("submit.sh")));
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.out, failure.out);
+    EXPECT_EQ(folder.read("asked").size(), 2 * failure.asked);
+  }
+}
+
 // Of a hundred thousand tasks: as long as one of ten, but for Slurm's arrays.
 TEST_F(Schedulers, ManyTasksAreFewFiles) {
   plan.groups[0].tasks = 100'000;
   for (const SchedulerRow& row : kSchedulerTable) {
     if (row.member == Scheduler::kDeadline) set_names({"a.glb"}), plan.groups[0].tasks = 100'000;
-    wishes.mount = "/disk";
+    wishes.mount = "/disk", plan.cpus = 4;
     const std::vector<FarmFile> files = row.write(plan, wishes);
     EXPECT_TRUE(files.size() <= 5 || row.member == Scheduler::kSlurm) << row.name;
     EXPECT_EQ(files.size() == 102, row.member == Scheduler::kSlurm) << row.name;

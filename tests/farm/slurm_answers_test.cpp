@@ -13,8 +13,8 @@ namespace ods {
 namespace {
 
 std::string word(const SlurmTask& t) {
-  return fmt::format("{} {} {} {} {} {} {:g}", t.job, t.folder, t.group, t.number, name_in(kTaskStateTable, t.state),
-                     t.word, t.seconds);
+  return fmt::format("{} {} {} {} {} {} {:g}{}{}", t.job, t.folder, t.group, t.number,
+                     name_in(kTaskStateTable, t.state), t.word, t.seconds, t.node.empty() ? "" : " on ", t.node);
 }
 
 std::vector<std::string> words(const std::vector<SlurmTask>& tasks) {
@@ -25,15 +25,15 @@ std::vector<std::string> words(const std::vector<SlurmTask>& tasks) {
 
 TEST(SlurmAnswers, LinesOfTheQueue) {
   const std::string text =
-      "7|3|RUNNING|1:05|ods:frames:0:/disk/film.farm\n"
-      "7|4|PENDING|0:00|ods:frames:0:/disk/film.farm\n"
-      "8|1|COMPLETING|1-02:03:04|ods:frames:1000:/disk/film.farm\n"
-      "9|N/A|COMPLETED|0:09|ods:video:0:/disk/with | and : in it.farm\n"
-      "10|2|NODE_FAIL|INVALID|ods:parts:0:/x.farm\n"
-      "11|2|A_STATE_OF_TOMORROW|0:01|ods:parts:0:/x.farm\n";
-  const std::vector<std::string> expected = {"7 /disk/film.farm frames 3 running RUNNING 65",
+      "7|3|RUNNING|1:05|node7|ods:frames:0:/disk/film.farm\n"
+      "7|4|PENDING|0:00||ods:frames:0:/disk/film.farm\n"
+      "8|1|COMPLETING|1-02:03:04|node8|ods:frames:1000:/disk/film.farm\n"
+      "9|N/A|COMPLETED|0:09|node8|ods:video:0:/disk/with | and : in it.farm\n"
+      "10|2|NODE_FAIL|INVALID|node7|ods:parts:0:/x.farm\n"
+      "11|2|A_STATE_OF_TOMORROW|0:01||ods:parts:0:/x.farm\n";
+  const std::vector<std::string> expected = {"7 /disk/film.farm frames 3 running RUNNING 65 on node7",
                                              "7 /disk/film.farm frames 4 waiting PENDING 0",
-                                             "8 /disk/film.farm frames 1001 running COMPLETING 93784",
+                                             "8 /disk/film.farm frames 1001 running COMPLETING 93784 on node8",
                                              "9 /disk/with | and : in it.farm video 1 done COMPLETED 9",
                                              "10 /x.farm parts 2 failed NODE_FAIL 0",
                                              "11 /x.farm parts 2 failed A_STATE_OF_TOMORROW 1"};
@@ -41,9 +41,9 @@ TEST(SlurmAnswers, LinesOfTheQueue) {
 }
 
 TEST(SlurmAnswers, OtherPeoplesJobsAndNonsenseAreLeftOut) {
-  for (const std::string line : {"", "\n\n", "squeue: error", "1|2|RUNNING|0:01|(null)",
-                                 "1|2|RUNNING|0:01|ods:", "1|2|RUNNING|0:01|ods:frames:x:/a",
-                                 "1|2||0:01|ods:frames:0:/a", "||||", "1|2|RUNNING"}) {
+  for (const std::string line : {"", "\n\n", "squeue: error", "1|2|RUNNING|0:01|node7|(null)",
+                                 "1|2|RUNNING|0:01|node7|ods:", "1|2|RUNNING|0:01|node7|ods:frames:x:/a",
+                                 "1|2||0:01|node7|ods:frames:0:/a", "||||", "1|2|RUNNING"}) {
     EXPECT_TRUE(read_queue(line).empty()) << line;
   }
   for (const std::string text : {"", "{}", "[]", "{\"jobs\": 5}", "slurm_load_jobs error"}) {
@@ -63,7 +63,7 @@ TEST(SlurmAnswers, OtherPeoplesJobsAndNonsenseAreLeftOut) {
 TEST(SlurmAnswers, JsonOldAndNew) {
   const std::string old = R"({"meta": {}, "jobs": [
     {"array_job_id": 7, "array_task_id": 3, "array_task_string": "", "comment": "ods:frames:0:/f.farm", "job_id": 9,
-     "job_state": "RUNNING", "start_time": 1000, "end_time": 32000000},
+     "job_state": "RUNNING", "nodes": "node7", "start_time": 1000, "end_time": 32000000},
     {"array_job_id": 7, "array_task_id": null, "array_task_string": "4-5,9%8", "comment": "ods:frames:0:/f.farm",
      "job_id": 7, "job_state": "PENDING", "start_time": 0, "end_time": 0},
     {"array_job_id": 0, "array_task_id": null, "array_task_string": "", "comment": "ods:video:0:/f.farm", "job_id": 8,
@@ -74,7 +74,7 @@ TEST(SlurmAnswers, JsonOldAndNew) {
     {"array_job_id": )" + number("7") +
                             R"(, "array_task_id": )" + number("3") +
                             R"(, "array_task_string": "", "comment": "ods:frames:0:/f.farm", "job_id": 9,
-     "job_state": ["RUNNING"], "start_time": )" +
+     "job_state": ["RUNNING"], "nodes": "node7", "start_time": )" +
                             number("1000") + R"(, "end_time": )" + number("32000000") + R"(},
     {"array_job_id": )" + number("7") +
                             R"(, "array_task_id": )" + none +
@@ -87,7 +87,7 @@ TEST(SlurmAnswers, JsonOldAndNew) {
      "job_state": ["COMPLETED"], "start_time": )" +
                             number("900") + R"(, "end_time": )" + number("950") + R"(}]})";
   const std::vector<std::string> expected = {
-      "7 /f.farm frames 3 running RUNNING 60", "7 /f.farm frames 4 waiting PENDING 0",
+      "7 /f.farm frames 3 running RUNNING 60 on node7", "7 /f.farm frames 4 waiting PENDING 0",
       "7 /f.farm frames 5 waiting PENDING 0", "7 /f.farm frames 9 waiting PENDING 0",
       "8 /f.farm video 1 done COMPLETED 50"};
   for (const std::string& text : {old, fresh}) {

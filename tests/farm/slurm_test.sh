@@ -158,7 +158,7 @@ test_a_node_dies() {
   "$ods" jobs
   timeout 900 "$ods" jobs film_360_TB --follow >"$here/followed" || die "the video: $(cat "$here/followed")"
   timeout 900 "$ods" jobs still --follow >>"$here/followed" || die "the picture: $(cat "$here/followed")"
-  grep -l "try 1" "$here"/farm/*.farm/logs/*.log | xargs grep -c "try 1" | grep -v ':1$' || die "nothing was requeued"
+  grep -c . "$here"/farm/*.farm/starts/* | grep -v ':1$' || die "nothing was requeued"
   for file in "$here"/one/film_360_TB.mp4.frames/frame.*.exr; do
     cmp "$file" "$here/farm/film_360_TB.mp4.frames/$(basename "$file")" || die "a frame differs"
   done
@@ -172,9 +172,23 @@ test_a_task_fails() {
   "$ods" submit -q --to slurm --chunk 2 -- video "$here/gone.gltf" -o "$here/farm/gone_360_TB.mp4" --frames 1-2 --width 32
   rm "$here/gone.gltf"
   if timeout 300 "$ods" jobs gone_360_TB --follow >"$here/followed" 2>&1; then die "a failed task is not said"; fi
-  grep "gone_360_TB frames 1: exit code 3: ods: error: .*gone.gltf" "$here/followed" || die "$(cat "$here/followed")"
+  grep "gone_360_TB frames 1: on one, exit code 3: ods: error: .*gone.gltf" "$here/followed" || die "$(cat "$here/followed")"
   [ "$(grep -c "^frames 1 of 1, try" "$here/farm/gone_360_TB.farm/logs/frames.1.log")" = 3 ] || die "it was not tried thrice"
   say "a task that fails three times is shown with its last line"
+}
+
+# A limit of a minute is announced at once.
+test_a_frame_is_too_long() {
+  slurmd -N two
+  wait_for 60 "the node two" scontrol update NodeName=two State=RESUME
+  wait_for 60 "two nodes" sh -c '[ "$(sinfo --noheader --states=idle --format=%D)" = 2 ]'
+  "$ods" submit -q --to slurm --chunk 2 --sbatch --time=1 -- video room --frames 1-2 --width 2048 --samples 64 --threads 1 \
+    -o "$here/farm/long_360_TB.mp4"
+  if timeout 400 "$ods" jobs long_360_TB --follow >"$here/followed" 2>&1; then die "a frame that never ends is not said"; fi
+  grep "long_360_TB frames 1: on one, two, exit code 143: ods: error: the time limit was over three times" "$here/followed" ||
+    die "$(cat "$here/followed")"
+  [ "$(sort -u "$here/farm/long_360_TB.farm/starts/frames.1" | wc -l)" = 2 ] || die "it was not tried on another node"
+  say "a frame that is longer than the time limit ends after three starts, on both nodes"
 }
 
 test_cancel_and_go_on() {
@@ -228,5 +242,6 @@ fi
 test_a_node_dies
 if [ "${2:-}" = quick ]; then exit; fi
 test_a_task_fails
+test_a_frame_is_too_long
 test_cancel_and_go_on
 say "passed"
