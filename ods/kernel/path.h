@@ -65,6 +65,7 @@ struct PathTracer : LightCacheReader {
     path.other_radiance = vec3(0.0f);
     path.alone_radiance = vec3(0.0f);
     path.caught = false;
+    path.mirrored = false;
     path.depth = -1.0f;
     path.normal = vec3(0.0f);
     path.albedo = vec3(0.0f);
@@ -190,13 +191,16 @@ struct PathTracer : LightCacheReader {
   // A ground that goes over into the background has next to no normal and no albedo, as that, or a denoiser would keep
   // them apart. But some normal, as bare sky is what has none.
   // Behind clear glass it is the surface there: that is what one sees.
-  inline void note_first_hit(Surface surface, float t, bool fades) {
-    path.depth = path.travelled + t;
+  // A mirror has its own depth, but the normal and the albedo of what it shows.
+  inline void note_hit(Surface surface, float t, bool fades) {
+    if (path.bounce == 0) path.depth = path.travelled + t;
     path.normal = fades ? 0.01f * surface.normal : surface.normal;
     path.albedo = vec3(0.0f);
+    path.mirrored = !fades && !surface.layered && surface.metallic > 0.9f &&
+                    surface.roughness * surface.roughness < kSmoothAlpha;
     if (fades) return;
     path.albedo = surface.layered ? albedo_of_layers(surface, path.ray.direction) : surface.base_color;
-    if (path.passed > 0) path.albedo = path.albedo * min(path.throughput, vec3(1.0f));
+    if (path.bounce + path.passed > 0) path.albedo = path.albedo * min(path.throughput, vec3(1.0f));
   }
 
   // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is not in the light table.
@@ -333,7 +337,9 @@ struct PathTracer : LightCacheReader {
       return;
     }
 
-    if (path.bounce == 0) note_first_hit(surface, hit.t, scene_instance(hit.instance).role == kFadingGround);
+    if (path.bounce == 0 || path.mirrored) {
+      note_hit(surface, hit.t, scene_instance(hit.instance).role == kFadingGround);
+    }
     if (unlit) {
       add_light(path.throughput * surface.base_color, path.throughput * surface.base_color);
       path.alive = false;

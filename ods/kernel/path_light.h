@@ -82,6 +82,7 @@ struct PathState {
   vec3 vertex_radiance;  // what the path had found by then
 
   // The first hit, for the layers beside the picture.
+  bool mirrored;  // the path has met mirrors only
   float depth;  // along the camera ray from its own origin; negative: the ray hit nothing
   vec3 normal;
   vec3 albedo;
@@ -195,6 +196,7 @@ struct PathLight : MediumReader {
       path.depth = -1.0f;
       meet_light(settings, background_radiance(path.ray.direction), 0.0f);
     } else {
+      if (path.mirrored) path.normal = path.albedo = vec3(0.0f);
       vec3 from = path.ray.origin - path.ray.direction * path.travelled;
       meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(from, path.ray.direction));
     }

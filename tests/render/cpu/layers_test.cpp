@@ -4,6 +4,8 @@
 // What stands beside the radiance: layers, variance and number of samples.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "ods/render/cpu/render.h"
 #include "ods/render/render_target.h"
 #include "tests/support/pictures.h"
@@ -47,6 +49,37 @@ TEST(Layers, CanBeLeftOut) {
   EXPECT_EQ(picture_bytes(options), 32u * 16 * (3 * sizeof(float) + 28));
   EXPECT_EQ(bare.eyes[0].radiance.pixels, whole.eyes[0].radiance.pixels);
   EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
+}
+
+// So denoisers know the edges of what a mirror shows. Its depth is its own: that is where the eyes meet it.
+TEST(Layers, MirrorsShowWhatTheyReflect) {
+  Scene scene;
+  Material mirror = default_material();
+  mirror.base_color = vec4(0.5f, 1.0f, 1.0f, 1.0f);
+  mirror.metallic = 1.0f;
+  mirror.roughness = 0.0f;
+  const auto plane = [&](float y, int material) {
+    add_rectangle(scene, vec3(-300, y, 300), vec3(600, 0, 0), vec3(0, 0, -600), material);
+  };
+  plane(-1.0f, add_material(scene, mirror));
+  const auto lowest = [&] {
+    const EyeImage eye = render_cpu(scene, StereoCamera{}, small_render(32, 4)).eyes[0];
+    const float* n = eye.normal.at(16, 15);
+    const float* a = eye.albedo.at(16, 15);
+    return std::array{eye.depth.at(16, 15)[0], n[1], a[0], a[1]};
+  };
+  const auto sky = lowest();
+  EXPECT_NEAR(sky[0], 1.0f, 0.02f);
+  EXPECT_EQ(sky[1], 0.0f);
+  EXPECT_EQ(sky[2], 0.0f);
+  Material red = matte(vec3(0.8f, 0.2f, 0.2f));
+  red.double_sided = 1;
+  plane(2.0f, add_material(scene, red));
+  const auto ceiling = lowest();
+  EXPECT_NEAR(ceiling[0], 1.0f, 0.02f);
+  EXPECT_NEAR(ceiling[1], -1.0f, 1e-3f);
+  EXPECT_NEAR(ceiling[2], 0.4f, 1e-3f);
+  EXPECT_NEAR(ceiling[3], 0.2f, 1e-3f);
 }
 
 }  // namespace
