@@ -3,11 +3,10 @@
 #include "cli/view/studio.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +17,7 @@
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
-#include "ods/files/atomic_file.h"
+#include "ods/files/read_file.h"
 #include "ods/image/format/file_format.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
@@ -31,6 +30,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
 constexpr int kMostWidth = 16384;
+constexpr size_t kMostOfCamera = size_t{1} << 20;  // bytes
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
@@ -65,15 +65,11 @@ void read_body(const std::string& body, const Read& read) {
   read(reader);
 }
 
-// Removes a file of ours, and lets its name be that of another.
-void replace_file(std::string& path, const std::string& by) {
-  if (!path.empty()) {
-    ods::forget_unfinished(path.c_str());
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-  path = by;
-  if (!path.empty()) ods::remember_unfinished(path.c_str());
+// The name of a file, without its folder and without what confuses a terminal.
+std::string plain_name(const std::string& given) {
+  std::string name = given.substr(given.find_last_of("/\\") + 1);
+  std::erase_if(name, [](unsigned char c) { return std::iscntrl(c) != 0; });
+  return name;
 }
 
 template <class Names>
@@ -95,40 +91,60 @@ Json ranges_json() {
 }  // namespace
 
 Studio::Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item)
-    : source_(source), add_item_(std::move(add_item)) {
-  open();
-  begin();
+    : add_item_(std::move(add_item)), drops_((std::filesystem::temp_directory_path() / "ods-view-").native()) {
+  open(source, true);
 }
 
-Studio::~Studio() {
-  replace_file(dropped_scene_, "");
-  replace_file(dropped_light_, "");
+Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& scene) {
+  Settings settings;
+  settings.sidecar.camera = place_camera(CameraOptions(), scene);
+  settings.live.camera = settings.sidecar.camera;
+  settings.live.exposure = usual_exposure(scene, settings.live.camera, ods::find_builtin(source.name) != nullptr);
+  settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;
+  settings.variant = source.variant;
+  return settings;
 }
 
-// The settings that suit a scene.
-void Studio::begin() {
-  usual_ = Settings();
-  usual_.sidecar.camera = place_camera(CameraOptions(), *scene_);
-  usual_.live.camera = usual_.sidecar.camera;
-  usual_.live.exposure = usual_exposure(*scene_, usual_.live.camera, ods::find_builtin(source_.name) != nullptr);
-  usual_.environment = source_.light.environment.empty() ? "auto" : source_.light.environment;
-  usual_.variant = source_.variant;
-  settings_ = usual_;
-  live_->set(settings_.live, settings_.look);
-}
-
-void Studio::open() {
+// Another scene, with the settings that suit it, or another light of the same. Nothing changes if it throws.
+void Studio::open(const SceneSource& source, bool is_new) {
   struct Opened {
     explicit Opened(ods::Scene wanted) : scene(std::move(wanted)), live(scene, 0) {}
     ods::Scene scene;
     ods::LiveRender live;
   };
-  auto scene = open_lit_scene(source_, false);
+  const auto opened = std::make_shared<Opened>(open_lit_scene(source, false));
+  if (is_new) usual_ = settings_ = suiting(source, opened->scene);
   if (live_) live_->end();
-  const auto opened = std::make_shared<Opened>(std::move(scene));
+  source_ = source;
   scene_ = {opened, &opened->scene};
   live_ = {opened, &opened->live};
   duration_ = length_of(scene_->animation);
+  if (is_new) live_->set(settings_.live, settings_.look);
+}
+
+// The scene as its user knows it.
+std::string Studio::title() const {
+  return dropped_scene_.path.empty() ? source_.name : dropped_scene_.name;
+}
+
+// What --env takes for a word of the page.
+std::string Studio::environment_of(const std::string& word) const {
+  if (!dropped_light_.path.empty() && word == dropped_light_.name) return dropped_light_.path;
+  return word == "auto" ? "" : word;
+}
+
+// A message for the page: names of our own files mean nothing to its user, and say where this machine has what.
+std::string Studio::without_paths(std::string text) const {
+  const auto replace = [&](const std::string& path, const std::string& name) {
+    for (size_t at = 0; !path.empty() && (at = text.find(path, at)) != std::string::npos; at += name.size()) {
+      text.replace(at, path.size(), name);
+    }
+  };
+  replace(dropped_scene_.path, dropped_scene_.name);
+  replace(dropped_light_.path, dropped_light_.name);
+  replace(drops_.path() + "/", "");
+  replace(drops_.path(), "what was dropped");
+  return text;
 }
 
 Json Studio::settings_json(const Settings& settings) {
@@ -143,7 +159,7 @@ Json Studio::settings_json(const Settings& settings) {
 
 Json Studio::description() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Json json = {{"scene", std::filesystem::path(source_.name).filename().string()},
+  Json json = {{"scene", std::filesystem::path(title()).filename().string()},
                {"settings", settings_json(usual_)},
                {"ranges", ranges_json()},
                {"merges", ods::names_of(ods::kMergeTable)},
@@ -192,9 +208,10 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
 WebAnswer Studio::set(const std::string& body) {
   const Settings wanted = read_settings(body);
   if (wanted.environment != settings_.environment || wanted.variant != settings_.variant) {
-    source_.light.environment = wanted.environment == "auto" ? "" : wanted.environment;
-    source_.variant = wanted.variant;
-    open();
+    SceneSource source = source_;
+    source.light.environment = environment_of(wanted.environment);
+    source.variant = wanted.variant;
+    open(source, false);
   }
   settings_ = wanted;
   const int revision = live_->set(settings_.live, settings_.look);
@@ -203,15 +220,18 @@ WebAnswer Studio::set(const std::string& body) {
 
 // The command that renders what the page shows; empty: a name and a quality for people to read.
 std::vector<std::string> Studio::words(const std::string& output, const std::string& quality) const {
-  const std::string stem = std::filesystem::path(source_.name).stem().string();
-  std::vector<std::string> words = {"ods", "render", source_.name};
+  const bool is_shown = output.empty();
+  const std::string stem = std::filesystem::path(title()).stem().string();
+  std::vector<std::string> words = {"ods", "render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
   if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
   if (source_.solid_glass) words.emplace_back("--solid-glass");
   if (source_.unit != "auto") add("--unit", source_.unit);
-  if (!source_.confine.empty()) add("--confine", source_.confine);
-  if (settings_.environment != "auto") add("--env", settings_.environment);
+  if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
+  if (settings_.environment != "auto") {
+    add("--env", is_shown ? settings_.environment : environment_of(settings_.environment));
+  }
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");
@@ -238,7 +258,10 @@ WebAnswer Studio::frame(const WebRequest& request) {
   }
   const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
   const std::string fault = live->fault();
-  if (!fault.empty()) throw ods::Error(ods::ErrorKind::kInput, fault);
+  if (!fault.empty()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    throw ods::Error(ods::ErrorKind::kInput, without_paths(fault));
+  }
   if (!frame) return {.status = 204};
   const std::string head = Json({{"number", frame->number},
                                  {"revision", frame->revision},
@@ -312,62 +335,71 @@ WebAnswer Studio::render(const std::string& body) {
 WebAnswer Studio::job() {
   const RenderProcess::Status status = process_.status();
   if (status.state == "done" && !output_.empty()) item_ = add_item_(std::exchange(output_, ""));
-  Json json = {{"state", status.state}, {"done", status.done}, {"left", status.left}, {"text", status.text}};
+  Json json = {
+      {"state", status.state}, {"done", status.done}, {"left", status.left}, {"text", without_paths(status.text)}};
   if (status.state == "done" && item_) json["item"] = *item_;
   return json_answer(json);
 }
 
 WebAnswer Studio::status() const {
   const std::string fault = live_->fault();
-  return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", fault}});
+  return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", without_paths(fault)}});
 }
 
-// A file that was dropped onto the page: another scene, another light, or a camera.
+void Studio::discard(const Drop& drop) {
+  std::error_code ignored;
+  if (!drop.path.empty()) std::filesystem::remove(drop.path, ignored);
+}
+
+WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) {
+  const std::vector<unsigned char> bytes = ods::read_file(path, kMostOfCamera);
+  std::vector<std::string> warnings;
+  const ods::Sidecar sidecar = ods::read_sidecar(std::string(bytes.begin(), bytes.end()), name, warnings);
+  const std::string fault = camera_fault(sidecar.camera);
+  if (!fault.empty()) throw UsageError("the camera's " + fault);
+  settings_.sidecar = sidecar;
+  settings_.live.camera = sidecar.camera;
+  live_->set(settings_.live, settings_.look);
+  return json_answer({{"what", "camera"}, {"settings", settings_json(settings_)}});
+}
+
+// A file that was dropped onto the page: another scene, another light, or a camera. What it names, as a scene names its
+// textures, is read from our own folder only.
 WebAnswer Studio::drop(const WebRequest& request) {
-  const std::string name = std::filesystem::path(value_of(request, "name")).filename().string();
+  const std::string name = plain_name(value_of(request, "name"));
   const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
-  const auto answer = [&](const char* what) {
-    return json_answer({{"what", what}, {"settings", settings_json(settings_)}});
-  };
-  if (kind == ".json") {
-    std::vector<std::string> warnings;
-    settings_.sidecar = ods::read_sidecar(request.body, name, warnings);
-    settings_.live.camera = settings_.sidecar.camera;
-    live_->set(settings_.live, settings_.look);
-    return answer("camera");
-  }
+  if (kind == ".json") return drop_camera(name, request.file);
   const bool is_scene = kind == ".glb" || kind == ".zip", is_light = kind == ".hdr" || kind == ".exr";
   if (!is_scene && !is_light) throw UsageError("drop a .glb or .zip, an .hdr or .exr, or a .camera.json");
-  const std::string path =
-      (std::filesystem::temp_directory_path() / fmt::format("ods-view-{}-{}", getpid(), is_scene ? "scene" : "light"))
-          .string() +
-      kind;
-  const SceneSource before = source_;
-  ods::write_file(path, request.body);
-  replace_file(is_scene ? dropped_scene_ : dropped_light_, path);
+  const Drop drop{name, fmt::format("{}/{}{}", drops_.path(), ++drop_count_, kind)};
+  std::filesystem::rename(request.file, drop.path);
+  Drop& place = is_scene ? dropped_scene_ : dropped_light_;
+  const Drop before = std::exchange(place, drop);
+  SceneSource source = is_scene ? SceneSource() : source_;
   if (is_scene) {
-    source_ = SceneSource();
-    source_.name = path;
+    source.name = drop.path;
+    source.confine = drops_.path();
   } else {
-    source_.light.environment = path;
+    source.light.environment = drop.path;
   }
   try {
-    open();
-  } catch (const ods::Error&) {
-    source_ = before;
-    throw;
+    open(source, is_scene);
+  } catch (const std::exception& error) {
+    const std::string why = without_paths(error.what());
+    place = before;
+    discard(drop);
+    throw ods::Error(ods::ErrorKind::kInput, why);
   }
-  if (is_scene) {
-    begin();
-  } else {
-    settings_.environment = usual_.environment = path;
-    live_->set(settings_.live, settings_.look);
-  }
-  return answer(is_scene ? "scene" : "environment");
+  discard(before);
+  if (is_scene) discard(std::exchange(dropped_light_, {}));
+  if (is_scene) return json_answer({{"what", "scene"}, {"settings", settings_json(settings_)}});
+  settings_.environment = usual_.environment = name;
+  live_->set(settings_.live, settings_.look);
+  return json_answer({{"what", "environment"}, {"settings", settings_json(settings_)}});
 }
 
 WebAnswer Studio::save() {
-  const std::string stem = std::filesystem::path(source_.name).stem().string();
+  const std::string stem = std::filesystem::path(title()).stem().string();
   for (int i = 1; saved_.empty(); i++) {  // a file of somebody else stays
     const std::string name = stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".camera.json";
     if (!std::filesystem::exists(name)) saved_ = name;
@@ -381,6 +413,14 @@ WebAnswer Studio::save() {
 WebAnswer Studio::answer(const WebRequest& request) {
   if (request.path == "studio/frame") return frame(request);
   const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    return route(request);
+  } catch (const ods::Error& error) {
+    throw ods::Error(error.kind(), without_paths(error.what()));
+  }
+}
+
+WebAnswer Studio::route(const WebRequest& request) {
   if (request.path == "studio/job") return job();
   if (request.path == "studio/status") return status();
   if (!request.is_post) return nothing_there();

@@ -59,7 +59,7 @@ void serve(const ViewJob& job) {
   const std::string folder = state_folder();
   WebOptions web;
   web.secret = kept_secret(folder);
-  if (!job.scene.empty()) web.upload = "studio/drop";
+  if (site.studio()) web.upload = "studio/drop", web.upload_folder = site.studio()->drop_folder();
   web.port = job.port.value_or(kUsualPort);
   std::string shown_host = web.hosts[0];
   if (job.lan) {

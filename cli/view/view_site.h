@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/view/http_server.h"
+#include "cli/http/http_server.h"
 #include "cli/view/studio.h"
 #include "ods/view/view_item.h"
 
@@ -22,6 +22,9 @@ class ViewSite {
   // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
   // projection where the page's user knows better. Throws UsageError for a query that makes no sense.
   WebAnswer answer(const WebRequest& request);
+
+  // Of the studio, for studio/drop; null if there is none.
+  const Studio* studio() const { return studio_.get(); }
 
  private:
   WebAnswer item(const std::string& path, const WebRequest& request);

@@ -56,7 +56,8 @@ void commit_all(std::list<AtomicFile>& files);
 // handler that ends the process.
 void remove_unfinished_files();
 
-// Adds a file to that list until forget_unfinished(). The string must stay at its address until then.
+// Adds a file, or a folder of files, to that list until forget_unfinished(). The string must stay at its address until
+// then.
 void remember_unfinished(const char* path);
 void forget_unfinished(const char* path);
 

@@ -12,6 +12,7 @@
 
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/served.h"
 
 using Json = nlohmann::json;
@@ -27,13 +28,23 @@ struct Frame {
 class StudioCommand : public Served {
  protected:
   void SetUp() override {
+    std::filesystem::create_directory(folder.path("tmp"));
+    setenv("TMPDIR", folder.path("tmp").c_str(), 1);
     std::filesystem::current_path(folder.path(""));  // where pictures are written
     serve({"toys"});
   }
   void TearDown() override {
     Served::TearDown();
     std::filesystem::current_path("/");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path("tmp")));
+    unsetenv("TMPDIR");
   }
+
+  // The answer to a file that is dropped onto the page.
+  std::string drop(const std::string& name, const std::string& bytes) const {
+    return post("studio/drop?name=" + name, bytes);
+  }
+  Json shown() const { return Json::parse(body_of(get("view.json")))["studio"]; }
 
   Json asked(const std::string& path, const Json& body = Json::object()) const {
     const std::string answer = post("studio/" + path, body.dump());
@@ -185,6 +196,83 @@ TEST_F(StudioCommand, SavesTheCameraAndTakesItBack) {
   EXPECT_EQ(status_of(post("studio/drop?name=x.exe", "MZ")), 400);
   EXPECT_EQ(status_of(post("studio/drop?name=x.glb", "no scene")), 400);
   EXPECT_EQ(status_of(get("studio/status")), 200) << "the old scene is still there";
+}
+
+// A triangle; image: the address of a texture, empty: none.
+static std::string triangle(const std::string& image = "") {
+  ods::GltfBuilder file = ods::make_triangle();
+  if (!image.empty()) {
+    file.add(std::vector<float>{0, 0, 1, 0, 0, 1}, ods::kFloat, "VEC2");
+    file.primitive()["attributes"]["TEXCOORD_0"] = 1;
+    file.primitive()["material"] = 0;
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["images"] = {{{"uri", image}}};
+  }
+  const ods::Binary bytes = file.glb();
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST_F(StudioCommand, TakesFileAfterFileThatIsDropped) {
+  for (const char* name : {"first.glb", "second.glb"}) {
+    const std::string answer = drop(name, triangle());
+    ASSERT_EQ(status_of(answer), 200) << answer;
+    EXPECT_EQ(shown()["scene"], name);
+    const Json set = asked("set", Json::parse(body_of(answer))["settings"]);
+    EXPECT_TRUE(set["command"].get<std::string>().starts_with("ods render " + std::string(name) + " --")) << set;
+    frame_of(set["revision"], "base", 160);
+  }
+  ASSERT_EQ(run("render furnace -q --width 16 --samples 1 -o sky.exr"), 0) << err;
+  ASSERT_EQ(run("render furnace -q --width 16 --samples 1 -o sky.hdr"), 0) << err;
+  for (const char* light : {"sky.exr", "sky.hdr", "sky.hdr"}) {
+    const std::string answer = drop(light, folder.read(light));
+    ASSERT_EQ(status_of(answer), 200) << answer;
+    Json settings = Json::parse(body_of(answer))["settings"];
+    EXPECT_EQ(settings["env"], light);
+    settings["env"] = "studio";
+    asked("set", settings);
+    settings["env"] = light;
+    const Json set = asked("set", settings);
+    EXPECT_NE(set["command"].get<std::string>().find("--env " + std::string(light)), std::string::npos) << set;
+    frame_of(set["revision"], "base", 160);
+  }
+  for (const char* bad : {"bad.glb", "bad.zip", "bad.hdr", "bad.exr"}) {
+    EXPECT_EQ(status_of(drop(bad, "glTF, or so it says")), 400) << bad;
+    EXPECT_EQ(shown()["scene"], "second.glb");
+    EXPECT_EQ(shown()["settings"]["env"], "sky.hdr");
+    frame_of(asked("set", shown()["settings"])["revision"], "base", 160);
+  }
+}
+
+TEST_F(StudioCommand, KeepsWhatIsDroppedToItself) {
+  namespace fs = std::filesystem;
+  const ods::Binary png = ods::small_png();
+  folder.write("tmp/private.png", {png.begin(), png.end()});
+  fs::create_directory(folder.path("tmp/else"));
+  for (const std::string& image :
+       {std::string("../private.png"), folder.path("tmp/private.png"), "file://" + folder.path("tmp/private.png"),
+        std::string("%2e%2e/private.png"), std::string("../absent.png"), std::string("else/../../private.png")}) {
+    const std::string answer = drop("scene.glb", triangle(image));
+    EXPECT_EQ(status_of(answer), 400) << image;
+    const std::string without_name = std::regex_replace(answer, std::regex(image), "");
+    EXPECT_EQ(without_name.find(folder.path("")), std::string::npos) << answer;
+    EXPECT_EQ(answer.find("ods-view-"), std::string::npos) << answer;
+  }
+  fs::remove_all(folder.path("tmp/else"));
+  fs::remove(folder.path("tmp/private.png"));
+  ASSERT_EQ(status_of(drop("scene.glb", triangle())), 200);
+  const auto entry = *fs::directory_iterator(folder.path("tmp"));
+  EXPECT_EQ(fs::status(entry).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(std::distance(fs::directory_iterator(entry), {}), 1) << "what was refused stays";
+  EXPECT_EQ(fs::status(*fs::directory_iterator(entry)).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(body_of(get("view.json")).find("ods-view-"), std::string::npos);
+}
+
+TEST_F(StudioCommand, PutsWhatIsDroppedOnTheDisk) {
+  if (kSanitized) GTEST_SKIP() << "skipped: a sanitizer takes memory of its own";
+  const long before = peak();
+  EXPECT_EQ(status_of(drop("large.glb", std::string(size_t{200} << 20, 'x'))), 400);
+  EXPECT_LT(peak() - before, 50 << 10);
 }
 
 TEST_F(StudioCommand, SaysWhatAClickMeets) {

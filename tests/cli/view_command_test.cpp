@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <fstream>
@@ -81,37 +82,144 @@ TEST_F(ViewCommand, OpensNoPathThatABrowserSends) {
   }
 }
 
+TEST_F(ViewCommand, SendsThePartOfAFileThatIsAskedFor) {
+  const auto size = std::filesystem::file_size(picture);
+  const std::string path = "/" + secret + "/item/0/picture.png", whole = body_of(ask(head(path)));
+  ASSERT_EQ(whole.size(), size);
+  const auto part = [&](const std::string& range) { return ask(head(path, "GET", "Range: " + range + "\r\n")); };
+  struct Case {
+    std::string range;
+    size_t first, count;
+  };
+  for (const Case& wanted :
+       {Case{"bytes=0-0", 0, 1}, Case{fmt::format("bytes={}-{}", size - 1, size + 100), size - 1, 1},
+        Case{"bytes=5-", 5, size - 5}, Case{"bytes=-7", size - 7, 7}, Case{"bytes=0-9223372036854775807", 0, size},
+        Case{"bytes=-99999999999999999999", 0, size}, Case{"bytes=3-99999999999999999999", 3, size - 3}}) {
+    const std::string answer = part(wanted.range);
+    EXPECT_EQ(status_of(answer), 206) << wanted.range;
+    EXPECT_EQ(body_of(answer), whole.substr(wanted.first, wanted.count)) << wanted.range;
+    EXPECT_NE(answer.find(fmt::format("Content-Length: {}\r\n", wanted.count)), std::string::npos) << wanted.range;
+    EXPECT_NE(answer.find(fmt::format("Content-Range: bytes {}-{}/{}\r\n", wanted.first,
+                                      wanted.first + wanted.count - 1, size)),
+              std::string::npos)
+        << wanted.range;
+  }
+  for (const std::string& none : {fmt::format("bytes={}-", size), fmt::format("bytes={}-{}", size, size + 1),
+                                  std::string("bytes=99999999999999999999-"), std::string("bytes=-0")}) {
+    const std::string answer = part(none);
+    EXPECT_EQ(status_of(answer), 416) << none;
+    EXPECT_NE(answer.find(fmt::format("Content-Range: bytes */{}\r\n", size)), std::string::npos) << none;
+  }
+  for (const char* no_range :
+       {"bytes=5-2", "bytes=x-2", "bytes=1-2,4-5", "bytes=", "bytes=-", "lines=1-2", "bytes=1-x"}) {
+    const std::string answer = part(no_range);
+    EXPECT_EQ(status_of(answer), 200) << no_range;
+    EXPECT_EQ(body_of(answer).size(), size) << no_range;
+  }
+  const std::string only_head = ask(head(path, "HEAD"));
+  EXPECT_EQ(status_of(only_head), 200);
+  EXPECT_EQ(body_of(only_head), "");
+}
+
 TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
-  const std::string path = fmt::format("/{}/studio/set", secret);
-  const size_t most = size_t{1} << 30;
-  EXPECT_EQ(status_of(ask(head(path, "POST", fmt::format("Content-Length: {}\r\n", most)) + std::string(1 << 20, 'x'))),
-            413);
-  EXPECT_GE(status_of(ask(head("/" + std::string(100'000, 'a')))), 400);
+  EXPECT_EQ(status_of(ask("GET /" + std::string(1 << 20, 'a'))), 431) << "an endless first line";
   std::string many;
   for (int i = 0; i < 20'000; i++) many += fmt::format("X-{}: y\r\n", i);
-  ask(head("/", "GET", many));
-  ask("\r\n\r\n\r\n");
-  ask("GET\r\n\r\n");
+  EXPECT_EQ(status_of(ask(head("/", "GET", many))), 431) << "fields, each of them short";
+  EXPECT_EQ(status_of(ask(head("/" + std::string(16'000, 'a')))), 404) << "a head of 16 KB is none too long";
+  for (const char* wrong : {"\r\n\r\n", "GET\r\n\r\n", "GET / HTTP/2\r\n\r\n", "GET  / HTTP/1.1\r\n\r\n",
+                            "GET / HTTP/1.1\r\nA b: c\r\n\r\n", "GET / HTTP/1.1\r\n: c\r\n\r\n",
+                            "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", "G\xff / HTTP/1.1\r\n\r\n",
+                            "GET / HTTP/1.1\nHost: a\r\n\r\n", "GET a HTTP/1.1\r\n\r\n"}) {
+    EXPECT_EQ(status_of(ask(wrong)), 400) << wrong;
+  }
   ask(std::string(1 << 20, '\xff'));
   EXPECT_EQ(status_of(get("alive")), 200);
 }
 
+// The answer comes before the body, which nobody reads then.
+TEST_F(ViewCommand, ReadsNothingFromWhomItRefuses) {
+  struct Case {
+    std::string path, fields;
+    int status;
+  };
+  const std::string here = fmt::format("/{}/studio/set", secret);
+  for (const Case& wanted :
+       {Case{"/studio/set", "Content-Length: 1000\r\n", 404}, Case{here, "Content-Length: 1000000000\r\n", 413},
+        Case{here, "Content-Length: 99999999999999999999\r\n", 411}, Case{here, "", 411},
+        Case{here, "Transfer-Encoding: chunked\r\n", 411},
+        Case{here, "Content-Length: 1000\r\nOrigin: http://evil.example\r\n", 403}}) {
+    const Connection connection(port);
+    std::string request = head(wanted.path, "POST", wanted.fields);
+    request.erase(request.find("Connection: close\r\n"), 19);
+    connection.send_text(request);
+    const std::string answer = connection.read_all();
+    EXPECT_EQ(status_of(answer), wanted.status) << wanted.path << wanted.fields;
+    EXPECT_NE(answer.find("Connection: close\r\n"), std::string::npos) << answer;
+  }
+}
+
 TEST_F(ViewCommand, SlowRequestsHoldNobodyUp) {
   std::vector<Connection> slow;
-  for (int i = 0; i < 100; i++) {
+  for (int i = 0; i < 300; i++) {
     slow.emplace_back(port);
     slow.back().send_text("GET / HTTP/1.1\r\nHost: ");
   }
   EXPECT_EQ(status_of(get("alive")), 200);
   EXPECT_TRUE(slow.back().is_open()) << "it waited until the others were given up";
-  for (const Connection& connection : slow) connection.read_all();  // they are ended
+  EXPECT_LE(std::ranges::count_if(slow, &Connection::is_open), 32);
+  EXPECT_EQ(status_of(ask(head(fmt::format("/{}/alive", secret)), 2)), 200);
+  EXPECT_EQ(status_of(slow.back().read_all()), 408);  // they are ended
+}
+
+// A head of which a line comes now and then.
+TEST_F(ViewCommand, EndsAHeadThatGoesOnAndOn) {
+  const Connection slow(port);
+  slow.send_text("GET / HTTP/1.1\r\n");
+  bool is_open = true;
+  for (int i = 0; i < 300 && is_open; i++) {
+    std::this_thread::sleep_for(100ms);
+    is_open = slow.send_text("X: y\r\n") && slow.is_open();
+  }
+  EXPECT_FALSE(is_open);
+  EXPECT_EQ(status_of(slow.read_all()), 408);
+}
+
+// Requests that are being answered are not ended for new ones.
+TEST_F(ViewCommand, AnAddressHasThirtyTwoConnections) {
+  std::vector<Connection> busy;
+  const std::string request =
+      head(fmt::format("/{}/studio/set", secret), "POST", "Content-Length: 2\r\nExpect: 100-continue\r\n");
+  for (int i = 0; i < 32; i++) {
+    busy.emplace_back(port);
+    busy.back().send_text(request);
+    EXPECT_TRUE(busy.back().read_line().starts_with("HTTP/1.1 100 "));
+  }
+  EXPECT_EQ(status_of(get("alive")), 503);
+  EXPECT_EQ(status_of(ask(head(fmt::format("/{}/alive", secret)), 2)), 200);
+  for (const Connection& each : busy) each.send_text("{}");
+  for (const Connection& each : busy) EXPECT_NE(each.read_all().find("HTTP/1.1 404 "), std::string::npos);
+  EXPECT_EQ(status_of(get("alive")), 200);
+}
+
+TEST_F(ViewCommand, AnswersRequestAfterRequest) {
+  const Connection connection(port);
+  const std::string last = head(fmt::format("/{}/alive", secret));
+  std::string next = last;
+  next.erase(next.find("Connection: close\r\n"), 19);
+  connection.send_text(next + next + next + last);
+  const std::string answers = connection.read_all();
+  size_t count = 0;
+  for (size_t at = 0; (at = answers.find("HTTP/1.1 200 OK", at)) != std::string::npos; at++) count++;
+  EXPECT_EQ(count, 4u);
 }
 
 TEST_F(ViewCommand, ServesTwoHundredAtOnce) {
   std::vector<std::thread> threads;
   std::atomic<int> served{0};
-  for (int i = 0; i < 200; i++) {
-    threads.emplace_back([&] { served += status_of(get("item/0/picture.png")) == 200 ? 1 : 0; });
+  const std::string request = head(fmt::format("/{}/item/0/picture.png", secret));
+  for (uint32_t i = 0; i < 200; i++) {
+    threads.emplace_back([&, i] { served += status_of(ask(request, 1 + i % 8)) == 200 ? 1 : 0; });
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(served, 200);
