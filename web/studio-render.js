@@ -125,7 +125,7 @@ export class RenderFoot {
   async render() {
     if (this.watching) return;
     await this.studio.session.settle();
-    const output = (this.output = this.name.value.trim());
+    const output = this.name.value.trim();
     await ask('render', { output, quality: this.quality.value }).catch((error) => {
       if (/exists/.test(error.message)) this.take(output);
       throw error;
@@ -170,10 +170,10 @@ export class RenderFoot {
     this.go.disabled = false;
   }
 
-  ended({ state, text, item }) {
+  ended({ state, text, item, output }) {
     this.item = item;
-    if (state === 'done') this.take(this.output);
-    if (state === 'cancelled') this.say('Cancelled', state);
-    else this.say(state === 'done' ? this.output ?? 'Done' : text || 'It failed', state);
+    if (state === 'done') this.take(output);
+    if (state === 'cancelled') this.say('Cancelled: nothing is kept', state);
+    else this.say(state === 'done' ? output : text || 'It failed', state);
   }
 }

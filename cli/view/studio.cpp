@@ -17,6 +17,7 @@
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/format/file_format.h"
 #include "ods/render/cpu/render.h"
@@ -119,7 +120,9 @@ void Studio::open(const SceneSource& source, bool is_new) {
   scene_ = {opened, &opened->scene};
   live_ = {opened, &opened->live};
   duration_ = length_of(scene_->animation);
-  if (is_new) live_->set(settings_.live, settings_.look);
+  if (!is_new) return;
+  saved_.clear();
+  live_->set(settings_.live, settings_.look);
 }
 
 // The scene as its user knows it.
@@ -215,14 +218,16 @@ WebAnswer Studio::set(const std::string& body) {
   }
   settings_ = wanted;
   const int revision = live_->set(settings_.live, settings_.look);
-  return json_answer({{"revision", revision}, {"command", ods::shell_line(words("", ""))}});
+  std::vector<std::string> command = words(true);
+  command.insert(command.begin(), "ods");
+  command.insert(command.end(), {"-o", std::filesystem::path(title()).stem().string() + "_360_TB.png"});
+  return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}});
 }
 
-// The command that renders what the page shows; empty: a name and a quality for people to read.
-std::vector<std::string> Studio::words(const std::string& output, const std::string& quality) const {
-  const bool is_shown = output.empty();
-  const std::string stem = std::filesystem::path(title()).stem().string();
-  std::vector<std::string> words = {"ods", "render", is_shown ? title() : source_.name};
+// The command that renders what the page shows: as its user knows the files, or as they are here, and without the
+// quality and the output.
+std::vector<std::string> Studio::words(bool is_shown) const {
+  std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
   if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
@@ -241,9 +246,7 @@ std::vector<std::string> Studio::words(const std::string& output, const std::str
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
   if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
-  if (!quality.empty()) add("--quality", quality);
   add("--width", fmt::format("{}", settings_.width));
-  add("-o", output.empty() ? stem + "_360_TB.png" : output);
   return words;
 }
 
@@ -311,8 +314,12 @@ static void check_output_name(const std::string& name) {
   if (name.empty() || plain != name || name.starts_with('.') || name.starts_with('-')) {
     throw UsageError("give the picture a name without a folder, like room_360_TB.png");
   }
+  if (std::ranges::any_of(name, [](unsigned char c) { return c == '%' || std::iscntrl(c) != 0; })) {
+    throw UsageError("leave % and control characters out of the picture's name");
+  }
   if (!ods::format_of_path(name)) throw UsageError(fmt::format("end the name in one of {}", ods::known_extensions()));
-  if (std::filesystem::exists(name)) throw UsageError(fmt::format("'{}' exists: give the picture another name", name));
+  if (std::filesystem::exists(std::filesystem::symlink_status(name)))
+    throw UsageError(fmt::format("'{}' exists: give the picture another name", name));
 }
 
 WebAnswer Studio::render(const std::string& body) {
@@ -323,21 +330,24 @@ WebAnswer Studio::render(const std::string& body) {
   });
   check_output_name(name);
   check_name("quality", quality, kQualities);
-  std::vector<std::string> all = words(name, quality);
-  all.erase(all.begin());
-  all.insert(all.end(), {"--progress", "json"});
-  process_.start(all);
-  output_ = name;
+  std::vector<std::string> all = words(false);
+  all.insert(all.end(), {"--quality", quality});
+  process_.start(all, name);
   item_.reset();
   return json_answer(Json::object());
 }
 
 WebAnswer Studio::job() {
   const RenderProcess::Status status = process_.status();
-  if (status.state == "done" && !output_.empty()) item_ = add_item_(std::exchange(output_, ""));
-  Json json = {
-      {"state", status.state}, {"done", status.done}, {"left", status.left}, {"text", without_paths(status.text)}};
-  if (status.state == "done" && item_) json["item"] = *item_;
+  Json json = {{"state", status.state},
+               {"done", status.done},
+               {"left", status.left},
+               {"text", without_paths(status.text)},
+               {"output", status.output}};
+  if (status.state == "done") {
+    if (!item_) item_ = add_item_(status.output);
+    json["item"] = *item_;
+  }
   return json_answer(json);
 }
 
@@ -400,13 +410,16 @@ WebAnswer Studio::drop(const WebRequest& request) {
 
 WebAnswer Studio::save() {
   const std::string stem = std::filesystem::path(title()).stem().string();
-  for (int i = 1; saved_.empty(); i++) {  // a file of somebody else stays
-    const std::string name = stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".camera.json";
-    if (!std::filesystem::exists(name)) saved_ = name;
-  }
   ods::Sidecar sidecar = settings_.sidecar;
   sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
-  save_sidecar(sidecar, saved_);
+  const ods::PrivateFolder folder(".ods-view-");  // whatever has the name, nothing is written through it
+  const std::string made = folder.path() + "/camera.json";
+  save_sidecar(sidecar, made);
+  if (!saved_.empty()) std::filesystem::rename(made, saved_);
+  for (int i = 1; saved_.empty(); i++) {  // a file of somebody else stays
+    const std::string name = stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".camera.json";
+    if (ods::rename_as_new(made, name)) saved_ = name;
+  }
   return json_answer({{"file", saved_}});
 }
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "cli/options/scene_source.h"
 #include "cli/http/http_server.h"
+#include "cli/options/scene_source.h"
 #include "cli/view/render_process.h"
 #include "ods/base/json_reader.h"
 #include "ods/files/private_folder.h"
@@ -57,7 +57,7 @@ class Studio {
   std::string title() const;
   std::string environment_of(const std::string& word) const;
   std::string without_paths(std::string text) const;
-  std::vector<std::string> words(const std::string& output, const std::string& quality) const;
+  std::vector<std::string> words(bool is_shown) const;
   WebAnswer route(const WebRequest& request);
   WebAnswer set(const std::string& body);
   WebAnswer frame(const WebRequest& request);
@@ -77,7 +77,6 @@ class Studio {
   std::shared_ptr<const ods::Scene> scene_;  // lives as long as whoever renders it
   std::shared_ptr<ods::LiveRender> live_;
   RenderProcess process_;
-  std::string output_;          // of the process, until it is an item
   std::optional<size_t> item_;  // what it has rendered
   std::function<size_t(const std::string& path)> add_item_;
   std::string saved_;  // the file of the camera; empty: not yet

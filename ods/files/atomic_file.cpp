@@ -205,6 +205,16 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
+bool rename_as_new(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno == EEXIST) return false;
+  if (errno == EINVAL || errno == ENOSYS) {  // not on network shares; a hard link replaces nothing either
+    if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
+    if (errno == EEXIST) return false;
+  }
+  throw cannot_write(to, std::strerror(errno));
+}
+
 void commit_all(std::list<AtomicFile>& files) {
   for (AtomicFile& file : files) file.finish();
   for (AtomicFile& file : files) file.commit();

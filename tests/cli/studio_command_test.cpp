@@ -40,6 +40,23 @@ class StudioCommand : public Served {
     unsetenv("TMPDIR");
   }
 
+  // Of what is rendered, when it ends.
+  Json ended_job() const {
+    Json job = Json::object();
+    for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
+      std::this_thread::sleep_for(100ms);
+      job = Json::parse(body_of(get("studio/job")));
+    }
+    return job;
+  }
+  void wait_for_progress() const {
+    for (int i = 0; i < 600; i++) {
+      if (Json::parse(body_of(get("studio/job")))["done"] > 0.0) return;
+      std::this_thread::sleep_for(100ms);
+    }
+    ADD_FAILURE() << "it does not begin";
+  }
+
   // The answer to a file that is dropped onto the page.
   std::string drop(const std::string& name, const std::string& bytes) const {
     return post("studio/drop?name=" + name, bytes);
@@ -71,6 +88,24 @@ class StudioCommand : public Served {
     return {};
   }
 };
+
+// The processes that a process has started.
+std::vector<int> children_of(int process) {
+  std::vector<int> children;
+  for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+    std::ifstream list(task.path() / "children");
+    for (int child = 0; list >> child;) children.push_back(child);
+  }
+  return children;
+}
+
+// It exists, and is no corpse that nobody has taken yet.
+bool is_running(int process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string stat;
+  std::getline(file, stat);
+  return !stat.empty() && stat.at(stat.rfind(')') + 2) != 'Z';
+}
 
 // The mean of code values 0..255 of each half, one above the other.
 std::array<double, 2> means_of_halves(const std::vector<float>& values) {
@@ -133,30 +168,76 @@ TEST_F(StudioCommand, SaysWhatIsWrongWithASetting) {
 }
 
 TEST_F(StudioCommand, RendersUnderANewNameOnly) {
-  for (const char* name : {"", "../up.png", "/tmp/x.png", ".hidden.png", "-x.png", "no_picture.txt", "a/b.png"}) {
+  for (const char* name : {"", "../up.png", "/tmp/x.png", ".hidden.png", "-x.png", "no_picture.txt", "a/b.png",
+                           "a%V.png", "100%.png", "a\nb.png", "a\x1b[2J.png", "a\x7f.png"}) {
     EXPECT_EQ(status_of(post("studio/render", Json({{"output", name}, {"quality", "draft"}}).dump())), 400) << name;
   }
+  EXPECT_EQ(status_of(post("studio/render", R"({"output":"x.png\u0000.png","quality":"draft"})")), 400);
   asked("set", {{"width", 64}});
   asked("render", {{"output", "small_360_TB.png"}, {"quality", "draft"}});
   EXPECT_EQ(status_of(post("studio/render", R"({"output":"other.png","quality":"draft"})")), 400) << "one at a time";
-  Json job = Json::object();
-  for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
-    std::this_thread::sleep_for(100ms);
-    job = Json::parse(body_of(get("studio/job")));
-  }
+  const Json job = ended_job();
   EXPECT_EQ(job["state"], "done") << job;
   EXPECT_EQ(job["item"], 0);
+  EXPECT_EQ(job["output"], "small_360_TB.png");
   EXPECT_TRUE(std::filesystem::exists(folder.path("small_360_TB.png")));
   EXPECT_NE(get("item/0/picture.png").find("\x89PNG"), std::string::npos);
   EXPECT_EQ(status_of(post("studio/render", R"({"output":"small_360_TB.png","quality":"draft"})")), 400) << "it exists";
 }
 
-TEST_F(StudioCommand, CancelsWhatItRenders) {
-  asked("set", {{"width", 4096}});
+TEST_F(StudioCommand, WritesThroughNoLink) {
+  namespace fs = std::filesystem;
+  asked("set", {{"width", 64}});
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("dangling.png"));
+  EXPECT_EQ(status_of(post("studio/render", R"({"output":"dangling.png","quality":"draft"})")), 400);
+  // Somebody puts a link there while the picture is rendered.
+  asked("render", {{"output", "late.png"}, {"quality", "draft"}});
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("late.png"));
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("late.png.unfinished"));
+  const Json job = ended_job();
+  EXPECT_EQ(job["state"], "done") << job;
+  EXPECT_EQ(job["output"], "late-2.png");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder.path("late-2.png"))));
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("toys.camera.json"));
+  EXPECT_EQ(asked("save")["file"], "toys-2.camera.json");
+  fs::remove(folder.path("toys-2.camera.json"));
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("toys-2.camera.json"));
+  EXPECT_EQ(asked("save")["file"], "toys-2.camera.json");
+  EXPECT_FALSE(fs::exists(folder.path("elsewhere.png")));
+}
+
+TEST_F(StudioCommand, CancelsWhatItRendersAndKeepsNothing) {
+  const std::vector<std::string> before = folder.names();
+  asked("set", {{"width", 1024}});
   asked("render", {{"output", "large_360_TB.png"}, {"quality", "final"}});
+  wait_for_progress();
   asked("cancel");
   EXPECT_EQ(Json::parse(body_of(get("studio/job")))["state"], "cancelled");
-  EXPECT_FALSE(std::filesystem::exists(folder.path("large_360_TB.png")));
+  for (int i = 0; i < 100 && folder.names() != before; i++) std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(folder.names(), before);
+}
+
+// Whatever ends the server, what it has started ends, and leaves nothing.
+TEST_F(StudioCommand, TakesWhatItRendersWithIt) {
+  const std::vector<std::string> before = folder.names();
+  for (const int signal : {SIGINT, SIGKILL}) {
+    asked("set", {{"width", 1024}});
+    asked("render", {{"output", "large_360_TB.png"}, {"quality", "final"}});
+    wait_for_progress();
+    const std::vector<int> children = children_of(server->process());
+    EXPECT_EQ(children.size(), 1u);
+    server->kill(signal);
+    server->finish();
+    for (const int child : children) {
+      for (int i = 0; i < 100 && is_running(child); i++) std::this_thread::sleep_for(100ms);
+      EXPECT_FALSE(is_running(child)) << "after signal " << signal;
+    }
+    EXPECT_EQ(folder.names() == before, signal == SIGINT) << "after signal " << signal;
+    serve({"toys"});
+  }
+  asked("save");  // removes what the one that was killed has left
+  std::filesystem::remove(folder.path("toys.camera.json"));
+  EXPECT_EQ(folder.names(), before);
 }
 
 // A tab that is loaded again and again while a picture is rendered: it asks for the page and a frame, and goes.

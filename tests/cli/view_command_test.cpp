@@ -121,6 +121,31 @@ TEST_F(ViewCommand, SendsThePartOfAFileThatIsAskedFor) {
   EXPECT_EQ(body_of(only_head), "");
 }
 
+// What was a link when ods view was started is the file behind it.
+TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
+  namespace fs = std::filesystem;
+  const std::string private_file = folder.path("private.png"), link = folder.path("link_360_TB.png"),
+                    light = folder.path("light.exr");
+  fs::copy(picture, private_file);
+  fs::create_symlink(picture, link);
+  ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
+  Served::TearDown();
+  serve({picture, link, light});
+  for (const char* path : {"item/0/picture.png", "item/1/picture.png", "item/2/left.jpg"}) {
+    EXPECT_EQ(status_of(get(path)), 200) << path;
+  }
+  for (const std::string& path : {picture, light}) {
+    fs::remove(path);
+    fs::create_symlink(private_file, path);
+  }
+  for (const char* path : {"item/0/picture.png", "item/0/left.jpg", "item/1/picture.png", "item/2/left.jpg"}) {
+    EXPECT_EQ(status_of(get(path)), 404) << path;
+  }
+  fs::remove(picture);
+  fs::copy(private_file, picture);
+  EXPECT_EQ(status_of(get("item/0/picture.png")), 200) << "a file that was made again";
+}
+
 TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
   EXPECT_EQ(status_of(ask("GET /" + std::string(1 << 20, 'a'))), 431) << "an endless first line";
   std::string many;
