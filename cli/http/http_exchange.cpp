@@ -134,6 +134,12 @@ bool HttpExchange::is_upload(const RequestHead& head) const {
   return head.method == "POST" && !options_.upload.empty() && path_of(head) == options_.upload;
 }
 
+// Whether it asks for the opener, as nobody has before.
+bool HttpExchange::opens(const WebStream& stream, const RequestHead& head) {
+  return !options_.opener.empty() && head.method == "GET" && is_our_name(head.field("host")) &&
+         same_secret(head.path, "/" + options_.opener) && stream.is_our_users() && !has_opened_.exchange(true);
+}
+
 std::string HttpExchange::refusal(const RequestHead& head, int& status) const {
   status = 405;
   const bool is_post = head.method == "POST";
@@ -206,6 +212,11 @@ int HttpExchange::receive(WebStream& stream, std::string& bytes, uint64_t length
 bool HttpExchange::answer(WebStream& stream, std::string_view head_text, std::string& bytes) {
   const std::optional<RequestHead> head = read_request_head(head_text);
   if (!head) return refuse(stream, 400, "that is no request that this server knows");
+  if (opens(stream, *head)) {
+    send_head({.stream = stream, .stays = false, .has_body = false}, 303, kText, 0,
+              fmt::format("Location: /{}/\r\n", options_.secret));
+    return false;
+  }
   int status = 0;
   const std::string why = refusal(*head, status);
   if (!why.empty()) return refuse(stream, status, why);

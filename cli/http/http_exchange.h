@@ -3,6 +3,7 @@
 //
 // One request and its answer: who may ask, what is read, and what is sent.
 #pragma once
+#include <atomic>
 #include <mutex>
 #include <string>
 
@@ -28,6 +29,7 @@ class HttpExchange {
   // Why not, in a line, and with which status; empty: it may.
   std::string refusal(const RequestHead& head, int& status) const;
   bool is_our_name(const std::string& host) const;
+  bool opens(const WebStream& stream, const RequestHead& head);
   bool is_upload(const RequestHead& head) const;
   static bool read_body(WebStream& stream, std::string& bytes, uint64_t size, const Take& take);
   static int receive(WebStream& stream, std::string& bytes, uint64_t length, WebRequest& request);
@@ -36,5 +38,6 @@ class HttpExchange {
   WebOptions options_;
   int port_;
   WebHandler handler_;
+  std::atomic<bool> has_opened_{false};
   std::mutex uploads_;  // one at a time: each may be large
 };

@@ -43,9 +43,10 @@ std::string value_of(const WebRequest& request, const std::string& name);
 using WebHandler = std::function<WebAnswer(const WebRequest& request)>;
 
 struct WebOptions {
-  std::string address = "127.0.0.1";                         // to listen at; 0.0.0.0: all of this machine's
-  int port = 0;                                              // 0: any that is free
-  std::string secret;                                        // the first part of every path
+  std::string address = "127.0.0.1";  // to listen at; 0.0.0.0: all of this machine's
+  int port = 0;                       // 0: any that is free
+  std::string secret;                 // the first part of every path
+  std::string opener{};  // a path that leads to the page, once, and only our own user's programs; empty: none
   std::vector<std::string> hosts{"127.0.0.1", "localhost"};  // the names that we go by
   std::string certificate;                                   // PEM files, for https; empty: http
   std::string key;

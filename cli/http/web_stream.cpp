@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/http/web_stream.h"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <sys/poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <fstream>
+#include <sstream>
 
 #include "ods/base/error.h"
 
@@ -115,6 +119,28 @@ bool WebStream::write(std::string_view bytes, std::chrono::seconds patience) {
     bytes.remove_prefix(static_cast<size_t>(written));
   }
   return true;
+}
+
+bool WebStream::is_our_users() const {
+  sockaddr_in here{}, there{};
+  socklen_t size = sizeof(here);
+  if (getsockname(socket_, reinterpret_cast<sockaddr*>(&here), &size) != 0) return false;
+  if (getpeername(socket_, reinterpret_cast<sockaddr*>(&there), &size) != 0) return false;
+  const auto name = [](const sockaddr_in& end) {
+    return fmt::format("{:08X}:{:04X}", end.sin_addr.s_addr, ntohs(end.sin_port));
+  };
+  const std::string from = name(there), to = name(here);
+  std::ifstream sockets("/proc/net/tcp");  // of all of this machine, seen from their own side
+  for (std::string line; std::getline(sockets, line);) {
+    std::istringstream words(line);
+    std::string number, local, remote, state, queues, timer, tries;
+    uid_t user = 0;
+    if (words >> number >> local >> remote >> state >> queues >> timer >> tries >> user && local == from &&
+        remote == to) {
+      return user == geteuid();
+    }
+  }
+  return false;
 }
 
 void WebStream::end() {

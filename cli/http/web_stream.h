@@ -39,6 +39,8 @@ class WebStream {
   size_t read(char* to, size_t most, WebDeadline until);
   // patience: for the other side to take more of them.
   bool write(std::string_view bytes, std::chrono::seconds patience);
+  // A program of this machine and this user is at the other end.
+  bool is_our_users() const;
   // Says the end, and lets the other side read what was sent: whoever closes while bytes come in takes it back.
   void end();
 

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/support/programs.h"
 #include "tests/support/served.h"
 
 using namespace std::chrono_literals;
@@ -283,7 +284,73 @@ TEST_F(ViewCommand, EndsWithoutWaitingForAnybodyAndKeepsItsAddress) {
   again.finish();
 }
 
-class View : public Cli {};
+class View : public Served {};
+
+// Of a network that all its users can listen to, an old address is no use.
+TEST_F(View, TheNetworksAddressIsNewEachTime) {
+  const std::string picture = folder.path("small_360_TB.png");
+  ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
+  setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
+  std::vector<std::string> secrets;
+  for (const bool is_kept : {false, false, true, true}) {
+    std::vector<std::string> words = {"view", picture, "--lan", "--no-browser"};
+    if (is_kept) words.emplace_back("--keep-secret");
+    Ods command(words);
+    command.wait_for("Ctrl-C ends it");
+    if (command.err.find("in no network") != std::string::npos) GTEST_SKIP() << "skipped: there is no network";
+    std::smatch parts;
+    EXPECT_TRUE(std::regex_match(command.out, parts, std::regex("https://[0-9.]+:([0-9]+)/([0-9a-f]{32})/\n")))
+        << command.out << command.err;
+    secrets.push_back(parts[2]);
+    if (ods::missing("openssl", "command -v openssl").empty()) {
+      const std::string answer =
+          ods::run_line(fmt::format("printf 'GET /{}/item/0/picture.png HTTP/1.1\\r\\nHost: "
+                                    "127.0.0.1:{}\\r\\nConnection: close\\r\\n\\r\\n' |"
+                                    "openssl s_client -quiet -connect 127.0.0.1:{} 2>/dev/null",
+                                    secrets.back(), std::string(parts[1]), std::string(parts[1])))
+              .out;
+      EXPECT_EQ(status_of(answer), 200) << answer.substr(0, 300);
+      EXPECT_EQ(body_of(answer), folder.read("small_360_TB.png"));
+    }
+    command.kill(SIGINT);
+    EXPECT_EQ(command.finish(), 130);
+  }
+  EXPECT_NE(secrets[0], secrets[1]);
+  EXPECT_NE(secrets[1], secrets[2]);
+  EXPECT_EQ(secrets[2], secrets[3]);
+  EXPECT_EQ(run("view " + picture + " --keep-secret"), 2);
+}
+
+// Everybody on this machine can read what programs are started with.
+TEST_F(View, TheBrowserIsStartedWithAnAddressThatWorksOnce) {
+  const std::string picture = folder.path("small_360_TB.png"), said = folder.path("said"), path = std::getenv("PATH");
+  ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
+  folder.write("xdg-open",
+               "#!/bin/sh\nprintf %s \"$1\" > '" + said + ".part'; mv '" + said + ".part' '" + said + "'\n");
+  std::filesystem::permissions(folder.path("xdg-open"), std::filesystem::perms::owner_all);
+  setenv("PATH", (folder.path("") + ":" + path).c_str(), 1);
+  setenv("DISPLAY", ":0", 1);
+  serve({picture}, true);
+  for (int i = 0; i < 100 && !std::filesystem::exists(said); i++) std::this_thread::sleep_for(100ms);
+  setenv("PATH", path.c_str(), 1);
+  unsetenv("DISPLAY");
+  const std::string address = folder.read("said");
+  EXPECT_EQ(address.find(secret), std::string::npos);
+  std::smatch parts;
+  ASSERT_TRUE(std::regex_match(address, parts, std::regex("http://127.0.0.1:[0-9]+(/[0-9a-f]{32})"))) << address;
+  const std::string opener = head(parts[1]);
+  if (geteuid() == 0) {
+    const pid_t other = fork();  // another user, who is faster
+    if (other == 0) _exit(setuid(65534) == 0 && status_of(ask(opener)) == 404 ? 0 : 1);
+    int status = 0;
+    waitpid(other, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  const std::string answer = ask(opener);
+  EXPECT_EQ(status_of(answer), 303);
+  EXPECT_NE(answer.find("Location: /" + secret + "/\r\n"), std::string::npos) << answer;
+  EXPECT_EQ(status_of(ask(opener)), 404);
+}
 
 TEST_F(View, ExportIsAFolderOfItsOwn) {
   const std::string picture = folder.path("a_360_TB.png"), light = folder.path("b.exr"), site = folder.path("site");

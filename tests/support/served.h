@@ -83,10 +83,10 @@ inline std::string body_of(const std::string& answer) {
 
 class Served : public Cli {
  protected:
-  void serve(std::vector<std::string> words) {
+  void serve(std::vector<std::string> words, bool opens_browser = false) {
     setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
     words.insert(words.begin(), "view");
-    words.emplace_back("--no-browser");
+    if (!opens_browser) words.emplace_back("--no-browser");
     server.emplace(words);
     server->wait_for("Ctrl-C ends it");
     const std::string address = server->out.substr(0, server->out.find('\n'));
