@@ -218,15 +218,22 @@ WebAnswer Studio::set(const std::string& body) {
   }
   settings_ = wanted;
   const int revision = live_->set(settings_.live, settings_.look);
-  std::vector<std::string> command = words(true);
+  std::vector<std::string> command = words(saved_.empty() ? stem() : saved_, true);
   command.insert(command.begin(), "ods");
-  command.insert(command.end(), {"-o", std::filesystem::path(title()).stem().string() + "_360_TB.png"});
-  return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}});
+  const ods::Layout layout = settings_.sidecar.layout;
+  const char* const end = layout == ods::Layout::kMultiview  ? "_360.exr"
+                          : layout == ods::Layout::kSeparate ? "_360_%V.png"
+                                                             : "_360_TB.png";
+  command.insert(command.end(), {"-o", stem() + end});
+  const bool has_maps =
+      std::ranges::find_if(command, [](const std::string& word) { return word.ends_with("-map"); }) != command.end();
+  const char* const note = has_maps ? "Save camera writes the maps that this command reads" : "";
+  return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}, {"note", note}});
 }
 
 // The command that renders what the page shows: as its user knows the files, or as they are here, and without the
-// quality and the output.
-std::vector<std::string> Studio::words(bool is_shown) const {
+// quality and the output. maps: as camera_words().
+std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) const {
   std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
   if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
@@ -240,7 +247,7 @@ std::vector<std::string> Studio::words(bool is_shown) const {
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");
-  for (const std::string& word : camera_words(settings_.live.camera)) words.push_back(word);
+  for (const std::string& word : camera_words(settings_.live.camera, settings_.width, maps)) words.push_back(word);
   const ods::Layout layout = settings_.sidecar.layout;
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
@@ -248,6 +255,10 @@ std::vector<std::string> Studio::words(bool is_shown) const {
   if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
   add("--width", fmt::format("{}", settings_.width));
   return words;
+}
+
+static const char* part_name(bool is_patch) {
+  return is_patch ? "patch" : "base";
 }
 
 WebAnswer Studio::frame(const WebRequest& request) {
@@ -266,16 +277,22 @@ WebAnswer Studio::frame(const WebRequest& request) {
     throw ods::Error(ods::ErrorKind::kInput, without_paths(fault));
   }
   if (!frame) return {.status = 204};
+  Json next;
+  if (frame->next) {
+    next = {
+        {"part", part_name(frame->next->is_patch)}, {"width", frame->next->width}, {"samples", frame->next->samples}};
+  }
   const std::string head = Json({{"number", frame->number},
                                  {"revision", frame->revision},
-                                 {"part", frame->is_patch ? "patch" : "base"},
+                                 {"part", part_name(frame->is_patch)},
                                  {"width", frame->eye.width},
                                  {"height", frame->eye.height},
                                  {"eyes", 2},
                                  {"camera", camera_json(make_camera(frame->camera))},
                                  {"samples", frame->samples},
                                  {"seconds", frame->seconds},
-                                 {"done", frame->is_last},
+                                 {"done", !frame->next},
+                                 {"next", next},
                                  {"state", "rendering"}})
                                .dump();
   std::string body(4, '\0');
@@ -330,7 +347,9 @@ WebAnswer Studio::render(const std::string& body) {
   });
   check_output_name(name);
   check_name("quality", quality, kQualities);
-  std::vector<std::string> all = words(false);
+  const std::string maps = fmt::format("{}/{}", drops_.path(), ++drop_count_);
+  save_maps(settings_.live.camera, maps);
+  std::vector<std::string> all = words(maps, false);
   all.insert(all.end(), {"--quality", quality});
   process_.start(all, name);
   item_.reset();
@@ -408,19 +427,33 @@ WebAnswer Studio::drop(const WebRequest& request) {
   return json_answer({{"what", "environment"}, {"settings", settings_json(settings_)}});
 }
 
+// What the scene's files are called without their endings.
+std::string Studio::stem() const {
+  return std::filesystem::path(title()).stem().string();
+}
+
 WebAnswer Studio::save() {
-  const std::string stem = std::filesystem::path(title()).stem().string();
   ods::Sidecar sidecar = settings_.sidecar;
   sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
   const ods::PrivateFolder folder(".ods-view-");  // whatever has the name, nothing is written through it
-  const std::string made = folder.path() + "/camera.json";
-  save_sidecar(sidecar, made);
-  if (!saved_.empty()) std::filesystem::rename(made, saved_);
-  for (int i = 1; saved_.empty(); i++) {  // a file of somebody else stays
-    const std::string name = stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".camera.json";
-    if (ods::rename_as_new(made, name)) saved_ = name;
+  const std::string made = folder.path() + "/camera";
+  std::vector<std::string> ends = save_maps(sidecar.camera, made);
+  save_sidecar(sidecar, made + ends.emplace_back(".camera.json"));
+  const auto is_taken = [&](const std::string& name) {  // a file of somebody else stays
+    return std::ranges::any_of(ends, [&](const std::string& end) {
+      return std::filesystem::exists(std::filesystem::symlink_status(name + end));
+    });
+  };
+  std::string name = saved_.empty() ? stem() : saved_;
+  for (int i = 2; saved_.empty() && is_taken(name); i++) name = fmt::format("{}-{}", stem(), i);
+  for (const std::string& end : ends) {
+    if (!saved_.empty())
+      std::filesystem::rename(made + end, name + end);
+    else if (!ods::rename_as_new(made + end, name + end))
+      throw UsageError(fmt::format("'{}' exists by now: try again", name + end));
   }
-  return json_answer({{"file", saved_}});
+  saved_ = name;
+  return json_answer({{"file", saved_ + ".camera.json"}});
 }
 
 WebAnswer Studio::answer(const WebRequest& request) {

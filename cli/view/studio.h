@@ -57,7 +57,8 @@ class Studio {
   std::string title() const;
   std::string environment_of(const std::string& word) const;
   std::string without_paths(std::string text) const;
-  std::vector<std::string> words(bool is_shown) const;
+  std::vector<std::string> words(const std::string& maps, bool is_shown) const;
+  std::string stem() const;
   WebAnswer route(const WebRequest& request);
   WebAnswer set(const std::string& body);
   WebAnswer frame(const WebRequest& request);
@@ -79,7 +80,7 @@ class Studio {
   RenderProcess process_;
   std::optional<size_t> item_;  // what it has rendered
   std::function<size_t(const std::string& path)> add_item_;
-  std::string saved_;  // the file of the camera; empty: not yet
+  std::string saved_;  // the files of the camera, without what their names end in; empty: not yet
   ods::PrivateFolder drops_;
   int drop_count_ = 0;
   Drop dropped_scene_, dropped_light_;

@@ -122,6 +122,22 @@ TEST_F(ViewCommand, SendsThePartOfAFileThatIsAskedFor) {
   EXPECT_EQ(body_of(only_head), "");
 }
 
+// An EXR or HDR comes eye by eye; another layout divides it otherwise.
+TEST_F(ViewCommand, DividesLightAsItIsAskedTo) {
+  const std::string light = folder.path("light_360_TB.exr");
+  ASSERT_EQ(run("convert " + picture + " -q --layout top-bottom -o " + light), 0) << err;
+  Served::TearDown();
+  serve({light});
+  const std::string own = body_of(get("item/0/left.jpg")), as_found = body_of(get("item/0/left.jpg?layout=top-bottom"));
+  EXPECT_EQ(own, as_found);
+  EXPECT_EQ(own, body_of(get("item/0/right.jpg?layout=bottom-top")));
+  for (const char* other : {"left.jpg?layout=side-by-side", "mono.jpg?layout=mono"}) {
+    const std::string answer = get(std::string("item/0/") + other);
+    EXPECT_EQ(status_of(answer), 200) << other;
+    EXPECT_NE(body_of(answer), own) << other;
+  }
+}
+
 // What was a link when ods view was started is the file behind it.
 TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
   namespace fs = std::filesystem;

@@ -194,6 +194,14 @@ async function testPanel(server, session, panel) {
   expect(!panel.fault.hidden && panel.fault.textContent.includes('below its end'), 'does not say what is refused');
   session.step(-1);
   await until(() => panel.fault.hidden && !row('sidecar.merge_top.start').classList.contains('wrong'), 'forgets the fault');
+  panel.complain('a.jpg: drop a .glb');
+  const before = server.sets.length;
+  session.edit({ 'sidecar.roll': 1 });
+  await until(() => server.sets.length > before && session.side.sent === session.settings, 'sends an edit');
+  expect(!panel.fault.hidden && panel.fault.checkVisibility(), 'a fault goes before somebody has read it');
+  expect(!panel.element.contains(panel.fault), 'a fault goes with the panel');
+  panel.fault.querySelector('button').click();
+  expect(panel.fault.hidden, 'a fault cannot be closed');
   expect(row('sidecar.convergence.distance').hidden, 'a distance without convergence');
   session.edit({ 'sidecar.convergence.mode': 'toe-in' });
   expect(!row('sidecar.convergence.distance').hidden, 'no distance of convergence');
