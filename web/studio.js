@@ -148,6 +148,8 @@ class Studio {
     const other = sides[1 - active];
     const has = (side) => (side && this.live.picture(side) ? side : null);
     const first = has(left) ?? has(other) ?? has(sides[active]);
+    const name = (side) => SIDES[sides.indexOf(side)];
+    if (first && first !== left && first.settings !== left.settings) this.status.textContent = `${name(left)} is being rendered; until then you see ${name(first)}`;
     viewer.picture = first ? this.live.picture(first, has(right) ?? (right && first), this.split ?? 1) : null;
     viewer.redraw();
     this.placeDivider();

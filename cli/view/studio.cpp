@@ -31,13 +31,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
 constexpr int kMostWidth = 16384;
-constexpr size_t kMostOfCamera = size_t{1} << 20;  // bytes
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
-
-WebAnswer json_answer(const Json& json) {
-  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
-}
 
 // What suits the light, as ods render chooses it.
 float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera, bool is_ours) {
@@ -66,18 +61,21 @@ void read_body(const std::string& body, const Read& read) {
   read(reader);
 }
 
-// The name of a file, without its folder and without what confuses a terminal.
-std::string plain_name(const std::string& given) {
-  std::string name = given.substr(given.find_last_of("/\\") + 1);
-  std::erase_if(name, [](unsigned char c) { return std::iscntrl(c) != 0; });
-  return name;
-}
-
 template <class Names>
 void check_name(const std::string& what, const std::string& name, const Names& names) {
   if (std::ranges::find(names, name) == std::end(names)) {
     throw UsageError(fmt::format("there is no {} '{}'", what, name));
   }
+}
+
+// The numbers that a projection has, in the page's words.
+Json controls_json(int kind) {
+  Json json = Json::array();
+  if (ods::has_range(kind)) json.push_back("range");
+  if (ods::has_fov(kind)) json.push_back("fov");
+  if (ods::has_lens(kind)) json.push_back("lens");
+  if (kind == ods::kPerspective) json.push_back("aspect");
+  return json;
 }
 
 Json ranges_json() {
@@ -90,6 +88,10 @@ Json ranges_json() {
 }
 
 }  // namespace
+
+WebAnswer json_answer(const Json& json) {
+  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
 
 Studio::Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item)
     : add_item_(std::move(add_item)), drops_((std::filesystem::temp_directory_path() / "ods-view-").native()) {
@@ -125,33 +127,19 @@ void Studio::open(const SceneSource& source, bool is_new) {
   live_->set(settings_.live, settings_.look);
 }
 
-// The scene as its user knows it.
-std::string Studio::title() const {
-  return dropped_scene_.path.empty() ? source_.name : dropped_scene_.name;
-}
-
-// What --env takes for a word of the page.
-std::string Studio::environment_of(const std::string& word) const {
-  if (!dropped_light_.path.empty() && word == dropped_light_.name) return dropped_light_.path;
-  return word == "auto" ? "" : word;
-}
-
-// A message for the page: names of our own files mean nothing to its user, and say where this machine has what.
-std::string Studio::without_paths(std::string text) const {
-  const auto replace = [&](const std::string& path, const std::string& name) {
-    for (size_t at = 0; !path.empty() && (at = text.find(path, at)) != std::string::npos; at += name.size()) {
-      text.replace(at, path.size(), name);
-    }
+// Maps that we have are numbers: the page sends all settings whenever one changes.
+Json Studio::settings_json(const Settings& settings) const {
+  ods::Sidecar sidecar = settings.sidecar;
+  const auto number_of = [&](std::shared_ptr<const ods::Image>& map) {
+    const auto found = map ? std::ranges::find(maps_, map) : maps_.end();
+    if (found == maps_.end()) return -1;
+    map = nullptr;
+    return static_cast<int>(found - maps_.begin());
   };
-  replace(dropped_scene_.path, dropped_scene_.name);
-  replace(dropped_light_.path, dropped_light_.name);
-  replace(drops_.path() + "/", "");
-  replace(drops_.path(), "what was dropped");
-  return text;
-}
-
-Json Studio::settings_json(const Settings& settings) {
-  return {{"sidecar", Json::parse(write_sidecar(settings.sidecar))},
+  const Json maps = {{"merge", number_of(sidecar.camera.merge_map)},
+                     {"head_tilt", number_of(sidecar.camera.head_tilt_map)}};
+  return {{"sidecar", Json::parse(write_sidecar(sidecar))},
+          {"maps", maps},
           {"exposure", settings.live.exposure},
           {"tone", ods::tone_curve_name(settings.live.tone)},
           {"env", settings.environment},
@@ -173,18 +161,38 @@ Json Studio::description() const {
                {"qualities", kQualities},
                {"variants", scene_->variants},
                {"duration", duration_}};
-  for (const ods::NamedProjection& named : ods::named_projections()) json["projections"].push_back(named.name);
+  for (const ods::NamedProjection& named : ods::named_projections()) {
+    json["projections"].push_back(named.name);
+    json["controls"][std::string(named.name)] = controls_json(named.setting.kind);
+  }
   return json;
+}
+
+void Studio::read_camera(JsonReader& reader, Settings& settings) const {
+  const Json* const given = reader.find("sidecar");
+  if (!given) return;
+  Json sidecar = *given;
+  int merge = -1, head_tilt = -1;
+  reader.part("maps", [&](JsonReader& maps) {
+    maps.integer("merge", merge, -1, Studio::kMostMaps);
+    maps.integer("head_tilt", head_tilt, -1, Studio::kMostMaps);
+  });
+  if (std::max(merge, head_tilt) >= static_cast<int>(maps_.size())) {
+    throw UsageError("the camera's map is gone: drop its .camera.json once more");
+  }
+  if (merge >= 0) sidecar["merge_map"] = {{"width", 1}, {"height", 1}, {"values", {1}}};  // stands for ours
+  std::vector<std::string> warnings;
+  settings.sidecar = ods::read_sidecar(sidecar.dump(), "camera", warnings);
+  ods::StereoCamera& camera = settings.sidecar.camera;
+  if (merge >= 0) camera.merge_map = maps_[static_cast<size_t>(merge)];
+  if (head_tilt >= 0) camera.head_tilt_map = maps_[static_cast<size_t>(head_tilt)];
+  settings.live.camera = camera;
 }
 
 Studio::Settings Studio::read_settings(const std::string& text) const {
   Settings settings = settings_;
   read_body(text, [&](JsonReader& reader) {
-    std::vector<std::string> warnings;
-    if (const Json* const camera = reader.find("sidecar")) {
-      settings.sidecar = ods::read_sidecar(camera->dump(), "camera", warnings);
-      settings.live.camera = settings.sidecar.camera;
-    }
+    read_camera(reader, settings);
     const std::string fault = camera_fault(settings.live.camera);
     if (!fault.empty()) throw UsageError("the camera's " + fault);
     reader.number("exposure", settings.live.exposure, -ods::kMostStops, ods::kMostStops);
@@ -373,87 +381,6 @@ WebAnswer Studio::job() {
 WebAnswer Studio::status() const {
   const std::string fault = live_->fault();
   return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", without_paths(fault)}});
-}
-
-void Studio::discard(const Drop& drop) {
-  std::error_code ignored;
-  if (!drop.path.empty()) std::filesystem::remove(drop.path, ignored);
-}
-
-WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) {
-  const std::vector<unsigned char> bytes = ods::read_file(path, kMostOfCamera);
-  std::vector<std::string> warnings;
-  const ods::Sidecar sidecar = ods::read_sidecar(std::string(bytes.begin(), bytes.end()), name, warnings);
-  const std::string fault = camera_fault(sidecar.camera);
-  if (!fault.empty()) throw UsageError("the camera's " + fault);
-  settings_.sidecar = sidecar;
-  settings_.live.camera = sidecar.camera;
-  live_->set(settings_.live, settings_.look);
-  return json_answer({{"what", "camera"}, {"settings", settings_json(settings_)}});
-}
-
-// A file that was dropped onto the page: another scene, another light, or a camera. What it names, as a scene names its
-// textures, is read from our own folder only.
-WebAnswer Studio::drop(const WebRequest& request) {
-  const std::string name = plain_name(value_of(request, "name"));
-  const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
-  if (kind == ".json") return drop_camera(name, request.file);
-  const bool is_scene = kind == ".glb" || kind == ".zip", is_light = kind == ".hdr" || kind == ".exr";
-  if (!is_scene && !is_light) throw UsageError("drop a .glb or .zip, an .hdr or .exr, or a .camera.json");
-  const Drop drop{name, fmt::format("{}/{}{}", drops_.path(), ++drop_count_, kind)};
-  std::filesystem::rename(request.file, drop.path);
-  Drop& place = is_scene ? dropped_scene_ : dropped_light_;
-  const Drop before = std::exchange(place, drop);
-  SceneSource source = is_scene ? SceneSource() : source_;
-  if (is_scene) {
-    source.name = drop.path;
-    source.confine = drops_.path();
-  } else {
-    source.light.environment = drop.path;
-  }
-  try {
-    open(source, is_scene);
-  } catch (const std::exception& error) {
-    const std::string why = without_paths(error.what());
-    place = before;
-    discard(drop);
-    throw ods::Error(ods::ErrorKind::kInput, why);
-  }
-  discard(before);
-  if (is_scene) discard(std::exchange(dropped_light_, {}));
-  if (is_scene) return json_answer({{"what", "scene"}, {"settings", settings_json(settings_)}});
-  settings_.environment = usual_.environment = name;
-  live_->set(settings_.live, settings_.look);
-  return json_answer({{"what", "environment"}, {"settings", settings_json(settings_)}});
-}
-
-// What the scene's files are called without their endings.
-std::string Studio::stem() const {
-  return std::filesystem::path(title()).stem().string();
-}
-
-WebAnswer Studio::save() {
-  ods::Sidecar sidecar = settings_.sidecar;
-  sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
-  const ods::PrivateFolder folder(".ods-view-");  // whatever has the name, nothing is written through it
-  const std::string made = folder.path() + "/camera";
-  std::vector<std::string> ends = save_maps(sidecar.camera, made);
-  save_sidecar(sidecar, made + ends.emplace_back(".camera.json"));
-  const auto is_taken = [&](const std::string& name) {  // a file of somebody else stays
-    return std::ranges::any_of(ends, [&](const std::string& end) {
-      return std::filesystem::exists(std::filesystem::symlink_status(name + end));
-    });
-  };
-  std::string name = saved_.empty() ? stem() : saved_;
-  for (int i = 2; saved_.empty() && is_taken(name); i++) name = fmt::format("{}-{}", stem(), i);
-  for (const std::string& end : ends) {
-    if (!saved_.empty())
-      std::filesystem::rename(made + end, name + end);
-    else if (!ods::rename_as_new(made + end, name + end))
-      throw UsageError(fmt::format("'{}' exists by now: try again", name + end));
-  }
-  saved_ = name;
-  return json_answer({{"file", saved_ + ".camera.json"}});
 }
 
 WebAnswer Studio::answer(const WebRequest& request) {

@@ -18,6 +18,8 @@
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/studio/live_render.h"
 
+WebAnswer json_answer(const ods::Json& json);
+
 class Studio {
  public:
   // Opens the scene, and notes what was assumed about it. add_item: is called with each picture that has been rendered,
@@ -44,6 +46,8 @@ class Studio {
     ods::LiveView look;
   };
 
+  static constexpr int kMostMaps = 1000;  // of a session
+
   // A file that was dropped onto the page.
   struct Drop {
     std::string name;  // as its user knows it
@@ -51,7 +55,8 @@ class Studio {
   };
 
   Settings read_settings(const std::string& text) const;
-  static ods::Json settings_json(const Settings& settings);
+  void read_camera(ods::JsonReader& reader, Settings& settings) const;
+  ods::Json settings_json(const Settings& settings) const;
   static Settings suiting(const SceneSource& source, const ods::Scene& scene);
   void open(const SceneSource& source, bool is_new);
   std::string title() const;
@@ -84,4 +89,5 @@ class Studio {
   ods::PrivateFolder drops_;
   int drop_count_ = 0;
   Drop dropped_scene_, dropped_light_;
+  std::vector<std::shared_ptr<const ods::Image>> maps_;  // of cameras; the page has their numbers, not their pixels
 };

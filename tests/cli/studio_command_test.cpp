@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "ods/camera/layout.h"
+#include "ods/camera/projection.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
@@ -125,6 +126,13 @@ TEST_F(StudioCommand, DescribesItsControls) {
   EXPECT_EQ(studio["settings"]["sidecar"]["merge_top"]["mode"], "cosine");
   EXPECT_EQ(studio["ranges"]["ipd"][0], 0.0);
   EXPECT_EQ(studio["settings"]["exposure"], 0.0);
+  for (const ods::NamedProjection& named : ods::named_projections()) {
+    const Json controls = studio["controls"][std::string(named.name)];
+    const auto has = [&](const char* number) { return std::ranges::find(controls, number) != controls.end(); };
+    EXPECT_EQ(has("range"), ods::has_range(named.setting.kind)) << named.name;
+    EXPECT_EQ(has("fov"), ods::has_fov(named.setting.kind)) << named.name;
+    EXPECT_EQ(has("lens"), ods::has_lens(named.setting.kind)) << named.name;
+  }
 }
 
 // Thirty changes in quick succession; then the picture is that of the command that the page shows.
@@ -189,6 +197,30 @@ TEST_F(StudioCommand, HasACommandForEveryMergeAndLayout) {
     settings["sidecar"]["picture"]["layout"] = ods::layout_name(layout);
     renders(std::string(ods::layout_name(layout)));
   }
+}
+
+// The page sends all settings at each change: maps stay here.
+TEST_F(StudioCommand, TakesACameraWithLargeMaps) {
+  ASSERT_EQ(asked("save")["file"], "toys.camera.json");
+  Json camera = Json::parse(folder.read("toys.camera.json"));
+  std::vector<float> values(256 * 128);
+  for (size_t i = 0; i < values.size(); i++) values[i] = static_cast<float>(i % 257) / 256.0f;
+  camera["merge_map"] = camera["head_tilt_map"] = {{"width", 256}, {"height", 128}, {"values", values}};
+  camera["merge_top"]["mode"] = "map";
+  const std::string answer = drop("with_maps.camera.json", camera.dump());
+  ASSERT_EQ(status_of(answer), 200) << answer.substr(0, 500);
+  Json settings = Json::parse(body_of(answer))["settings"];
+  EXPECT_LT(settings.dump().size(), 4096u);
+  settings["sidecar"]["yaw"] = 10;
+  settings["width"] = 64;
+  const std::string command = asked("set", settings)["command"];
+  EXPECT_EQ(asked("save")["file"], "toys.camera.json");
+  const Json saved = Json::parse(folder.read("toys.camera.json"));
+  EXPECT_EQ(saved["yaw"], 10);
+  for (const char* map : {"merge_map", "head_tilt_map"}) EXPECT_TRUE(saved[map] == camera[map]) << map;
+  EXPECT_EQ(run(command.substr(4) + " -q --samples 1 --noise none"), 0) << command << err;
+  settings["maps"]["merge"] = 99;
+  EXPECT_EQ(status_of(post("studio/set", settings.dump())), 400);
 }
 
 TEST_F(StudioCommand, SaysWhatIsWrongWithASetting) {
