@@ -14,6 +14,7 @@
 #include "cli/options/camera_options.h"
 #include "cli/view/render_words.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/large_blocks.h"
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
@@ -122,6 +123,7 @@ void Studio::open(const SceneSource& source, bool is_new) {
   scene_ = {opened, &opened->scene};
   live_ = {opened, &opened->live};
   duration_ = length_of(scene_->animation);
+  ods::return_free_memory();  // of the scene before
   if (!is_new) return;
   saved_.clear();
   live_->set(settings_.live, settings_.look);
