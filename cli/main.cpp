@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "cli/console/exit_code.h"
+#include "cli/console/interrupt.h"
 #include "cli/console/manual.h"
 #include "ods/base/large_blocks.h"
 #include "ods/base/names.h"
@@ -110,6 +111,7 @@ int unknown_command(const char* name) {
 
 int main(int argc, char** argv) {
   open_closed_streams();
+  end_on_interrupts();
   ods::return_large_blocks();
   if (argc < 2) {
     std::fputs(overview(ManualFormat::kHelp).c_str(), stderr);

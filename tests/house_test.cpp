@@ -31,8 +31,7 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
     {"meshoptimizer.h", {"ods/scene/gltf/meshopt.cpp"}},
     {"zip.h", {"ods/files/zip_archive.cpp"}},
-    {"httplib.h", {"cli/view/http_server.cpp"}},
-    {"openssl/", {"cli/view/certificate.cpp"}},
+    {"openssl/", {"cli/view/certificate.cpp", "cli/http/web_stream.cpp"}},
     {"qrencode.h", {"cli/view/qr_code.cpp"}},
     {"lcms2", {"ods/image/icc_profile.cpp"}},
     {"libavcodec/", kAvFiles},
@@ -43,8 +42,9 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"pango/", {"ods/compose/lettering.cpp"}}};
 
 // Libraries that any .cpp may know, and the system.
-const std::set<std::string> kShared = {"fmt/",     "glm/", "nlohmann/", "tbb/",  "dlfcn.h",   "fcntl.h", "malloc.h",
-                                       "signal.h", "sys/", "unistd.h",  "arpa/", "ifaddrs.h", "net/",    "spawn.h"};
+const std::set<std::string> kShared = {"fmt/",      "glm/",     "nlohmann/", "tbb/",   "dirent.h", "dlfcn.h",
+                                       "fcntl.h",   "malloc.h", "signal.h",  "sys/",   "unistd.h", "arpa/",
+                                       "ifaddrs.h", "net/",     "netinet/",  "spawn.h"};
 
 struct Source {
   std::string path;  // from the root of the tree

@@ -3,6 +3,7 @@
 //
 // The bar, the settings and the help: what they show follows the viewer, what they are told goes to it.
 import { ACTIONS, keysOf } from './actions.js';
+import { hasOtherLayouts } from './form.js';
 import { BUTTONS } from './headset.js';
 import { followDevice, hasDevice } from './look.js';
 import { MODES } from './modes.js';
@@ -105,8 +106,9 @@ export class Controls {
     find('picture').setAttribute('aria-label', `${about.name}. Look around with the arrow keys; ? lists all keys.`);
     find('reason').textContent = choice.layout ? '' : (about.layout_reason ?? '');
     const layouts = view.layouts.map(({ name }) => [name, name]);
-    fill(find('layout'), about.image ? [['', `as found: ${about.layout}`], ...layouts] : [['', about.layout ?? 'a file per eye']]);
-    find('layout').disabled = !about.image;
+    const hasLayout = hasOtherLayouts(view, about);
+    fill(find('layout'), hasLayout ? [['', `as found: ${about.layout}`], ...layouts] : [['', about.layout ?? 'a file per eye']]);
+    find('layout').disabled = !hasLayout;
     find('layout').value = choice.layout ?? '';
     fill(find('projection'), [['', `as found: ${about.projection}`], ...view.projections.map(({ name }) => [name, name])]);
     find('projection').value = choice.projection ?? '';

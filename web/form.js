@@ -14,6 +14,11 @@ export function formOf(view, item, { layout, projection } = {}) {
   };
 }
 
+// Whether both eyes share a file, of which another layout can be tried: by the page, or by the server that divides it.
+export function hasOtherLayouts(view, item) {
+  return Boolean(item.image) || (view.live && item.kind === 'picture' && !['separate', 'multiview'].includes(item.layout));
+}
+
 // Whether the right edge of a picture continues at its left one. A lat-long or a cylinder's span is in radians.
 export function isRound({ projection }) {
   return projection.kind < 2 && projection.span[0] > 2 * Math.PI - 1e-4;

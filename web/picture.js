@@ -3,7 +3,7 @@
 //
 // Loads an item of view.json. A picture, for panorama.js, is
 //   { eyes: [left, right] as EyeTexture, camera, mono, free() }   and a video's also what video.js adds.
-import { cropOf, formOf, isRound, same } from './form.js';
+import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
 import { EyeTexture } from './tiles.js';
 import { openVideo } from './video.js';
 
@@ -39,11 +39,19 @@ async function decode(blob, name) {
   }
 }
 
-async function openImage(gl, item, form, url, signal, progress) {
+// The addresses of an item's eyes, where the server divides its file as another layout has it.
+function eyeFiles({ left, right }, layout) {
+  const named = (eye) => left.replace(/[^/]*$/, `${eye}.jpg`);
+  if (!layout) return [left, right];
+  return layout === 'mono' ? [named('mono'), named('mono')] : [named('left'), named('right')];
+}
+
+async function openImage(gl, item, form, layout, url, signal, progress) {
   const wraps = isRound(form.camera);
-  const files = item.image ? [url(item.image)] : [url(item.left), url(item.right)];
+  const [left, right] = eyeFiles(item, layout);
+  const files = item.image ? [url(item.image)] : [url(left), url(right)];
   const crops = item.image ? [form.layout.left, form.layout.right] : [[0, 0, 1, 1], [0, 0, 1, 1]];
-  const mono = files.length === 1 ? same(...crops) : item.left === item.right;
+  const mono = files.length === 1 ? same(...crops) : left === right;
   const eyes = [];
   const free = () => new Set(eyes).forEach((eye) => eye.free());
   let source = null;
@@ -78,12 +86,14 @@ async function openImage(gl, item, form, url, signal, progress) {
 // optional. Throws an Error with one line for the user, or an AbortError if `signal` says stop.
 export async function openPicture(panorama, view, item, { base, choice = {}, signal, progress } = {}) {
   const form = formOf(view, item, choice);
+  const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
   const url = (path) => {
     const address = new URL(path, base ?? location.href);
+    if (layout) address.searchParams.set('layout', layout);
     if (item.live && choice.exposure !== undefined) address.searchParams.set('exposure', choice.exposure);
     if (item.live && choice.tone) address.searchParams.set('tone', choice.tone);
     return address;
   };
   if (item.kind === 'video') return openVideo(panorama.gl, item, form, url(item.image), signal);
-  return openImage(panorama.gl, item, form, url, signal, progress);
+  return openImage(panorama.gl, item, form, layout, url, signal, progress);
 }

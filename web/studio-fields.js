@@ -29,11 +29,6 @@ export function readValue(view, settings, path) {
 }
 
 const hasCurve = (which) => (settings) => !['none', 'map'].includes(settings.sidecar[which].mode);
-const projectionIs = (pattern) => (settings) => pattern.test(settings.sidecar.projection.name);
-const isRange = projectionIs(/^(lat-long|vr180|cylinder)$/);
-const hasFov = projectionIs(/^(fisheye|dome|perspective)/);
-const hasLens = projectionIs(/^(fisheye|dome|perspective|eac-face)/);
-
 const mergeRows = (which) => [
   { path: camera(`${which}.mode`), label: 'Curve', merges: true },
   { path: camera(`${which}.start`), label: 'Start', unit: '°', step: 0.5, range: [0, 90], when: hasCurve(which), about: 'Elevation up to which the eyes keep their whole distance' },
@@ -43,10 +38,11 @@ const mergeRows = (which) => [
 
 export function groupsOf(view) {
   const { studio } = view;
-  const maps = (name) => name !== 'map' || studio.settings.sidecar.merge_map;
+  const maps = (name) => name !== 'map' || studio.settings.maps?.merge >= 0;
   const merges = options(studio.merges.filter(maps));
   const merge = (which) => mergeRows(which).map((row) => (row.merges ? { ...row, options: merges } : row));
   const turns = [-180, 180];
+  const has = (number) => (settings) => studio.controls[settings.sidecar.projection.name]?.includes(number);
   return [
     { name: 'Pole merge', id: 'merge', open: true, top: merge('merge_top'), bottom: merge('merge_bottom') },
     { name: 'Eyes', open: true, rows: [
@@ -72,12 +68,12 @@ export function groupsOf(view) {
     ] },
     { name: 'Projection', rows: [
       { path: camera('projection.name'), label: 'Projection', options: studio.projections.map((name) => [name, name]), projection: true },
-      { path: camera('projection.fov'), label: 'Field of view', unit: '°', step: 0.5, range: [1, 360], when: hasFov },
-      { path: camera('projection.aspect'), label: 'Aspect', unit: 'w / h', step: 0.01, range: [0.1, 10], when: projectionIs(/^perspective$/) },
-      { path: camera('projection.pan'), label: 'Pan', unit: '°', step: 0.5, range: turns, when: hasLens },
-      { path: camera('projection.tilt'), label: 'Tilt', unit: '°', step: 0.5, range: [-90, 90], when: hasLens },
-      { label: 'Longitude', when: isRange, parts: [['Left', 0], ['Right', 1]].map(([label, i]) => ({ path: camera(`projection.longitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-360, 360] })) },
-      { label: 'Latitude', when: isRange, parts: [['Bottom', 0], ['Top', 1]].map(([label, i]) => ({ path: camera(`projection.latitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-90, 90] })) },
+      { path: camera('projection.fov'), label: 'Field of view', unit: '°', step: 0.5, range: [1, 360], when: has('fov') },
+      { path: camera('projection.aspect'), label: 'Aspect', unit: 'w / h', step: 0.01, range: [0.1, 10], when: has('aspect') },
+      { path: camera('projection.pan'), label: 'Pan', unit: '°', step: 0.5, range: turns, when: has('lens') },
+      { path: camera('projection.tilt'), label: 'Tilt', unit: '°', step: 0.5, range: [-90, 90], when: has('lens') },
+      { label: 'Longitude', when: has('range'), parts: [['Left', 0], ['Right', 1]].map(([label, i]) => ({ path: camera(`projection.longitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-360, 360] })) },
+      { label: 'Latitude', when: has('range'), parts: [['Bottom', 0], ['Top', 1]].map(([label, i]) => ({ path: camera(`projection.latitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-90, 90] })) },
     ] },
     { name: 'Lens', rows: [
       { path: camera('lens.radius'), label: 'Lens radius', unit: 'mm', scale: 1000, step: 0.1, range: [0, 500], about: '0: everything is sharp' },

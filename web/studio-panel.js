@@ -15,10 +15,15 @@ export class Panel {
     Object.assign(this, { element, view, session, rows: [], names: {} }); // names: what people call a value
     const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
     this.linked = JSON.stringify(top) === JSON.stringify(bottom);
-    this.fault = make('p', { className: 'fault', role: 'alert', hidden: true });
-    element.replaceChildren(this.fault, ...groupsOf(view).map((group) => this.group(group)));
+    element.replaceChildren(...groupsOf(view).map((group) => this.group(group)));
+    // Beside the panel, which may be hidden.
+    this.said = make('span', {});
+    const close = make('button', { type: 'button', className: 'small', title: 'Close', 'aria-label': 'Close', textContent: '×' });
+    close.addEventListener('click', () => this.complain(''));
+    this.fault = make('div', { id: 'fault', role: 'alert', hidden: true }, this.said, close);
+    document.body.append(this.fault);
     session.addEventListener('edit', () => this.update());
-    session.addEventListener('accepted', () => this.refuse(''));
+    session.addEventListener('accepted', () => this.isOfSettings && this.refuse(''));
     session.addEventListener('refused', ({ detail }) => this.refuse(detail.text, detail.paths));
     this.update();
   }
@@ -109,7 +114,14 @@ export class Panel {
     this.curve.draw({ top, bottom }, other && { top: other.merge_top, bottom: other.merge_bottom });
   }
 
-  // Says what the server refuses, at the row that is to blame.
+  // Says what went wrong, until it is closed or said otherwise; '': nothing did.
+  complain(text) {
+    this.said.textContent = text;
+    this.fault.hidden = !text;
+    this.isOfSettings = false;
+  }
+
+  // Says what the server refuses, and marks the rows that are to blame.
   refuse(text, paths = []) {
     const marked = this.rows.filter(({ spec }) => paths.some((path) => path === spec.path || path.startsWith(`${spec.path}.`)));
     for (const { control } of this.rows) {
@@ -117,12 +129,9 @@ export class Panel {
       control.element.classList.toggle('wrong', is);
       control.element.querySelector('input, select').setAttribute('aria-invalid', is);
     }
-    this.fault.textContent = text.replace("'camera' is not a valid camera: ", '');
-    this.fault.hidden = !text;
+    this.complain(text.replace("'camera' is not a valid camera: ", ''));
+    this.isOfSettings = Boolean(text);
     const at = marked.find(({ control }) => !control.element.hidden)?.control.element;
-    if (!at) return this.element.prepend(this.fault);
-    const row = at.closest('.many') ?? at;
-    row.closest('details').open = true;
-    row.after(this.fault);
+    if (at) at.closest('details').open = true;
   }
 }

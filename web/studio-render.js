@@ -63,14 +63,15 @@ export class RenderFoot {
       event.preventDefault();
       this.attempt(() => this.render());
     });
-    element.append(make('div', { className: 'command' }, this.command, copy), form, this.job);
+    this.note = make('p', { className: 'note', hidden: true });
+    element.append(make('div', { className: 'command' }, this.command, copy), this.note, form, this.job);
     session.addEventListener('accepted', ({ detail }) => {
       if (detail === session.side) this.tell();
     });
     for (const field of [this.name, this.quality]) field.addEventListener('input', () => this.tell());
     session.addEventListener('edit', () => this.update());
     session.addEventListener('found', () => {
-      if (this.text.textContent === ENDED) this.job.hidden = true;
+      if (studio.panel.said.textContent === ENDED) studio.panel.complain('');
     });
     this.update();
     this.watch();
@@ -99,8 +100,9 @@ export class RenderFoot {
 
   // Shows the server's command, with the name and the quality from here. Lines break between options only.
   tell() {
-    const { command } = this.studio.session.side;
+    const { command, note } = this.studio.session.side;
     if (!command) return;
+    Object.assign(this.note, { textContent: note ?? '', hidden: !note });
     const name = this.name.value.trim();
     const quoted = /^[\w.,/:=+%@-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
     const whole = command.replace(/ -o .*$/, ` --quality ${this.quality.value} -o ${quoted}`);
@@ -108,10 +110,12 @@ export class RenderFoot {
   }
 
   async attempt(run) {
+    const { panel } = this.studio;
+    panel.complain('');
     try {
       await run();
     } catch (error) {
-      this.say(error.message, 'failed');
+      panel.complain(error.message);
     }
   }
 
@@ -125,7 +129,7 @@ export class RenderFoot {
   async render() {
     if (this.watching) return;
     await this.studio.session.settle();
-    const output = (this.output = this.name.value.trim());
+    const output = this.name.value.trim();
     await ask('render', { output, quality: this.quality.value }).catch((error) => {
       if (/exists/.test(error.message)) this.take(output);
       throw error;
@@ -170,10 +174,10 @@ export class RenderFoot {
     this.go.disabled = false;
   }
 
-  ended({ state, text, item }) {
+  ended({ state, text, item, output }) {
     this.item = item;
-    if (state === 'done') this.take(this.output);
-    if (state === 'cancelled') this.say('Cancelled', state);
-    else this.say(state === 'done' ? this.output ?? 'Done' : text || 'It failed', state);
+    if (state === 'done') this.take(output);
+    this.say(state === 'done' ? output : state === 'cancelled' ? 'Cancelled: nothing is kept' : 'It failed', state);
+    if (state === 'failed') this.studio.panel.complain(text || 'ods render has failed');
   }
 }

@@ -16,8 +16,16 @@ import { ENDED, Session, ask, sleep } from './studio-session.js';
 const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
 const SIDES = ['A', 'B'];
 // What names of files say of the layout, for players that go by it.
-const SHORT = { 'top-bottom': 'TB', 'bottom-top': 'BT', 'side-by-side': 'LR', 'cross-eyed': 'RL' };
+const SHORT = { 'top-bottom': 'TB', 'bottom-top': 'BT', 'side-by-side': 'LR', 'cross-eyed': 'RL', separate: '%V' };
 const TURN = 2000; // milliseconds of a side's first turn in a comparison
+
+// What a frame is, and what comes after it. A part is the whole picture or, finer, what is in view.
+export function progressOf({ part, width, height, samples, seconds, next }) {
+  const what = (each) => (each.part === 'patch' ? 'view' : 'picture');
+  const now = `${what({ part })} ${width} × ${height}, ${samples} ${samples === 1 ? 'sample' : 'samples'} per pixel, ${seconds.toFixed(1)} s`;
+  if (!next) return `${now}: finished`;
+  return `${now}; next: ${what(next)} ${next.width} wide, ${next.samples} samples`;
+}
 
 class Studio {
   constructor(page) {
@@ -115,13 +123,13 @@ class Studio {
     this.refresh();
   }
 
-  tell({ state, samples, seconds, done, fault, side, isOthers }) {
+  tell({ state, done, fault, side, isOthers, ...frame }) {
     this.takeTurns(done, side);
     if (fault) this.page.fail(fault);
     const name = this.split === null || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
     if (isOthers) this.status.textContent = 'Another tab has changed the scene. What you change here counts again.';
     else if (state === 'loading') this.status.textContent = 'Loading the scene …';
-    else if (samples) this.status.textContent = `${name}${samples} ${samples === 1 ? 'sample' : 'samples'} per pixel after ${seconds.toFixed(1)} s${done ? ', finished' : ''}`;
+    else if (frame.samples) this.status.textContent = name + progressOf(frame);
   }
 
   // --- what is shown ---
@@ -140,6 +148,8 @@ class Studio {
     const other = sides[1 - active];
     const has = (side) => (side && this.live.picture(side) ? side : null);
     const first = has(left) ?? has(other) ?? has(sides[active]);
+    const name = (side) => SIDES[sides.indexOf(side)];
+    if (first && first !== left && first.settings !== left.settings) this.status.textContent = `${name(left)} is being rendered; until then you see ${name(first)}`;
     viewer.picture = first ? this.live.picture(first, has(right) ?? (right && first), this.split ?? 1) : null;
     viewer.redraw();
     this.placeDivider();
@@ -171,7 +181,7 @@ class Studio {
     const stem = view.studio.scene.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
     const angle = projection.name === 'vr180' ? '_180' : /^(lat-long|cube|eac)/.test(projection.name) ? '_360' : '';
     const short = SHORT[picture.layout];
-    return `${stem}${count > 1 ? `_${count}` : ''}${angle}${short ? `_${short}` : ''}.png`;
+    return `${stem}${count > 1 ? `_${count}` : ''}${angle}${short ? `_${short}` : ''}.${picture.layout === 'multiview' ? 'exr' : 'png'}`;
   }
 
   // --- where one looks ---
@@ -276,6 +286,7 @@ class Studio {
 
   async drop(file) {
     if (!file) return;
+    this.panel.complain('');
     this.page.toast(`Sending ${file.name} …`);
     try {
       const { what, settings } = await ask(`drop?name=${encodeURIComponent(file.name)}`, file);
@@ -286,7 +297,8 @@ class Studio {
       this.session.replace(settings);
       this.page.toast(what === 'camera' ? `Camera of ${file.name}` : `Light of ${file.name}`);
     } catch (error) {
-      this.panel.refuse(`${file.name}: ${error.message}`);
+      this.page.toast('');
+      this.panel.complain(`${file.name}: ${error.message}`);
     }
   }
 }

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "cli/console/console.h"
-#include "cli/console/interrupt.h"
 #include "cli/options/picture_options.h"
 #include "cli/picture/compare_report.h"
 #include "ods/base/error.h"
@@ -135,7 +134,6 @@ void check_limits(const CompareJob& job, const ods::Errors& whole) {
 void run(int argc, char** argv) {
   CompareJob job;
   if (!read_options(job, argc, argv)) return;
-  end_on_interrupts();
   for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
   const CompareReport report = compare(job);
   job.json ? print_json(report) : print_text(report);

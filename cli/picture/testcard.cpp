@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "cli/console/console.h"
-#include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/picture_options.h"
@@ -99,7 +98,6 @@ void testcard(int argc, char** argv) {
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
   if (!job.video.is_video) {
-    end_on_interrupts();
     return draw(job, stereo, eye, eyes);
   }
   warn_if_illegible(stereo.projection, eye.width);

@@ -9,7 +9,6 @@
 #include <algorithm>
 
 #include "cli/console/console.h"
-#include "cli/console/interrupt.h"
 #include "cli/options/picture_options.h"
 #include "cli/picture/title_job.h"
 #include "ods/files/frames.h"
@@ -67,7 +66,6 @@ void save(const TitleJob& job, const ods::Title& title, const ods::StereoCamera&
 void title(int argc, char** argv) {
   TitleJob job;
   if (!read_title_job(job, argc, argv)) return;
-  end_on_interrupts();
   const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "cli/console/console.h"
-#include "cli/console/interrupt.h"
 #include "cli/console/options.h"
 #include "cli/video/probe_report.h"
 #include "cli/video/wordless.h"
@@ -89,7 +88,6 @@ void run(int argc, char** argv) {
   options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
-  end_on_interrupts();
   const ProbeReport report = probe(path);
   json ? print_json(report) : print_text(report);
 }

@@ -9,7 +9,8 @@
 // The IPv4 addresses under which other machines of the local network reach this one.
 std::vector<std::string> network_addresses();
 
-// Shows the page in the user's browser, if there is a desktop; else does nothing.
+// Shows the page in the user's browser, if there is a desktop; else does nothing. Other users of this machine can read
+// the address.
 void open_in_browser(const std::string& address);
 
 // ~/.local/state/ods, or as XDG_STATE_HOME has it; made, for the user alone. Empty if there is no home.

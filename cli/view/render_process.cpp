@@ -2,42 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/view/render_process.h"
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
 #include "cli/console/spawn.h"
+#include "ods/files/atomic_file.h"
 
 RenderProcess::~RenderProcess() {
   cancel();
   if (reader_.joinable()) reader_.join();
 }
 
-void RenderProcess::start(const std::vector<std::string>& words) {
+void RenderProcess::start(std::vector<std::string> words, const std::string& output) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (status_.state == "running") throw UsageError("a picture is being rendered: wait for it, or cancel it");
   }
   if (reader_.joinable()) reader_.join();
-  std::vector<std::string> all = {kThisProgram};
-  all.insert(all.end(), words.begin(), words.end());
-  const auto program = spawn(all, StreamUse::kHidden, StreamUse::kRead);
-  if (!program) throw ods::Error(ods::ErrorKind::kOutput, "cannot start ods render");
-  const std::lock_guard<std::mutex> lock(mutex_);
+  folder_ = std::make_unique<ods::PrivateFolder>(".ods-view-");
+  words.insert(words.begin(), kThisProgram);
+  words.insert(words.end(), {"--progress", "json", "-o", folder_->path() + "/" + output});
   status_ = Status();
   status_.state = "running";
-  child_ = program->process;
-  reader_ = std::thread([this, from = program->from] { read_lines(from); });
+  reader_ = std::thread([this, words, output] { run(words, output); });  // the process lives as long as this thread
 }
 
 void RenderProcess::cancel() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (status_.state != "running") return;
   status_.state = "cancelled";
-  kill(child_, SIGTERM);
+  if (child_ != 0) kill(child_, SIGKILL);  // what it has made so far is in our folder
 }
 
 RenderProcess::Status RenderProcess::status() const {
@@ -55,6 +55,8 @@ void RenderProcess::take_line(const std::string& line) {
   for (const char* key : {"note", "warning", "error"}) {
     if (json.contains(key) && json[key].is_string()) status_.text = json[key];
   }
+  const std::string ours = folder_->path() + "/";
+  for (size_t at = 0; (at = status_.text.find(ours)) != std::string::npos;) status_.text.erase(at, ours.size());
 }
 
 void RenderProcess::read_lines(int from) {
@@ -67,11 +69,41 @@ void RenderProcess::read_lines(int from) {
     }
   }
   close(from);
+}
+
+void RenderProcess::run(const std::vector<std::string>& words, const std::string& output) {
+  std::optional<Spawned> program;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (status_.state == "running") program = spawn_for_this_thread(words);
+    if (program) child_ = program->process;
+  }
+  if (!program) return end(output, false);
+  read_lines(program->from);
   siginfo_t ended;
   waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT);  // its number stays its own for cancel()
-  const std::lock_guard<std::mutex> lock(mutex_);
   int result = 0;
-  waitpid(child_, &result, 0);
-  if (status_.state == "running") status_.state = WIFEXITED(result) && WEXITSTATUS(result) == 0 ? "done" : "failed";
-  if (status_.state == "done") status_.done = 1.0, status_.left = 0.0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waitpid(std::exchange(child_, 0), &result, 0);
+  }
+  end(output, WIFEXITED(result) && WEXITSTATUS(result) == 0);
+}
+
+// Gives the picture its name. A picture that took hours is not lost because somebody else took that.
+void RenderProcess::end(const std::string& output, bool is_well) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool is_wanted = status_.state == "running";
+  if (is_wanted) status_.state = "failed";
+  try {
+    const std::filesystem::path name = output;
+    std::string free = output;
+    for (int i = 2; is_wanted && is_well && !ods::rename_as_new(folder_->path() + "/" + output, free); i++) {
+      free = fmt::format("{}-{}{}", name.stem().native(), i, name.extension().native());
+    }
+    if (is_wanted && is_well) status_.state = "done", status_.done = 1.0, status_.left = 0.0, status_.output = free;
+  } catch (const ods::Error& error) {
+    status_.text = error.what();
+  }
+  folder_.reset();
 }

@@ -2,36 +2,46 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods render in a process of its own, as people would start it: what it reports, and an end when it is no longer
-// wanted.
+// wanted, or we are gone.
+//
+// It works in a folder of ours beside the picture, which gets its name when it is complete: nothing else is left,
+// whatever happens, and nothing that has the name by then is replaced or followed.
 #pragma once
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "ods/files/private_folder.h"
 
 class RenderProcess {
  public:
   struct Status {
     std::string state = "none";  // none, running, done, failed, cancelled
     double done = 0.0;
-    double left = 0.0;  // seconds, as far as is known
-    std::string text;   // its last line for people
+    double left = 0.0;   // seconds, as far as is known
+    std::string text;    // its last line for people
+    std::string output;  // done: the picture's name, which is another one if that exists by now
   };
 
   ~RenderProcess();
 
-  // words: after "ods". Throws UsageError if one is running.
-  void start(const std::vector<std::string>& words);
+  // words: after "ods", without the output; output: a name in the current folder. Throws UsageError if one is running,
+  // Error(kOutput) if nothing can be written there.
+  void start(std::vector<std::string> words, const std::string& output);
   void cancel();
   Status status() const;
 
  private:
+  void run(const std::vector<std::string>& words, const std::string& output);
   void read_lines(int from);
   void take_line(const std::string& line);
+  void end(const std::string& output, bool is_well);
 
   mutable std::mutex mutex_;
   Status status_;
-  int child_ = 0;  // its process
+  int child_ = 0;  // its process; 0: there is none
+  std::unique_ptr<ods::PrivateFolder> folder_;
   std::thread reader_;
 };

@@ -8,6 +8,10 @@
 
 #include "ods/camera/stereo_camera.h"
 
-// The options that give this camera, {"--yaw", "30", ...}: position and yaw, and all else that differs from the
-// commands' defaults. Maps are left out: options name files, and a camera has pixels.
-std::vector<std::string> camera_words(const ods::StereoCamera& camera);
+// The options that give this camera in a picture of this width, {"--yaw", "30", ...}: position and yaw, and all else
+// that differs from the commands' defaults. Its maps are files whose names begin with `maps`: options name files, and a
+// camera has pixels.
+std::vector<std::string> camera_words(const ods::StereoCamera& camera, int width, const std::string& maps);
+
+// Writes those files; returns what their names have behind `maps`. Throws Error(kOutput).
+std::vector<std::string> save_maps(const ods::StereoCamera& camera, const std::string& maps);

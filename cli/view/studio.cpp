@@ -3,11 +3,10 @@
 #include "cli/view/studio.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -15,10 +14,12 @@
 #include "cli/options/camera_options.h"
 #include "cli/view/render_words.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/large_blocks.h"
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/files/atomic_file.h"
+#include "ods/files/read_file.h"
 #include "ods/image/format/file_format.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
@@ -33,10 +34,6 @@ constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
 constexpr int kMostWidth = 16384;
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
-
-WebAnswer json_answer(const Json& json) {
-  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
-}
 
 // What suits the light, as ods render chooses it.
 float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera, bool is_ours) {
@@ -65,22 +62,21 @@ void read_body(const std::string& body, const Read& read) {
   read(reader);
 }
 
-// Removes a file of ours, and lets its name be that of another.
-void replace_file(std::string& path, const std::string& by) {
-  if (!path.empty()) {
-    ods::forget_unfinished(path.c_str());
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-  path = by;
-  if (!path.empty()) ods::remember_unfinished(path.c_str());
-}
-
 template <class Names>
 void check_name(const std::string& what, const std::string& name, const Names& names) {
   if (std::ranges::find(names, name) == std::end(names)) {
     throw UsageError(fmt::format("there is no {} '{}'", what, name));
   }
+}
+
+// The numbers that a projection has, in the page's words.
+Json controls_json(int kind) {
+  Json json = Json::array();
+  if (ods::has_range(kind)) json.push_back("range");
+  if (ods::has_fov(kind)) json.push_back("fov");
+  if (ods::has_lens(kind)) json.push_back("lens");
+  if (kind == ods::kPerspective) json.push_back("aspect");
+  return json;
 }
 
 Json ranges_json() {
@@ -94,45 +90,58 @@ Json ranges_json() {
 
 }  // namespace
 
+WebAnswer json_answer(const Json& json) {
+  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
+
 Studio::Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item)
-    : source_(source), add_item_(std::move(add_item)) {
-  open();
-  begin();
+    : add_item_(std::move(add_item)), drops_((std::filesystem::temp_directory_path() / "ods-view-").native()) {
+  open(source, true);
 }
 
-Studio::~Studio() {
-  replace_file(dropped_scene_, "");
-  replace_file(dropped_light_, "");
+Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& scene) {
+  Settings settings;
+  settings.sidecar.camera = place_camera(CameraOptions(), scene);
+  settings.live.camera = settings.sidecar.camera;
+  settings.live.exposure = usual_exposure(scene, settings.live.camera, ods::find_builtin(source.name) != nullptr);
+  settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;
+  settings.variant = source.variant;
+  return settings;
 }
 
-// The settings that suit a scene.
-void Studio::begin() {
-  usual_ = Settings();
-  usual_.sidecar.camera = place_camera(CameraOptions(), *scene_);
-  usual_.live.camera = usual_.sidecar.camera;
-  usual_.live.exposure = usual_exposure(*scene_, usual_.live.camera, ods::find_builtin(source_.name) != nullptr);
-  usual_.environment = source_.light.environment.empty() ? "auto" : source_.light.environment;
-  usual_.variant = source_.variant;
-  settings_ = usual_;
-  live_->set(settings_.live, settings_.look);
-}
-
-void Studio::open() {
+// Another scene, with the settings that suit it, or another light of the same. Nothing changes if it throws.
+void Studio::open(const SceneSource& source, bool is_new) {
   struct Opened {
     explicit Opened(ods::Scene wanted) : scene(std::move(wanted)), live(scene, 0) {}
     ods::Scene scene;
     ods::LiveRender live;
   };
-  auto scene = open_lit_scene(source_, false);
+  const auto opened = std::make_shared<Opened>(open_lit_scene(source, false));
+  if (is_new) usual_ = settings_ = suiting(source, opened->scene);
   if (live_) live_->end();
-  const auto opened = std::make_shared<Opened>(std::move(scene));
+  source_ = source;
   scene_ = {opened, &opened->scene};
   live_ = {opened, &opened->live};
   duration_ = length_of(scene_->animation);
+  ods::return_free_memory();  // of the scene before
+  if (!is_new) return;
+  saved_.clear();
+  live_->set(settings_.live, settings_.look);
 }
 
-Json Studio::settings_json(const Settings& settings) {
-  return {{"sidecar", Json::parse(write_sidecar(settings.sidecar))},
+// Maps that we have are numbers: the page sends all settings whenever one changes.
+Json Studio::settings_json(const Settings& settings) const {
+  ods::Sidecar sidecar = settings.sidecar;
+  const auto number_of = [&](std::shared_ptr<const ods::Image>& map) {
+    const auto found = map ? std::ranges::find(maps_, map) : maps_.end();
+    if (found == maps_.end()) return -1;
+    map = nullptr;
+    return static_cast<int>(found - maps_.begin());
+  };
+  const Json maps = {{"merge", number_of(sidecar.camera.merge_map)},
+                     {"head_tilt", number_of(sidecar.camera.head_tilt_map)}};
+  return {{"sidecar", Json::parse(write_sidecar(sidecar))},
+          {"maps", maps},
           {"exposure", settings.live.exposure},
           {"tone", ods::tone_curve_name(settings.live.tone)},
           {"env", settings.environment},
@@ -143,7 +152,7 @@ Json Studio::settings_json(const Settings& settings) {
 
 Json Studio::description() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Json json = {{"scene", std::filesystem::path(source_.name).filename().string()},
+  Json json = {{"scene", std::filesystem::path(title()).filename().string()},
                {"settings", settings_json(usual_)},
                {"ranges", ranges_json()},
                {"merges", ods::names_of(ods::kMergeTable)},
@@ -154,18 +163,38 @@ Json Studio::description() const {
                {"qualities", kQualities},
                {"variants", scene_->variants},
                {"duration", duration_}};
-  for (const ods::NamedProjection& named : ods::named_projections()) json["projections"].push_back(named.name);
+  for (const ods::NamedProjection& named : ods::named_projections()) {
+    json["projections"].push_back(named.name);
+    json["controls"][std::string(named.name)] = controls_json(named.setting.kind);
+  }
   return json;
+}
+
+void Studio::read_camera(JsonReader& reader, Settings& settings) const {
+  const Json* const given = reader.find("sidecar");
+  if (!given) return;
+  Json sidecar = *given;
+  int merge = -1, head_tilt = -1;
+  reader.part("maps", [&](JsonReader& maps) {
+    maps.integer("merge", merge, -1, Studio::kMostMaps);
+    maps.integer("head_tilt", head_tilt, -1, Studio::kMostMaps);
+  });
+  if (std::max(merge, head_tilt) >= static_cast<int>(maps_.size())) {
+    throw UsageError("the camera's map is gone: drop its .camera.json once more");
+  }
+  if (merge >= 0) sidecar["merge_map"] = {{"width", 1}, {"height", 1}, {"values", {1}}};  // stands for ours
+  std::vector<std::string> warnings;
+  settings.sidecar = ods::read_sidecar(sidecar.dump(), "camera", warnings);
+  ods::StereoCamera& camera = settings.sidecar.camera;
+  if (merge >= 0) camera.merge_map = maps_[static_cast<size_t>(merge)];
+  if (head_tilt >= 0) camera.head_tilt_map = maps_[static_cast<size_t>(head_tilt)];
+  settings.live.camera = camera;
 }
 
 Studio::Settings Studio::read_settings(const std::string& text) const {
   Settings settings = settings_;
   read_body(text, [&](JsonReader& reader) {
-    std::vector<std::string> warnings;
-    if (const Json* const camera = reader.find("sidecar")) {
-      settings.sidecar = ods::read_sidecar(camera->dump(), "camera", warnings);
-      settings.live.camera = settings.sidecar.camera;
-    }
+    read_camera(reader, settings);
     const std::string fault = camera_fault(settings.live.camera);
     if (!fault.empty()) throw UsageError("the camera's " + fault);
     reader.number("exposure", settings.live.exposure, -ods::kMostStops, ods::kMostStops);
@@ -192,39 +221,54 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
 WebAnswer Studio::set(const std::string& body) {
   const Settings wanted = read_settings(body);
   if (wanted.environment != settings_.environment || wanted.variant != settings_.variant) {
-    source_.light.environment = wanted.environment == "auto" ? "" : wanted.environment;
-    source_.variant = wanted.variant;
-    open();
+    SceneSource source = source_;
+    source.light.environment = environment_of(wanted.environment);
+    source.variant = wanted.variant;
+    open(source, false);
   }
   settings_ = wanted;
   const int revision = live_->set(settings_.live, settings_.look);
-  return json_answer({{"revision", revision}, {"command", ods::shell_line(words("", ""))}});
+  std::vector<std::string> command = words(saved_.empty() ? stem() : saved_, true);
+  command.insert(command.begin(), "ods");
+  const ods::Layout layout = settings_.sidecar.layout;
+  const char* const end = layout == ods::Layout::kMultiview  ? "_360.exr"
+                          : layout == ods::Layout::kSeparate ? "_360_%V.png"
+                                                             : "_360_TB.png";
+  command.insert(command.end(), {"-o", stem() + end});
+  const bool has_maps =
+      std::ranges::find_if(command, [](const std::string& word) { return word.ends_with("-map"); }) != command.end();
+  const char* const note = has_maps ? "Save camera writes the maps that this command reads" : "";
+  return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}, {"note", note}});
 }
 
-// The command that renders what the page shows; empty: a name and a quality for people to read.
-std::vector<std::string> Studio::words(const std::string& output, const std::string& quality) const {
-  const std::string stem = std::filesystem::path(source_.name).stem().string();
-  std::vector<std::string> words = {"ods", "render", source_.name};
+// The command that renders what the page shows: as its user knows the files, or as they are here, and without the
+// quality and the output. maps: as camera_words().
+std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) const {
+  std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
   if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
   if (source_.solid_glass) words.emplace_back("--solid-glass");
   if (source_.unit != "auto") add("--unit", source_.unit);
-  if (!source_.confine.empty()) add("--confine", source_.confine);
-  if (settings_.environment != "auto") add("--env", settings_.environment);
+  if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
+  if (settings_.environment != "auto") {
+    add("--env", is_shown ? settings_.environment : environment_of(settings_.environment));
+  }
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");
-  for (const std::string& word : camera_words(settings_.live.camera)) words.push_back(word);
+  for (const std::string& word : camera_words(settings_.live.camera, settings_.width, maps)) words.push_back(word);
   const ods::Layout layout = settings_.sidecar.layout;
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
   if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
-  if (!quality.empty()) add("--quality", quality);
   add("--width", fmt::format("{}", settings_.width));
-  add("-o", output.empty() ? stem + "_360_TB.png" : output);
   return words;
+}
+
+static const char* part_name(bool is_patch) {
+  return is_patch ? "patch" : "base";
 }
 
 WebAnswer Studio::frame(const WebRequest& request) {
@@ -238,18 +282,27 @@ WebAnswer Studio::frame(const WebRequest& request) {
   }
   const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
   const std::string fault = live->fault();
-  if (!fault.empty()) throw ods::Error(ods::ErrorKind::kInput, fault);
+  if (!fault.empty()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    throw ods::Error(ods::ErrorKind::kInput, without_paths(fault));
+  }
   if (!frame) return {.status = 204};
+  Json next;
+  if (frame->next) {
+    next = {
+        {"part", part_name(frame->next->is_patch)}, {"width", frame->next->width}, {"samples", frame->next->samples}};
+  }
   const std::string head = Json({{"number", frame->number},
                                  {"revision", frame->revision},
-                                 {"part", frame->is_patch ? "patch" : "base"},
+                                 {"part", part_name(frame->is_patch)},
                                  {"width", frame->eye.width},
                                  {"height", frame->eye.height},
                                  {"eyes", 2},
                                  {"camera", camera_json(make_camera(frame->camera))},
                                  {"samples", frame->samples},
                                  {"seconds", frame->seconds},
-                                 {"done", frame->is_last},
+                                 {"done", !frame->next},
+                                 {"next", next},
                                  {"state", "rendering"}})
                                .dump();
   std::string body(4, '\0');
@@ -288,8 +341,12 @@ static void check_output_name(const std::string& name) {
   if (name.empty() || plain != name || name.starts_with('.') || name.starts_with('-')) {
     throw UsageError("give the picture a name without a folder, like room_360_TB.png");
   }
+  if (std::ranges::any_of(name, [](unsigned char c) { return c == '%' || std::iscntrl(c) != 0; })) {
+    throw UsageError("leave % and control characters out of the picture's name");
+  }
   if (!ods::format_of_path(name)) throw UsageError(fmt::format("end the name in one of {}", ods::known_extensions()));
-  if (std::filesystem::exists(name)) throw UsageError(fmt::format("'{}' exists: give the picture another name", name));
+  if (std::filesystem::exists(std::filesystem::symlink_status(name)))
+    throw UsageError(fmt::format("'{}' exists: give the picture another name", name));
 }
 
 WebAnswer Studio::render(const std::string& body) {
@@ -300,87 +357,45 @@ WebAnswer Studio::render(const std::string& body) {
   });
   check_output_name(name);
   check_name("quality", quality, kQualities);
-  std::vector<std::string> all = words(name, quality);
-  all.erase(all.begin());
-  all.insert(all.end(), {"--progress", "json"});
-  process_.start(all);
-  output_ = name;
+  const std::string maps = fmt::format("{}/{}", drops_.path(), ++drop_count_);
+  save_maps(settings_.live.camera, maps);
+  std::vector<std::string> all = words(maps, false);
+  all.insert(all.end(), {"--quality", quality});
+  process_.start(all, name);
   item_.reset();
   return json_answer(Json::object());
 }
 
 WebAnswer Studio::job() {
   const RenderProcess::Status status = process_.status();
-  if (status.state == "done" && !output_.empty()) item_ = add_item_(std::exchange(output_, ""));
-  Json json = {{"state", status.state}, {"done", status.done}, {"left", status.left}, {"text", status.text}};
-  if (status.state == "done" && item_) json["item"] = *item_;
+  Json json = {{"state", status.state},
+               {"done", status.done},
+               {"left", status.left},
+               {"text", without_paths(status.text)},
+               {"output", status.output}};
+  if (status.state == "done") {
+    if (!item_) item_ = add_item_(status.output);
+    json["item"] = *item_;
+  }
   return json_answer(json);
 }
 
 WebAnswer Studio::status() const {
   const std::string fault = live_->fault();
-  return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", fault}});
-}
-
-// A file that was dropped onto the page: another scene, another light, or a camera.
-WebAnswer Studio::drop(const WebRequest& request) {
-  const std::string name = std::filesystem::path(value_of(request, "name")).filename().string();
-  const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
-  const auto answer = [&](const char* what) {
-    return json_answer({{"what", what}, {"settings", settings_json(settings_)}});
-  };
-  if (kind == ".json") {
-    std::vector<std::string> warnings;
-    settings_.sidecar = ods::read_sidecar(request.body, name, warnings);
-    settings_.live.camera = settings_.sidecar.camera;
-    live_->set(settings_.live, settings_.look);
-    return answer("camera");
-  }
-  const bool is_scene = kind == ".glb" || kind == ".zip", is_light = kind == ".hdr" || kind == ".exr";
-  if (!is_scene && !is_light) throw UsageError("drop a .glb or .zip, an .hdr or .exr, or a .camera.json");
-  const std::string path =
-      (std::filesystem::temp_directory_path() / fmt::format("ods-view-{}-{}", getpid(), is_scene ? "scene" : "light"))
-          .string() +
-      kind;
-  const SceneSource before = source_;
-  ods::write_file(path, request.body);
-  replace_file(is_scene ? dropped_scene_ : dropped_light_, path);
-  if (is_scene) {
-    source_ = SceneSource();
-    source_.name = path;
-  } else {
-    source_.light.environment = path;
-  }
-  try {
-    open();
-  } catch (const ods::Error&) {
-    source_ = before;
-    throw;
-  }
-  if (is_scene) {
-    begin();
-  } else {
-    settings_.environment = usual_.environment = path;
-    live_->set(settings_.live, settings_.look);
-  }
-  return answer(is_scene ? "scene" : "environment");
-}
-
-WebAnswer Studio::save() {
-  const std::string stem = std::filesystem::path(source_.name).stem().string();
-  for (int i = 1; saved_.empty(); i++) {  // a file of somebody else stays
-    const std::string name = stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".camera.json";
-    if (!std::filesystem::exists(name)) saved_ = name;
-  }
-  ods::Sidecar sidecar = settings_.sidecar;
-  sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
-  save_sidecar(sidecar, saved_);
-  return json_answer({{"file", saved_}});
+  return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", without_paths(fault)}});
 }
 
 WebAnswer Studio::answer(const WebRequest& request) {
   if (request.path == "studio/frame") return frame(request);
   const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    return route(request);
+  } catch (const ods::Error& error) {
+    throw ods::Error(error.kind(), without_paths(error.what()));
+  }
+}
+
+WebAnswer Studio::route(const WebRequest& request) {
   if (request.path == "studio/job") return job();
   if (request.path == "studio/status") return status();
   if (!request.is_post) return nothing_there();

@@ -10,22 +10,27 @@
 #include <optional>
 #include <string>
 
+#include "cli/http/http_server.h"
 #include "cli/options/scene_source.h"
-#include "cli/view/http_server.h"
 #include "cli/view/render_process.h"
 #include "ods/base/json_reader.h"
+#include "ods/files/private_folder.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/studio/live_render.h"
+
+WebAnswer json_answer(const ods::Json& json);
 
 class Studio {
  public:
   // Opens the scene, and notes what was assumed about it. add_item: is called with each picture that has been rendered,
   // and gives it a number. Throws as open_lit_scene().
   Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item);
-  ~Studio();
 
   // "studio" of view.json: the controls' defaults, their ranges and names.
   ods::Json description() const;
+
+  // Where the files that are dropped onto the page are to be put, for studio/drop to take them.
+  const std::string& drop_folder() const { return drops_.path(); }
 
   // A request below studio/. Throws UsageError and Error(kInput) for what makes no sense, in a line for people.
   WebAnswer answer(const WebRequest& request);
@@ -41,10 +46,25 @@ class Studio {
     ods::LiveView look;
   };
 
+  static constexpr int kMostMaps = 1000;  // of a session
+
+  // A file that was dropped onto the page.
+  struct Drop {
+    std::string name;  // as its user knows it
+    std::string path;  // ours; empty: none
+  };
+
   Settings read_settings(const std::string& text) const;
-  static ods::Json settings_json(const Settings& settings);
-  void open();
-  std::vector<std::string> words(const std::string& output, const std::string& quality) const;
+  void read_camera(ods::JsonReader& reader, Settings& settings) const;
+  ods::Json settings_json(const Settings& settings) const;
+  static Settings suiting(const SceneSource& source, const ods::Scene& scene);
+  void open(const SceneSource& source, bool is_new);
+  std::string title() const;
+  std::string environment_of(const std::string& word) const;
+  std::string without_paths(std::string text) const;
+  std::vector<std::string> words(const std::string& maps, bool is_shown) const;
+  std::string stem() const;
+  WebAnswer route(const WebRequest& request);
   WebAnswer set(const std::string& body);
   WebAnswer frame(const WebRequest& request);
   WebAnswer pick(const std::string& body);
@@ -53,7 +73,8 @@ class Studio {
   WebAnswer save();
   WebAnswer status() const;
   WebAnswer drop(const WebRequest& request);
-  void begin();
+  static void discard(const Drop& drop);
+  WebAnswer drop_camera(const std::string& name, const std::string& path);
 
   mutable std::mutex mutex_;  // of all that follows
   SceneSource source_;
@@ -62,9 +83,11 @@ class Studio {
   std::shared_ptr<const ods::Scene> scene_;  // lives as long as whoever renders it
   std::shared_ptr<ods::LiveRender> live_;
   RenderProcess process_;
-  std::string output_;          // of the process, until it is an item
   std::optional<size_t> item_;  // what it has rendered
   std::function<size_t(const std::string& path)> add_item_;
-  std::string saved_;                          // the file of the camera; empty: not yet
-  std::string dropped_scene_, dropped_light_;  // files of ours; empty: none
+  std::string saved_;  // the files of the camera, without what their names end in; empty: not yet
+  ods::PrivateFolder drops_;
+  int drop_count_ = 0;
+  Drop dropped_scene_, dropped_light_;
+  std::vector<std::shared_ptr<const ods::Image>> maps_;  // of cameras; the page has their numbers, not their pixels
 };

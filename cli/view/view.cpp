@@ -58,8 +58,9 @@ void serve(const ViewJob& job) {
   ViewSite site(open_items(job), scene_of(job));
   const std::string folder = state_folder();
   WebOptions web;
-  web.secret = kept_secret(folder);
-  if (!job.scene.empty()) web.upload = "studio/drop";
+  web.secret = job.lan && !job.keep_secret ? random_secret() : kept_secret(folder);
+  if (site.studio()) web.upload = "studio/drop", web.upload_folder = site.studio()->drop_folder();
+  if (job.browser && !job.lan) web.opener = random_secret();
   web.port = job.port.value_or(kUsualPort);
   std::string shown_host = web.hosts[0];
   if (job.lan) {
@@ -79,7 +80,7 @@ void serve(const ViewJob& job) {
   std::fflush(stdout);
   if (job.lan) explain_network(address, server->port());
   note("Ctrl-C ends it");
-  if (job.browser && !job.lan) open_in_browser(address);
+  if (job.browser && !job.lan) open_in_browser(fmt::format("http://{}:{}/{}", shown_host, server->port(), web.opener));
   end_on_interrupts(last_words);
   server->run();
 }
@@ -90,7 +91,6 @@ int ods_view(int argc, char** argv) {
   return run_command([=] {
     ViewJob job;
     if (!read_view_job(job, argc, argv)) return;
-    end_on_interrupts();
     if (job.folder.empty()) return serve(job);
     announce_file(export_site(open_items(job), job.folder));
   });

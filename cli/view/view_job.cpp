@@ -88,6 +88,8 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
       "its projection");
   options.group("Page");
   options.flag("--lan", job.lan, "let a headset or phone in the same network see it: https, with a QR code");
+  options.flag("--keep-secret", job.keep_secret,
+               "with --lan: the same address the next time; by default it is new each time");
   options.number("--port", job.port, 1, 65535, "the port to serve at; by default 8360, or any if that is taken");
   bool stay = false;
   options.flag("--no-browser", stay, "only print the address");
@@ -97,6 +99,7 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   add_console_options(options);
   if (!options.parse(argc, argv)) return false;
   if (job.paths.empty()) throw UsageError("name a picture, a video, a folder or a scene: ods view picture_360_TB.png");
+  if (job.keep_secret && !job.lan) throw UsageError("--keep-secret is for --lan: other addresses are kept anyway");
   job.browser = !stay;
   const auto scene = std::ranges::find_if(job.paths, names_scene);
   if (scene != job.paths.end()) {

@@ -15,6 +15,7 @@ struct ViewJob {
   ods::FormatHint known;
   std::string folder;  // to export to; empty: serve
   bool lan = false;
+  bool keep_secret = false;  // with lan: the address is the same the next time
   bool browser = true;
   std::optional<int> port;
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
@@ -37,6 +38,16 @@ ods::EyeOptions read_eye_options(const WebRequest& request) {
   return options;
 }
 
+// The paths of its files, without links; empty where there is none.
+std::vector<std::string> files_behind(const ViewItem& item) {
+  const auto behind = [](const std::string& path) {
+    std::error_code fault;
+    return std::filesystem::canonical(path, fault).native();
+  };
+  if (!ods::names_eye(item.path)) return {behind(item.path)};
+  return {behind(ods::path_for_eye(item.path, ods::kLeft)), behind(ods::path_for_eye(item.path, ods::kRight))};
+}
+
 // item/3/left.jpg -> 3; nothing for any other form.
 std::optional<size_t> item_number(const std::string& path) {
   size_t number = 0;
@@ -49,19 +60,26 @@ std::optional<size_t> item_number(const std::string& path) {
 
 }  // namespace
 
-ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene) : items_(std::move(items)) {
+ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene) {
+  for (const ViewItem& item : items) add(item);
   if (!scene) return;
-  studio_ = std::make_unique<Studio>(*scene, [this](const std::string& path) {
-    const ViewItem item = ods::open_view_item(path);
-    const std::lock_guard<std::mutex> lock(of_items_);
-    items_.push_back(item);
-    return items_.size() - 1;
-  });
+  studio_ =
+      std::make_unique<Studio>(*scene, [this](const std::string& path) { return add(ods::open_view_item(path)); });
+}
+
+size_t ViewSite::add(const ViewItem& item) {
+  const std::lock_guard<std::mutex> lock(of_items_);
+  items_.push_back(item);
+  files_.push_back(files_behind(item));
+  return items_.size() - 1;
 }
 
 std::optional<ViewItem> ViewSite::item_at(size_t number) const {
   const std::lock_guard<std::mutex> lock(of_items_);
-  return number < items_.size() ? std::optional(items_[number]) : std::nullopt;
+  if (number >= items_.size() || files_behind(items_[number]) != files_[number]) return {};
+  ViewItem item = items_[number];
+  if (item.has_own_file) item.path = files_[number][0];
+  return item;
 }
 
 std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const WebRequest& request) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/view/http_server.h"
+#include "cli/http/http_server.h"
 #include "cli/view/studio.h"
 #include "ods/view/view_item.h"
 
@@ -23,15 +23,21 @@ class ViewSite {
   // projection where the page's user knows better. Throws UsageError for a query that makes no sense.
   WebAnswer answer(const WebRequest& request);
 
+  // Of the studio, for studio/drop; null if there is none.
+  const Studio* studio() const { return studio_.get(); }
+
  private:
   WebAnswer item(const std::string& path, const WebRequest& request);
   // Of the latest item that was asked for: both eyes are, one after the other.
   std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);
 
+  size_t add(const ods::ViewItem& item);
+  // Nothing where its files are no longer those that it was opened with.
   std::optional<ods::ViewItem> item_at(size_t number) const;
 
   mutable std::mutex of_items_;  // what the studio renders becomes one
   std::vector<ods::ViewItem> items_;
+  std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
   std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
   std::string opened_;

@@ -12,4 +12,7 @@ namespace ods {
 // never does. Without effect where the C library is not glibc.
 void return_large_blocks();
 
+// Gives back what is free between the blocks in use, in the heaps of all threads.
+void return_free_memory();
+
 }  // namespace ods

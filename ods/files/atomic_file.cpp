@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "ods/base/error.h"
+#include "ods/files/private_folder.h"
 
 namespace ods {
 
@@ -63,7 +64,7 @@ static void remove_temporary(std::string& temporary) {
 void remove_unfinished_files() {
   for (const std::atomic<const char*>& entry : unfinished) {
     const char* name = entry;
-    if (name != nullptr) unlink(name);
+    if (name != nullptr && unlink(name) != 0 && errno == EISDIR) remove_folder_of_files(name);
   }
 }
 
@@ -202,6 +203,16 @@ void write_file(const std::string& path, std::string_view bytes) {
   AtomicFile file(path);
   std::fwrite(bytes.data(), 1, bytes.size(), file.stream());
   file.commit();
+}
+
+bool rename_as_new(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno == EEXIST) return false;
+  if (errno == EINVAL || errno == ENOSYS) {  // not on network shares; a hard link replaces nothing either
+    if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
+    if (errno == EEXIST) return false;
+  }
+  throw cannot_write(to, std::strerror(errno));
 }
 
 void commit_all(std::list<AtomicFile>& files) {

@@ -52,11 +52,16 @@ void write_file(const std::string& path, std::string_view bytes);
 // Commits files that belong together: renames none until all are on disk.
 void commit_all(std::list<AtomicFile>& files);
 
+// Gives a complete file of the same disk another name. False if anything has that name, be it a link that leads nowhere.
+// Throws Error(kOutput).
+bool rename_as_new(const std::string& from, const std::string& to);
+
 // Removes the temporary files of this process (of those open at once, the first 16). Async-signal-safe, for a signal
 // handler that ends the process.
 void remove_unfinished_files();
 
-// Adds a file to that list until forget_unfinished(). The string must stay at its address until then.
+// Adds a file, or a folder of files, to that list until forget_unfinished(). The string must stay at its address until
+// then.
 void remember_unfinished(const char* path);
 void forget_unfinished(const char* path);
 

@@ -197,7 +197,8 @@ struct LiveRender::State {
   void wait_for_change(int mine);
   void wait_for_viewer(int mine) const;
   bool refine(Canvas& canvas, int samples, int mine);
-  void publish(const Canvas& canvas, int mine, bool is_last);
+  void publish(const Canvas& canvas, int mine, size_t coming);
+  StereoCamera camera_of(const Step& step, const LiveView& here) const;
   LiveView view_now() const {
     const std::lock_guard<std::mutex> lock(mutex);
     return view;
@@ -226,7 +227,17 @@ bool LiveRender::State::refine(Canvas& canvas, int samples, int mine) {
   return true;
 }
 
-void LiveRender::State::publish(const Canvas& canvas, int mine, bool is_last) {
+StereoCamera LiveRender::State::camera_of(const Step& step, const LiveView& here) const {
+  if (!step.is_patch) return rendered.camera;
+  return patch ? patch->camera : patch_camera(rendered.camera, here);
+}
+
+static Extent size_of(const Step& step, const StereoCamera& camera) {
+  return step.is_patch ? scaled(patch_extent(camera), step.size) : Extent{static_cast<int>(step.size), 0};
+}
+
+// coming: the step after it.
+void LiveRender::State::publish(const Canvas& canvas, int mine, size_t coming) {
   auto frame = std::make_shared<LiveFrame>();
   frame->revision = mine;
   frame->is_patch = canvas.is_patch;
@@ -234,7 +245,12 @@ void LiveRender::State::publish(const Canvas& canvas, int mine, bool is_last) {
   frame->eye = {canvas.options.width, canvas.options.height};
   frame->pixels = display(*canvas.picture, rendered.exposure, rendered.tone);
   frame->samples = canvas.options.samples;
-  frame->is_last = is_last;
+  if (coming < std::size(kSteps)) {
+    const Step& step = kSteps[coming];
+    const int width = size_of(step, camera_of(step, view_now())).width;
+    const std::optional<Canvas>& same = step.is_patch ? patch : base;  // it may be larger already
+    frame->next = {step.is_patch, std::max(width, same ? same->options.width : 0), step.samples};
+  }
   const std::lock_guard<std::mutex> lock(mutex);
   if (revision != mine) return;
   frame->number = ++last_number;
@@ -256,8 +272,8 @@ void LiveRender::State::begin(int mine, const LiveSettings& now) {
     const std::lock_guard<std::mutex> lock(mutex);
     for (auto& frame : frames) frame = nullptr;
   }
-  if (base && base->picture) publish(*base, mine, false);
-  if (patch && patch->picture) publish(*patch, mine, next == std::size(kSteps));
+  if (base && base->picture) publish(*base, mine, next);
+  if (patch && patch->picture) publish(*patch, mine, next);
   if (now.time != scene_time) renderer.update(set_time(scene, scene_time = now.time));
 }
 
@@ -270,14 +286,12 @@ void LiveRender::State::render_step(int mine) {
   if (next == std::size(kSteps)) return wait_for_change(mine);
   const Step& step = kSteps[next];
   std::optional<Canvas>& canvas = step.is_patch ? patch : base;
-  const StereoCamera camera = !step.is_patch ? rendered.camera
-                              : patch        ? patch->camera
-                                             : patch_camera(rendered.camera, here);
-  const Extent size = step.is_patch ? scaled(patch_extent(camera), step.size) : Extent{static_cast<int>(step.size), 0};
+  const StereoCamera camera = camera_of(step, here);
+  const Extent size = size_of(step, camera);
   if (!canvas || canvas->options.width < size.width) canvas = make_canvas(camera, step.is_patch, size);
   if (canvas->samples.done < step.samples) {
     if (!refine(*canvas, step.samples, mine)) return;
-    publish(*canvas, mine, next + 1 == std::size(kSteps));
+    publish(*canvas, mine, next + 1);
   }
   next++;
 }

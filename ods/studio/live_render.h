@@ -40,16 +40,23 @@ struct LiveView {
   bool operator==(const LiveView&) const = default;
 };
 
+// What is rendered after a frame.
+struct LiveStep {
+  bool is_patch = false;
+  int width = 0;  // of an eye, pixels
+  int samples = 0;
+};
+
 struct LiveFrame {
   int number = 0;    // of all frames, ascending
   int revision = 0;  // that set() returned
   bool is_patch = false;
   StereoCamera camera;  // of the base or of the patch
   Extent eye;
-  std::vector<uint8_t> pixels;  // R, G, B as displays want them; rows from the top; the left eye, then the right one
-  int samples = 0;              // of a pixel
-  double seconds = 0.0;         // since the settings changed
-  bool is_last = false;         // nothing finer follows until something changes
+  std::vector<uint8_t> pixels;   // R, G, B as displays want them; rows from the top; the left eye, then the right one
+  int samples = 0;               // of a pixel
+  double seconds = 0.0;          // since the settings changed
+  std::optional<LiveStep> next;  // none: nothing finer follows until something changes
 };
 
 // What a ray of an eye meets.

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <vector>
 
 namespace ods {
 namespace {
@@ -47,6 +48,21 @@ TEST(LargeBlocks, GoBackToTheSystem) {
   EXPECT_GE(left_behind(), 19u) << "this test's premise";
   return_large_blocks();
   EXPECT_LE(left_behind(), 1u);
+}
+
+// Blocks of a kilobyte that a few which stay in use keep in the heap.
+TEST(FreeMemory, GoesBackToTheSystem) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "skipped: the allocator is not glibc's";
+#endif
+  std::vector<void*> blocks, kept;
+  for (size_t i = 0; i < 64 * 1024; i++) blocks.push_back(touched(1000));
+  const size_t used = resident_megabytes();
+  for (size_t i = 0; i < blocks.size(); i++) i % 1000 == 999 ? kept.push_back(blocks[i]) : std::free(blocks[i]);
+  EXPECT_GE(resident_megabytes() + 8, used) << "this test's premise";
+  return_free_memory();
+  EXPECT_LE(resident_megabytes() + 48, used);
+  for (void* block : kept) std::free(block);
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every kind of error has its exit code, and one line that names the option or the file at fault.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/cli_runner.h"
@@ -245,6 +249,23 @@ TEST_F(CliErrors, OfSlits) {
           {"stitch @rig.json @v.####.png -o @a.png", kInput, "--partial"},
           {"stitch @rig.json @v.####.png -o @a.xyz", kUsage, "a.xyz"},
           {"stitch @rig.json @v.####.png --frames 1-2 -o @a.####.png", kUsage, "--frames"}});
+}
+
+// Also one that has barely begun. Here it waits for somebody to read its 80 KB.
+TEST_F(CliErrors, EveryCommandSaysThatItWasInterrupted) {
+  Ods command({"--help=zsh"});
+  const auto catches = [&] {
+    std::ifstream file(fmt::format("/proc/{}/status", command.process()));
+    std::string line;
+    while (std::getline(file, line) && !line.starts_with("SigCgt:")) {
+    }
+    return line.size() > 7 && (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+  };
+  for (int i = 0; i < 100 && !catches(); i++) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_TRUE(catches());
+  command.kill(SIGINT);
+  EXPECT_EQ(command.finish(), 130);
+  EXPECT_EQ(command.err, "ods: interrupted\n");
 }
 
 }  // namespace

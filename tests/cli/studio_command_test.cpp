@@ -10,8 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "ods/camera/layout.h"
+#include "ods/camera/projection.h"
+#include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/served.h"
 
 using Json = nlohmann::json;
@@ -27,13 +31,40 @@ struct Frame {
 class StudioCommand : public Served {
  protected:
   void SetUp() override {
+    std::filesystem::create_directory(folder.path("tmp"));
+    setenv("TMPDIR", folder.path("tmp").c_str(), 1);
     std::filesystem::current_path(folder.path(""));  // where pictures are written
     serve({"toys"});
   }
   void TearDown() override {
     Served::TearDown();
     std::filesystem::current_path("/");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path("tmp")));
+    unsetenv("TMPDIR");
   }
+
+  // Of what is rendered, when it ends.
+  Json ended_job() const {
+    Json job = Json::object();
+    for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
+      std::this_thread::sleep_for(100ms);
+      job = Json::parse(body_of(get("studio/job")));
+    }
+    return job;
+  }
+  void wait_for_progress() const {
+    for (int i = 0; i < 600; i++) {
+      if (Json::parse(body_of(get("studio/job")))["done"] > 0.0) return;
+      std::this_thread::sleep_for(100ms);
+    }
+    ADD_FAILURE() << "it does not begin";
+  }
+
+  // The answer to a file that is dropped onto the page.
+  std::string drop(const std::string& name, const std::string& bytes) const {
+    return post("studio/drop?name=" + name, bytes);
+  }
+  Json shown() const { return Json::parse(body_of(get("view.json")))["studio"]; }
 
   Json asked(const std::string& path, const Json& body = Json::object()) const {
     const std::string answer = post("studio/" + path, body.dump());
@@ -61,6 +92,24 @@ class StudioCommand : public Served {
   }
 };
 
+// The processes that a process has started.
+std::vector<int> children_of(int process) {
+  std::vector<int> children;
+  for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+    std::ifstream list(task.path() / "children");
+    for (int child = 0; list >> child;) children.push_back(child);
+  }
+  return children;
+}
+
+// It exists, and is no corpse that nobody has taken yet.
+bool is_running(int process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string stat;
+  std::getline(file, stat);
+  return !stat.empty() && stat.at(stat.rfind(')') + 2) != 'Z';
+}
+
 // The mean of code values 0..255 of each half, one above the other.
 std::array<double, 2> means_of_halves(const std::vector<float>& values) {
   std::array<double, 2> sums{};
@@ -77,6 +126,13 @@ TEST_F(StudioCommand, DescribesItsControls) {
   EXPECT_EQ(studio["settings"]["sidecar"]["merge_top"]["mode"], "cosine");
   EXPECT_EQ(studio["ranges"]["ipd"][0], 0.0);
   EXPECT_EQ(studio["settings"]["exposure"], 0.0);
+  for (const ods::NamedProjection& named : ods::named_projections()) {
+    const Json controls = studio["controls"][std::string(named.name)];
+    const auto has = [&](const char* number) { return std::ranges::find(controls, number) != controls.end(); };
+    EXPECT_EQ(has("range"), ods::has_range(named.setting.kind)) << named.name;
+    EXPECT_EQ(has("fov"), ods::has_fov(named.setting.kind)) << named.name;
+    EXPECT_EQ(has("lens"), ods::has_lens(named.setting.kind)) << named.name;
+  }
 }
 
 // Thirty changes in quick succession; then the picture is that of the command that the page shows.
@@ -108,6 +164,65 @@ TEST_F(StudioCommand, ShowsWhatItsCommandRenders) {
   for (size_t eye = 0; eye < 2; eye++) EXPECT_NEAR(ours[eye], theirs[eye], 1.0) << eye;
 }
 
+// Options name files, and the page's camera has its maps with it.
+TEST_F(StudioCommand, HasACommandForEveryMergeAndLayout) {
+  Json settings = shown()["settings"];
+  settings["width"] = 64;
+  const Json map = {{"width", 4}, {"height", 2}, {"values", {0, 0.25, 0.5, 0.75, 1, 0.3, 0.6, 0.9}}};
+  settings["sidecar"]["merge_map"] = settings["sidecar"]["head_tilt_map"] = map;
+  const auto renders = [&](const std::string& what) {
+    const Json answer = asked("set", settings);
+    const std::string command = answer["command"];
+    EXPECT_EQ(run(command.substr(4) + " -q --samples 1 --noise none"), 0) << what << ": " << command << err;
+    return command;
+  };
+  const Json first = asked("set", settings);
+  EXPECT_NE(first["command"].get<std::string>().find("--head-tilt-map toys.head-tilt-map.exr"), std::string::npos);
+  EXPECT_NE(first["note"], "");
+  settings["sidecar"]["merge_top"]["mode"] = "map";
+  asked("set", settings);
+  EXPECT_EQ(asked("save")["file"], "toys.camera.json");
+  for (const int mode : ods::kMerges) {
+    for (const char* which : {"merge_top", "merge_bottom"}) {
+      settings["sidecar"][which]["mode"] = ods::merge_name(mode);
+      renders(std::string(ods::merge_name(mode)));
+    }
+  }
+  const std::string restated = renders("map");
+  EXPECT_NE(restated.find("--merge map,60,90,1 --merge-map toys.merge-map.exr"), std::string::npos) << restated;
+  asked("render", {{"output", "page.png"}, {"quality", "draft"}});
+  const Json job = ended_job();
+  EXPECT_EQ(job["state"], "done") << job;
+  for (const ods::Layout layout : ods::kLayouts) {
+    settings["sidecar"]["picture"]["layout"] = ods::layout_name(layout);
+    renders(std::string(ods::layout_name(layout)));
+  }
+}
+
+// The page sends all settings at each change: maps stay here.
+TEST_F(StudioCommand, TakesACameraWithLargeMaps) {
+  ASSERT_EQ(asked("save")["file"], "toys.camera.json");
+  Json camera = Json::parse(folder.read("toys.camera.json"));
+  std::vector<float> values(256 * 128);
+  for (size_t i = 0; i < values.size(); i++) values[i] = static_cast<float>(i % 257) / 256.0f;
+  camera["merge_map"] = camera["head_tilt_map"] = {{"width", 256}, {"height", 128}, {"values", values}};
+  camera["merge_top"]["mode"] = "map";
+  const std::string answer = drop("with_maps.camera.json", camera.dump());
+  ASSERT_EQ(status_of(answer), 200) << answer.substr(0, 500);
+  Json settings = Json::parse(body_of(answer))["settings"];
+  EXPECT_LT(settings.dump().size(), 4096u);
+  settings["sidecar"]["yaw"] = 10;
+  settings["width"] = 64;
+  const std::string command = asked("set", settings)["command"];
+  EXPECT_EQ(asked("save")["file"], "toys.camera.json");
+  const Json saved = Json::parse(folder.read("toys.camera.json"));
+  EXPECT_EQ(saved["yaw"], 10);
+  for (const char* map : {"merge_map", "head_tilt_map"}) EXPECT_TRUE(saved[map] == camera[map]) << map;
+  EXPECT_EQ(run(command.substr(4) + " -q --samples 1 --noise none"), 0) << command << err;
+  settings["maps"]["merge"] = 99;
+  EXPECT_EQ(status_of(post("studio/set", settings.dump())), 400);
+}
+
 TEST_F(StudioCommand, SaysWhatIsWrongWithASetting) {
   for (const char* wrong :
        {R"({"sidecar":{"omnistereo_camera":1,"ipd":-1}})", R"({"exposure":"bright"})", R"({"tone":"x"})",
@@ -122,30 +237,76 @@ TEST_F(StudioCommand, SaysWhatIsWrongWithASetting) {
 }
 
 TEST_F(StudioCommand, RendersUnderANewNameOnly) {
-  for (const char* name : {"", "../up.png", "/tmp/x.png", ".hidden.png", "-x.png", "no_picture.txt", "a/b.png"}) {
+  for (const char* name : {"", "../up.png", "/tmp/x.png", ".hidden.png", "-x.png", "no_picture.txt", "a/b.png",
+                           "a%V.png", "100%.png", "a\nb.png", "a\x1b[2J.png", "a\x7f.png"}) {
     EXPECT_EQ(status_of(post("studio/render", Json({{"output", name}, {"quality", "draft"}}).dump())), 400) << name;
   }
+  EXPECT_EQ(status_of(post("studio/render", R"({"output":"x.png\u0000.png","quality":"draft"})")), 400);
   asked("set", {{"width", 64}});
   asked("render", {{"output", "small_360_TB.png"}, {"quality", "draft"}});
   EXPECT_EQ(status_of(post("studio/render", R"({"output":"other.png","quality":"draft"})")), 400) << "one at a time";
-  Json job = Json::object();
-  for (int i = 0; i < 600 && job.value("state", "running") == "running"; i++) {
-    std::this_thread::sleep_for(100ms);
-    job = Json::parse(body_of(get("studio/job")));
-  }
+  const Json job = ended_job();
   EXPECT_EQ(job["state"], "done") << job;
   EXPECT_EQ(job["item"], 0);
+  EXPECT_EQ(job["output"], "small_360_TB.png");
   EXPECT_TRUE(std::filesystem::exists(folder.path("small_360_TB.png")));
   EXPECT_NE(get("item/0/picture.png").find("\x89PNG"), std::string::npos);
   EXPECT_EQ(status_of(post("studio/render", R"({"output":"small_360_TB.png","quality":"draft"})")), 400) << "it exists";
 }
 
-TEST_F(StudioCommand, CancelsWhatItRenders) {
-  asked("set", {{"width", 4096}});
+TEST_F(StudioCommand, WritesThroughNoLink) {
+  namespace fs = std::filesystem;
+  asked("set", {{"width", 64}});
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("dangling.png"));
+  EXPECT_EQ(status_of(post("studio/render", R"({"output":"dangling.png","quality":"draft"})")), 400);
+  // Somebody puts a link there while the picture is rendered.
+  asked("render", {{"output", "late.png"}, {"quality", "draft"}});
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("late.png"));
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("late.png.unfinished"));
+  const Json job = ended_job();
+  EXPECT_EQ(job["state"], "done") << job;
+  EXPECT_EQ(job["output"], "late-2.png");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder.path("late-2.png"))));
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("toys.camera.json"));
+  EXPECT_EQ(asked("save")["file"], "toys-2.camera.json");
+  fs::remove(folder.path("toys-2.camera.json"));
+  fs::create_symlink(folder.path("elsewhere.png"), folder.path("toys-2.camera.json"));
+  EXPECT_EQ(asked("save")["file"], "toys-2.camera.json");
+  EXPECT_FALSE(fs::exists(folder.path("elsewhere.png")));
+}
+
+TEST_F(StudioCommand, CancelsWhatItRendersAndKeepsNothing) {
+  const std::vector<std::string> before = folder.names();
+  asked("set", {{"width", 1024}});
   asked("render", {{"output", "large_360_TB.png"}, {"quality", "final"}});
+  wait_for_progress();
   asked("cancel");
   EXPECT_EQ(Json::parse(body_of(get("studio/job")))["state"], "cancelled");
-  EXPECT_FALSE(std::filesystem::exists(folder.path("large_360_TB.png")));
+  for (int i = 0; i < 100 && folder.names() != before; i++) std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(folder.names(), before);
+}
+
+// Whatever ends the server, what it has started ends, and leaves nothing.
+TEST_F(StudioCommand, TakesWhatItRendersWithIt) {
+  const std::vector<std::string> before = folder.names();
+  for (const int signal : {SIGINT, SIGKILL}) {
+    asked("set", {{"width", 1024}});
+    asked("render", {{"output", "large_360_TB.png"}, {"quality", "final"}});
+    wait_for_progress();
+    const std::vector<int> children = children_of(server->process());
+    EXPECT_EQ(children.size(), 1u);
+    server->kill(signal);
+    server->finish();
+    for (const int child : children) {
+      for (int i = 0; i < 100 && is_running(child); i++) std::this_thread::sleep_for(100ms);
+      EXPECT_FALSE(is_running(child)) << "after signal " << signal;
+    }
+    EXPECT_EQ(folder.names() == before, signal == SIGINT) << "after signal " << signal;
+    serve({"toys"});
+  }
+  asked("save");  // removes what the one that was killed has left
+  std::filesystem::remove(folder.path("toys.camera.json"));
+  EXPECT_EQ(folder.names(), before);
 }
 
 // A tab that is loaded again and again while a picture is rendered: it asks for the page and a frame, and goes.
@@ -185,6 +346,83 @@ TEST_F(StudioCommand, SavesTheCameraAndTakesItBack) {
   EXPECT_EQ(status_of(post("studio/drop?name=x.exe", "MZ")), 400);
   EXPECT_EQ(status_of(post("studio/drop?name=x.glb", "no scene")), 400);
   EXPECT_EQ(status_of(get("studio/status")), 200) << "the old scene is still there";
+}
+
+// A triangle; image: the address of a texture, empty: none.
+static std::string triangle(const std::string& image = "") {
+  ods::GltfBuilder file = ods::make_triangle();
+  if (!image.empty()) {
+    file.add(std::vector<float>{0, 0, 1, 0, 0, 1}, ods::kFloat, "VEC2");
+    file.primitive()["attributes"]["TEXCOORD_0"] = 1;
+    file.primitive()["material"] = 0;
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["images"] = {{{"uri", image}}};
+  }
+  const ods::Binary bytes = file.glb();
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST_F(StudioCommand, TakesFileAfterFileThatIsDropped) {
+  for (const char* name : {"first.glb", "second.glb"}) {
+    const std::string answer = drop(name, triangle());
+    ASSERT_EQ(status_of(answer), 200) << answer;
+    EXPECT_EQ(shown()["scene"], name);
+    const Json set = asked("set", Json::parse(body_of(answer))["settings"]);
+    EXPECT_TRUE(set["command"].get<std::string>().starts_with("ods render " + std::string(name) + " --")) << set;
+    frame_of(set["revision"], "base", 160);
+  }
+  ASSERT_EQ(run("render furnace -q --width 16 --samples 1 -o sky.exr"), 0) << err;
+  ASSERT_EQ(run("render furnace -q --width 16 --samples 1 -o sky.hdr"), 0) << err;
+  for (const char* light : {"sky.exr", "sky.hdr", "sky.hdr"}) {
+    const std::string answer = drop(light, folder.read(light));
+    ASSERT_EQ(status_of(answer), 200) << answer;
+    Json settings = Json::parse(body_of(answer))["settings"];
+    EXPECT_EQ(settings["env"], light);
+    settings["env"] = "studio";
+    asked("set", settings);
+    settings["env"] = light;
+    const Json set = asked("set", settings);
+    EXPECT_NE(set["command"].get<std::string>().find("--env " + std::string(light)), std::string::npos) << set;
+    frame_of(set["revision"], "base", 160);
+  }
+  for (const char* bad : {"bad.glb", "bad.zip", "bad.hdr", "bad.exr"}) {
+    EXPECT_EQ(status_of(drop(bad, "glTF, or so it says")), 400) << bad;
+    EXPECT_EQ(shown()["scene"], "second.glb");
+    EXPECT_EQ(shown()["settings"]["env"], "sky.hdr");
+    frame_of(asked("set", shown()["settings"])["revision"], "base", 160);
+  }
+}
+
+TEST_F(StudioCommand, KeepsWhatIsDroppedToItself) {
+  namespace fs = std::filesystem;
+  const ods::Binary png = ods::small_png();
+  folder.write("tmp/private.png", {png.begin(), png.end()});
+  fs::create_directory(folder.path("tmp/else"));
+  for (const std::string& image :
+       {std::string("../private.png"), folder.path("tmp/private.png"), "file://" + folder.path("tmp/private.png"),
+        std::string("%2e%2e/private.png"), std::string("../absent.png"), std::string("else/../../private.png")}) {
+    const std::string answer = drop("scene.glb", triangle(image));
+    EXPECT_EQ(status_of(answer), 400) << image;
+    const std::string without_name = std::regex_replace(answer, std::regex(image), "");
+    EXPECT_EQ(without_name.find(folder.path("")), std::string::npos) << answer;
+    EXPECT_EQ(answer.find("ods-view-"), std::string::npos) << answer;
+  }
+  fs::remove_all(folder.path("tmp/else"));
+  fs::remove(folder.path("tmp/private.png"));
+  ASSERT_EQ(status_of(drop("scene.glb", triangle())), 200);
+  const auto entry = *fs::directory_iterator(folder.path("tmp"));
+  EXPECT_EQ(fs::status(entry).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(std::distance(fs::directory_iterator(entry), {}), 1) << "what was refused stays";
+  EXPECT_EQ(fs::status(*fs::directory_iterator(entry)).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(body_of(get("view.json")).find("ods-view-"), std::string::npos);
+}
+
+TEST_F(StudioCommand, PutsWhatIsDroppedOnTheDisk) {
+  if (kSanitized) GTEST_SKIP() << "skipped: a sanitizer takes memory of its own";
+  const long before = peak();
+  EXPECT_EQ(status_of(drop("large.glb", std::string(size_t{200} << 20, 'x'))), 400);
+  EXPECT_LT(peak() - before, 100 << 10);
 }
 
 TEST_F(StudioCommand, SaysWhatAClickMeets) {

@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "cli/view/export_site.h"
-#include "cli/view/http_server.h"
+#include "cli/http/http_server.h"
 #include "ods/base/error.h"
 #include "ods/files/file_input.h"
 #include "ods/image/compare.h"

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <fstream>
 #include <thread>
 
+#include "tests/support/programs.h"
 #include "tests/support/served.h"
 
 using namespace std::chrono_literals;
@@ -81,37 +83,185 @@ TEST_F(ViewCommand, OpensNoPathThatABrowserSends) {
   }
 }
 
+TEST_F(ViewCommand, SendsThePartOfAFileThatIsAskedFor) {
+  const auto size = std::filesystem::file_size(picture);
+  const std::string path = "/" + secret + "/item/0/picture.png", whole = body_of(ask(head(path)));
+  ASSERT_EQ(whole.size(), size);
+  const auto part = [&](const std::string& range) { return ask(head(path, "GET", "Range: " + range + "\r\n")); };
+  struct Case {
+    std::string range;
+    size_t first, count;
+  };
+  for (const Case& wanted :
+       {Case{"bytes=0-0", 0, 1}, Case{fmt::format("bytes={}-{}", size - 1, size + 100), size - 1, 1},
+        Case{"bytes=5-", 5, size - 5}, Case{"bytes=-7", size - 7, 7}, Case{"bytes=0-9223372036854775807", 0, size},
+        Case{"bytes=-99999999999999999999", 0, size}, Case{"bytes=3-99999999999999999999", 3, size - 3}}) {
+    const std::string answer = part(wanted.range);
+    EXPECT_EQ(status_of(answer), 206) << wanted.range;
+    EXPECT_EQ(body_of(answer), whole.substr(wanted.first, wanted.count)) << wanted.range;
+    EXPECT_NE(answer.find(fmt::format("Content-Length: {}\r\n", wanted.count)), std::string::npos) << wanted.range;
+    EXPECT_NE(answer.find(fmt::format("Content-Range: bytes {}-{}/{}\r\n", wanted.first,
+                                      wanted.first + wanted.count - 1, size)),
+              std::string::npos)
+        << wanted.range;
+  }
+  for (const std::string& none : {fmt::format("bytes={}-", size), fmt::format("bytes={}-{}", size, size + 1),
+                                  std::string("bytes=99999999999999999999-"), std::string("bytes=-0")}) {
+    const std::string answer = part(none);
+    EXPECT_EQ(status_of(answer), 416) << none;
+    EXPECT_NE(answer.find(fmt::format("Content-Range: bytes */{}\r\n", size)), std::string::npos) << none;
+  }
+  for (const char* no_range :
+       {"bytes=5-2", "bytes=x-2", "bytes=1-2,4-5", "bytes=", "bytes=-", "lines=1-2", "bytes=1-x"}) {
+    const std::string answer = part(no_range);
+    EXPECT_EQ(status_of(answer), 200) << no_range;
+    EXPECT_EQ(body_of(answer).size(), size) << no_range;
+  }
+  const std::string only_head = ask(head(path, "HEAD"));
+  EXPECT_EQ(status_of(only_head), 200);
+  EXPECT_EQ(body_of(only_head), "");
+}
+
+// An EXR or HDR comes eye by eye; another layout divides it otherwise.
+TEST_F(ViewCommand, DividesLightAsItIsAskedTo) {
+  const std::string light = folder.path("light_360_TB.exr");
+  ASSERT_EQ(run("convert " + picture + " -q --layout top-bottom -o " + light), 0) << err;
+  Served::TearDown();
+  serve({light});
+  const std::string own = body_of(get("item/0/left.jpg")), as_found = body_of(get("item/0/left.jpg?layout=top-bottom"));
+  EXPECT_EQ(own, as_found);
+  EXPECT_EQ(own, body_of(get("item/0/right.jpg?layout=bottom-top")));
+  for (const char* other : {"left.jpg?layout=side-by-side", "mono.jpg?layout=mono"}) {
+    const std::string answer = get(std::string("item/0/") + other);
+    EXPECT_EQ(status_of(answer), 200) << other;
+    EXPECT_NE(body_of(answer), own) << other;
+  }
+}
+
+// What was a link when ods view was started is the file behind it.
+TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
+  namespace fs = std::filesystem;
+  const std::string private_file = folder.path("private.png"), link = folder.path("link_360_TB.png"),
+                    light = folder.path("light.exr");
+  fs::copy(picture, private_file);
+  fs::create_symlink(picture, link);
+  ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
+  Served::TearDown();
+  serve({picture, link, light});
+  for (const char* path : {"item/0/picture.png", "item/1/picture.png", "item/2/left.jpg"}) {
+    EXPECT_EQ(status_of(get(path)), 200) << path;
+  }
+  for (const std::string& path : {picture, light}) {
+    fs::remove(path);
+    fs::create_symlink(private_file, path);
+  }
+  for (const char* path : {"item/0/picture.png", "item/0/left.jpg", "item/1/picture.png", "item/2/left.jpg"}) {
+    EXPECT_EQ(status_of(get(path)), 404) << path;
+  }
+  fs::remove(picture);
+  fs::copy(private_file, picture);
+  EXPECT_EQ(status_of(get("item/0/picture.png")), 200) << "a file that was made again";
+}
+
 TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
-  const std::string path = fmt::format("/{}/studio/set", secret);
-  const size_t most = size_t{1} << 30;
-  EXPECT_EQ(status_of(ask(head(path, "POST", fmt::format("Content-Length: {}\r\n", most)) + std::string(1 << 20, 'x'))),
-            413);
-  EXPECT_GE(status_of(ask(head("/" + std::string(100'000, 'a')))), 400);
+  EXPECT_EQ(status_of(ask("GET /" + std::string(1 << 20, 'a'))), 431) << "an endless first line";
   std::string many;
   for (int i = 0; i < 20'000; i++) many += fmt::format("X-{}: y\r\n", i);
-  ask(head("/", "GET", many));
-  ask("\r\n\r\n\r\n");
-  ask("GET\r\n\r\n");
+  EXPECT_EQ(status_of(ask(head("/", "GET", many))), 431) << "fields, each of them short";
+  EXPECT_EQ(status_of(ask(head("/" + std::string(16'000, 'a')))), 404) << "a head of 16 KB is none too long";
+  for (const char* wrong : {"\r\n\r\n", "GET\r\n\r\n", "GET / HTTP/2\r\n\r\n", "GET  / HTTP/1.1\r\n\r\n",
+                            "GET / HTTP/1.1\r\nA b: c\r\n\r\n", "GET / HTTP/1.1\r\n: c\r\n\r\n",
+                            "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", "G\xff / HTTP/1.1\r\n\r\n",
+                            "GET / HTTP/1.1\nHost: a\r\n\r\n", "GET a HTTP/1.1\r\n\r\n"}) {
+    EXPECT_EQ(status_of(ask(wrong)), 400) << wrong;
+  }
   ask(std::string(1 << 20, '\xff'));
   EXPECT_EQ(status_of(get("alive")), 200);
 }
 
+// The answer comes before the body, which nobody reads then.
+TEST_F(ViewCommand, ReadsNothingFromWhomItRefuses) {
+  struct Case {
+    std::string path, fields;
+    int status;
+  };
+  const std::string here = fmt::format("/{}/studio/set", secret);
+  for (const Case& wanted :
+       {Case{"/studio/set", "Content-Length: 1000\r\n", 404}, Case{here, "Content-Length: 1000000000\r\n", 413},
+        Case{here, "Content-Length: 99999999999999999999\r\n", 411}, Case{here, "", 411},
+        Case{here, "Transfer-Encoding: chunked\r\n", 411},
+        Case{here, "Content-Length: 1000\r\nOrigin: http://evil.example\r\n", 403}}) {
+    const Connection connection(port);
+    std::string request = head(wanted.path, "POST", wanted.fields);
+    request.erase(request.find("Connection: close\r\n"), 19);
+    connection.send_text(request);
+    const std::string answer = connection.read_all();
+    EXPECT_EQ(status_of(answer), wanted.status) << wanted.path << wanted.fields;
+    EXPECT_NE(answer.find("Connection: close\r\n"), std::string::npos) << answer;
+  }
+}
+
 TEST_F(ViewCommand, SlowRequestsHoldNobodyUp) {
   std::vector<Connection> slow;
-  for (int i = 0; i < 100; i++) {
+  for (int i = 0; i < 300; i++) {
     slow.emplace_back(port);
     slow.back().send_text("GET / HTTP/1.1\r\nHost: ");
   }
   EXPECT_EQ(status_of(get("alive")), 200);
   EXPECT_TRUE(slow.back().is_open()) << "it waited until the others were given up";
-  for (const Connection& connection : slow) connection.read_all();  // they are ended
+  EXPECT_LE(std::ranges::count_if(slow, &Connection::is_open), 32);
+  EXPECT_EQ(status_of(ask(head(fmt::format("/{}/alive", secret)), 2)), 200);
+  EXPECT_EQ(status_of(slow.back().read_all()), 408);  // they are ended
+}
+
+// A head of which a line comes now and then.
+TEST_F(ViewCommand, EndsAHeadThatGoesOnAndOn) {
+  const Connection slow(port);
+  slow.send_text("GET / HTTP/1.1\r\n");
+  bool is_open = true;
+  for (int i = 0; i < 300 && is_open; i++) {
+    std::this_thread::sleep_for(100ms);
+    is_open = slow.send_text("X: y\r\n") && slow.is_open();
+  }
+  EXPECT_FALSE(is_open);
+  EXPECT_EQ(status_of(slow.read_all()), 408);
+}
+
+// Requests that are being answered are not ended for new ones.
+TEST_F(ViewCommand, AnAddressHasThirtyTwoConnections) {
+  std::vector<Connection> busy;
+  const std::string request =
+      head(fmt::format("/{}/studio/set", secret), "POST", "Content-Length: 2\r\nExpect: 100-continue\r\n");
+  for (int i = 0; i < 32; i++) {
+    busy.emplace_back(port);
+    busy.back().send_text(request);
+    EXPECT_TRUE(busy.back().read_line().starts_with("HTTP/1.1 100 "));
+  }
+  EXPECT_EQ(status_of(get("alive")), 503);
+  EXPECT_EQ(status_of(ask(head(fmt::format("/{}/alive", secret)), 2)), 200);
+  for (const Connection& each : busy) each.send_text("{}");
+  for (const Connection& each : busy) EXPECT_NE(each.read_all().find("HTTP/1.1 404 "), std::string::npos);
+  EXPECT_EQ(status_of(get("alive")), 200);
+}
+
+TEST_F(ViewCommand, AnswersRequestAfterRequest) {
+  const Connection connection(port);
+  const std::string last = head(fmt::format("/{}/alive", secret));
+  std::string next = last;
+  next.erase(next.find("Connection: close\r\n"), 19);
+  connection.send_text(next + next + next + last);
+  const std::string answers = connection.read_all();
+  size_t count = 0;
+  for (size_t at = 0; (at = answers.find("HTTP/1.1 200 OK", at)) != std::string::npos; at++) count++;
+  EXPECT_EQ(count, 4u);
 }
 
 TEST_F(ViewCommand, ServesTwoHundredAtOnce) {
   std::vector<std::thread> threads;
   std::atomic<int> served{0};
-  for (int i = 0; i < 200; i++) {
-    threads.emplace_back([&] { served += status_of(get("item/0/picture.png")) == 200 ? 1 : 0; });
+  const std::string request = head(fmt::format("/{}/item/0/picture.png", secret));
+  for (uint32_t i = 0; i < 200; i++) {
+    threads.emplace_back([&, i] { served += status_of(ask(request, 1 + i % 8)) == 200 ? 1 : 0; });
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(served, 200);
@@ -150,7 +300,73 @@ TEST_F(ViewCommand, EndsWithoutWaitingForAnybodyAndKeepsItsAddress) {
   again.finish();
 }
 
-class View : public Cli {};
+class View : public Served {};
+
+// Of a network that all its users can listen to, an old address is no use.
+TEST_F(View, TheNetworksAddressIsNewEachTime) {
+  const std::string picture = folder.path("small_360_TB.png");
+  ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
+  setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
+  std::vector<std::string> secrets;
+  for (const bool is_kept : {false, false, true, true}) {
+    std::vector<std::string> words = {"view", picture, "--lan", "--no-browser"};
+    if (is_kept) words.emplace_back("--keep-secret");
+    Ods command(words);
+    command.wait_for("Ctrl-C ends it");
+    if (command.err.find("in no network") != std::string::npos) GTEST_SKIP() << "skipped: there is no network";
+    std::smatch parts;
+    EXPECT_TRUE(std::regex_match(command.out, parts, std::regex("https://[0-9.]+:([0-9]+)/([0-9a-f]{32})/\n")))
+        << command.out << command.err;
+    secrets.push_back(parts[2]);
+    if (ods::missing("openssl", "command -v openssl").empty()) {
+      const std::string answer =
+          ods::run_line(fmt::format("printf 'GET /{}/item/0/picture.png HTTP/1.1\\r\\nHost: "
+                                    "127.0.0.1:{}\\r\\nConnection: close\\r\\n\\r\\n' |"
+                                    "openssl s_client -quiet -connect 127.0.0.1:{} 2>/dev/null",
+                                    secrets.back(), std::string(parts[1]), std::string(parts[1])))
+              .out;
+      EXPECT_EQ(status_of(answer), 200) << answer.substr(0, 300);
+      EXPECT_EQ(body_of(answer), folder.read("small_360_TB.png"));
+    }
+    command.kill(SIGINT);
+    EXPECT_EQ(command.finish(), 130);
+  }
+  EXPECT_NE(secrets[0], secrets[1]);
+  EXPECT_NE(secrets[1], secrets[2]);
+  EXPECT_EQ(secrets[2], secrets[3]);
+  EXPECT_EQ(run("view " + picture + " --keep-secret"), 2);
+}
+
+// Everybody on this machine can read what programs are started with.
+TEST_F(View, TheBrowserIsStartedWithAnAddressThatWorksOnce) {
+  const std::string picture = folder.path("small_360_TB.png"), said = folder.path("said"), path = std::getenv("PATH");
+  ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
+  folder.write("xdg-open",
+               "#!/bin/sh\nprintf %s \"$1\" > '" + said + ".part'; mv '" + said + ".part' '" + said + "'\n");
+  std::filesystem::permissions(folder.path("xdg-open"), std::filesystem::perms::owner_all);
+  setenv("PATH", (folder.path("") + ":" + path).c_str(), 1);
+  setenv("DISPLAY", ":0", 1);
+  serve({picture}, true);
+  for (int i = 0; i < 100 && !std::filesystem::exists(said); i++) std::this_thread::sleep_for(100ms);
+  setenv("PATH", path.c_str(), 1);
+  unsetenv("DISPLAY");
+  const std::string address = folder.read("said");
+  EXPECT_EQ(address.find(secret), std::string::npos);
+  std::smatch parts;
+  ASSERT_TRUE(std::regex_match(address, parts, std::regex("http://127.0.0.1:[0-9]+(/[0-9a-f]{32})"))) << address;
+  const std::string opener = head(parts[1]);
+  if (geteuid() == 0) {
+    const pid_t other = fork();  // another user, who is faster
+    if (other == 0) _exit(setuid(65534) == 0 && status_of(ask(opener)) == 404 ? 0 : 1);
+    int status = 0;
+    waitpid(other, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  const std::string answer = ask(opener);
+  EXPECT_EQ(status_of(answer), 303);
+  EXPECT_NE(answer.find("Location: /" + secret + "/\r\n"), std::string::npos) << answer;
+  EXPECT_EQ(status_of(ask(opener)), 404);
+}
 
 TEST_F(View, ExportIsAFolderOfItsOwn) {
   const std::string picture = folder.path("a_360_TB.png"), light = folder.path("b.exr"), site = folder.path("site");

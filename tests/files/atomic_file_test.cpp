@@ -45,6 +45,21 @@ TEST(AtomicFile, WritesWhatALinkStandsFor) {
   EXPECT_EQ(folder.read("new.txt"), "new");
 }
 
+TEST(AtomicFile, ANewNameReplacesNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.txt", "a");
+  folder.write("old.txt", "old");
+  std::filesystem::create_symlink("nowhere", folder.path("dangling.txt"));
+  std::filesystem::create_directory(folder.path("folder"));
+  for (const char* taken : {"old.txt", "dangling.txt", "folder"}) {
+    EXPECT_FALSE(rename_as_new(folder.path("a.txt"), folder.path(taken))) << taken;
+  }
+  EXPECT_TRUE(rename_as_new(folder.path("a.txt"), folder.path("new.txt")));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"dangling.txt", "folder", "new.txt", "old.txt"}));
+  EXPECT_EQ(folder.read("new.txt") + folder.read("old.txt"), "aold");
+  EXPECT_THROW(rename_as_new(folder.path("none.txt"), folder.path("b.txt")), Error);
+}
+
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
   const TemporaryFolder folder;
   {

@@ -65,6 +65,23 @@ TEST_F(LiveRendering, ComesWholeAndCoarseFirstThenFinerWhereOneLooks) {
   EXPECT_GT(static_cast<float>(patch->eye.width) / degrees, static_cast<float>(finer->eye.width) / 360.0f);
 }
 
+TEST_F(LiveRendering, SaysWhatComesNext) {
+  LiveRender live(scene, 0);
+  live.set(settings, {});
+  Frame frame = live.next_frame(0, 60s);
+  for (int i = 0; i < 5; i++) {
+    ASSERT_TRUE(frame && frame->next);
+    const ods::LiveStep said = *frame->next;
+    const Frame next = wait_for(live, frame->number, [](const LiveFrame&) { return true; });
+    ASSERT_TRUE(next);
+    if (next->number > frame->number + 1) break;  // it was too fast for us
+    EXPECT_EQ(next->is_patch, said.is_patch);
+    EXPECT_EQ(next->eye.width, said.width);
+    EXPECT_EQ(next->samples, said.samples);
+    frame = next;
+  }
+}
+
 TEST_F(LiveRendering, ShowsWhatTheRendererRenders) {
   LiveRender live(scene, 0);
   live.set(settings, {});

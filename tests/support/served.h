@@ -21,12 +21,14 @@
 
 #include "tests/support/cli_runner.h"
 
-// A connection to the server. Reading ends after ten seconds.
+// A connection to the server, from this machine's address 127.0.0.N. Reading ends after ten seconds.
 class Connection {
  public:
-  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  explicit Connection(int port, uint32_t from = 1) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK - 1 + from);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
     address.sin_port = htons(static_cast<uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     const timeval patience{10, 0};
@@ -47,6 +49,13 @@ class Connection {
   bool is_open() const {
     char byte;
     return recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) < 0 && errno == EAGAIN;
+  }
+
+  // To the end of its first line.
+  std::string read_line() const {
+    std::string text;
+    for (char c = 0; c != '\n' && recv(socket_, &c, 1, 0) == 1;) text += c;
+    return text;
   }
 
   // Until the server closes.
@@ -74,10 +83,10 @@ inline std::string body_of(const std::string& answer) {
 
 class Served : public Cli {
  protected:
-  void serve(std::vector<std::string> words) {
+  void serve(std::vector<std::string> words, bool opens_browser = false) {
     setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
     words.insert(words.begin(), "view");
-    words.emplace_back("--no-browser");
+    if (!opens_browser) words.emplace_back("--no-browser");
     server.emplace(words);
     server->wait_for("Ctrl-C ends it");
     const std::string address = server->out.substr(0, server->out.find('\n'));
@@ -97,8 +106,8 @@ class Served : public Cli {
   }
 
   // The answer to a request, head and body.
-  std::string ask(const std::string& request) const {
-    const Connection connection(port);
+  std::string ask(const std::string& request, uint32_t from = 1) const {
+    const Connection connection(port, from);
     connection.send_text(request);
     return connection.read_all();
   }
@@ -108,11 +117,13 @@ class Served : public Cli {
                body);
   }
 
-  // Kilobytes of the server's that are in memory.
-  long resident() const {
+  // Kilobytes of the server's that are in memory, and the most that ever were.
+  long resident() const { return memory("VmRSS:"); }
+  long peak() const { return memory("VmHWM:"); }
+  long memory(const std::string& name) const {
     std::ifstream status(fmt::format("/proc/{}/status", server->process()));
     for (std::string line; std::getline(status, line);) {
-      if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+      if (line.starts_with(name)) return std::stol(line.substr(name.size()));
     }
     return 0;
   }

@@ -5,6 +5,7 @@
 // which frames are shown. testStudio() throws what is wrong.
 import { Live } from './studio-live.js';
 import { Panel } from './studio-panel.js';
+import { progressOf } from './studio.js';
 import { Session, sleep, valueAt } from './studio-session.js';
 
 const merge = { mode: 'cosine', start: 60, end: 90, exponent: 1 };
@@ -194,12 +195,30 @@ async function testPanel(server, session, panel) {
   expect(!panel.fault.hidden && panel.fault.textContent.includes('below its end'), 'does not say what is refused');
   session.step(-1);
   await until(() => panel.fault.hidden && !row('sidecar.merge_top.start').classList.contains('wrong'), 'forgets the fault');
+  panel.complain('a.jpg: drop a .glb');
+  const before = server.sets.length;
+  session.edit({ 'sidecar.roll': 1 });
+  await until(() => server.sets.length > before && session.side.sent === session.settings, 'sends an edit');
+  expect(!panel.fault.hidden && panel.fault.checkVisibility(), 'a fault goes before somebody has read it');
+  expect(!panel.element.contains(panel.fault), 'a fault goes with the panel');
+  panel.fault.querySelector('button').click();
+  expect(panel.fault.hidden, 'a fault cannot be closed');
+  expect(row('sidecar.projection.fov').hidden && !row('sidecar.projection.longitude.0').hidden, 'controls of another projection');
+  session.edit({ 'sidecar.projection.name': 'mirror-ball' });
+  expect(!row('sidecar.projection.fov').hidden && !row('sidecar.projection.pan').hidden, 'a projection without its controls');
   expect(row('sidecar.convergence.distance').hidden, 'a distance without convergence');
   session.edit({ 'sidecar.convergence.mode': 'toe-in' });
   expect(!row('sidecar.convergence.distance').hidden, 'no distance of convergence');
 }
 
+function testProgress() {
+  const frame = { part: 'base', width: 512, height: 256, samples: 2, seconds: 0.52, next: { part: 'patch', width: 410, samples: 4 } };
+  expect(progressOf(frame) === 'picture 512 × 256, 2 samples per pixel, 0.5 s; next: view 410 wide, 4 samples', 'does not say what is shown and what comes');
+  expect(progressOf({ ...frame, part: 'patch', next: null }).endsWith(': finished'), 'does not say when it is finished');
+}
+
 export async function testStudio() {
+  testProgress();
   const server = new Server();
   const live = new Live(document.createElement('canvas').getContext('webgl2'));
   Object.assign(live, { taken: [], least: 0 });
@@ -221,9 +240,9 @@ export async function testStudio() {
   const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };
   const studio = {
     scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], convergences: ['parallel', 'toe-in'],
-    projections: ['lat-long'], tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
+    projections: ['lat-long', 'mirror-ball'], controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
   };
   const element = document.createElement('div');
   document.body.append(element);
-  await testPanel(server, session, new Panel(element, { projections: [{ name: 'lat-long', camera }], studio }, session));
+  await testPanel(server, session, new Panel(element, { projections: [{ name: 'lat-long', camera }, { name: 'mirror-ball', camera }], studio }, session));
 }

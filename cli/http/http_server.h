@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Serves a web page to its own user, over HTTP or HTTPS, through cpp-httplib.
+// Serves a web page to its own user, over HTTP or HTTPS.
 //
 // Nobody else may use it: every address begins with a secret, the Host header must be a name that we go by (else a web
 // site could reach us by a name of its own that it lets point to this machine), and a request with an Origin must come
-// from our page. Nothing is shared with other sites, and the page can load nothing from elsewhere. Requests are limited
-// in size, in time and in number.
+// from our page. Nothing is shared with other sites, and the page can load nothing from elsewhere.
+//
+// Limits: a request's head has 5 seconds and 16 KB, an address 32 connections, all addresses 256. Where there are too
+// many, the one that has waited longest for a request is closed. Whoever is refused is not read any further.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -20,13 +22,14 @@ struct WebRequest {
   std::string path;  // after the secret: item/0/left.jpg
   std::map<std::string, std::string> query;
   std::string body;
+  std::string file;  // in place of the body: an upload; removed after the answer, if the handler has not moved it
 };
 
 struct WebAnswer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body{};
-  std::string file{};  // is sent in place of the body, in the ranges that the browser asks for
+  std::string file{};  // is sent in place of the body, or the part of it that the browser asks for; a link is not
 };
 
 // 404, in words.
@@ -40,14 +43,16 @@ std::string value_of(const WebRequest& request, const std::string& name);
 using WebHandler = std::function<WebAnswer(const WebRequest& request)>;
 
 struct WebOptions {
-  std::string address = "127.0.0.1";                         // to listen at; 0.0.0.0: all of this machine's
-  int port = 0;                                              // 0: any that is free
-  std::string secret;                                        // the first part of every path
+  std::string address = "127.0.0.1";  // to listen at; 0.0.0.0: all of this machine's
+  int port = 0;                       // 0: any that is free
+  std::string secret;                 // the first part of every path
+  std::string opener{};  // a path that leads to the page, once, and only our own user's programs; empty: none
   std::vector<std::string> hosts{"127.0.0.1", "localhost"};  // the names that we go by
   std::string certificate;                                   // PEM files, for https; empty: http
   std::string key;
   size_t most_body = size_t{64} << 10;  // bytes of a request's body
-  std::string upload;                   // the path whose body may be larger; empty: none
+  std::string upload;                   // the path whose bodies are files, one at a time; empty: none
+  std::string upload_folder;            // for those; nobody else can enter it
   size_t most_upload = size_t{512} << 20;
 };
 
@@ -61,7 +66,7 @@ class HttpServer {
   HttpServer& operator=(const HttpServer&) = delete;
 
   int port() const;
-  // Answers until stop(), which another thread calls.
+  // Answers until stop(), which another thread calls; then all connections have ended.
   void run();
   void stop();
 

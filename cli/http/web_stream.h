@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bytes of one connection, plain or by TLS (through OpenSSL), with a deadline for each step.
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+
+using WebDeadline = std::chrono::steady_clock::time_point;
+
+// A certificate and its key, for all connections.
+class WebKeys {
+ public:
+  // Paths of PEM files. Throws Error(kInput) for those that cannot be used.
+  WebKeys(const std::string& certificate, const std::string& key);
+  ~WebKeys();
+  WebKeys(const WebKeys&) = delete;
+  WebKeys& operator=(const WebKeys&) = delete;
+
+ private:
+  friend class WebStream;
+  void* context_;
+};
+
+class WebStream {
+ public:
+  // Over a connected socket, which the caller closes later. keys: null for none.
+  WebStream(int socket, const WebKeys* keys);
+  ~WebStream();
+  WebStream(const WebStream&) = delete;
+  WebStream& operator=(const WebStream&) = delete;
+
+  // Agrees on keys, where there are some. False, as below: the deadline has passed, or the other side has gone.
+  bool open(WebDeadline until);
+  // As many bytes as there are, at least one; 0 in place of false.
+  size_t read(char* to, size_t most, WebDeadline until);
+  // patience: for the other side to take more of them.
+  bool write(std::string_view bytes, std::chrono::seconds patience);
+  // A program of this machine and this user is at the other end.
+  bool is_our_users() const;
+  // Says the end, and lets the other side read what was sent: whoever closes while bytes come in takes it back.
+  void end();
+
+ private:
+  template <class Step>
+  int run(const Step& step, short plain_event, WebDeadline until);
+
+  int socket_;
+  void* tls_ = nullptr;
+};

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The studio's files: what is dropped onto the page, and the cameras that it saves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/console/console.h"
+#include "cli/view/render_words.h"
+#include "cli/view/studio.h"
+#include "ods/base/text.h"
+#include "ods/camera/camera_fields.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/read_file.h"
+
+namespace {
+
+constexpr size_t kMostOfCamera = size_t{64} << 20;  // bytes
+
+// The name of a file, without its folder and without what confuses a terminal.
+std::string plain_name(const std::string& given) {
+  std::string name = given.substr(given.find_last_of("/\\") + 1);
+  std::erase_if(name, [](unsigned char c) { return std::iscntrl(c) != 0; });
+  return name;
+}
+
+}  // namespace
+
+// The scene as its user knows it.
+std::string Studio::title() const {
+  return dropped_scene_.path.empty() ? source_.name : dropped_scene_.name;
+}
+
+// What --env takes for a word of the page.
+std::string Studio::environment_of(const std::string& word) const {
+  if (!dropped_light_.path.empty() && word == dropped_light_.name) return dropped_light_.path;
+  return word == "auto" ? "" : word;
+}
+
+// A message for the page: names of our own files mean nothing to its user, and say where this machine has what.
+std::string Studio::without_paths(std::string text) const {
+  const auto replace = [&](const std::string& path, const std::string& name) {
+    for (size_t at = 0; !path.empty() && (at = text.find(path, at)) != std::string::npos; at += name.size()) {
+      text.replace(at, path.size(), name);
+    }
+  };
+  replace(dropped_scene_.path, dropped_scene_.name);
+  replace(dropped_light_.path, dropped_light_.name);
+  replace(drops_.path() + "/", "");
+  replace(drops_.path(), "what was dropped");
+  return text;
+}
+
+void Studio::discard(const Drop& drop) {
+  std::error_code ignored;
+  if (!drop.path.empty()) std::filesystem::remove(drop.path, ignored);
+}
+
+WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) {
+  const std::vector<unsigned char> bytes = ods::read_file(path, kMostOfCamera);
+  std::vector<std::string> warnings;
+  const ods::Sidecar sidecar = ods::read_sidecar(std::string(bytes.begin(), bytes.end()), name, warnings);
+  const std::string fault = camera_fault(sidecar.camera);
+  if (!fault.empty()) throw UsageError("the camera's " + fault);
+  for (const auto& map : {sidecar.camera.merge_map, sidecar.camera.head_tilt_map}) {
+    if (map && maps_.size() < kMostMaps) maps_.push_back(map);
+  }
+  settings_.sidecar = sidecar;
+  settings_.live.camera = sidecar.camera;
+  live_->set(settings_.live, settings_.look);
+  return json_answer({{"what", "camera"}, {"settings", settings_json(settings_)}});
+}
+
+// A file that was dropped onto the page: another scene, another light, or a camera. What it names, as a scene names its
+// textures, is read from our own folder only.
+WebAnswer Studio::drop(const WebRequest& request) {
+  const std::string name = plain_name(value_of(request, "name"));
+  const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
+  if (kind == ".json") return drop_camera(name, request.file);
+  const bool is_scene = kind == ".glb" || kind == ".zip", is_light = kind == ".hdr" || kind == ".exr";
+  if (!is_scene && !is_light) throw UsageError("drop a .glb or .zip, an .hdr or .exr, or a .camera.json");
+  const Drop drop{name, fmt::format("{}/{}{}", drops_.path(), ++drop_count_, kind)};
+  std::filesystem::rename(request.file, drop.path);
+  Drop& place = is_scene ? dropped_scene_ : dropped_light_;
+  const Drop before = std::exchange(place, drop);
+  SceneSource source = is_scene ? SceneSource() : source_;
+  if (is_scene) {
+    source.name = drop.path;
+    source.confine = drops_.path();
+  } else {
+    source.light.environment = drop.path;
+  }
+  try {
+    open(source, is_scene);
+  } catch (const std::exception& error) {
+    const std::string why = without_paths(error.what());
+    place = before;
+    discard(drop);
+    throw ods::Error(ods::ErrorKind::kInput, why);
+  }
+  discard(before);
+  if (is_scene) discard(std::exchange(dropped_light_, {}));
+  if (is_scene) return json_answer({{"what", "scene"}, {"settings", settings_json(settings_)}});
+  settings_.environment = usual_.environment = name;
+  live_->set(settings_.live, settings_.look);
+  return json_answer({{"what", "environment"}, {"settings", settings_json(settings_)}});
+}
+
+// What the scene's files are called without their endings.
+std::string Studio::stem() const {
+  return std::filesystem::path(title()).stem().string();
+}
+
+WebAnswer Studio::save() {
+  ods::Sidecar sidecar = settings_.sidecar;
+  sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
+  const ods::PrivateFolder folder(".ods-view-");  // whatever has the name, nothing is written through it
+  const std::string made = folder.path() + "/camera";
+  std::vector<std::string> ends = save_maps(sidecar.camera, made);
+  save_sidecar(sidecar, made + ends.emplace_back(".camera.json"));
+  const auto is_taken = [&](const std::string& name) {  // a file of somebody else stays
+    return std::ranges::any_of(ends, [&](const std::string& end) {
+      return std::filesystem::exists(std::filesystem::symlink_status(name + end));
+    });
+  };
+  std::string name = saved_.empty() ? stem() : saved_;
+  for (int i = 2; saved_.empty() && is_taken(name); i++) name = fmt::format("{}-{}", stem(), i);
+  for (const std::string& end : ends) {
+    if (!saved_.empty())
+      std::filesystem::rename(made + end, name + end);
+    else if (!ods::rename_as_new(made + end, name + end))
+      throw UsageError(fmt::format("'{}' exists by now: try again", name + end));
+  }
+  saved_ = name;
+  return json_answer({{"file", saved_ + ".camera.json"}});
+}
