@@ -6,6 +6,7 @@
 
 #include "cli/options/picture_options.h"
 #include "ods/denoise/oidn.h"
+#include "ods/render/light_cache.h"
 
 // A video's frames are .exr, but what is looked at is the video. One sample has no variance.
 ods::Denoiser denoiser_of(const RenderJob& job) {
@@ -47,5 +48,11 @@ std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoC
     if (!job.render.layers) eye.depth = eye.normal = eye.albedo = ods::Image();
     if (!keeps_statistics) eye.variance = eye.samples = ods::Image();
   }
-  return ods::save_picture(picture, camera, job.save, path);
+  ods::SaveOptions save = job.save;
+  ods::RenderOptions options = job.render;
+  options.width = picture.eyes[0].radiance.width, options.height = picture.eyes[0].radiance.height;
+  const bool cached = ods::light_cache_paths(options) > 0;
+  const ods::Indirect indirect = cached ? ods::Indirect::kCache : ods::Indirect::kPath;
+  save.attributes.push_back({"ods:indirect", std::string(ods::indirect_name(indirect))});
+  return ods::save_picture(picture, camera, save, path);
 }

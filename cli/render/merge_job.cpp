@@ -170,6 +170,15 @@ void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& la
   add_progress_options(options, render.progress);
 }
 
+// How the parts' light found its way over several surfaces.
+ods::Indirect indirect_of(const ods::SampledPicture& picture) {
+  for (const Setting& setting : parse_settings(picture.settings)) {
+    if (setting.option == "--indirect")
+      return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
+  }
+  return {};
+}
+
 // What the picture's files are made of, beside its samples.
 void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   RenderJob& render = job.render;
@@ -177,6 +186,7 @@ void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   if (wished.statistics && !ods::keeps_layers(render.output)) throw UsageError("--statistics needs an .exr");
   if (render.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   render.render = job.picture.options;
+  render.render.indirect = indirect_of(job.picture);
   render.render.layers = ods::keeps_layers(render.output) && job.picture.options.layers;
   render.render.statistics = wished.statistics;
   render.render.threads = wished.threads;

@@ -8,8 +8,13 @@
 #include <vector>
 
 #include "ods/kernel/light_cache.h"
+#include "ods/render/render_options.h"
 
 namespace ods {
+
+// The most paths that fill the cache of a picture: a share of its own, so that they take a tenth of the time. 0: the
+// options ask for none, or few paths would fill it, which is worse than none. Precondition: the height is set.
+int64_t light_cache_paths(const RenderOptions& options);
 
 // What one path found at one place.
 struct CacheDeposit {

@@ -15,14 +15,10 @@
 namespace ods {
 namespace {
 
-constexpr int kKeptBounces = 4;          // a path's first surfaces are kept
-constexpr int kPathsAtOnce = 1 << 10;    // one thread's
-constexpr int kRoundPaths = 1 << 14;     // between looks at the cells
-constexpr double kWantedError = 0.2;     // of a cell; what a pixel gathers is the mean of many
-constexpr int64_t kSamplesPerPath = 16;  // of one eye: the paths take a tenth of the time
-constexpr int64_t kFewestPaths = 1 << 16;
-constexpr int64_t kMostPaths = 1 << 22;
-constexpr double kPathsPerSecond = 2e4;  // of a time limit
+constexpr int kKeptBounces = 4;        // a path's first surfaces are kept
+constexpr int kPathsAtOnce = 1 << 10;  // one thread's
+constexpr int kRoundPaths = 1 << 14;   // between looks at the cells
+constexpr double kWantedError = 0.2;   // of a cell; what a pixel gathers is the mean of many
 
 // A surface that a path has met.
 struct Vertex {
@@ -93,25 +89,16 @@ void trace_batch(Job job, uint first, LightCacheSums& sums) {
   }
 }
 
-// A cache that few paths have filled is worse than none.
-int64_t paths_wanted(const RenderOptions& options) {
-  if (options.cache_paths > 0) return options.cache_paths;
-  const int expected = options.noise > 0.0f ? options.samples / 4 : options.samples;  // most pixels are clean by then
-  const int64_t share = int64_t{options.width} * options.height * expected / kSamplesPerPath;
-  const int64_t most = options.time_limit > 0.0 ? std::llrint(options.time_limit * kPathsPerSecond) : kMostPaths;
-  return share < kFewestPaths ? 0 : std::clamp(most, kFewestPaths, std::min(share, kMostPaths));
-}
-
 }  // namespace
 
 std::vector<CacheCell> fill_light_cache(const Job& wanted, const Progress& progress) {
-  if (wanted.options.bounces < 2) return {};  // no path meets a surface whose light could be cached
+  const int64_t most = light_cache_paths(wanted.options);
+  if (most == 0) return {};
   Job job = wanted;
   job.settings.keep_vertices = true;
   job.settings.clamp = 0.0f;
   job.settings.bounces = wanted.options.bounces - 1 + kKeptBounces - 1;
   job.tracer.cache_viewer = job.camera.center;
-  const int64_t most = paths_wanted(job.options);
   LightCacheSums sums;
   int64_t look = 4 * kRoundPaths;
   for (int64_t done = 0; done < most; done += kRoundPaths) {

@@ -433,8 +433,7 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
   parts_->arena.execute([&] {
     Job job = parts_->make_job(stereo, cameras, options);
     parts_->use_portals(job.tracer, stereo.position);
-    std::vector<CacheCell> cells;
-    if (options.indirect == Indirect::kCache) cells = fill_light_cache(job, progress);
+    const std::vector<CacheCell> cells = fill_light_cache(job, progress);
     show_light_cache(job, cells);
     render_passes(job, make_plan(stereo, options), samples, progress, keep);
   });
