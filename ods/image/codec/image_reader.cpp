@@ -11,7 +11,6 @@
 #include "ods/base/text.h"
 #include "ods/files/file_input.h"
 #include "ods/image/codec/decoder.h"
-#include "ods/image/codec/other_formats.h"
 #include "ods/image/color_tags.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
@@ -72,14 +71,16 @@ static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileForma
       return open_png(file);
     case FileFormat::kJpeg:
       return open_jpeg(file);
-    case FileFormat::kExr:
-      return open_exr(file);
     case FileFormat::kTiff:
+      return open_tiff(file);
     case FileFormat::kWebp:
+      return open_webp(file);
     case FileFormat::kHdr:
+      return open_hdr(file);
+    case FileFormat::kExr:
       break;
   }
-  return other_formats().open(file, format);
+  return open_exr(file);
 }
 
 namespace {
