@@ -40,6 +40,8 @@ class Decoder {
 
   // What read() returns of a pixel.
   size_t bytes_of_pixel(size_t first, size_t count) const;
+  // The height of bands that split nothing which the file packs together.
+  int band_rows() const;
 
   // What the header says: color and color_fault are empty.
   FileInfo info;

@@ -45,6 +45,11 @@ size_t Decoder::bytes_of_pixel(size_t first, size_t count) const {
   return bytes;
 }
 
+int Decoder::band_rows() const {
+  constexpr int kBand = 64;
+  return (kBand + rows_together - 1) / rows_together * rows_together;
+}
+
 constexpr std::string_view kVideoExtensions[] = {".mp4", ".mov", ".mkv", ".webm"};  // for a message
 
 static bool is_named_as_video(const std::string& name) {
@@ -108,7 +113,7 @@ static Opened open(const std::string& path) {
 // Calls take(row, y) with the samples of each row.
 template <class Take>
 static void each_row(Decoder& decoder, size_t first, size_t count, const Take& take) {
-  const int height = decoder.info.height, band = std::max(64, decoder.rows_together);
+  const int height = decoder.info.height, band = decoder.band_rows();
   const size_t row = decoder.bytes_of_pixel(first, count) * static_cast<size_t>(decoder.info.width);
   std::vector<std::byte> rows(row * static_cast<size_t>(std::min(band, height)));
   for (int begin = 0; begin < height; begin += band) {
@@ -212,7 +217,7 @@ class FileRows final : public RowReader {
   bool is_whole_number(size_t channel) const override {
     return channel < decoder_->whole_numbers.size() && decoder_->whole_numbers[channel];
   }
-  int band_rows() const override;
+  int band_rows() const override { return decoder_->band_rows(); }
   void read(int begin, int end, size_t channels, std::byte* to) override;
   const std::map<size_t, unsigned>& beyond_floats() const override { return decoder_->beyond_floats; }
 
@@ -240,11 +245,6 @@ FileRows::FileRows(const std::string& path) {
 
 void FileRows::widen() {
   if (!info_.is_float) std::fill(info_.samples.begin(), info_.samples.end(), SampleType::kUint16);
-}
-
-int FileRows::band_rows() const {
-  const int kBand = 64, together = decoder_->rows_together;
-  return (kBand + together - 1) / together * together;
 }
 
 void FileRows::read(int begin, int end, size_t channels, std::byte* to) {

@@ -335,9 +335,10 @@ void TiffDecoder::read_blocks(const Rows& rows) {
 void TiffDecoder::read_plain_line(const TiffInput& input, size_t plane, int y, std::byte* to) const {
   const uint32_t row = static_cast<uint32_t>(y),
                  strip = TIFFComputeStrip(input.tiff(), row, static_cast<uint16_t>(plane));
-  const uint64_t at = TIFFGetStrileOffset(input.tiff(), strip) + row % blocks_.height * blocks_.row_bytes;
+  const uint64_t start = TIFFGetStrileOffset(input.tiff(), strip),
+                 at = start + row % blocks_.height * blocks_.row_bytes;
   const tmsize_t size = static_cast<tmsize_t>(blocks_.row_bytes);
-  if (at > file_.size || !file_.read(at, to, blocks_.row_bytes)) throw input.failed();
+  if (start == 0 || at > file_.size || !file_.read(at, to, blocks_.row_bytes)) throw input.failed();
   if (!TIFFIsByteSwapped(input.tiff())) return;
   void* const numbers = to;
   if (samples_.bits == 16) TIFFSwabArrayOfShort(static_cast<uint16_t*>(numbers), size / 2);
