@@ -28,7 +28,7 @@ PictureBytes picture_on_disk(const std::string& path) {
 PictureBytes picture_in_memory(std::span<const std::byte> bytes, const std::string& name) {
   const auto read = [bytes](size_t offset, void* to, size_t count) {
     if (offset > bytes.size() || count > bytes.size() - offset) return false;
-    std::memcpy(to, bytes.data() + offset, count);
+    std::copy_n(bytes.data() + offset, count, static_cast<std::byte*>(to));
     return true;
   };
   return {name, false, bytes.size(), read};
