@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long it takes to put a picture together of the views of a rig, over merely reading the same files with
-// OpenImageIO on as many threads: in turn, five times, of which the median counts.
-#include <OpenImageIO/imageio.h>
+// How long it takes to put a picture together of the views of a rig, over merely reading the same files on as many
+// threads: in turn, five times, of which the median counts.
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "bench/bare_file.h"
 #include "bench/measure.h"
 #include "ods/stitch/view_files.h"
 
@@ -61,12 +61,8 @@ void stitch_views(benchmark::State& state, int slits, ViewDepth depth, const std
     stitched = stitch(rig, open_view_files(rig, files), stitching);
   };
   const auto bare = [&] {
-    tbb::parallel_for(size_t{0}, rig.views.size(), [&](size_t i) {
-      const auto in = OIIO::ImageInput::open(view_path(rig, files, i));
-      std::vector<std::byte> pixels(in->spec().image_bytes(true));
-      in->read_image(0, 0, 0, -1, OIIO::TypeDesc::UNKNOWN, pixels.data());
-      benchmark::DoNotOptimize(pixels.data());
-    });
+    tbb::parallel_for(size_t{0}, rig.views.size(),
+                      [&](size_t i) { benchmark::DoNotOptimize(read_bare(view_path(rig, files, i))); });
   };
   std::vector<std::pair<Seconds, Seconds>> rounds;
   for (auto _ : state) {

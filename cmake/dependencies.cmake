@@ -9,11 +9,10 @@ endif()
 foreach(package TBB draco fmt glm meshoptimizer)  # Debian 13's draco.pc has wrong paths
   find_package(${package} REQUIRED CONFIG)
 endforeach()
-# OpenImageIO's own CMake file asks for packages of its tools (OpenCV, Python) on Debian 12; pkg-config's does not.
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 pkg_check_modules(OpenEXR REQUIRED IMPORTED_TARGET OpenEXR>=3.1)
 pkg_check_modules(Deflate REQUIRED IMPORTED_TARGET libdeflate)
-pkg_check_modules(Formats REQUIRED IMPORTED_TARGET lcms2 libjpeg libpng libzip>=1.7)
+pkg_check_modules(Formats REQUIRED IMPORTED_TARGET lcms2 libjpeg libpng libtiff-4>=4.5 libwebp libwebpdemux
+  libzip>=1.7)
 pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat libavutil libswresample)
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)

@@ -21,13 +21,17 @@ namespace fs = std::filesystem;
 const std::set<std::string> kAvFiles = {"ods/video/av.cpp", "ods/video/decode.cpp", "ods/video/encode.cpp",
                                         "ods/video/sound.cpp"};
 const std::map<std::string, std::set<std::string>> kHidden = {
-    {"OpenImageIO/", {"ods/image/openimageio/openimageio.cpp"}},
     {"embree", {"ods/render/cpu/embree_scene.cpp"}},
     {"CLI/", {"cli/console/options.cpp"}},
     {"OpenEXR/", {"ods/image/codec/exr.cpp", "ods/image/codec/exr_rows.cpp"}},
     {"png.h", {"ods/image/codec/png.cpp"}},
     {"jpeglib.h", {"ods/image/codec/jpeg.cpp"}},
-    {"libdeflate.h", {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp"}},
+    {"tiffio.h",
+     {"ods/image/codec/tiff_reader.cpp", "ods/image/codec/tiff_stream.cpp", "ods/image/codec/tiff_writer.cpp"}},
+    {"webp/", {"ods/image/codec/webp.cpp"}},
+    {"libdeflate.h",
+     {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp",
+      "ods/image/codec/tiff_writer.cpp"}},
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
     {"meshoptimizer.h", {"ods/scene/gltf/meshopt.cpp"}},
     {"zip.h", {"ods/files/zip_archive.cpp"}},
@@ -130,7 +134,7 @@ TEST(House, EveryRoomIncludesWhatTheTableSays) {
   std::map<std::string, std::set<std::string>> included_rooms;
   for (const Source& source : read_sources({"ods", "cli"})) {
     const std::string own = room_of(rooms, source.path);
-    if (source.path == "cli/main.cpp" || source.path == "cli/load_images.cpp") continue;  // the door of all rooms
+    if (source.path == "cli/main.cpp") continue;  // the door of all rooms
     ASSERT_FALSE(own.empty()) << source.path << " is in no room of ARCHITECTURE.md";
     for (const std::string& line : source.lines) {
       const std::string header = included(line, '"', '"');

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/base/text.h"
 
+#include <algorithm>
 #include <new>
 
 namespace ods {
@@ -19,8 +20,33 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// The length of the character that the text starts with; 0: it is none.
+static size_t character_length(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0), second = byte(1);
+  if (first < 0x80) return 1;
+  const size_t length = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  for (size_t i = 1; i < length; i++) {
+    if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
+  }
+  // Longer than needed, half of a pair, beyond the last character.
+  const bool is_wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+                        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
+  return is_wrong ? 0 : length;
+}
+
+std::string valid_utf8(std::string_view text) {
+  std::string valid;
+  while (!text.empty()) {
+    const size_t length = character_length(text);
+    valid += length > 0 ? text.substr(0, length) : "\uFFFD";
+    text.remove_prefix(std::max<size_t>(length, 1));
+  }
+  return valid;
+}
+
 std::string library_words(const std::string& text) {
-  std::string words = one_line(text);
+  std::string words = valid_utf8(one_line(text));
   // What the exception said stands at the end; before it libraries quote names, which files choose.
   if (words.ends_with("std::bad_alloc") || words.ends_with("(std::bad_alloc)")) throw std::bad_alloc();
   return words;

@@ -4,6 +4,7 @@
 // Text from files and command lines.
 #pragma once
 #include <string>
+#include <string_view>
 
 namespace ods {
 
@@ -14,8 +15,11 @@ std::string small_letters(std::string text);
 // breaks or terminal escapes.
 std::string one_line(std::string text);
 
-// A library's error message in one line. Some libraries turn every exception into text: if the text ends with
-// std::bad_alloc, bracketed or not, throws std::bad_alloc.
+// Each byte that is not part of a character in UTF-8 becomes U+FFFD. For text of unknown origin that others will parse.
+std::string valid_utf8(std::string_view text);
+
+// A library's error message in one line, valid UTF-8. Some libraries turn every exception into text: if the text ends
+// with std::bad_alloc, bracketed or not, throws std::bad_alloc.
 std::string library_words(const std::string& text);
 
 }  // namespace ods

@@ -12,11 +12,12 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/base/text.h"
 
 namespace ods {
 
 Error cannot_read(const std::string& path, const std::string& why) {
-  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
+  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, valid_utf8(why)));
 }
 
 size_t file_size(const std::string& path) {

@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// The Error(kInput) for a file that cannot be read.
+// The Error(kInput) for a file that cannot be read. `why` may quote the file: valid_utf8() makes text of it.
 Error cannot_read(const std::string& path, const std::string& why);
 
 size_t file_size(const std::string& path);

@@ -4,7 +4,6 @@
 // Pictures of other programs' colour spaces, made here byte by byte: they mean the light that they say.
 #include "ods/image/color_space.h"
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,6 +18,7 @@
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/stored_picture.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/tiff_files.h"
 
 namespace ods {
 namespace {
@@ -250,15 +250,16 @@ TEST(ColorSpace, ProfilesOfJpegTiffAndWebpAreHonoured) {
   expect_profile("a.webp", plain_webp);
 
   const Image plain_tiff = read_image(write(folder, "plain.tif", plain_file("tif")));
-  auto output = OIIO::ImageOutput::create("tiff");
-  OIIO::ImageSpec spec(kWidth, kHeight, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
-  std::vector<uint8_t> codes;
+  TiffForm form;
+  form.width = kWidth, form.height = kHeight;
+  form.prepare = [&](TIFF* tiff) {
+    TIFFSetField(tiff, TIFFTAG_ICCPROFILE, static_cast<uint32_t>(profile.size()), profile.data());
+  };
+  std::vector<std::byte> codes;
   for (int i = 0; i < kWidth * kHeight * 3; i++) {
-    codes.push_back(static_cast<uint8_t>(code_at(i / 3 % kWidth, i / 3 / kWidth, i % 3)));
+    codes.push_back(static_cast<std::byte>(code_at(i / 3 % kWidth, i / 3 / kWidth, i % 3)));
   }
-  ASSERT_TRUE(output->open(folder.path("a.tif"), spec) && output->write_image(OIIO::TypeDesc::UINT8, codes.data()));
-  output->close();
+  write_tiff(folder.path("a.tif"), form, codes);
   expect_profile("a.tif", plain_tiff);
 }
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "ods/base/error.h"
+#include "ods/base/text.h"
 #include "ods/image/tone.h"
 #include "tests/support/temporary_folder.h"
 
@@ -236,6 +237,17 @@ TEST(ReadImage, NoNameIsTakenForLackOfMemory) {
       EXPECT_NE(std::string(error.what()).find("Pixel type"), std::string::npos) << error.what();
     }
   }
+}
+
+// Programs parse our errors: whatever bytes a file has for names, they come as text.
+TEST(ReadImage, ErrorsAreUtf8) {
+  std::string exr = small_file(FileFormat::kExr);
+  const size_t channel = exr.find(std::string("B\0\2\0\0\0", 6));
+  ASSERT_NE(channel, std::string::npos);
+  exr[channel] = '\xff', exr[channel + 2] = 9;
+  const std::string why = refusal(exr);
+  EXPECT_NE(why.find("\xef\xbf\xbd"), std::string::npos) << why;
+  EXPECT_EQ(valid_utf8(why), why);
 }
 
 TEST(ReadImage, RefusesWhatIsNoFile) {

@@ -4,7 +4,6 @@
 // Every form of picture, ours and others', opened pixel by pixel; and saved by rows.
 #include "ods/picture/stored_picture.h"
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,9 +16,12 @@
 #include "ods/files/scratch.h"
 #include "ods/image/tone.h"
 #include "ods/picture/save.h"
+#include "tests/support/exr_files.h"
 #include "tests/support/picture_rows.h"
+#include "tests/support/png_files.h"
 #include "tests/support/saved_pictures.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/tiff_files.h"
 
 namespace ods {
 namespace {
@@ -158,12 +160,31 @@ PictureRows same_rows(const StoredPicture& picture) {
   return rows;
 }
 
-void write_with_openimageio(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                            const void* pixels) {
-  const auto output = OIIO::ImageOutput::create(path);
-  ASSERT_TRUE(output && output->open(path, spec)) << path;
-  ASSERT_TRUE(output->write_image(type, pixels)) << output->geterror();
-  ASSERT_TRUE(output->close());
+// Floats of 0..1 as the numbers of a TIFF.
+void write_tiff_of(const std::string& path, const TiffForm& form, const std::vector<float>& values) {
+  std::vector<std::byte> pixels;
+  const auto put = [&](auto number) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(&number);
+    pixels.insert(pixels.end(), bytes, bytes + sizeof number);
+  };
+  const bool is_float = form.format == SAMPLEFORMAT_IEEEFP;
+  for (const float value : values) {
+    const double code = static_cast<double>(value) * (std::exp2(form.bits) - 1.0) + 0.5;
+    if (form.bits == 8) put(static_cast<uint8_t>(code));
+    if (form.bits == 16) put(static_cast<uint16_t>(code));
+    if (form.bits == 32) is_float ? put(value) : put(static_cast<uint32_t>(code));
+    if (form.bits == 64) put(static_cast<double>(value));
+  }
+  write_tiff(path, form, pixels);
+}
+
+void write_png(const std::string& path, int width, int height, const std::string& channels, SampleType sample,
+               const std::vector<float>& values) {
+  const size_t count = channels.size();
+  const Binary bytes = make_png(width, height, channels, sample, [&](int x, int y, int c) {
+    return values[static_cast<size_t>(y * width + x) * count + static_cast<size_t>(c)];
+  });
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
 }
 
 TEST(SaveRows, EveryCodeValueComesBack) {
@@ -172,15 +193,19 @@ TEST(SaveRows, EveryCodeValueComesBack) {
       const TemporaryFolder folder;
       const std::string path = folder.path(std::string("a_mono.") + extension);
       std::vector<uint8_t> codes;
+      std::vector<float> values;
       for (int y = 0; y < 128; y++) {
         for (int x = 0; x < 256; x++) {
           for (int c = 0; c < 3; c++) codes.push_back(static_cast<uint8_t>(x + c * y));
           if (channels == 4) codes.push_back(static_cast<uint8_t>(255 - 2 * y + (y == 127)));
         }
       }
-      OIIO::ImageSpec spec(256, 128, channels, OIIO::TypeDesc::UINT8);
-      spec.attribute("oiio:UnassociatedAlpha", 1);
-      write_with_openimageio(path, spec, OIIO::TypeDesc::UINT8, codes.data());
+      for (const uint8_t code : codes) values.push_back(static_cast<float>(code) / 255.0f);
+      TiffForm form;
+      form.width = 256, form.height = 128, form.samples = static_cast<uint16_t>(channels);
+      if (channels == 4) form.extra = {EXTRASAMPLE_UNASSALPHA};
+      path.ends_with("tif") ? write_tiff_of(path, form, values)
+                            : write_png(path, 256, 128, channels == 4 ? "RGBA" : "RGB", SampleType::kUint8, values);
       const StoredPicture first = open_picture(path);
       const std::string copy = folder.path(std::string("b_mono.") + extension);
       save_picture(same_rows(first), nullptr, options_for(Layout::kTopBottom), copy);
@@ -199,14 +224,23 @@ TEST(OpenPicture, ReadsWhatOthersWrite) {
   const TemporaryFolder folder;
   std::vector<float> values;
   for (int i = 0; i < 100 * 50 * 4; i++) values.push_back(0.25f + 0.001f * static_cast<float>(i % 500));
-  const auto write = [&](const std::string& name, OIIO::TypeDesc type, int channels, const auto& prepare) {
-    OIIO::ImageSpec spec(100, 50, channels, type);
-    prepare(spec);
-    write_with_openimageio(folder.path(name), spec, OIIO::TypeDesc::FLOAT, values.data());
-    return open_picture(folder.path(name));
+  const auto values_of = [&](size_t channels) { return std::vector(values.begin(), values.begin() + 5000 * channels); };
+  const auto png = [&](const std::string& name, SampleType sample, const std::string& channels) {
+    write_png(folder.path(name), 100, 50, channels, sample, values_of(channels.size()));
   };
-  const auto plain = [](OIIO::ImageSpec&) {};
-  const auto tiled = [](OIIO::ImageSpec& spec) { spec.tile_width = spec.tile_height = 16; };
+  const auto tiff = [&](uint16_t bits, uint16_t format, uint32_t tile) {
+    TiffForm form;
+    form.width = 100, form.height = 50, form.bits = bits, form.format = format, form.tile = tile;
+    write_tiff_of(folder.path("a.tif"), form, values_of(3));
+    return open_picture(folder.path("a.tif"));
+  };
+  const auto exr = [&](const std::vector<std::string>& channels, Imf::PixelType type, int tile) {
+    ExrForm form;
+    form.width = 100, form.height = 50, form.channels = channels, form.tile = tile;
+    form.types.assign(channels.size(), type);
+    write_exr_of(folder.path("a.exr"), form, values_of(channels.size()));
+    return open_picture(folder.path("a.exr"));
+  };
   const auto expect = [&](const StoredPicture& picture, SampleType sample, int channels, float tolerable) {
     const LayerPixels& layer = picture.eyes[0].layers[0];
     EXPECT_EQ(layer.sample, sample);
@@ -215,20 +249,21 @@ TEST(OpenPicture, ReadsWhatOthersWrite) {
       EXPECT_NEAR(value_at(layer, 99, y, 2), values[static_cast<size_t>(at + (channels < 3 ? 0 : 2))], tolerable) << y;
     }
   };
-  expect(write("16.png", OIIO::TypeDesc::UINT16, 3, plain), SampleType::kUint16, 3, 1e-4f);
-  expect(write("grey.png", OIIO::TypeDesc::UINT8, 1, plain), SampleType::kUint8, 1, 0.003f);
-  expect(write("tiles.tif", OIIO::TypeDesc::UINT8, 3, tiled), SampleType::kUint8, 3, 0.003f);
-  expect(write("tiles.exr", OIIO::TypeDesc::HALF, 3, tiled), SampleType::kHalf, 3, 0.001f);
-  expect(write("double.tif", OIIO::TypeDesc::DOUBLE, 3, plain), SampleType::kFloat, 3, 0.0f);
-  expect(write("32.tif", OIIO::TypeDesc::UINT32, 3, plain), SampleType::kUint16, 3, 1e-4f);
-  expect(write("grey.exr", OIIO::TypeDesc::FLOAT, 1, plain), SampleType::kFloat, 1, 0.0f);
-  const StoredPicture combined = write("layers.exr", OIIO::TypeDesc::FLOAT, 4, [](OIIO::ImageSpec& spec) {
-    spec.channelnames = {"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Depth.Z"};
-  });
+  png("16.png", SampleType::kUint16, "RGB");
+  expect(open_picture(folder.path("16.png")), SampleType::kUint16, 3, 1e-4f);
+  png("grey.png", SampleType::kUint8, "Y");
+  expect(open_picture(folder.path("grey.png")), SampleType::kUint8, 1, 0.003f);
+  expect(tiff(8, SAMPLEFORMAT_UINT, 16), SampleType::kUint8, 3, 0.003f);
+  expect(exr({"R", "G", "B"}, Imf::HALF, 16), SampleType::kHalf, 3, 0.001f);
+  expect(tiff(64, SAMPLEFORMAT_IEEEFP, 0), SampleType::kFloat, 3, 0.0f);
+  expect(tiff(32, SAMPLEFORMAT_UINT, 0), SampleType::kUint16, 3, 1e-4f);
+  expect(exr({"Y"}, Imf::FLOAT, 0), SampleType::kFloat, 1, 0.0f);
+  const StoredPicture combined =
+      exr({"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Depth.Z"}, Imf::FLOAT, 0);
   EXPECT_EQ(combined.eyes[0].layers[0].channels, (std::vector<std::string>{"R", "G", "B"}));
   EXPECT_EQ(combined.eyes[0].layers[1].rule, LayerRule::kNearest);
-  write("eye_left.png", OIIO::TypeDesc::UINT16, 3, plain);
-  write("eye_right.png", OIIO::TypeDesc::UINT8, 3, plain);
+  png("eye_left.png", SampleType::kUint16, "RGB");
+  png("eye_right.png", SampleType::kUint8, "RGB");
   EXPECT_THROW(open_picture(folder.path("eye_%V.png")), Error);  // eyes of two kinds of number
 }
 
@@ -236,31 +271,34 @@ TEST(OpenPicture, AlphaComesAsTheFormatOfTheSamplesHasIt) {
   const TemporaryFolder folder;
   std::vector<float> values(8 * 4 * 4, 0.25f);
   for (size_t i = 3; i < values.size(); i += 4) values[i] = 0.5f;
-  const auto colour = [&](OIIO::TypeDesc type, bool multiplied) {
-    OIIO::ImageSpec spec(8, 4, 4, type);
-    if (!multiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
-    write_with_openimageio(folder.path("a.tif"), spec, OIIO::TypeDesc::FLOAT, values.data());
+  const auto colour = [&](uint16_t bits, uint16_t kind) {
+    TiffForm form;
+    form.width = 8, form.height = 4, form.samples = 4, form.bits = bits, form.extra = {kind};
+    if (bits == 32) form.format = SAMPLEFORMAT_IEEEFP;
+    write_tiff_of(folder.path("a.tif"), form, values);
     return value_at(open_picture(folder.path("a.tif")).eyes[0].layers[0], 3, 3, 1);
   };
-  EXPECT_NEAR(colour(OIIO::TypeDesc::UINT8, true), 0.5f, 0.005f);
-  EXPECT_NEAR(colour(OIIO::TypeDesc::UINT8, false), 0.25f, 0.002f);
-  EXPECT_NEAR(colour(OIIO::TypeDesc::UINT16, true), 0.5f, 0.0001f);
-  EXPECT_EQ(colour(OIIO::TypeDesc::FLOAT, true), 0.25f);
-  EXPECT_EQ(colour(OIIO::TypeDesc::FLOAT, false), 0.125f);
+  EXPECT_NEAR(colour(8, EXTRASAMPLE_ASSOCALPHA), 0.5f, 0.005f);
+  EXPECT_NEAR(colour(8, EXTRASAMPLE_UNASSALPHA), 0.25f, 0.002f);
+  EXPECT_NEAR(colour(16, EXTRASAMPLE_ASSOCALPHA), 0.5f, 0.0001f);
+  EXPECT_EQ(colour(32, EXTRASAMPLE_ASSOCALPHA), 0.25f);
+  EXPECT_EQ(colour(32, EXTRASAMPLE_UNASSALPHA), 0.125f);
 }
 
 TEST(OpenPicture, IdsAreExactOrLeftOut) {
   const TemporaryFolder folder;
   const auto write = [&](const char* name, uint32_t id) {
-    OIIO::ImageSpec spec(8, 4, 4, OIIO::TypeDesc::HALF);
-    spec.channelnames = {"R", "G", "B", "objects"};
-    spec.channelformats = {OIIO::TypeDesc::HALF, OIIO::TypeDesc::HALF, OIIO::TypeDesc::HALF, OIIO::TypeDesc::UINT32};
+    ExrForm form;
+    form.width = 8, form.height = 4;
+    form.channels = {"R", "G", "B", "objects"};
+    form.types = {Imf::HALF, Imf::HALF, Imf::HALF, Imf::UINT};
     std::string pixels;  // three halves of 1 and a number
     for (int i = 0; i < 32; i++) {
       pixels += std::string("\0\x3c\0\x3c\0\x3c", 6);
       pixels.append(reinterpret_cast<const char*>(&id), sizeof id);
     }
-    write_with_openimageio(folder.path(name), spec, OIIO::TypeDesc(), pixels.data());
+    const auto bytes = std::as_bytes(std::span(pixels));
+    write_exr(folder.path(name), form, {bytes.begin(), bytes.end()});
   };
   write("a.exr", 16777215);
   const StoredPicture picture = open_picture(folder.path("a.exr"));
@@ -390,8 +428,9 @@ TEST(OpenPicture, OneRowAndNoNumbersAreNoTrouble) {
   }
   // Others' files may hold NaN; it is handed on, for the rules of the layer to deal with.
   std::vector<float> nothing(24, std::numeric_limits<float>::quiet_NaN());
-  write_with_openimageio(folder.path("nan.exr"), OIIO::ImageSpec(4, 2, 3, OIIO::TypeDesc::FLOAT), OIIO::TypeDesc::FLOAT,
-                         nothing.data());
+  ExrForm form;
+  form.width = 4, form.height = 2, form.types.assign(3, Imf::FLOAT);
+  write_exr_of(folder.path("nan.exr"), form, nothing);
   EXPECT_TRUE(std::isnan(value_at(open_picture(folder.path("nan.exr")).eyes[0].layers[0], 3, 1, 2)));
 }
 

@@ -40,6 +40,8 @@ class Decoder {
 
   // What read() returns of a pixel.
   size_t bytes_of_pixel(size_t first, size_t count) const;
+  // The height of bands that split nothing which the file packs together.
+  int band_rows() const;
 
   // What the header says: color and color_fault are empty.
   FileInfo info;
@@ -52,6 +54,9 @@ class Decoder {
 // Throw Error(kInput): the file is damaged or cannot be decoded. Their sizes are within image_limits.h.
 std::unique_ptr<Decoder> open_png(const PictureBytes& file);
 std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file);
+std::unique_ptr<Decoder> open_tiff(const PictureBytes& file);
+std::unique_ptr<Decoder> open_webp(const PictureBytes& file);
+std::unique_ptr<Decoder> open_hdr(const PictureBytes& file);
 std::unique_ptr<Decoder> open_exr(const PictureBytes& file);
 
 // Throws Error(kInput) where a picture is larger than image_limits.h allows a file of this size to be. `tile`: the

@@ -27,6 +27,9 @@ class Encoder {
 // The file and the header must outlive what they return. Throw Error(kOutput).
 std::unique_ptr<Encoder> create_png(AtomicFile& file, const FileHeader& header);
 std::unique_ptr<Encoder> create_jpeg(AtomicFile& file, const FileHeader& header);
+std::unique_ptr<Encoder> create_tiff(AtomicFile& file, const FileHeader& header);
+std::unique_ptr<Encoder> create_webp(AtomicFile& file, const FileHeader& header);
+std::unique_ptr<Encoder> create_hdr(AtomicFile& file, const FileHeader& header);
 std::unique_ptr<Encoder> create_exr(AtomicFile& file, const FileHeader& header);
 
 size_t bytes_of_pixel(const FileHeader& header);

@@ -178,7 +178,8 @@ void ExrDecoder::describe(const Imf::Header& header, int parts) {
   }
   add_attributes(header, info);
   is_whole_picture = window_ == header.displayWindow();
-  if (header.hasTileDescription()) rows_together = static_cast<int>(header.tileDescription().ySize);
+  if (header.hasTileDescription())
+    rows_together = std::min(info.height, static_cast<int>(std::min(header.tileDescription().ySize, 1u << 30)));
 }
 
 bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::byte* to) {

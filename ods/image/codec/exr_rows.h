@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Rows of OpenEXR files whose scanlines are packed by ZIP, which are most: read through OpenEXR's core with libdeflate
-// in zlib's place, about three times as fast as OpenImageIO reads them (exr_rows.cpp alone knows the two). Other files
+// in zlib's place, about three times as fast as OpenEXR alone (exr_rows.cpp alone knows the two). Other files
 // are left to it. Source of the packing: OpenEXR, "Technical Introduction" and "OpenEXR File Layout".
 #pragma once
 #include <cstddef>

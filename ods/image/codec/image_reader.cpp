@@ -11,7 +11,6 @@
 #include "ods/base/text.h"
 #include "ods/files/file_input.h"
 #include "ods/image/codec/decoder.h"
-#include "ods/image/codec/other_formats.h"
 #include "ods/image/color_tags.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
@@ -29,7 +28,7 @@ PictureBytes picture_on_disk(const std::string& path) {
 PictureBytes picture_in_memory(std::span<const std::byte> bytes, const std::string& name) {
   const auto read = [bytes](size_t offset, void* to, size_t count) {
     if (offset > bytes.size() || count > bytes.size() - offset) return false;
-    std::memcpy(to, bytes.data() + offset, count);
+    std::copy_n(bytes.data() + offset, count, static_cast<std::byte*>(to));
     return true;
   };
   return {name, false, bytes.size(), read};
@@ -44,6 +43,11 @@ size_t Decoder::bytes_of_pixel(size_t first, size_t count) const {
   size_t bytes = 0;
   for (size_t c = first; c < first + count; c++) bytes += bytes_of(info.samples[c]);
   return bytes;
+}
+
+int Decoder::band_rows() const {
+  constexpr int kBand = 64;
+  return (kBand + rows_together - 1) / rows_together * rows_together;
 }
 
 constexpr std::string_view kVideoExtensions[] = {".mp4", ".mov", ".mkv", ".webm"};  // for a message
@@ -72,14 +76,16 @@ static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileForma
       return open_png(file);
     case FileFormat::kJpeg:
       return open_jpeg(file);
-    case FileFormat::kExr:
-      return open_exr(file);
     case FileFormat::kTiff:
+      return open_tiff(file);
     case FileFormat::kWebp:
+      return open_webp(file);
     case FileFormat::kHdr:
+      return open_hdr(file);
+    case FileFormat::kExr:
       break;
   }
-  return other_formats().open(file, format);
+  return open_exr(file);
 }
 
 namespace {
@@ -107,7 +113,7 @@ static Opened open(const std::string& path) {
 // Calls take(row, y) with the samples of each row.
 template <class Take>
 static void each_row(Decoder& decoder, size_t first, size_t count, const Take& take) {
-  const int height = decoder.info.height, band = std::max(64, decoder.rows_together);
+  const int height = decoder.info.height, band = decoder.band_rows();
   const size_t row = decoder.bytes_of_pixel(first, count) * static_cast<size_t>(decoder.info.width);
   std::vector<std::byte> rows(row * static_cast<size_t>(std::min(band, height)));
   for (int begin = 0; begin < height; begin += band) {
@@ -211,7 +217,7 @@ class FileRows final : public RowReader {
   bool is_whole_number(size_t channel) const override {
     return channel < decoder_->whole_numbers.size() && decoder_->whole_numbers[channel];
   }
-  int band_rows() const override;
+  int band_rows() const override { return decoder_->band_rows(); }
   void read(int begin, int end, size_t channels, std::byte* to) override;
   const std::map<size_t, unsigned>& beyond_floats() const override { return decoder_->beyond_floats; }
 
@@ -239,11 +245,6 @@ FileRows::FileRows(const std::string& path) {
 
 void FileRows::widen() {
   if (!info_.is_float) std::fill(info_.samples.begin(), info_.samples.end(), SampleType::kUint16);
-}
-
-int FileRows::band_rows() const {
-  const int kBand = 64, together = decoder_->rows_together;
-  return (kBand + together - 1) / together * together;
 }
 
 void FileRows::read(int begin, int end, size_t channels, std::byte* to) {

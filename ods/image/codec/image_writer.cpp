@@ -10,7 +10,6 @@
 
 #include "ods/base/text.h"
 #include "ods/image/codec/encoder.h"
-#include "ods/image/codec/other_formats.h"
 #include "ods/image/image_file.h"
 
 namespace ods {
@@ -31,14 +30,16 @@ static std::unique_ptr<Encoder> create_encoder(AtomicFile& file, const FileHeade
       return create_png(file, header);
     case FileFormat::kJpeg:
       return create_jpeg(file, header);
-    case FileFormat::kExr:
-      return create_exr(file, header);
     case FileFormat::kTiff:
+      return create_tiff(file, header);
     case FileFormat::kWebp:
+      return create_webp(file, header);
     case FileFormat::kHdr:
+      return create_hdr(file, header);
+    case FileFormat::kExr:
       break;
   }
-  return other_formats().create(file, header);
+  return create_exr(file, header);
 }
 
 // Writes rows in bands: large enough for OpenEXR to compress on all cores, small enough that no second picture is in

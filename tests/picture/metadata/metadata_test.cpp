@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What other programs find in our files: read with OpenImageIO itself, with exiftool, and byte by byte.
-#include <OpenImageIO/imageio.h>
+// What other programs find in our files: read with OpenEXR itself, with exiftool, and byte by byte.
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVecAttribute.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 
 #include "ods/picture/save.h"
+#include "tests/support/exr_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -49,24 +53,36 @@ StereoCamera camera() {
 }
 
 struct ExrFile {
-  OIIO::ImageSpec spec;
-  std::vector<float> pixels;
+  Imf::Header header;
+  Extent size;
+  std::vector<std::string> channels;
+  std::vector<std::byte> pixels;  // floats
 
   // Of the pixel in the middle of a row; -1 where there is no such channel.
   float at(const std::string& channel, int y) const {
-    const int c = spec.channelindex(channel);
-    const size_t pixel = static_cast<size_t>(y * spec.width + spec.width / 2);
-    return c < 0 ? -1.0f : pixels[pixel * static_cast<size_t>(spec.nchannels) + static_cast<size_t>(c)];
+    const auto found = std::find(channels.begin(), channels.end(), channel);
+    const size_t pixel = static_cast<size_t>(y * size.width + size.width / 2);
+    const size_t place = pixel * channels.size() + static_cast<size_t>(found - channels.begin());
+    return found == channels.end() ? -1.0f : sample_value(SampleType::kFloat, &pixels[4 * place]);
   }
+  std::string text(const char* name) const { return exr_value<Imf::StringAttribute>(header, name); }
+  float number(const char* name) const { return exr_value<Imf::FloatAttribute>(header, name); }
+  bool has(const char* name) const { return header.find(name) != header.end(); }
 };
 
 ExrFile save_exr(const Picture& picture, const SaveOptions& options) {
   const TemporaryFolder folder;
   save_picture(picture, camera(), options, folder.path("a.exr"));
-  const auto input = OIIO::ImageInput::open(folder.path("a.exr"));
-  ExrFile file{input->spec(), {}};
-  file.pixels.resize(static_cast<size_t>(file.spec.width * file.spec.height * file.spec.nchannels));
-  EXPECT_TRUE(input->read_image(0, 0, 0, file.spec.nchannels, OIIO::TypeDesc::FLOAT, file.pixels.data()));
+  ExrFile file{exr_header(folder.path("a.exr")), {}, {}, {}};
+  const Imath::Box2i window = file.header.dataWindow();
+  file.size = {window.max.x + 1, window.max.y + 1};
+  for (auto each = file.header.channels().begin(); each != file.header.channels().end(); ++each) {
+    file.channels.push_back(each.name());
+  }
+  ExrForm form;
+  form.width = file.size.width, form.height = file.size.height, form.channels = file.channels;
+  form.types.assign(form.channels.size(), Imf::FLOAT);
+  file.pixels = read_exr(folder.path("a.exr"), form);
   return file;
 }
 
@@ -83,19 +99,16 @@ TEST(Exr, MultiviewHasBothEyesInOnePart) {
   SaveOptions options;
   options.layout = Layout::kMultiview;
   const ExrFile file = save_exr(kStereo, options);
-  EXPECT_EQ(file.spec.width, kWidth);
-  EXPECT_EQ(file.spec.height, kHeight);
-  ASSERT_EQ(file.spec.nchannels, 20);
-  const OIIO::ParamValue* views = file.spec.find_attribute("multiView");
-  ASSERT_NE(views, nullptr);
-  EXPECT_EQ(views->get_string_indexed(0), "left");
-  EXPECT_EQ(views->get_string_indexed(1), "right");
-  EXPECT_EQ(file.spec.get_string_attribute("ods:layout"), "multiview");
-  EXPECT_EQ(file.spec.find_attribute("textureformat"), nullptr) << "envmap is for one view";
-  EXPECT_EQ(std::count_if(file.spec.channelnames.begin(), file.spec.channelnames.end(),
+  EXPECT_EQ(file.size.width, kWidth);
+  EXPECT_EQ(file.size.height, kHeight);
+  ASSERT_EQ(file.channels.size(), 20u);
+  EXPECT_EQ(Imf::multiView(file.header), (std::vector<std::string>{"left", "right"}));
+  EXPECT_EQ(file.text("ods:layout"), "multiview");
+  EXPECT_FALSE(file.has("envmap")) << "envmap is for one view";
+  EXPECT_EQ(std::count_if(file.channels.begin(), file.channels.end(),
                           [](const std::string& name) { return view_of(name) == "left"; }),
             10);
-  EXPECT_EQ(std::count_if(file.spec.channelnames.begin(), file.spec.channelnames.end(),
+  EXPECT_EQ(std::count_if(file.channels.begin(), file.channels.end(),
                           [](const std::string& name) { return view_of(name) == "right"; }),
             10);
   for (int y = 0; y < kHeight; y++) {
@@ -113,9 +126,9 @@ TEST(Exr, MultiviewHasBothEyesInOnePart) {
 TEST(Exr, PackedLayoutsPackEveryLayer) {
   SaveOptions options;
   const ExrFile file = save_exr(kStereo, options);
-  EXPECT_EQ(file.spec.height, 2 * kHeight);
-  ASSERT_EQ(file.spec.nchannels, 10);
-  EXPECT_EQ(file.spec.find_attribute("multiView"), nullptr);
+  EXPECT_EQ(file.size.height, 2 * kHeight);
+  ASSERT_EQ(file.channels.size(), 10u);
+  EXPECT_FALSE(file.has("multiView"));
   for (int y = 0; y < 2 * kHeight; y++) {
     const int eye = y < kHeight ? kLeft : kRight;
     EXPECT_EQ(file.at("R", y), value(eye, 0, 0, y % kHeight));
@@ -126,51 +139,47 @@ TEST(Exr, PackedLayoutsPackEveryLayer) {
 }
 
 TEST(Exr, DepthKeeps32Bits) {
-  const OIIO::ImageSpec spec = save_exr(kSingle, {}).spec;
-  for (int c = 0; c < spec.nchannels; c++) {
-    const std::string name = spec.channel_name(c);
-    EXPECT_EQ(spec.channelformat(c), OIIO::TypeDesc(name == "Z" ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF))
-        << name;
+  const ExrFile file = save_exr(kSingle, {});
+  for (const std::string& name : file.channels) {
+    EXPECT_EQ(file.header.channels()[name].type, name == "Z" ? Imf::FLOAT : Imf::HALF) << name;
   }
 }
 
 TEST(Exr, SaysHowItWasTaken) {
-  const OIIO::ImageSpec spec = save_exr(kSingle, {}).spec;
-  EXPECT_EQ(spec.get_string_attribute("ods:layout"), "mono");
-  EXPECT_EQ(spec.get_string_attribute("ods:projection"), "lat-long");
-  EXPECT_EQ(spec.get_string_attribute("ods:depthType"), "ray");
-  EXPECT_NE(spec.get_string_attribute("ods:version"), "");
-  EXPECT_EQ(spec.get_float_attribute("ods:ipd"), 0.065f);
-  EXPECT_EQ(spec.get_float_attribute("ods:yaw"), -90.0f);
-  EXPECT_EQ(spec.get_float_attribute("ods:pitch"), 10.0f);
-  EXPECT_EQ(spec.get_float_attribute("ods:roll"), 5.0f);
-  EXPECT_EQ(spec.get_string_attribute("ods:poleMergeTop"), "cosine");
-  EXPECT_EQ(spec.get_float_attribute("ods:poleMergeTopStart"), 60.0f);
-  EXPECT_EQ(spec.get_float_attribute("ods:poleMergeTopEnd"), 90.0f);
-  EXPECT_EQ(spec.get_float_attribute("ods:poleMergeTopExponent"), 1.0f);
-  EXPECT_EQ(spec.get_string_attribute("ods:poleMergeBottom"), "none");
-  EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "lin_rec709_scene");
-  EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
-  EXPECT_EQ(spec.get_string_attribute("DateTime"), "");
-  const OIIO::ParamValue* position = spec.find_attribute("ods:position");
-  ASSERT_NE(position, nullptr);
-  for (int i = 0; i < 3; i++) EXPECT_EQ(static_cast<const float*>(position->data())[i], camera().position[i]);
-  const OIIO::ParamValue* chromaticities = spec.find_attribute("chromaticities");
-  ASSERT_NE(chromaticities, nullptr);
-  EXPECT_EQ(chromaticities->get_float_indexed(0), 0.64f);
-  EXPECT_EQ(chromaticities->get_float_indexed(7), 0.329f);
+  const ExrFile file = save_exr(kSingle, {});
+  EXPECT_EQ(file.text("ods:layout"), "mono");
+  EXPECT_EQ(file.text("ods:projection"), "lat-long");
+  EXPECT_EQ(file.text("ods:depthType"), "ray");
+  EXPECT_NE(file.text("ods:version"), "");
+  EXPECT_EQ(file.number("ods:ipd"), 0.065f);
+  EXPECT_EQ(file.number("ods:yaw"), -90.0f);
+  EXPECT_EQ(file.number("ods:pitch"), 10.0f);
+  EXPECT_EQ(file.number("ods:roll"), 5.0f);
+  EXPECT_EQ(file.text("ods:poleMergeTop"), "cosine");
+  EXPECT_EQ(file.number("ods:poleMergeTopStart"), 60.0f);
+  EXPECT_EQ(file.number("ods:poleMergeTopEnd"), 90.0f);
+  EXPECT_EQ(file.number("ods:poleMergeTopExponent"), 1.0f);
+  EXPECT_EQ(file.text("ods:poleMergeBottom"), "none");
+  EXPECT_EQ(file.text("colorInteropID"), "lin_rec709_scene");
+  EXPECT_EQ(file.header.compression(), Imf::ZIP_COMPRESSION);
+  EXPECT_FALSE(file.has("capDate")) << "equal pictures would not be equal files";
+  const Imath::V3f position = exr_value<Imf::V3fAttribute>(file.header, "ods:position");
+  for (int i = 0; i < 3; i++) EXPECT_EQ(position[i], camera().position[i]);
+  const Imf::Chromaticities chromaticities = Imf::chromaticities(file.header);
+  EXPECT_EQ(chromaticities.red.x, 0.64f);
+  EXPECT_EQ(chromaticities.white.y, 0.329f);
 }
 
 TEST(Exr, OnlyAFileOfOneEyeIsAnEnvironmentMap) {
   const TemporaryFolder folder;
   save_picture(kStereo, camera(), {}, folder.path("%V.exr"));
   save_picture(kStereo, camera(), {}, folder.path("both.exr"));
-  // OpenImageIO keeps the typed attribute to itself, so look for the bytes: name, type, size 1, 0 = lat-long.
+  // Name, type, size 1, 0 = lat-long.
   const std::string attribute("envmap\0envmap\0\1\0\0\0\0", 19);
   EXPECT_NE(folder.read("left.exr").find(attribute), std::string::npos);
   EXPECT_NE(folder.read("right.exr").find(attribute), std::string::npos);
   EXPECT_EQ(folder.read("both.exr").find("envmap"), std::string::npos);
-  EXPECT_EQ(OIIO::ImageInput::open(folder.path("right.exr"))->spec().get_string_attribute("view"), "right");
+  EXPECT_EQ(exr_value<Imf::StringAttribute>(exr_header(folder.path("right.exr")), "view"), "right");
 }
 
 // Splits a PNG, checking every CRC, those that libpng wrote included.
