@@ -34,9 +34,10 @@ class Steps {
   }
   void done() {
     const double count = static_cast<double>(++count_);
-    if (!progress_.report || !reporting_.try_lock()) return;
-    progress_.report(std::min(count / total_, 1.0));
-    reporting_.unlock();
+    if (!progress_.report) return;
+    if (const std::unique_lock free(reporting_, std::try_to_lock); free) {
+      progress_.report(std::min(count / total_, 1.0));
+    }
   }
 
  private:
