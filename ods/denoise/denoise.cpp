@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <mutex>
 
 #include "ods/base/error.h"
@@ -93,6 +94,38 @@ void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
   frame.beside = &beside;
 }
 
+// Leaves the result of the last pass in `levels`, and returns it with the details that come back. Variance and share
+// are those of the first pass.
+std::vector<Level> run_passes(const NoisyPicture& noisy, std::vector<Level>& levels, std::vector<Level>& next,
+                              Steps& steps) {
+  std::vector<FilterPass> passes(std::begin(kPasses), std::end(kPasses));
+  expect_noise(passes);
+  std::vector<Level> result;
+  for (const Level& level : levels) result.push_back({std::vector<float>(level.light.size(), 0.0f), {}, {}});
+  for (const FilterPass& pass : passes) {
+    for_each_block(noisy, [&](Block& block) {
+      if (steps.stopped()) return;
+      filter_block(noisy, levels, next, pass, block);
+      steps.done();
+    });
+    for_each_block(noisy, [&](Block& block) {
+      if (steps.stopped()) return;
+      add_detail(noisy, levels, next, pass, result[static_cast<size_t>(block.eye)].light, block);
+      steps.done();
+    });
+    if (steps.stopped()) throw Error(ErrorKind::kCancelled, "denoising was stopped");
+    std::swap(levels, next);
+    for (size_t e = 0; e < levels.size() && pass.stride == 1; e++) {
+      result[e].variance = levels[e].variance, result[e].share = levels[e].share;
+    }
+  }
+  for (size_t e = 0; e < levels.size(); e++) {
+    std::vector<float>& light = result[e].light;
+    std::transform(light.begin(), light.end(), levels[e].light.begin(), light.begin(), std::plus<>());
+  }
+  return result;
+}
+
 void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options,
                   const Progress& progress) {
   NoisyPicture noisy;
@@ -110,40 +143,14 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
   if (knows_surfaces) {
     for (const FrameBeside& frame : options.beside) open_frame(beside.emplace_back(), frame);
   }
-  std::vector<FilterPass> passes(std::begin(kPasses), std::end(kPasses));
-  expect_noise(passes);
-  std::vector<Level> details;  // their light; variance and share are those of the first pass
-  for (const Level& level : levels) details.push_back({std::vector<float>(level.light.size(), 0.0f), {}, {}});
-  Steps steps(progress, 2 * passes.size() * count_blocks(noisy));
+  Steps steps(progress, 2 * std::size(kPasses) * count_blocks(noisy));
   if (both || !beside.empty()) {
     for_each_block(noisy, [&](Block& block) {
       if (!steps.stopped()) merge_views(noisy, levels, next, both, beside, block);
     });
     std::swap(levels, next);
   }
-  for (const FilterPass& pass : passes) {
-    for_each_block(noisy, [&](Block& block) {
-      if (steps.stopped()) return;
-      filter_block(noisy, levels, next, pass, block);
-      steps.done();
-    });
-    for_each_block(noisy, [&](Block& block) {
-      if (steps.stopped()) return;
-      add_detail(noisy, levels, next, pass, details[static_cast<size_t>(block.eye)].light, block);
-      steps.done();
-    });
-    if (steps.stopped()) throw Error(ErrorKind::kCancelled, "denoising was stopped");
-    std::swap(levels, next);
-    if (pass.stride > 1) continue;
-    for (size_t e = 0; e < levels.size(); e++) {
-      details[e].variance = levels[e].variance, details[e].share = levels[e].share;
-    }
-  }
-  for (size_t e = 0; e < levels.size(); e++) {
-    std::transform(levels[e].light.begin(), levels[e].light.end(), details[e].light.begin(), details[e].light.begin(),
-                   std::plus<>());
-  }
-  fit_edges(noisy, details, levels);
+  fit_edges(noisy, run_passes(noisy, levels, next, steps), levels);
   spread_outliers(noisy, outliers, both, levels);
   put_back(noisy, levels, picture);
   if (progress.report) progress.report(1.0);
