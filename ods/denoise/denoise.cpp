@@ -91,6 +91,7 @@ void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
   open_noisy(frame.noisy, beside.picture, beside.camera);
   frame.levels = first_levels(frame.noisy);
   take_outliers(frame.noisy, frame.levels);  // their light is not this frame's
+  doubt_darkness(frame.noisy, frame.levels);
   frame.beside = &beside;
 }
 
@@ -136,6 +137,7 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
     for (EyeImage& eye : picture.eyes) eye.variance = eye.samples = Image();
   }
   const std::vector<Outlier> outliers = take_outliers(noisy, levels);
+  doubt_darkness(noisy, levels);
   std::vector<Level> next = levels;
   const bool knows_surfaces = has_depth(picture);
   const bool both = options.both_eyes && picture.eyes.size() == 2 && knows_surfaces;

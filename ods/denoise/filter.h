@@ -18,6 +18,10 @@ void for_each_block(const NoisyPicture& noisy, const std::function<void(Block& b
 
 size_t count_blocks(const NoisyPicture& noisy);
 
+// Few samples may miss all light, and black pixels without variance seem certain. They become as uncertain as those
+// around them that resemble them.
+void doubt_darkness(const NoisyPicture& noisy, std::vector<Level>& levels);
+
 // What a pass makes of noise if it takes all of its candidates. Those of a wide pass share pixels.
 struct PassNoise {
   float growth = 1.0f;  // of the result's variance, over that of independent candidates

@@ -71,7 +71,7 @@ TEST_P(KindsOfScene, AreRecognisedAndLookGoodWithoutAnOption) {
   EXPECT_NE(err.find(kind().note), std::string::npos) << err;
   EXPECT_EQ(err.find("warning"), std::string::npos) << err;
   const Brightness seen = brightness_of(read_image(picture));
-  EXPECT_GT(seen.high, 0.05) << "black";
+  EXPECT_GT(seen.high, 0.03) << "black";
   EXPECT_LT(seen.middle, 0.7) << "blown out";
   EXPECT_LT(seen.low, 0.35) << "without contrast";
   EXPECT_EQ(run("lint " + picture), 0) << out;

@@ -57,10 +57,11 @@ class Ods {
   Ods(const Ods&) = delete;
   Ods& operator=(const Ods&) = delete;
 
-  // Reads until stderr says it or ends.
+  // Reads until stderr says it or ends, then what stdout has said by then.
   void wait_for(const std::string& text) {
     while (err.find(text) == std::string::npos && read_some()) {
     }
+    read_some(0);
   }
 
   void kill(int number) { ::kill(pid_, number); }
@@ -86,10 +87,10 @@ class Ods {
   std::string err;
 
  private:
-  bool read_some() {
+  bool read_some(int patience = -1) {
     if (out_[0] < 0 && err_[0] < 0) return false;
     std::array<pollfd, 2> ends = {pollfd{out_[0], POLLIN, 0}, pollfd{err_[0], POLLIN, 0}};
-    poll(ends.data(), ends.size(), -1);
+    poll(ends.data(), ends.size(), patience);
     return read_end(ends[0], out_[0], out) | read_end(ends[1], err_[0], err);
   }
 
