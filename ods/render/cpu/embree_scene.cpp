@@ -246,7 +246,8 @@ static std::vector<bool> choose_shared(const Scene& scene, const std::vector<cha
   return shared;
 }
 
-EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : handles_(std::make_unique<Handles>()) {
+EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const std::vector<char>& left_out)
+    : handles_(std::make_unique<Handles>()) {
   handles_->scene = &scene;
   handles_->device = rtcNewDevice(nullptr);
   if (!handles_->device) throw std::bad_alloc();
@@ -263,6 +264,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : hand
     const size_t mesh = static_cast<size_t>(instance.mesh);
     const bool hidden = is_hidden(scene, i);
     if (hidden && !handles_->moves[i]) continue;
+    if (!left_out.empty() && left_out[i] != 0) continue;
     if (!shared[mesh]) {
       attach(split ? handles_->still : handles_->top, make_geometry(device, scene, scene.meshes[mesh], &instance), i);
       continue;
