@@ -184,7 +184,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
 
 // A frame is scene-linear: exposure, tone and quality belong to the video.
 void add_save(Settings& settings, const ods::SaveOptions& save) {
-  const auto& [layout, exposure, tone, jpeg_quality, rows_alone, attributes, sidecar] = save;
+  const auto& [layout, exposure, tone, jpeg_quality, rows_alone, has_checksum, attributes, sidecar] = save;
   add(settings, "--layout", std::string(ods::layout_name(layout)));
 }
 

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/base/text.h"
 
+#include <algorithm>
 #include <new>
+
+#include "ods/base/quote.h"
 
 namespace ods {
 
@@ -23,6 +26,9 @@ std::string library_words(const std::string& text) {
   std::string words = one_line(text);
   // What the exception said stands at the end; before it libraries quote names, which files choose.
   if (words.ends_with("std::bad_alloc") || words.ends_with("(std::bad_alloc)")) throw std::bad_alloc();
+  if (!is_quotable(words))
+    std::ranges::replace_if(
+        words, [](unsigned char c) { return c >= 0x80; }, '?');
   return words;
 }
 

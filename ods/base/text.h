@@ -14,8 +14,9 @@ std::string small_letters(std::string text);
 // breaks or terminal escapes.
 std::string one_line(std::string text);
 
-// A library's error message in one line. Some libraries turn every exception into text: if the text ends with
-// std::bad_alloc, bracketed or not, throws std::bad_alloc.
+// A library's error message in one line; bytes are '?' if it is not UTF-8, as where it quotes a damaged file. Some
+// libraries turn every exception into text: if the text ends with std::bad_alloc, bracketed or not, throws
+// std::bad_alloc.
 std::string library_words(const std::string& text);
 
 }  // namespace ods
