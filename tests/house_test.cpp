@@ -230,15 +230,20 @@ TEST(House, TypesHaveOneDefinition) {
 }
 
 TEST(House, FilesAreSmall) {
+  size_t commands = 0;
   for (const Source& source : all_sources()) {
     EXPECT_LE(source.lines.size(), 500u) << source.path;
     const bool front_door =
         source.is_header() && source.path.starts_with("ods/") && !source.path.starts_with("ods/kernel");
     EXPECT_TRUE(!front_door || source.lines.size() <= 200) << source.path;
-    const bool command = std::any_of(source.lines.begin(), source.lines.end(),
-                                     [](const std::string& line) { return line.starts_with("extern \"C\" int ods_"); });
+    const bool command = source.path.starts_with("cli/") &&
+                         std::any_of(source.lines.begin(), source.lines.end(), [](const std::string& line) {
+                           return line.starts_with("int ods_") && line.ends_with("{");
+                         });
+    commands += command ? 1 : 0;
     EXPECT_TRUE(!command || source.lines.size() <= 150) << source.path;
   }
+  EXPECT_GT(commands, 15u);
 }
 
 TEST(House, FunctionsAreSmall) {
@@ -300,7 +305,7 @@ TEST(House, PathsThatThePagesNameExist) {
   for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs")) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
   }
-  const std::regex path("`((ods|cli|tests|docs|bench|fuzz|examples|cmake)/[A-Za-z0-9_/.-]+)`");
+  const std::regex path("`((ods|cli|web|tests|docs|bench|fuzz|examples|cmake)/[A-Za-z0-9_/.-]+)`");
   size_t found = 0;
   for (const fs::path& page : pages) {
     for (const std::string& line : read_lines(page)) {
@@ -317,7 +322,7 @@ TEST(House, PathsThatThePagesNameExist) {
 
 // The files that a row of CONTRIBUTING.md's recipes names by their whole paths.
 std::set<std::string> files_of_recipe(const std::string& name) {
-  const std::regex path("`((ods|cli|tests|docs)/[A-Za-z0-9_/.-]+)`");
+  const std::regex path("`((ods|cli|web|tests|docs)/[A-Za-z0-9_/.-]+)`");
   std::set<std::string> files;
   for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
     if (!line.starts_with("| " + name + " |")) continue;
@@ -335,11 +340,12 @@ std::set<std::string> files_that_name(const std::string& member, const std::stri
                           "($|[^A-Za-z0-9_])");
   const fs::path root = ODS_SOURCE_DIR;
   std::set<std::string> files;
-  for (const char* folder : {"ods", "cli", "tests", "docs"}) {
+  for (const char* folder : {"ods", "cli", "web", "tests", "docs"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
-      const std::set<std::string> texts = {".cpp", ".h", ".md", ".sh", ".glsl", ".frag"};
+      const std::set<std::string> texts = {".cpp", ".h", ".md", ".sh", ".glsl", ".frag", ".js", ".html"};
       const std::string path = fs::relative(entry.path(), root).generic_string();
-      if (!texts.contains(entry.path().extension()) || path == "tests/house_test.cpp") continue;
+      if (!texts.contains(entry.path().extension()) || path == "tests/house_test.cpp" || path.starts_with("tests/web/"))
+        continue;
       for (const std::string& line : read_lines(entry.path())) {
         if (line.find(member) == std::string::npos && line.find(word) == std::string::npos) continue;
         if (std::regex_search(line, either)) files.insert(path);
@@ -364,16 +370,24 @@ TEST(House, RecipesNameTheFilesThatAMemberTouches) {
   }
 }
 
-// Recipes give the names of some files without their folders.
+// Recipes give the names of some files without their folders. Every row names a file, or the row before it.
 TEST(House, FilesThatRecipesNameExist) {
   std::set<std::string> names;
   for (const Source& source : all_sources()) names.insert(fs::path(source.path).filename());
-  const std::regex file("`([a-z0-9_]+\\.(cpp|h))`");
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(ODS_SOURCE_DIR) / "web")) {
+    names.insert(entry.path().filename());
+  }
+  const std::regex file("`([a-z0-9_]+\\.(cpp|h|js|html|css|sh|py))`"), any("`[^`]+/[^`]*`|that, and");
+  size_t rows = 0;
   for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+    const bool row = line.starts_with("| a") || line.starts_with("| some");
+    rows += row ? 1 : 0;
+    EXPECT_TRUE(!row || std::regex_search(line, any)) << line;
     for (std::sregex_iterator match(line.begin(), line.end(), file), end; match != end; ++match) {
       EXPECT_TRUE(names.contains((*match)[1].str())) << (*match)[1].str();
     }
   }
+  EXPECT_GT(rows, 30u);
 }
 
 }  // namespace

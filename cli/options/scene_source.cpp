@@ -59,6 +59,8 @@ void add_scene_argument(Options& options, SceneSource& source) {
                "make closed meshes of glass refract that have no volume in the file, as those of Blender");
   add_unit_option(options, source);
   add_confine_option(options, source);
+  options.flag("--portable", source.portable,
+               "trace rays alike on every processor: nearly the same bits on all of them, and slower");
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
@@ -107,6 +109,7 @@ Scene open_scene(const SceneSource& source, ods::Settled* settled, const ods::Lo
   Scene scene = ods::load_scene(
       source.name,
       {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
+  scene.portable = source.portable;
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
     throw UsageError(

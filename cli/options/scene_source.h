@@ -20,6 +20,7 @@ struct SceneSource {
   std::string confine;  // --confine
   std::string variant;  // of the file's materials; empty: its default
   bool solid_glass = false;
+  bool portable = false;
   std::string unit = "auto";
   bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };

@@ -66,7 +66,7 @@ void add_light(Settings& settings, const LightOptions& light, const std::string&
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, light, catchers, confine, variant, solid_glass, unit, has_places] = source;
+  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, has_places] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
@@ -82,6 +82,7 @@ void add_scene(Settings& settings, const SceneSource& source) {
   add(settings, "--scene", scene ? fmt::format("{}", *scene) : "of the file");
   add(settings, "--variant", variant.empty() ? "of the file" : variant);
   add_flag(settings, "--solid-glass", solid_glass);
+  add_flag(settings, "--portable", portable);
   add_light(settings, light, confined_to);
   add(settings, "--unit", unit);
   add(settings, "--shadow-catcher", fmt::format("{}", fmt::join(catchers, ", ")));
@@ -184,7 +185,7 @@ void add_render(Settings& settings, const ods::RenderOptions& options) {
 
 // A frame is scene-linear: exposure, tone and quality belong to the video.
 void add_save(Settings& settings, const ods::SaveOptions& save) {
-  const auto& [layout, exposure, tone, jpeg_quality, rows_alone, attributes, sidecar] = save;
+  const auto& [layout, exposure, tone, jpeg_quality, rows_alone, has_checksum, attributes, sidecar] = save;
   add(settings, "--layout", std::string(ods::layout_name(layout)));
 }
 

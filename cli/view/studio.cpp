@@ -249,6 +249,7 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
   if (source_.solid_glass) words.emplace_back("--solid-glass");
+  if (source_.portable) words.emplace_back("--portable");
   if (source_.unit != "auto") add("--unit", source_.unit);
   if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
   if (settings_.environment != "auto") {

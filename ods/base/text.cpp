@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <new>
 
+#include "ods/base/quote.h"
+
 namespace ods {
 
 std::string small_letters(std::string text) {

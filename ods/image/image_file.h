@@ -91,6 +91,7 @@ struct FileHeader {
   bool says_srgb = false;             // PNG
   bool is_environment = false;        // EXR: says that it is a whole lat-long
   bool rows_alone = false;            // EXR: packs each row by itself, not 16 together
+  bool has_checksum = false;          // EXR: has the attribute kExrChecksum (ods/image/format/exr_header.h)
 };
 
 // Fills row y with width * channels floats. For integer formats they are 0..1 of the code range; for float formats they

@@ -287,6 +287,7 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   header.says_srgb = !is_scene_referred(format);
   header.quality = file.options.jpeg_quality;
   header.rows_alone = file.options.rows_alone;
+  header.has_checksum = file.options.has_checksum;
   if (carries_gpano(format) && count == 1 && camera != nullptr && fits_gpano(camera->projection)) {
     add_gpano(header.attributes, *camera, size);
   }

@@ -41,6 +41,7 @@ struct SaveOptions {
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;              // jpg and webp, 1..100
   bool rows_alone = false;            // exr: packs each row by itself, not 16 together
+  bool has_checksum = false;          // exr: a checksum of its header (ods/image/format/exr_header.h)
   std::vector<Attribute> attributes;  // extra attributes for exr and png headers
   bool sidecar = false;               // also write picture.camera.json; an existing one is rewritten anyway
 };

@@ -15,6 +15,8 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/files/file_input.h"
+#include "ods/image/format/exr_header.h"
 #include "ods/picture/channel_layers.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
@@ -149,8 +151,22 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
                         {kExposure, fmt::format("{}", picture.exposure)},
                         {kSettings, picture.settings},
                         {kSidecar, picture.camera}};
-  options.rows_alone = true;  // so long that several together are no smaller
+  options.rows_alone = true;    // so long that several together are no smaller
+  options.has_checksum = true;  // of the header; each row has its own
   return save_picture(rows, &camera, options, path).front();
+}
+
+// A header with another bit than it was written with could mean other sums, or fewer.
+static void check_header(const std::string& path, const FileInfo& info) {
+  const auto stored = info.text.find(kExrChecksum);
+  if (stored == info.text.end()) {
+    fail(path,
+         "has no checksum of its header, as parts of older versions: merge it with its own version of ods, or "
+         "render it again");
+  }
+  if (stored->second != exr_checksum(read_exr_header(FileInput(path)))) {
+    fail(path, "is damaged: its header is not as it was written; render the part again");
+  }
 }
 
 SampledPicture read_part_header(const std::string& path) {
@@ -170,6 +186,7 @@ SampledPicture read_part_header(const std::string& path) {
   if (!part || options.samples < 1 || options.samples > kMaxSamples || picture.camera.empty()) {
     fail(path, "is no part of a picture: ods render --part makes those");
   }
+  check_header(path, info);
   options.part = *part;
   const StoredPicture header = PictureReader(path).header();
   options.width = header.size.width, options.height = header.size.height;

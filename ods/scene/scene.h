@@ -106,6 +106,8 @@ struct Scene {
   std::vector<MotionPose> motion_poses;
   std::vector<MotionVertex> motion_vertices;
 
+  bool portable = false;  // its rays are traced alike on every processor, not as fast as on this one
+
   std::vector<std::string> variants;      // sets of materials that the file offers, by name
   std::vector<UsedExtension> extensions;  // sorted by name
 

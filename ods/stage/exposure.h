@@ -13,7 +13,7 @@
 namespace ods {
 
 // How the light of a picture is measured: by a small picture of one eye between the two, with a few samples, of
-// everything around the camera. It has the same bits on every machine and for every size of the picture itself.
+// everything around the camera. It has the same bits in every run and for every size of the picture itself.
 RenderOptions first_look(const RenderOptions& options);
 StereoCamera first_look_camera(const StereoCamera& camera);
 

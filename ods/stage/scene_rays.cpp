@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/stage/repeats.h"
+
 namespace ods {
 
 namespace {
@@ -23,7 +25,11 @@ LightTable without_lights(const Scene& scene) {
 
 }  // namespace
 
-SceneRays::SceneRays(const Scene& scene) : scene_(scene), no_lights_(without_lights(scene)), embree_(scene) {
+SceneRays::SceneRays(const Scene& scene)
+    : scene_(scene),
+      no_lights_(without_lights(scene)),
+      repeats_(find_repeats(scene)),
+      embree_(scene, EmbreeScene::kMaxCopiedTriangles, repeats_) {
   set_scene(tracer_, scene_, no_lights_);
   tracer_.ray_time = 0.5f;
 }

@@ -30,11 +30,14 @@ struct Sight {
 
 class SceneRays {
  public:
-  // Builds the acceleration structure for the scene as it stands. The scene must outlive this object, and whoever
-  // changes its geometry builds a new one.
+  // Builds the acceleration structure for the scene as it stands, without what repeats (ods/stage/repeats.h). The scene
+  // must outlive this object, and whoever changes its geometry builds a new one.
   explicit SceneRays(const Scene& scene);
 
   const Scene& scene() const { return scene_; }
+
+  // Whether rays can meet an instance: it is visible, and no other lies exactly there.
+  bool meets(size_t instance) const { return repeats_[instance] == 0 && !is_hidden(scene_, instance); }
 
   // Safe from many threads at once.
   Sight look(vec3 from, vec3 direction) const;
@@ -48,6 +51,7 @@ class SceneRays {
  private:
   const Scene& scene_;
   LightTable no_lights_;
+  std::vector<char> repeats_;
   EmbreeScene embree_;
   PathTracer tracer_;
 };

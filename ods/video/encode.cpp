@@ -144,14 +144,21 @@ static void set_quality(AVCodecContext& context, const EncoderFacts& facts, cons
   }
 }
 
+// x265's largest block. In frames of a single one it reads memory that it never wrote, so its output differs from run
+// to run: those get smaller blocks.
+static int largest_block(const AVCodecContext& context) {
+  const int side = std::max(context.width, context.height);
+  return side > 64 ? 64 : side > 32 ? 32 : 16;
+}
+
 // Of these, x264 keeps a hundred megabytes and more for each picture that it works on or looks ahead at.
 static bool is_large(const AVCodecContext& context) {
   return static_cast<int64_t>(context.width) * context.height > 6'000'000;
 }
 
 // The output must not depend on the number of threads. x264's depends on its thread count, so that is fixed; x265's on
-// the number of frames in flight. libvpx's and libaom's differ between one thread and several. SVT-AV1's and ProRes's
-// do not depend on it.
+// the number of frames in flight; with a bit rate it differs from run to run if there are several. libvpx's and
+// libaom's differ between one thread and several. SVT-AV1's and ProRes's do not depend on it.
 static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const int x264_threads = is_large(context) ? 6 : 12;
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -161,7 +168,7 @@ static void set_threads(AVCodecContext& context, const EncoderFacts& facts, cons
   if (facts.name == "libx265") {
     constexpr int kFrames = 3, kBlock = 64;  // of its largest block; a frame trails the one before it by some rows
     const int rows = (context.height + kBlock - 1) / kBlock;
-    context.thread_count = std::clamp((rows + 1) / 2, 1, kFrames);
+    context.thread_count = options.bitrate ? 1 : std::clamp((rows + 1) / 2, 1, kFrames);
   }
   if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") context.thread_count = std::clamp(wanted, 2, 64);
 }
@@ -176,6 +183,7 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
   if (name == "libx265") {                                   // logs to the console on its own
     std::string words = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
     if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
+    words += fmt::format(":ctu={}", largest_block(context));
     set(context, "x265-params", words);
   }
   if (name == "libaom-av1" || name == "libvpx-vp9") set(context, "row-mt", "1");

@@ -205,6 +205,7 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
     {"--variant", "red"},
     {"--solid-glass", ""},
+    {"--portable", ""},
     {"--unit", "cm"},
     {"--env", "0.5"},
     {"--lamp", "0,0.5,0"},

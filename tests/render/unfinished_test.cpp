@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
+#include "ods/files/file_input.h"
+#include "ods/image/format/exr_header.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/part_file.h"
@@ -151,6 +154,53 @@ TEST(PartFile, BandsMakeThePictureOfTheWholeSum) {
     EXPECT_EQ(light.eyes.back().radiance.pixels, picture.eyes.back().radiance.pixels);
     EXPECT_TRUE(light.eyes[0].depth.pixels.empty() && light.eyes[0].variance.pixels.empty());
     EXPECT_THROW(merge_parts(parts, options, {{}, [] { return true; }}), Error);
+  }
+}
+
+// The header's checksum, and those of the rows.
+TEST(PartFile, AFlippedBitIsNoticedOrChangesNothing) {
+  const TemporaryFolder folder;
+  RenderOptions options = options_with(true);
+  options.width = 4, options.height = 2;
+  const std::string part = save_part(folder.path("part.exr"), about(options), samples_with(options));
+  const PictureSamples sums = PartsReader({part}, options).sum(0, options.height);
+  const std::string whole = folder.read("part.exr");
+  const size_t end = read_exr_header(FileInput(part)).end;
+  size_t headers = 0, refused_headers = 0;
+  for (size_t at = 0; at < whole.size(); at += at < end ? 3 : 17) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(bytes[at] ^ (1 << (at % 8)));
+    folder.write("flipped.exr", bytes);
+    if (at < end) headers++;
+    try {
+      const SampledPicture header = read_part_header(folder.path("flipped.exr"));
+      EXPECT_EQ(header.settings, about(options).settings) << at;
+      EXPECT_EQ(samples_bytes(header.options), samples_bytes(options)) << at;
+      expect_same(PartsReader({folder.path("flipped.exr")}, options).sum(0, options.height), sums);
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.kind() == ErrorKind::kInput) << at << error.what();
+      EXPECT_TRUE(is_quotable(error.what())) << at;
+      if (at < end) refused_headers++;
+    }
+    ASSERT_FALSE(HasFailure()) << "byte " << at << " of " << whole.size() << ", header " << end;
+  }
+  EXPECT_GE(refused_headers + 2, headers) << "only bits of the version may mean nothing";
+}
+
+TEST(PartFile, PartsWithoutAChecksumSayWhatToDo) {
+  const TemporaryFolder folder;
+  const RenderOptions options = options_with(false);
+  const FileInput part(save_part(folder.path("part.exr"), about(options), samples_with(options)));
+  ExrHeader header = read_exr_header(part);
+  std::erase_if(header.attributes, [](const ExrAttribute& each) { return each.name == kExrChecksum; });
+  AtomicFile old(folder.path("old.exr"));
+  write_exr_header(part, old, header);
+  old.commit();
+  try {
+    read_part_header(folder.path("old.exr"));
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("render it again"), std::string::npos) << error.what();
   }
 }
 

@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <random>
+#include <set>
 
 #include "ods/video/make_video.h"
 #include "tests/support/decoded_video.h"
@@ -265,6 +268,49 @@ TEST_F(Encode, SoundComesBackInItsChannels) {
       }
     }
     for (size_t c = 0; c < 4; c++) EXPECT_LT(std::sqrt(off[c] / loud[c]), 0.1) << name << ", channel " << c;
+  }
+}
+
+// The bytes of a video whose frames move, under noise that comes and goes.
+std::string noisy_video(const TemporaryFolder& folder, int side, int frames, const EncodeOptions& options) {
+  AtomicFile file(folder.path("noise.mp4"));
+  VideoEncoder encoder(file, Container::kMp4, {side, side}, options);
+  std::minstd_rand random(1);
+  for (int number = 0; number < frames; number++) {
+    auto frame = std::make_shared<VideoFrame>(Extent{side, side}, options.packing);
+    const auto noise = static_cast<unsigned>(number / 13 % 3) * 60 + 1;
+    for (size_t plane = 0; plane < 3; plane++) {
+      const int edge = plane == 0 ? side : side / 2;
+      for (int y = 0; y < edge; y++) {
+        std::byte* row = frame->planes().first[plane] + static_cast<size_t>(y) * frame->planes().stride[plane];
+        for (int x = 0; x < edge; x++) {
+          const double wave = std::sin((x + 3 * number) / 9.0) * std::cos((y - 2 * number) / 7.0);
+          row[x] = static_cast<std::byte>(static_cast<unsigned>(90.0 + 60.0 * wave) + random() % noise / 2);
+        }
+      }
+    }
+    encoder.add(frame, {number, 1});
+  }
+  encoder.finish();
+  file.commit();
+  return folder.read("noise.mp4");
+}
+
+// 32 and 64: x265 needs frames of several blocks.
+TEST_F(Encode, TenRunsOfHevcAreTheSameBytes) {
+  if (!has_encoder("libx265")) GTEST_SKIP() << "skipped: this machine has no libx265";
+  for (const int side : {32, 64, 256}) {
+    for (const std::optional<double> bitrate : {std::optional<double>(), std::optional<double>(1.0)}) {
+      EncodeOptions options;
+      options.packing.codec = VideoCodec::kHevc;
+      options.bitrate = bitrate;
+      std::set<std::string> files;
+      for (int run = 0; run < 10; run++) {
+        options.threads = run % 3;
+        files.insert(noisy_video(folder, side, side <= 64 ? 90 : 24, options));
+      }
+      EXPECT_EQ(files.size(), 1u) << side << (bitrate ? " with a bit rate" : "");
+    }
   }
 }
 

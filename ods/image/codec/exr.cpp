@@ -32,6 +32,7 @@
 #include "ods/image/codec/encoder.h"
 #include "ods/image/codec/exr_rows.h"
 #include "ods/image/format/exr_guard.h"
+#include "ods/image/format/exr_header.h"
 
 namespace ods {
 
@@ -274,6 +275,28 @@ void insert_attribute(Imf::Header& header, const Attribute& attribute) {
   }
 }
 
+class TextOutput final : public Imf::OStream {
+ public:
+  TextOutput() : OStream("") {}
+  void write(const char bytes[], int size) override { text.append(bytes, static_cast<size_t>(size)); }
+  uint64_t tellp() override { return text.size(); }
+  void seekp(uint64_t) override {}
+
+  std::string text;
+};
+
+// The header as OpenEXR will write it.
+ExrHeader written(const Imf::Header& header) {
+  constexpr int kVersion = 2;  // of the format
+  ExrHeader result;
+  for (auto each = header.begin(); each != header.end(); ++each) {
+    TextOutput value;
+    each.attribute().writeValueTo(value, kVersion);
+    result.attributes.push_back({each.name(), each.attribute().typeName(), value.text});
+  }
+  return result;
+}
+
 class ExrEncoder final : public Encoder {
  public:
   ExrEncoder(AtomicFile& file, const FileHeader& header);
@@ -302,6 +325,7 @@ ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
         }
         for (const Attribute& attribute : header.attributes) insert_attribute(words, attribute);
         if (header.is_environment) Imf::addEnvmap(words, Imf::ENVMAP_LATLONG);
+        if (header.has_checksum) insert_attribute(words, {kExrChecksum, exr_checksum(written(words))});
         output_ = std::make_unique<Imf::OutputFile>(stream_, words, threads);
       },
       [&](const std::string& what) { return cannot_write(file, what); });

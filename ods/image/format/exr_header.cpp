@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "ods/base/checksum.h"
 #include "ods/base/error.h"
 
 namespace ods {
@@ -118,6 +119,15 @@ ExrAttribute exr_attribute(const Attribute& attribute) {
   std::string words;
   for (const std::string& word : std::get<std::vector<std::string>>(attribute.value)) words += sized(word);
   return {attribute.name, "stringvector", words};
+}
+
+std::string exr_checksum(const ExrHeader& header) {
+  uint32_t checksum = 0;
+  for (const ExrAttribute& each : header.attributes) {
+    if (each.name == kExrChecksum) continue;
+    checksum = crc32(each.name + '\0' + each.type + '\0' + sized(each.value), checksum);
+  }
+  return fmt::format("{:08x}", checksum);
 }
 
 // The offset table ends where the earliest chunk starts, which need not be the first one in the table.

@@ -35,6 +35,12 @@ FileInfo exr_info(const ExrHeader& header);
 // Converts to the EXR types: int, float, string, stringvector, v2f, v3f.
 ExrAttribute exr_attribute(const Attribute& attribute);
 
+// The attribute that holds it, as text: what is read from the header is what was written.
+inline constexpr const char* kExrChecksum = "ods:headerChecksum";
+
+// A checksum of all attributes but that one, in their order, as text.
+std::string exr_checksum(const ExrHeader& header);
+
 // Writes the file with these attributes. The chunks stay byte-identical; their offsets are updated. Throws
 // Error(kInput): damaged offsets, as in a picture that was never finished; Error(kOutput).
 void write_exr_header(const FileInput& file, AtomicFile& to, const ExrHeader& header);

@@ -99,6 +99,7 @@ struct EmbreeScene::Handles {
   RTCScene top = nullptr;
   RTCScene still = nullptr;      // null if nothing moves
   uint still_id = 0;             // in the top scene
+  bool portable = false;         // Scene::portable
   bool coherent = true;          // trace packets of rays as one; Embree 3.13 may never return where there are instances
   std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
   std::vector<char> moves;       // by instance
@@ -246,9 +247,12 @@ static std::vector<bool> choose_shared(const Scene& scene, const std::vector<cha
   return shared;
 }
 
-EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : handles_(std::make_unique<Handles>()) {
+EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const std::vector<char>& left_out)
+    : handles_(std::make_unique<Handles>()) {
   handles_->scene = &scene;
-  handles_->device = rtcNewDevice(nullptr);
+  handles_->portable = scene.portable;
+  // What every x86-64 processor has; other processors have one set only.
+  handles_->device = rtcNewDevice(scene.portable ? "isa=sse2" : nullptr);
   if (!handles_->device) throw std::bad_alloc();
   RTCDevice device = handles_->device;
   handles_->top = new_scene(device);
@@ -263,6 +267,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles) : hand
     const size_t mesh = static_cast<size_t>(instance.mesh);
     const bool hidden = is_hidden(scene, i);
     if (hidden && !handles_->moves[i]) continue;
+    if (!left_out.empty() && left_out[i] != 0) continue;
     if (!shared[mesh]) {
       attach(split ? handles_->still : handles_->top, make_geometry(device, scene, scene.meshes[mesh], &instance), i);
       continue;
@@ -336,6 +341,22 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
   return context;
 }
 
+// Computes anew where a ray meets the triangle that Embree has found. Embree divides by the processor's approximate
+// reciprocals, whose last bits are each maker's own. Source: Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle
+// Intersection" (1997).
+static void place_exactly(PathTracer& tracer, const Ray& ray, Hit& hit) {
+  if (hit.t < 0.0f) return;
+  const auto triangle = tracer.triangle_of(tracer.instance_now(hit.instance), tracer.corners_of(hit));
+  const glm::dvec3 ab(triangle.ab), ac(triangle.ac), direction(ray.direction);
+  const glm::dvec3 from = glm::dvec3(ray.origin) - glm::dvec3(triangle.a);
+  const glm::dvec3 p = glm::cross(direction, ac), q = glm::cross(from, ab);
+  const double determinant = glm::dot(ab, p);
+  if (determinant == 0.0) return;
+  hit.t = static_cast<float>(std::max(0.0, glm::dot(ac, q) / determinant));
+  hit.u = static_cast<float>(std::clamp(glm::dot(from, p) / determinant, 0.0, 1.0));
+  hit.v = static_cast<float>(std::clamp(glm::dot(direction, q) / determinant, 0.0, 1.0 - double{hit.u}));
+}
+
 Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const {
   RTCRayHit found;
   set_ray(found.ray, ray, std::numeric_limits<float>::infinity(), tracer.ray_time);
@@ -350,6 +371,7 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   hit.v = missed ? 0.0f : found.hit.v;
   hit.instance = missed ? -1 : instance_of(found.hit.geomID, found.hit.instID[0], handles_->still_id);
   hit.triangle = missed ? -1 : static_cast<int>(found.hit.primID);
+  if (handles_->portable) place_exactly(tracer, ray, hit);
   return hit;
 }
 
@@ -427,6 +449,9 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     hits[i].v = missed ? 0.0f : found.hit.v[i];
     hits[i].instance = missed ? -1 : instance_of(found.hit.geomID[i], found.hit.instID[0][i], handles_->still_id);
     hits[i].triangle = missed ? -1 : static_cast<int>(found.hit.primID[i]);
+    if (!handles_->portable) continue;
+    tracer.ray_time = packet.times[i];
+    place_exactly(tracer, packet.rays[i], hits[i]);
   }
 }
 

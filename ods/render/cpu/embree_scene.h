@@ -23,11 +23,15 @@ struct RayPacket {
 
 class EmbreeScene {
  public:
+  static constexpr size_t kMaxCopiedTriangles = 1500000;
+
   // Builds the acceleration structures in the calling thread's TBB arena. The scene must outlive this object.
   // Meshes that occur in the scene more than once become Embree instances only if there would be many copies: a tree
   // over plain triangles is traced up to twice as fast, and a million of them cost about 150 MB.
   // If something plays (Animation::playing), what moves has its own trees beside one of all that does not.
-  explicit EmbreeScene(const Scene& scene, size_t max_copied_triangles = 1500000);
+  // left_out: for each instance whether rays never meet it; empty: they meet all.
+  explicit EmbreeScene(const Scene& scene, size_t max_copied_triangles = kMaxCopiedTriangles,
+                       const std::vector<char>& left_out = {});
   ~EmbreeScene();
 
   // Applies what set_time() changed: rebuilds only the trees of meshes that deformed, and the one over all parts.

@@ -53,10 +53,10 @@ class CpuRenderer {
   std::unique_ptr<Parts> parts_;
 };
 
-// Renders every requested eye. The same arguments give the same bits, whatever the number of threads.
-// Throws Error: kCancelled if progress requests it; kMemory, before anything else, if the machine has too little memory
-// for the picture (picture_bytes).
-// Precondition: width > 0, samples > 0, bounces >= 0, threads >= 0.
+// Renders every requested eye. The same arguments give the same bits, whatever the number of threads, on processors
+// with the same instruction set (Scene::portable: nearly on all). Throws Error: kCancelled if progress requests it;
+// kMemory, before anything else, if the machine has too little memory for the picture (picture_bytes). Precondition:
+// width > 0, samples > 0, bounces >= 0, threads >= 0.
 Picture render_cpu(const Scene& scene, const StereoCamera& camera, const RenderOptions& options,
                    const Progress& progress = {});
 

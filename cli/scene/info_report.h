@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ods info prints.
+#pragma once
+#include <optional>
+
+#include "ods/scene/info.h"
+#include "ods/stage/place.h"
+
+// What was found out about a file's scene; kNothing: nothing was asked.
+struct SceneFindings {
+  ods::Settled settled;
+  std::optional<ods::Viewing> viewing;
+};
+
+void print_text(const ods::SceneInfo& info, const SceneFindings& found, ods::vec3 position);
+void print_json(const ods::SceneInfo& info, const SceneFindings& found, ods::vec3 position);
