@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <new>
 
-#include "ods/base/quote.h"
-
 namespace ods {
 
 std::string small_letters(std::string text) {
