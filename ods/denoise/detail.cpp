@@ -59,12 +59,13 @@ void add_detail(const NoisyPicture& noisy, const std::vector<Level>& before, con
   const int count = block.inside.right - block.inside.left;
   Sums sums;
   for (int y = block.inside.top; y < block.inside.bottom; y++) {
+    const int stride_across = pass.stride * stretch_of(noisy, pass, y);
     begin_window(pair_rows(block, y, 0, 0), squares.data() + block.offset(y), smooth.row(kShare, y), pass.noise.detail,
                  count, sums);
     for (int dy = -kReach; dy <= kReach; dy++) {
       for (int dx = -kReach; dx <= kReach; dx++) {
         if (dx == 0 && dy == 0) continue;
-        const int across = dx * pass.stride * stretch_of(noisy, pass, y), down = dy * pass.stride;
+        const int across = dx * stride_across, down = dy * pass.stride;
         const float* took = squares.data() + block.offset(y + down) + across;
         add_window(pair_rows(block, y, across, down), took, smooth.row(kShare, y + down) + across,
                    window_weight(dx, dy), count, sums);
