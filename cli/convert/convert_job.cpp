@@ -55,6 +55,7 @@ ods::FormatHint looked_at(const ConvertJob& job) {
 // Opens the input as soon as --from-* options are known; the options after it change what its header says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
+  finish_lens_options(job.known);
   job.kind = ods::footage_kind(path);
   if (job.kind == FootageKind::kFrames) job.files = ods::find_frames(path, wishes.frames);
   ods::OpenOptions open;
@@ -93,6 +94,7 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
       [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
       "its projection");
   add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
+  add_lens_options(options, job.known);
   options.custom(
       "--from-camera", ValueKind::input_file(), "",
       [&](const std::string& path) {
@@ -108,7 +110,8 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
       "frames to convert, if the input is frames: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.argument(
       ValueKind::input_file("IN"), [&](const std::string& path) { open_header(path, job, wishes); },
-      "a picture (.png .jpg .tif .webp .hdr .exr), frames (#### in the name is the number) or a video (.mp4 .mov .mkv "
+      "a picture (.png .jpg .tif .webp .hdr .exr .heic .avif), frames (#### in the name is the number) or a video "
+      "(.mp4 .mov .mkv "
       ".webm); %V in the name: one file per eye");
 }
 

@@ -129,6 +129,45 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
       fmt::format("where it points ({}), degrees right and up; the eyes stay level", ods::kinds_with(ods::has_lens)));
 }
 
+// One circle for both eyes, or one for each.
+static void parse_circles(const std::string& text, ods::FormatHint& known) {
+  const std::vector<float> numbers = parse_numbers(text);
+  known.lenses.clear();
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    ods::FisheyeLens& lens = known.lenses.emplace_back();
+    lens.center = vec2(numbers[i], numbers[i + 1]), lens.radius = numbers[i + 2], lens.fov = 0.0f;
+  }
+  if ((numbers.size() == 3 || numbers.size() == 6) && known.lenses[0].radius > 0.0f) return;
+  throw UsageError(
+      fmt::format("--circle is X,Y,R, the middle and the radius of the image circle in pixels of the eye's picture, or "
+                  "X,Y,R,X,Y,R for the left eye and the right one, not '{}'",
+                  text));
+}
+
+void add_lens_options(Options& options, ods::FormatHint& known) {
+  options.flag("--front-and-back", known.front_and_back,
+               "its halves are fisheyes that look ahead and back (Gear 360, Theta, Insta360): one eye");
+  options.custom(
+      "--circle", "X,Y,R[,X,Y,R]", "", [&known](const std::string& text) { parse_circles(text, known); },
+      "its fisheye's image circle, where it does not touch the edges: middle and radius in pixels of the eye's "
+      "picture; "
+      "six numbers: the left eye's and the right one's");
+}
+
+void finish_lens_options(ods::FormatHint& known) {
+  constexpr float kUsualFov = 195.0f;  // of cameras that look ahead and back
+  if (known.lenses.empty() && !known.front_and_back) return;
+  if (known.front_and_back && !known.layout) known.layout = ods::Layout::kSideBySide;
+  if (!known.projection || !ods::is_fisheye(known.projection->kind)) {
+    known.projection = ods::find_projection("fisheye")->setting;
+    if (known.front_and_back) known.projection->fov = kUsualFov;
+  }
+  for (ods::FisheyeLens& lens : known.lenses) {
+    lens.kind = known.projection->kind;
+    if (lens.fov == 0.0f) lens.fov = known.projection->fov;
+  }
+}
+
 void finish_projection(ProjectionSetting& projection, int width, int& height) {
   if (height > 0) projection.aspect = static_cast<float>(width) / static_cast<float>(height);
   const std::string fault = ods::projection_fault(projection);

@@ -28,6 +28,10 @@ constexpr const char* kSummary =
 
 // A photo with a damaged right eye is still a picture of the left one.
 void probe_right_eye(PictureReport& report, const std::string& path, std::vector<std::string>& warnings) {
+  if (report.info.is_pair) {
+    report.right_eye = fmt::format("{}x{}", report.info.width, report.info.height);
+    return;
+  }
   try {
     const ods::MemoryFile file(ods::read_right_eye(path, warnings));
     const ods::FileInfo eye = ods::read_info(file.path());

@@ -8,6 +8,7 @@
 
 #include "ods/base/error.h"
 #include "ods/identify/identify.h"
+#include "ods/identify/lenses.h"
 #include "ods/video/container/complete_metadata.h"
 #include "ods/video/video_input.h"
 
@@ -119,7 +120,10 @@ static FormatHint identified_film(const std::string& path, const FormatHint& kno
 FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
                       std::string_view options) {
   const bool is_film = !names_eye(path) && is_video(path);
-  return (is_film ? identified_film : identified_picture)(path, known, notes, options);
+  // Before the pixels' other marks: two circles may pass for many things.
+  const FormatHint all = with_lenses(path, known, notes);
+  if (!all.lenses.empty()) return all;
+  return (is_film ? identified_film : identified_picture)(path, all, notes, options);
 }
 
 }  // namespace ods

@@ -23,9 +23,9 @@ struct VideoInput {
 };
 
 // Missing metadata is completed as ods inject does; `known` takes precedence, and may have any projection. The eye
-// distance comes from the video (vexu), else from its sidecar, which also gives the rest of the camera. Throws
-// Error(kInput): a damaged video, a flat one, a projection other than lat-long or a part of it, or metadata that
-// nothing determines.
+// distance comes from the video (vexu), else from its sidecar, which also gives the rest of the camera. A mesh becomes
+// StoredPicture::maps; one that cannot be read gives way to V1. Throws Error(kInput): a damaged video, a flat one, a
+// projection other than a mesh, lat-long or a part of it, or metadata that nothing determines.
 VideoInput open_video(const std::string& path, const FormatHint& known = {});
 
 // Its colours as 16-bit code values, whatever the video's bit depth.

@@ -51,6 +51,8 @@ StoredPicture open_frame(const FrameFiles& files, size_t index, const StoredPict
   open.format.camera = first.camera;
   const std::string path = files.path(index);
   StoredPicture picture = open_picture(path, open);
+  picture.maps = first.maps, picture.front_and_back = first.front_and_back;
+  for (size_t i = 0; i < std::min(picture.eyes.size(), first.eyes.size()); i++) picture.eyes[i].eye = first.eyes[i].eye;
   if (picture.size.width == first.size.width && picture.size.height == first.size.height &&
       picture.eyes.size() == first.eyes.size())
     return picture;

@@ -9,6 +9,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/camera/odd_halves.h"
 #include "ods/files/file_input.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/format/xmp_file.h"
@@ -80,10 +81,9 @@ static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
 }
 
-// The projections that a shape alone identifies.
+// The projections that a shape alone identifies. 3:2 is not one of a cube's: most cameras' photos have it.
 static std::vector<const NamedProjection*> shapes() {
-  return {find_projection("lat-long"), find_projection("cube-3x2"), find_projection("cube-6x1"),
-          find_projection("cube-1x6")};
+  return {find_projection("lat-long"), find_projection("cube-6x1"), find_projection("cube-1x6")};
 }
 
 static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSetting>& known) {
@@ -173,11 +173,12 @@ static std::optional<Sidecar> find_sidecar(const FileInfo& info, const std::stri
 }
 
 static bool is_taken_as_photo(const FileInfo& info, const std::string& path, const FormatHint& known) {
-  return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && is_photo(path);
+  return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && (info.is_pair || is_photo(path));
 }
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
                                const std::optional<Sidecar>& sidecar, bool photo) {
+  if (info.is_pair && photo) return {Layout::kSeparate, LayoutSource::kFile, "its stereo pair has both eyes"};
   if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a VR photo with an embedded right eye"};
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
@@ -261,10 +262,23 @@ static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, cons
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }
 
+// Phones take pairs with two flat lenses, and may say how wide they see.
+static StereoCamera camera_of_pair(const FileInfo& info, std::vector<std::string>& guesses) {
+  constexpr float kUsualFov = 63.4f;
+  const auto said = info.numbers.find("heif:fov");
+  StereoCamera camera;
+  camera.projection = find_projection("perspective")->setting;
+  camera.projection.fov = said != info.numbers.end() ? said->second[0] : kUsualFov;
+  camera.projection.aspect = static_cast<float>(info.width) / static_cast<float>(std::max(info.height, 1));
+  if (said == info.numbers.end()) guesses.push_back(fmt::format("{} degrees across: it does not say", kUsualFov));
+  return camera;
+}
+
 // A square eye of a VR photo whose GPano gives no crop is VR180: no other camera writes such photos.
 static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
                                                const std::optional<Sidecar>& sidecar, StereoFormat& format) {
   std::optional<StereoCamera> camera = find_stated_camera(info, path, known, sidecar, format.guesses);
+  if (!camera && info.is_pair) return camera_of_pair(info, format.guesses);
   if (camera || !format.is_photo || info.width != info.height) return camera;
   camera.emplace().projection = find_projection("vr180")->setting;
   read_gpano_pose(read_xmp(path), *camera);
@@ -300,7 +314,8 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (known.projection) {
     format.camera.projection = *known.projection;
   } else if (!camera) {
-    const Extent eye = whole_eye(layout, {info.width, info.height}).value_or(Extent{1, 1});
+    const Extent eye =
+        whole_eye(layout, without_middle(layout, Extent{info.width, info.height})).value_or(Extent{1, 1});
     format.camera.projection = guess_projection(eye, path, known, format.guesses);
     format.is_open = read_name(path).projection == nullptr && !known.seen &&
                      (format.layout.source >= LayoutSource::kShape || projection_of_shape(eye) == nullptr);

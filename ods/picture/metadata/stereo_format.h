@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/camera/direction_map.h"
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
@@ -43,7 +44,7 @@ struct LayoutGuess {
 bool is_guess(const LayoutGuess& guess);
 
 // Guesses the layout from the file's metadata (ods:layout, or the channels of two views), else its name, else its
-// shape: that of one eye, two stacked or two side by side, in whole-sphere lat-long, cube-3x2, cube-6x1 or cube-1x6, or
+// shape: that of one eye, two stacked or two side by side, in whole-sphere lat-long, cube-6x1 or cube-1x6, or
 // in the projection of its name. `projection`: what is known of it.
 LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
                          const std::optional<ProjectionSetting>& projection = {});
@@ -61,6 +62,8 @@ struct FormatHint {
   std::optional<Layout> layout;
   std::optional<StereoCamera> camera;
   std::optional<ProjectionSetting> projection;  // of the camera, too
+  std::vector<FisheyeLens> lenses;              // of each eye, or one for both; their projection is not ours then
+  bool front_and_back = false;                  // the halves are fisheyes that look ahead and back: one eye
   std::optional<SeenFormat> seen;               // this alone does not take precedence, but over the shape
 };
 

@@ -10,7 +10,7 @@
 #pragma once
 #include <optional>
 
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 #include "ods/video/container/video_file.h"
 
 namespace ods {

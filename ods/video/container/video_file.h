@@ -40,6 +40,7 @@ struct VideoTrack {
   std::optional<SphericalMetadata> v1;    // Spherical Video V1
   std::optional<SphericalMetadata> v2;    // Spherical Video V2, in Matroska StereoMode and Projection
   std::optional<SphericalMetadata> vexu;  // the vexu for Apple's players
+  std::string mesh;                       // of v2: the body of its mshp box (mesh_box.h); empty: none
   bool has_layers = false;                // its eyes are layers of the stream (MV-HEVC), which its vexu describes
 };
 
