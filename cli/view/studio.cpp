@@ -81,9 +81,8 @@ Json controls_json(int kind) {
 
 Json ranges_json() {
   Json json = Json::object();
-  for (const ods::CameraField field : ods::kCameraFields) {
-    const ods::FieldRange range = ods::range_of(field);
-    json[std::string(ods::field_name(field))] = {range.least, range.most};
+  for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+    json[std::string(row.place)] = {row.range.least, row.range.most};
   }
   return json;
 }
