@@ -95,26 +95,32 @@ constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the 
 
 }  // namespace
 
-Frame make_frame(const RenderJob& job, const ods::FrameNames& names, int number) {
+Frame make_frame(uint32_t seed, const TimeOptions& time, const ods::FrameNames& names, int number) {
   const auto bits = static_cast<ods::uint>(number);
-  const bool changing = grain_of(job.time) == Grain::kChanging;
-  return {number, number / static_cast<double>(job.time.fps), names.path(number),
-          changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
+  const bool changing = time.grain == Grain::kChanging;
+  return {number, number / static_cast<double>(time.fps), names.path(number),
+          changing ? ods::hash_pair(seed, bits) : seed};
 }
 
-FrameRenderer::FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
-    : job_(job), time_(time), scene_(scene) {}
+FrameRenderer::FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, Frame first)
+    : job_(job), time_(time), scene_(scene), first_(std::move(first)) {}
+
+void FrameRenderer::say_where() const {
+  ods::set_time(scene_, first_.time);
+  const ods::StereoCamera camera = ods::moved(place_camera_again(job_.camera, scene_), time_.move, first_.time);
+  note_camera(job_.camera, scene_, camera);
+  check_view(job_, scene_, camera.position);
+  note_straight_light(job_, scene_);
+}
 
 // Returns the cameras during the shutter.
 std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
+  if (!renderer_) say_where();
   Shot shot = make_shot(job_, time_, scene_, frame);
   add_change(change_, shot.change);
   if (renderer_) {
     renderer_->update(change_);
   } else {
-    place_camera(job_.camera, scene_);  // prints a note with the position
-    check_view(job_, scene_, shot.cameras.front().position);
-    note_straight_light(job_, scene_);
     renderer_.emplace(scene_, job_.render.threads);
   }
   change_ = {};

@@ -20,8 +20,8 @@ struct Frame {
   uint32_t seed;
 };
 
-// Frame `number` of a video. names: of the frames' files.
-Frame make_frame(const RenderJob& job, const ods::FrameNames& names, int number);
+// Frame `number` of a video. names: of the frames' files. Precondition: start_clock() has run.
+Frame make_frame(uint32_t seed, const TimeOptions& time, const ods::FrameNames& names, int number);
 
 // A frame as rendered, before it is denoised and saved.
 struct RawFrame {
@@ -33,8 +33,9 @@ struct RawFrame {
 
 class FrameRenderer {
  public:
-  // The arguments must outlive this object.
-  FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene);
+  // first: of the whole job; where its camera is, is noted before anything is rendered. The other arguments must
+  // outlive this object.
+  FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, Frame first);
 
   // Renders, denoises and saves. report: gets the fraction done, if it is set.
   Rendered render(const Frame& frame, const std::function<void(double done)>& report);
@@ -52,6 +53,7 @@ class FrameRenderer {
   std::vector<std::vector<ods::vec3>> places(const RawFrame& frame, double seconds);
 
  private:
+  void say_where() const;
   ods::Picture first_look(const Frame& frame);
   std::vector<ods::StereoCamera> set_time(const Frame& frame);
   ods::RenderOptions options_for(const Frame& frame, const ods::StereoCamera& camera) const;
@@ -59,6 +61,7 @@ class FrameRenderer {
   const RenderJob& job_;
   const TimeOptions& time_;
   ods::Scene& scene_;
+  Frame first_;
   ods::SceneChange change_;  // since renderer_ was updated
   std::optional<ods::CpuRenderer> renderer_;
   float exposure_ = 0.0f;  // of find_exposure()

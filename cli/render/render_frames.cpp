@@ -27,7 +27,7 @@ std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time) {
   if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
   const FrameNames names = video_names(job.output);
   std::vector<Frame> frames;
-  for (const int number : video_frames(time)) frames.push_back(make_frame(job, names, number));
+  for (const int number : video_frames(time)) frames.push_back(make_frame(job.render.seed, time, names, number));
   return frames;
 }
 
@@ -133,11 +133,11 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
   if (frames.empty()) return;
   say_room(job, frames);
-  FrameRenderer renderer(job, time, scene);
+  FrameRenderer renderer(job, time, scene, all.front());
   job.save.exposure = renderer.find_exposure(all);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
@@ -166,7 +166,7 @@ std::vector<int> frames_of(const RenderJob& job) {
   TimeOptions time = job.time;
   if (!time.frames.empty() && time.frames != "all") return video_frames(time);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   check_length(scene, time);
   return video_frames(time);
 }
@@ -176,7 +176,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   check_length(scene, time);
   const std::vector<int> numbers = video_frames(time);
   planned(numbers);
@@ -184,7 +184,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   wait_for_frames(files_of(all), "frame", job.wait);
   const std::vector<Frame> frames = choose_frames(time, all);
   const bool shared = !time.only.empty();
-  FrameRenderer renderer(job, time, scene);
+  FrameRenderer renderer(job, time, scene, all.front());
   const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
