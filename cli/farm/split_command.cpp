@@ -162,7 +162,7 @@ Split split_video(const Words& words) {
 }
 
 // Options that decide what becomes of the samples: the merge has them.
-const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone"};
+const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--tone"};
 
 // Parts of another picture would be taken for finished, and refused by the merge.
 void check_parts(const RenderJob& first, const ods::FrameNames& names) {
@@ -207,9 +207,8 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
   check_parts(checked, *ods::frame_names(pattern));
   std::vector<GivenWord> of_merge = {{"", pattern}, {"-o", split.output}};
-  for (const GivenWord& word : only(given, kOfMerge)) {
-    if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);
-  }
+  std::ranges::copy(only(given, kOfMerge), std::back_inserter(of_merge));
+  if (job.exposure) of_merge.push_back({"--exposure", fmt::format("{}", *job.exposure)});
   Words merge = kLate;
   if (!job.keep_parts) merge.push_back("--remove-parts");
   split.memory = memory_of(split, checked);

@@ -5,13 +5,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <set>
 
 #include "cli/console/console.h"
+#include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/finish_picture.h"
 #include "ods/kernel/random.h"
+#include "ods/render/light_cache.h"
 #include "ods/render/render_target.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/sheet_glass.h"
@@ -157,7 +163,7 @@ ods::Picture FrameRenderer::first_look(const Frame& frame) {
 
 float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
-    return exposure_ = job_.exposure.value_or(0.0f);
+    return exposure_ = job_.exposure.value_or(job_.brighter);
   }
   std::set<size_t> chosen;
   for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
@@ -166,10 +172,47 @@ float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   const std::optional<float> stops = ods::suitable_exposure(looks);
   if (!stops) {
     warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
-    return 0.0f;
+    return exposure_ = job_.brighter;
   }
-  note(fmt::format("exposure {:+.1f} stops, from a first look at the light (--exposure {:.1f})", *stops, *stops));
-  return exposure_ = *stops;
+  exposure_ = brightened(*stops, job_.brighter);
+  const std::string more = job_.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job_.brighter);
+  note(
+      fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure_, more, exposure_));
+  return exposure_;
+}
+
+// Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and
+// where few paths would not fill the light cache.
+static ods::RenderOptions small_picture(const ods::RenderOptions& whole, const ods::StereoCamera& camera) {
+  constexpr double kLeast = 1.0 / 64.0, kFewestPixels = 16384.0, kPathsThatFill = 65536.0, kMostForPaths = 0.25;
+  const auto paths = static_cast<double>(ods::light_cache_paths(whole));
+  const double for_paths = paths == 0.0 ? 0.0 : std::min(kPathsThatFill / paths, kMostForPaths);
+  const double for_pixels = std::min(kFewestPixels / (1.0 * whole.width * whole.height), 1.0);
+  const double share = std::max({kLeast, for_paths, for_pixels});
+  const int step = ods::width_step(camera.projection);
+  ods::RenderOptions small = whole;
+  small.width = std::max(static_cast<int>(whole.width * std::sqrt(share)) / step * step, step);
+  small.height = 0;
+  small.cache_paths = static_cast<int>(paths * share);
+  return ods::with_height(small, camera);
+}
+
+SmallFrame FrameRenderer::try_small(const Frame& frame, const std::string& path) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  const ods::StereoCamera& camera = cameras[cameras.size() / 2];
+  const ods::RenderOptions whole = options_for(frame, camera), small = small_picture(whole, camera);
+  const double set = seconds_since(start);
+  ods::Picture picture = renderer_->render(cameras, small);
+  const double rendered = seconds_since(start) - set;
+  const double times = 1.0 * whole.width * whole.height / (1.0 * small.width * small.height);
+  double bytes = 0.0;
+  for (const std::string& file : finish_picture(job_, camera, std::move(picture), path)) {
+    bytes += static_cast<double>(std::filesystem::file_size(file));
+  }
+  const double finished = seconds_since(start) - set - rendered;
+  const double limit = whole.time_limit > 0.0 ? whole.time_limit : std::numeric_limits<double>::infinity();
+  return {set + std::min(times * rendered, limit) + times * finished, times * bytes};
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {

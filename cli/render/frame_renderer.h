@@ -31,6 +31,12 @@ struct RawFrame {
   std::vector<std::vector<ods::Hit>> hits;  // CpuRenderer::center_hits(); empty if nothing but the camera moves
 };
 
+// What a frame will take, judged by a small picture of it.
+struct SmallFrame {
+  double seconds = 0.0;
+  double bytes = 0.0;  // of its file
+};
+
 class FrameRenderer {
  public:
   // first: of the whole job; where its camera is, is noted before anything is rendered. The other arguments must
@@ -42,12 +48,15 @@ class FrameRenderer {
 
   // The exposure that the job asks for: a number of stops, or what suits its light (ods/stage/exposure.h) by a first
   // look at some of `frames`: all of the video, whatever exists already, or the one picture. It depends on the job
-  // alone, so processes that share the frames or resume them find the same. 0 where files keep the scene's light, and
-  // for built-in scenes in their own light, which are made for it. Notes what it chose; warns if all is black.
-  // What is rendered from then on is as clean as asked for when it is shown with that exposure.
+  // alone, so processes that share the frames or resume them find the same; --brighter is added. 0 where files keep the
+  // scene's light, and for built-in scenes in their own light, which are made for it. Notes what it chose; warns if all
+  // is black. What is rendered from then on is as clean as asked for when it is shown with that exposure.
   float find_exposure(const std::vector<Frame>& frames);
 
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
+
+  // Renders a small picture of a frame, denoises and saves it there.
+  SmallFrame try_small(const Frame& frame, const std::string& path);
 
   // As FrameBeside::places: where the surfaces of a frame are at another time.
   std::vector<std::vector<ods::vec3>> places(const RawFrame& frame, double seconds);

@@ -15,6 +15,7 @@
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/denoised_frames.h"
+#include "cli/render/forecast.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
 
@@ -189,7 +190,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
-    say_room(job, frames);
+    shared ? say_room(job, frames) : say_forecast(job, renderer, frames);
     const auto saved = [&](const Rendered& frame) {
       if (shared) std::ranges::for_each(frame.files, announce_file);
     };

@@ -25,7 +25,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
   ods::mark_folders(rig, files);
   ods::SaveOptions save = job.save;
-  save.exposure = job.exposure.value_or(0.0f);  // auto: 0, as the stitched picture is still to be judged
+  save.exposure = job.exposure.value_or(job.brighter);  // auto: 0, as the stitched picture is still to be judged
   save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;

@@ -31,7 +31,7 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
   journal.plan(frames, own_frames(job.render.time.only, frames));
   stitch.frames = job.render.time.frames;
   stitch.only = job.render.time.only;
-  return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
+  return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(job.render.brighter)};
 }
 
 void make_video(VideoJob job, ProgressLines& lines) {
