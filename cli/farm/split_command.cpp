@@ -45,7 +45,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Split = std::optional<SplitCommand>;
 
-const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "-q"};
+const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "--raw", "-q"};
 const Words kByMachine = {"--threads", "--progress"};
 const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
 
@@ -96,7 +96,7 @@ size_t memory_of(const SplitCommand& split, const RenderJob& job) {
 }
 
 SplitCommand begin(std::vector<GivenWord>& given) {
-  refuse(given, {"--only", "--part"}, "that is what ods submit adds to every task");
+  refuse(given, {"--only", "--part", "--raw"}, "that is what ods submit adds to every task");
   SplitCommand split;
   for (const GivenWord& word : given) {
     if (word.name == "--threads") split.threads = std::stoi(word.value);
@@ -156,7 +156,13 @@ Split split_video(const Words& words) {
     VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames, frames);
   };
   given = without(given, kByFarm);
-  split.groups = {split_group(split, "frames", command_words("video", given), "--only", frame_pattern(split.output)),
+  const std::string pattern = frame_pattern(split.output);
+  if (split.halo > 0) {
+    split.raw = split_group(split, kRawGroup, command_words("video", given, {"--raw"}), "--only",
+                            pattern + std::string(kRawEnd));
+    split.disk = frames.size() * ods::samples_bytes(options_to_finish(job.render));
+  }
+  split.groups = {split_group(split, "frames", command_words("video", given), "--only", pattern),
                   {"video", command_words("video", given, kLate), ""}};
   return split;
 }

@@ -19,6 +19,7 @@
 #include "ods/kernel/random.h"
 #include "ods/render/light_cache.h"
 #include "ods/render/render_target.h"
+#include "ods/render/unfinished.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/sheet_glass.h"
 #include "ods/scene/shutter.h"
@@ -215,13 +216,40 @@ SmallFrame FrameRenderer::try_small(const Frame& frame, const std::string& path)
   return {set + std::min(times * rendered, limit) + times * finished, times * bytes};
 }
 
+void FrameRenderer::keep_raw(const Frame& frame, const std::function<void(double done)>& report) {
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  const ods::RenderOptions options = options_for(frame, cameras[cameras.size() / 2]);
+  ods::check_picture_memory(options);
+  ods::PictureSamples samples = ods::no_samples(options);
+  ods::Progress progress;
+  progress.report = report;
+  renderer_->sample(cameras, options, samples, progress);
+  ods::write_unfinished(raw_path(frame), {{}, {}, exposure_, {}, options}, samples);
+}
+
+// What keep_raw() has written; none: there is nothing of use.
+static std::optional<ods::Picture> read_raw(const std::string& path, const ods::RenderOptions& options) {
+  if (!ods::is_saved(path)) return std::nullopt;
+  try {
+    ods::PictureSamples samples;
+    ods::read_unfinished(path, samples);
+    if (ods::fit(samples, options)) return ods::develop(std::move(samples), options);
+    warn(fmt::format("'{}' is of another picture: the frame is rendered again", path));
+  } catch (const ods::Error& error) {
+    if (error.kind() != ods::ErrorKind::kInput) throw;
+    warn(fmt::format("{}: the frame is rendered again", error.what()));
+  }
+  return std::nullopt;
+}
+
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {
   const std::vector<ods::StereoCamera> cameras = set_time(frame);
   const ods::StereoCamera& camera = cameras[cameras.size() / 2];
   const ods::RenderOptions options = options_for(frame, camera);
   ods::Progress progress;
   progress.report = report;
-  RawFrame raw{frame.time, camera, renderer_->render(cameras, options, progress), {}};
+  std::optional<ods::Picture> kept = read_raw(raw_path(frame), options);
+  RawFrame raw{frame.time, camera, kept ? std::move(*kept) : renderer_->render(cameras, options, progress), {}};
   if (!scene_.animation.playing.empty()) raw.hits = renderer_->center_hits(camera, options);
   return raw;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/render/render_job.h"
@@ -22,6 +23,12 @@ struct Frame {
 
 // Frame `number` of a video. names: of the frames' files. Precondition: start_clock() has run.
 Frame make_frame(uint32_t seed, const TimeOptions& time, const ods::FrameNames& names, int number);
+
+// The file of a frame as rendered, for whoever denoises it: samples (ods/render/unfinished.h).
+inline constexpr std::string_view kRawEnd = ".raw";
+inline std::string raw_path(const Frame& frame) {
+  return frame.path + std::string(kRawEnd);
+}
 
 // A frame as rendered, before it is denoised and saved.
 struct RawFrame {
@@ -53,7 +60,11 @@ class FrameRenderer {
   // is black. What is rendered from then on is as clean as asked for when it is shown with that exposure.
   float find_exposure(const std::vector<Frame>& frames);
 
+  // Reads what keep_raw() has written, if it is there; else renders.
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
+
+  // Renders, and writes raw_path(frame).
+  void keep_raw(const Frame& frame, const std::function<void(double done)>& report);
 
   // Renders a small picture of a frame, denoises and saves it there.
   SmallFrame try_small(const Frame& frame, const std::string& path);

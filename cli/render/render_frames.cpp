@@ -122,6 +122,18 @@ void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::v
   }
 }
 
+// Leaves the frames as rendered to whoever denoises them.
+void render_raw(FrameRenderer& renderer, const std::vector<Frame>& frames, const StepReport& report) {
+  std::vector<SharedFrame> files;
+  for (const Frame& frame : frames) files.push_back({frame.number, raw_path(frame)});
+  const int count = static_cast<int>(frames.size());
+  make_shared_frames(files, "frame", [&](size_t i) {
+    const ProgressStep step{"render", static_cast<int>(i) + 1, count, files[i].path};
+    renderer.keep_raw(frames[i], [&](double done) { report((static_cast<double>(i) + done) / count, step); });
+    announce_file(files[i].path);
+  });
+}
+
 void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
   if (!asks_for_video(job.time) || frames.empty()) return;
   say_disk_room(job.output, frames.size(), largest_frame(job.output, job.render, job.save));
@@ -191,6 +203,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
     shared ? say_room(job, frames) : say_forecast(job, renderer, frames);
+    if (job.raw) return render_raw(renderer, frames, report), RenderedFrames{numbers, exposure};
     const auto saved = [&](const Rendered& frame) {
       if (shared) std::ranges::for_each(frame.files, announce_file);
     };

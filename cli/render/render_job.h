@@ -31,6 +31,7 @@ struct RenderJob {
   int parts = 0;                  // --parts, for ods submit
   bool keep_parts = false;        // likewise: when they are merged
   float wait = 0.0f;              // seconds: for files that other machines have written
+  bool raw = false;               // render a video's frames for the denoiser, which another process runs
   bool force = false;             // render a video's frames although the disk cannot hold them
   std::vector<GivenWord> given;   // the command line
   bool resume = false;            // a still picture goes on from what an interrupted run has kept
