@@ -11,6 +11,7 @@
 #include "cli/options/field_option.h"
 #include "cli/options/projection_options.h"
 #include "ods/base/suggest.h"
+#include "ods/scene/motion.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
 
@@ -93,9 +94,15 @@ StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene)
   return stereo;
 }
 
-StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
+bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
+  if (scene.view_points.empty() || (camera.position && camera.yaw)) return false;
+  if (camera.view_point.empty()) return moves_view(scene.animation, 0);
+  const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
+  return moves_view(scene.animation, static_cast<int>(index));
+}
+
+void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
   const ViewPoint view = chosen_view(camera, scene);
-  const StereoCamera stereo = place_camera_again(camera, scene);
   std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
   note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", stereo.position.x, stereo.position.y,
@@ -103,6 +110,11 @@ StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
   if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {
     note(fmt::format("kept level; --pitch {:.4g} --roll {:.4g} tilts it as in the file", view.pitch, view.roll));
   }
+}
+
+StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
+  const StereoCamera stereo = place_camera_again(camera, scene);
+  note_camera(camera, scene, stereo);
   return stereo;
 }
 

@@ -130,7 +130,7 @@ void add_time(Settings& settings, const TimeOptions& options) {
   add(settings, "--animation", animation.empty() ? "all" : animation);
   add_float(settings, "--fps", fps);
   add_float(settings, "--shutter", shutter);
-  add(settings, "--grain", std::string(grain_name(grain_of(options))));
+  add(settings, "--grain", own_grain ? std::string(grain_name(*own_grain)) : "by default");
   add(settings, "--turntable", fmt::format("{}{}", turns, pivot ? "," + text_of(*pivot) : ""));
   std::vector<std::string> places;
   for (const ods::vec3& place : fly_to) places.push_back(text_of(place));
