@@ -39,6 +39,9 @@ struct RenderJob {
 // Adds --exposure auto|STOPS.
 void add_exposure_option(Options& options, RenderJob& job);
 
+// What a scene of another program says of camera and time: the default of the options.
+void take_foreign(RenderJob& job, const ForeignScene& scene);
+
 // What remains to be done after parsing, for ods video, too.
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 
