@@ -73,6 +73,20 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
   add_attitude_options(options, camera);
 }
 
+void take_camera(CameraOptions& camera, const ForeignScene& scene) {
+  if (!scene.camera) return;
+  const StereoCamera& own = scene.camera->camera;
+  camera.stereo.projection = own.projection;
+  if (own.pitch != 0.0f) camera.pitch = own.pitch;
+  if (own.roll != 0.0f) camera.roll = own.roll;
+  if (!scene.has_stereo) return;
+  camera.stereo.ipd = own.ipd;
+  camera.stereo.convergence = own.convergence;
+  camera.stereo.convergence_distance = own.convergence_distance;
+  camera.stereo.top = own.top;
+  camera.stereo.bottom = own.bottom;
+}
+
 void finish_camera_options(CameraOptions& camera, int width, int& height) {
   finish_eye_options(camera);
   finish_projection(camera.stereo.projection, width, height);

@@ -67,16 +67,19 @@ void add_light(Settings& settings, const LightOptions& light, const std::string&
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, has_places] = source;
+  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, blender, foreign,
+               has_places] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
   if (is_file) {
     add_file(settings, "SCENE", name, confined_to);
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
-    for (const std::string& file : ods::gltf_files(name, confined_to)) {
+    const std::vector<std::string> files = foreign ? std::vector<std::string>() : ods::gltf_files(name, confined_to);
+    for (const std::string& file : files) {
       add_file(settings, fmt::format("SCENE's file {}", ods::one_line(file)), (folder / file).native(), confined_to);
     }
+    if (foreign) add_number(settings, "--bake", blender.bake);
   } else {
     add(settings, "SCENE", name);
   }

@@ -105,6 +105,11 @@ void check_rig(const Options& options, const RenderJob& job) {
 
 }  // namespace
 
+void take_foreign(RenderJob& job, const ForeignScene& scene) {
+  take_camera(job.camera, scene);
+  if (scene.fps) job.time.fps = *scene.fps;
+}
+
 void add_exposure_option(Options& options, RenderJob& job) {
   options.custom(
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
@@ -142,7 +147,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
 bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   Quality quality;
   Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
-  add_scene_argument(options, job.scene);
+  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_foreign(job, scene); });
   add_light_options(options, job.scene.light);
   add_picture_options(options, job);
   add_camera_options(options, job.camera);

@@ -28,7 +28,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   RenderJob& render = job.render;
   Quality quality;
   Options options("video", kSummary, kExamples);
-  add_scene_argument(options, render.scene);
+  add_scene_argument(options, render.scene, [&](const ForeignScene& scene) { take_foreign(render, scene); });
   add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
   options.text("--rig", ValueKind::input_file(), job.rig,

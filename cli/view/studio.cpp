@@ -100,7 +100,9 @@ Studio::Studio(const SceneSource& source, std::function<size_t(const std::string
 
 Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& scene) {
   Settings settings;
-  settings.sidecar.camera = place_camera(CameraOptions(), scene);
+  CameraOptions camera;
+  if (source.foreign) take_camera(camera, *source.foreign);
+  settings.sidecar.camera = place_camera(camera, scene);
   settings.live.camera = settings.sidecar.camera;
   settings.live.exposure = usual_exposure(scene, settings.live.camera, ods::find_builtin(source.name) != nullptr);
   settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;

@@ -51,6 +51,7 @@ std::optional<SceneSource> scene_of(const ViewJob& job) {
   if (job.scene.empty()) return {};
   SceneSource source;
   source.name = job.scene;
+  read_foreign(source);
   return source;
 }
 

@@ -23,6 +23,8 @@ struct PunctualLight {
   float range = 0.0f;
   float inner_cone = 0.0f;  // radians from the axis
   float outer_cone = 0.7853982f;
+  int cone = kConeSquare;
+  float size = 0.0f;
 };
 
 // Light from infinity: uniform, or a lat-long picture whose centre looks along -Z.
@@ -138,7 +140,7 @@ struct Bounds {
   vec3 high{0.0f};  // low > high on no axis; both 0 for an empty scene
 };
 
-// The box around all visible instances' vertices.
+// The box around all visible instances' vertices, lamps of the role kPureLight left out.
 Bounds scene_bounds(const Scene& scene);
 
 // The default viewpoint: the scene's first; otherwise that of Scene::viewing; otherwise, where nobody has looked for

@@ -148,6 +148,7 @@ void scale_scene(Scene& scene, float factor) {
   for (PunctualLight& light : scene.lights) {
     light.position *= factor;
     light.range *= factor;
+    if (light.kind != kLightDirectional) light.size *= factor;
     if (light.kind != kLightDirectional) light.intensity *= factor * factor;
   }
   for (ViewPoint& view : scene.view_points) view.position *= factor;

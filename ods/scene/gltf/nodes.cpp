@@ -203,6 +203,7 @@ class Placer {
   Deformers bending_of(int node);
   void place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local);
   std::vector<dmat4> instance_matrices(const JsonValue& node);
+  void set_role(const JsonValue& node, size_t first);
 
   GltfFile& file_;
   Scene& scene_;
@@ -318,6 +319,15 @@ std::vector<dmat4> Placer::instance_matrices(const JsonValue& node) {
   return matrices;
 }
 
+// ODS_unseen (docs/scenes.md): of the instances from `first` on.
+void Placer::set_role(const JsonValue& node, size_t first) {
+  const JsonValue& unseen = extension(node, "ODS_unseen");
+  if (unseen.is_null()) return;
+  for (size_t i = first; i < scene_.instances.size(); i++) {
+    scene_.instances[i].role = unseen["onlyLight"].is_true() ? kPureLight : kUnseen;
+  }
+}
+
 void Placer::place_meshes(int index, const dmat4& world) {
   const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
   if (index_in(file_, node, "mesh") == -1) return;
@@ -328,6 +338,7 @@ void Placer::place_meshes(int index, const dmat4& world) {
   for (const dmat4& matrix : instance_matrices(node)) {
     for (const LoadedMesh& mesh : meshes) place(mesh, row, world, matrix);
   }
+  set_role(node, first);
   const std::string& name = *node["name"].text;
   if (!name.empty()) scene_.objects.push_back({printable(name), first, scene_.instances.size() - first});
 }
@@ -345,8 +356,20 @@ Lamp read_lamp(const GltfFile& file, int index) {
   return lamp;
 }
 
+// ODS_light_shape (docs/scenes.md). Sizes are in the scene's unit, before the node scales them.
+static void read_light_shape(const JsonValue& source, PunctualLight& light) {
+  const JsonValue& shape = extension(source, "ODS_light_shape");
+  const bool sun = light.kind == kLightDirectional;
+  const double size = sun ? 0.5 * number(shape, "angle", 0.0) : number(shape, "radius", 0.0);
+  light.size = static_cast<float>(std::clamp(size, 0.0, sun ? 1.5 : double{kFarthest}));
+  const std::string& cone = *shape["cone"].text;
+  if (cone == "smooth") light.cone = kConeSmooth;
+  if (cone == "smooth cosine") light.cone = kConeSmoothCosine;
+}
+
 void Placer::place_light(int node, int index, const dmat4& world) {
-  const std::string& type = *record(file_, file_.lights, index, "light")["type"].text;
+  const JsonValue& source = record(file_, file_.lights, index, "light");
+  const std::string& type = *source["type"].text;
   PunctualLight light;
   if (type == "point") {
     light.kind = kLightPoint;
@@ -358,6 +381,7 @@ void Placer::place_light(int node, int index, const dmat4& world) {
     warn(scene_, fmt::format("lights of type {} are ignored", printable(type)));
     return;
   }
+  read_light_shape(source, light);
   set_light(light, read_lamp(file_, index));
   ods::place_light(light, world);
   places_.lights.push_back({static_cast<int>(scene_.lights.size()), index, node});
