@@ -12,6 +12,7 @@
 #include "cli/options/projection_options.h"
 #include "ods/base/suggest.h"
 #include "ods/scene/motion.h"
+#include "ods/stage/place.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
 
@@ -57,8 +58,10 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
 
 void add_place_options(Options& options, CameraOptions& camera) {
   options.group("Camera");
-  options.text("--camera", "NAME", camera.view_point,
-               "a camera in the file (ods info lists them); by default the first");
+  options.text(
+      "--camera", "NAME", camera.view_point,
+      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
+      "a speck");
   add_position_option(options, camera);
 }
 
@@ -93,7 +96,8 @@ void finish_camera_options(CameraOptions& camera, int width, int& height) {
 }
 
 static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
-  return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  return is_named ? find_view_point(scene, camera.view_point) : ods::default_view(scene);
 }
 
 StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
@@ -109,15 +113,17 @@ StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene)
 }
 
 bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
-  if (scene.view_points.empty() || (camera.position && camera.yaw)) return false;
-  if (camera.view_point.empty()) return moves_view(scene.animation, 0);
+  if (camera.position && camera.yaw) return false;
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  if (!is_named) return uses_own_camera(scene) && moves_view(scene.animation, 0);
   const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
   return moves_view(scene.animation, static_cast<int>(index));
 }
 
 void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
   const ViewPoint view = chosen_view(camera, scene);
-  std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
+  const bool is_ours = ods::camera_choice(camera.view_point) != ods::CameraChoice::kNamed && !uses_own_camera(scene);
+  std::string from = is_ours ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
   note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", stereo.position.x, stereo.position.y,
                    stereo.position.z, stereo.yaw, from));

@@ -67,8 +67,8 @@ void add_light(Settings& settings, const LightOptions& light, const std::string&
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, blender, foreign,
-               has_places] = source;
+  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, blender, foreign, taken_for,
+               up, camera, has_places] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
@@ -89,6 +89,8 @@ void add_scene(Settings& settings, const SceneSource& source) {
   add_flag(settings, "--portable", portable);
   add_light(settings, light, confined_to);
   add(settings, "--unit", unit);
+  add(settings, "--as", std::string(name_in(ods::kTakenForTable, taken_for)));
+  add(settings, "--up", std::string(name_in(ods::kUpAxisTable, up)));
   add(settings, "--shadow-catcher", fmt::format("{}", fmt::join(catchers, ", ")));
 }
 

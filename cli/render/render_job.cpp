@@ -138,6 +138,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
   if (job.exposure) job.exposure = brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
+  job.scene.camera = job.camera.view_point;
   finish_quality(options, quality, job);
   job.has_layout = options.given("--layout") || options.given("--size");
   finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);

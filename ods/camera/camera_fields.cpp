@@ -172,7 +172,7 @@ constexpr CameraFieldRow kFields[] = {
 };
 static_assert(has_every_member(kFields));
 
-constexpr CameraChoiceRow kChoices[] = {
+constexpr CameraModeRow kModes[] = {
     {"merge-top", "merge_top.mode", "ods:poleMergeTop", kMergeTable,
      [](StereoCamera& camera) -> int& { return camera.top.mode; }, always},
     {"merge-bottom", "merge_bottom.mode", "ods:poleMergeBottom", kMergeTable,
@@ -206,11 +206,11 @@ std::vector<float> values_of(const StereoCamera& camera, const CameraFieldRow& r
   return values;
 }
 
-std::span<const CameraChoiceRow> camera_choices() {
-  return kChoices;
+std::span<const CameraModeRow> camera_modes() {
+  return kModes;
 }
 
-std::string_view choice_of(const StereoCamera& camera, const CameraChoiceRow& row) {
+std::string_view mode_of(const StereoCamera& camera, const CameraModeRow& row) {
   StereoCamera copy = camera;
   const int value = row.value(copy);
   return std::ranges::find(row.names, value, &NameRow<int>::member)->name;
@@ -225,8 +225,8 @@ static void add_to(std::vector<CameraSetting>& settings, std::string_view name, 
 
 std::vector<CameraSetting> camera_settings(const StereoCamera& camera) {
   std::vector<CameraSetting> settings;
-  for (const CameraChoiceRow& row : kChoices) {
-    add_to(settings, row.setting, std::string(row.matters(camera) ? choice_of(camera, row) : ""));
+  for (const CameraModeRow& row : kModes) {
+    add_to(settings, row.setting, std::string(row.matters(camera) ? mode_of(camera, row) : ""));
   }
   for (const CameraFieldRow& row : kFields) {
     std::vector<float> values = values_of(camera, row);

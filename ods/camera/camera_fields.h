@@ -69,8 +69,8 @@ FieldRange range_of(CameraField field);
 std::vector<float*> numbers_of(StereoCamera& camera, CameraField field);
 std::vector<float> values_of(const StereoCamera& camera, const CameraFieldRow& row);
 
-// A choice between names.
-struct CameraChoiceRow {
+// A mode, one of several names.
+struct CameraModeRow {
   std::string_view setting;  // as CameraFieldRow has them
   std::string_view place;
   std::string_view attribute;
@@ -78,8 +78,8 @@ struct CameraChoiceRow {
   int& (*value)(StereoCamera& camera);
   bool (*matters)(const StereoCamera& camera);
 };
-std::span<const CameraChoiceRow> camera_choices();
-std::string_view choice_of(const StereoCamera& camera, const CameraChoiceRow& row);
+std::span<const CameraModeRow> camera_modes();
+std::string_view mode_of(const StereoCamera& camera, const CameraModeRow& row);
 
 // What a camera says, always the same settings in the same order: "merge-top" is "cosine,60,90,1". Numbers and names
 // appear only where they matter, so "axis" is empty for a camera without an axis of its own.

@@ -60,10 +60,11 @@ struct UnitGuess {
 //  show
 //    their backs to the outside.
 //  - An object on its own is shown as a model of kModelSize if it is smaller than kSmallestObject or larger than
-//    kLargestObject, unless the scene has a view point: a picture of a ring or of a tower at its own size would have
-//    next to nothing to see in stereo. Its size is distance_to_see(). Not if shows_models is false, as where places in
-//    the scene are given, which are as the file has it.
-UnitGuess guess_unit(const SceneRays& rays, bool shows_models = true);
+//    kLargestObject: a picture of a ring or of a tower at its own size would have next to nothing to see in stereo. Its
+//    size is distance_to_see(). Not if shows_models is false, as where places in the scene are given, which are as the
+//    file has it, or where a camera of the file is used.
+// taken_for: as in survey().
+UnitGuess guess_unit(const SceneRays& rays, bool shows_models = true, TakenFor taken_for = TakenFor::kAuto);
 
 // Multiplies all lengths of a scene: instances, lights and their range, view points, volumes, and what is animated. The
 // picture stays what it was, seen by smaller or larger eyes: point and spot lights get the factor's square in power, so

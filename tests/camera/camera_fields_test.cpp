@@ -102,7 +102,7 @@ TEST(CameraFields, EveryFieldHasItsOwnPlacesAndARange) {
       EXPECT_NE(camera_fault(bad).find(row.name), std::string::npos) << camera_fault(bad);
     }
   }
-  for (const CameraChoiceRow& row : camera_choices()) EXPECT_TRUE(places.insert(row.place).second) << row.place;
+  for (const CameraModeRow& row : camera_modes()) EXPECT_TRUE(places.insert(row.place).second) << row.place;
 }
 
 // A new member does not compile here: it gets a row or a place among those that have none.
@@ -114,7 +114,7 @@ TEST(CameraFields, EveryMemberHasARow) {
   [[maybe_unused]] const auto& [mode, start, end, exponent] = top;
   const size_t of_camera = 17 - std::size({"top", "bottom", "merge_map", "head_tilt_map", "projection", "mirrored"});
   const size_t of_lens = 9 - std::size({"kind"}), of_merges = 2 * 4;
-  EXPECT_EQ(camera_fields().size() + camera_choices().size(), of_camera + of_lens + of_merges);
+  EXPECT_EQ(camera_fields().size() + camera_modes().size(), of_camera + of_lens + of_merges);
 }
 
 TEST(CameraFields, TheSidecarsPageNamesEveryKey) {
@@ -122,7 +122,7 @@ TEST(CameraFields, TheSidecarsPageNamesEveryKey) {
   const std::string page(std::istreambuf_iterator<char>(file), {});
   std::vector<std::string_view> places;
   for (const CameraFieldRow& row : camera_fields()) places.push_back(row.place);
-  for (const CameraChoiceRow& row : camera_choices()) places.push_back(row.place);
+  for (const CameraModeRow& row : camera_modes()) places.push_back(row.place);
   for (const std::string_view place : places) {
     const std::string key(place.substr(place.find('.') + 1));
     EXPECT_TRUE(page.find(fmt::format("`{}`", place)) != std::string::npos ||

@@ -25,8 +25,8 @@ static std::string attribute_of(const CameraFieldRow& row, size_t i) {
 void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera) {
   attributes.push_back({"ods:projection", std::string(projection_name(camera.projection))});
   attributes.push_back({"ods:depthType", std::string("ray")});
-  for (const CameraChoiceRow& row : camera_choices()) {
-    if (row.matters(camera)) attributes.push_back({std::string(row.attribute), std::string(choice_of(camera, row))});
+  for (const CameraModeRow& row : camera_modes()) {
+    if (row.matters(camera)) attributes.push_back({std::string(row.attribute), std::string(mode_of(camera, row))});
   }
   std::map<std::string, std::vector<float>> numbers;
   for (const CameraFieldRow& row : camera_fields()) {
@@ -69,8 +69,8 @@ class AttributeReader {
   std::string bad_;
 };
 
-void read_choices(AttributeReader& in, StereoCamera& camera) {
-  for (const CameraChoiceRow& row : camera_choices()) {
+void read_modes(AttributeReader& in, StereoCamera& camera) {
+  for (const CameraModeRow& row : camera_modes()) {
     const std::string name(row.attribute);
     const std::optional<std::string> word = in.word(name);
     if (!word) continue;
@@ -125,7 +125,7 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
     in.refuse("ods:projection");
   }
   if (!in.numbers("ods:axis").empty()) camera.axis = vec3(0.0f);
-  read_choices(in, camera);
+  read_modes(in, camera);
   read_numbers(in, camera);
   camera.mirrored = !in.numbers("ods:mirrored").empty();
   do_without_maps(in, camera, warnings);

@@ -66,7 +66,7 @@ Json conventions() {
 
 // What the tables of a camera say of one object of the file; "" is the file itself.
 void read_object(JsonReader& in, std::string_view object, StereoCamera& camera) {
-  for (const CameraChoiceRow& row : camera_choices()) {
+  for (const CameraModeRow& row : camera_modes()) {
     const Place place = place_of(row.place);
     if (place.object != object) continue;
     const std::string word = in.word(place.key);
@@ -158,7 +158,7 @@ std::string write_sidecar(const Sidecar& file) {
                  {"layout", layout_name(file.layout)},
                  {"eyes", eyes}}},
                {"projection", {{"name", projection_name(camera.projection)}}}};
-  for (const CameraChoiceRow& row : camera_choices()) at(json, row.place) = choice_of(camera, row);
+  for (const CameraModeRow& row : camera_modes()) at(json, row.place) = mode_of(camera, row);
   for (const CameraFieldRow& row : camera_fields()) {
     const std::vector<float> values = values_of(camera, row);
     if (!values.empty()) at(json, row.place) = to_json(values);
