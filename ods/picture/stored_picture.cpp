@@ -396,7 +396,7 @@ struct PictureReader::State {
 PictureReader::PictureReader(const std::string& path, const OpenOptions& options) {
   Readers readers = open_files(path);
   StereoFormat format = find_format(readers[0]->info(), path, options.format);
-  if (format.is_photo) open_right_eye(readers, MemoryFile(read_right_eye(path)), path);
+  if (format.is_photo) open_right_eye(readers, MemoryFile(read_right_eye(path, format.guesses)), path);
   StoredPicture header = describe(readers, format, path);
   std::vector<FileShare> shares = shares_of(readers, path, header.layout, options.color_only);
   keep_common(shares, path, header.guesses);

@@ -180,14 +180,24 @@ static std::optional<double> gpano_number(const std::string& xmp, const std::str
   return error == std::errc() && std::abs(value) <= 1e6 ? std::optional(value) : std::nullopt;
 }
 
+void read_gpano_pose(const std::string& xmp, StereoCamera& camera) {
+  const auto angle = [&](const char* name) { return static_cast<float>(gpano_number(xmp, name).value_or(0.0)); };
+  camera.yaw = angle("PoseHeadingDegrees");
+  camera.pitch = angle("PosePitchDegrees");
+  camera.roll = angle("PoseRollDegrees");
+}
+
 std::optional<StereoCamera> gpano_camera(const std::string& xmp) {
-  if (gpano_property(xmp, "ProjectionType") != "equirectangular") return std::nullopt;
+  const std::string type = gpano_property(xmp, "ProjectionType");
+  if (!type.empty() && type != "equirectangular") return std::nullopt;
   StereoCamera camera;
   const auto number = [&](const char* name) { return gpano_number(xmp, name); };
   // The crop's bounds, in pixels of the whole sphere; the whole sphere if absent.
   const auto width = number("FullPanoWidthPixels"), height = number("FullPanoHeightPixels");
   const auto left = number("CroppedAreaLeftPixels"), across = number("CroppedAreaImageWidthPixels");
   const auto top = number("CroppedAreaTopPixels"), down = number("CroppedAreaImageHeightPixels");
+  const bool has_crop = width && left && across && *width > 0.0 && height && top && down && *height > 0.0;
+  if (type.empty() && !has_crop) return std::nullopt;
   if (width && left && across && *width > 0.0) {
     camera.projection.longitude = glm::dvec2(*left, *left + *across) * 360.0 / *width - 180.0;
   }
@@ -195,10 +205,7 @@ std::optional<StereoCamera> gpano_camera(const std::string& xmp) {
     camera.projection.latitude = 90.0 - glm::dvec2(*top + *down, *top) * 180.0 / *height;
   }
   if (!projection_fault(camera.projection).empty()) return std::nullopt;
-  const auto angle = [&](const char* name) { return static_cast<float>(number(name).value_or(0.0)); };
-  camera.yaw = angle("PoseHeadingDegrees");
-  camera.pitch = angle("PosePitchDegrees");
-  camera.roll = angle("PoseRollDegrees");
+  read_gpano_pose(xmp, camera);
   return camera;
 }
 

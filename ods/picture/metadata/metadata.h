@@ -31,7 +31,11 @@ bool fits_gpano(const ProjectionSetting& projection);
 // For a picture of one eye of this size. Precondition: fits_gpano().
 void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, Extent size);
 
-// The projection and orientation in an XMP packet's GPano, as attributes or as elements.
+// The projection and orientation in an XMP packet's GPano, as attributes or as elements. VR180 cameras leave out the
+// ProjectionType: then the crop's six numbers say that it is lat-long.
 std::optional<StereoCamera> gpano_camera(const std::string& xmp);
+
+// Sets the orientation that GPano states, whatever its projection; 0 where it states none.
+void read_gpano_pose(const std::string& xmp, StereoCamera& camera);
 
 }  // namespace ods

@@ -178,7 +178,7 @@ static bool is_taken_as_photo(const FileInfo& info, const std::string& path, con
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
                                const std::optional<Sidecar>& sidecar, bool photo) {
-  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo with an embedded right eye"};
+  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a VR photo with an embedded right eye"};
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
@@ -211,6 +211,9 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
   if (!info.is_float) {
     const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
     const std::optional<StereoCamera> camera = gpano_camera(xmp);
+    if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
+      warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");
+    }
     if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
       warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
                                      xmp_property(xmp, "GPano:ProjectionType")));
@@ -248,9 +251,9 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, c
 
 // The file's own metadata takes precedence over its sidecar, which may be older. Maps come from the sidecar, which
 // alone holds them.
-static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
-                                               const std::optional<Sidecar>& sidecar,
-                                               std::vector<std::string>& guesses) {
+static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, const std::string& path,
+                                                      const FormatHint& known, const std::optional<Sidecar>& sidecar,
+                                                      std::vector<std::string>& guesses) {
   if (known.camera) return known.camera;
   const bool has_maps = sidecar && (sidecar->camera.merge_map || sidecar->camera.head_tilt_map);
   if (sidecar && (has_maps || !info.text.contains("ods:projection"))) return sidecar->camera;
@@ -258,12 +261,23 @@ static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }
 
+// A square eye of a VR photo whose GPano gives no crop is VR180: no other camera writes such photos.
+static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
+                                               const std::optional<Sidecar>& sidecar, StereoFormat& format) {
+  std::optional<StereoCamera> camera = find_stated_camera(info, path, known, sidecar, format.guesses);
+  if (camera || !format.is_photo || info.width != info.height) return camera;
+  camera.emplace().projection = find_projection("vr180")->setting;
+  read_gpano_pose(read_xmp(path), *camera);
+  format.guesses.push_back("vr180: it is a VR photo with square eyes");
+  return camera;
+}
+
 StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known) {
   StereoFormat format;
   const std::optional<Sidecar> sidecar = find_sidecar(info, path, known, format.guesses);
   format.is_photo = is_taken_as_photo(info, path, known);
   format.layout = find_layout(info, path, known, sidecar, format.is_photo);
-  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format.guesses);
+  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format);
   format.has_camera = camera.has_value();
   // GPano knows no layout, but says what one eye covers: if that is all of the file, there is no other.
   if (camera && format.layout.source >= LayoutSource::kShape &&

@@ -3,8 +3,9 @@
 //
 // Finds the format of a picture file: layout, projection, camera. In order of precedence: what the caller knows; the
 // sidecar beside it (NAME.camera.json); the file's own metadata (ods:*, GPano, envmap, the channels of two views, a
-// second eye); its name; what its pixels show, if the caller has looked (ods/identify); its shape. Names end in words after _ or . : those of layout_of() (_TB, _LR, _SBS, _OU ...),
-// mono, 180, vr180, 360 and the names of projections, in upper or lower case, possibly followed by numbers.
+// second eye); its name; what its pixels show, if the caller has looked (ods/identify); its shape. Names end in words
+// after _ or . : those of layout_of() (_TB, _LR, _SBS, _OU ...), mono, 180, vr180, 360 and the names of projections, in
+// upper or lower case, possibly followed by numbers.
 #pragma once
 #include <optional>
 #include <string>
@@ -66,7 +67,7 @@ struct FormatHint {
 struct StereoFormat {
   LayoutGuess layout;
   int eye = kMono;        // which eye, if only one
-  bool is_photo = false;  // a Cardboard photo (vr_photo.h): layout kSeparate, both eyes in one file
+  bool is_photo = false;  // a VR photo (vr_photo.h): layout kSeparate, both eyes in one file
   StereoCamera camera;
   bool has_camera = false;           // known from caller, file or sidecar; else only its projection is guessed
   bool has_ipd = false;              // likewise; GPano and envmap do not give one

@@ -105,6 +105,11 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
   return properties;
 }
 
+// What readers of GPano need: it is added where a camera has left it out.
+static bool is_needed(const std::string& name) {
+  return name == "GPano:ProjectionType" || name.starts_with("GPano:CroppedArea") || name.starts_with("GPano:FullPano");
+}
+
 // A packet that says the same already stays. Otherwise only the GPano properties that differ change; the others, such
 // as the initial view, stay.
 static std::optional<std::string> tagged_packet(const FileInput& file, FileFormat format, const PictureTag& tag,
@@ -112,16 +117,16 @@ static std::optional<std::string> tagged_packet(const FileInput& file, FileForma
   std::vector<Attribute> wanted = gpano_of(file, format, tag);
   if (old.empty()) return make_xmp(wanted);
   const std::optional<StereoCamera> stereo = gpano_camera(old);
-  if (!stereo) return replace_gpano(old, wanted);
   std::vector<Attribute> before, kept = gpano_properties(old);
-  add_gpano(before, *stereo, size_of(file, format));
+  if (stereo) add_gpano(before, *stereo, size_of(file, format));
   const auto named = [](std::vector<Attribute>& list, const std::string& name) {
     return std::find_if(list.begin(), list.end(), [&](const Attribute& each) { return each.name == name; });
   };
   bool has_changed = false;
   for (const Attribute& each : wanted) {
     const auto was = named(before, each.name), there = named(kept, each.name);
-    if (was != before.end() && was->value == each.value) continue;
+    const bool is_missing = there == kept.end() && is_needed(each.name);
+    if (!is_missing && was != before.end() && was->value == each.value) continue;
     has_changed = true;
     if (there == kept.end()) {
       kept.push_back(each);
