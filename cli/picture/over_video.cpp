@@ -35,7 +35,7 @@ Range range_of(const OverJob& job) {
 VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
   VideoWishes wishes = job.video;
   wishes.output = job.output;
-  wishes.sound_cut.is_cut = job.frames.has_value();
+  wishes.keep.cut.is_cut = job.frames.has_value();
   return wishes_like(wishes, video, stream, job.has_target);
 }
 

@@ -69,8 +69,6 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   video.path = path;
   video.track = track.id;
   video.fps = track.fps;
-  video.has_sound = !info.sound.empty();
-  if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
   StoredPicture& prototype = video.prototype;
   video.metadata = metadata_of(track, known, path, prototype.guesses);
   FileInfo file;
