@@ -53,7 +53,7 @@ void check_job(const OverJob& job, const VideoInput& video) {
   if (job.has_tone || job.has_exposure)
     throw UsageError("--exposure and --tone are for scene-linear frames, not for videos");
   if (job.layout && *job.layout != video.prototype.layout) {
-    throw UsageError(fmt::format("the video stays {}; --layout needs frames as output (-o 'x.####.png')",
+    throw UsageError(fmt::format("the video stays {}; --to-layout needs frames as output (-o 'x.####.png')",
                                  layout_name(video.prototype.layout)));
   }
   if (video.metadata.projection == ods::VideoProjection::kOther) {
