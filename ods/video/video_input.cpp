@@ -31,7 +31,7 @@ static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::stri
 static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
   if (metadata.projection != VideoProjection::kEquirect) {
     throw unusable(path,
-                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--from-projection "
+                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--projection "
                                "overrides a wrong claim)",
                                projection_name(*metadata.projection)));
   }
@@ -69,8 +69,6 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   video.path = path;
   video.track = track.id;
   video.fps = track.fps;
-  video.has_sound = !info.sound.empty();
-  if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
   StoredPicture& prototype = video.prototype;
   video.metadata = metadata_of(track, known, path, prototype.guesses);
   FileInfo file;

@@ -180,7 +180,7 @@ TEST_F(Cli, ALensPolynomialHasItsNumbersAndIsChecked) {
     expect_one_error();
   }
   EXPECT_EQ(run("camera --width 64 --projection fisheye --sensor 20,10"), 2);
-  EXPECT_NE(err.find("--sensor is for fisheye-polynomial, not for --projection fisheye"), std::string::npos) << err;
+  EXPECT_NE(err.find("--sensor is for fisheye-polynomial, not for the projection fisheye"), std::string::npos) << err;
 }
 
 // A picture of one value, in the code of its file.
