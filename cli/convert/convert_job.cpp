@@ -185,7 +185,7 @@ void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
   job.has_exposure = options.given("--exposure"), job.has_tone = options.given("--tone");
   job.has_layout = wishes.layout.has_value();
   save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, job.has_tone, job.save);
-  if (job.has_exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
+  if (job.has_exposure && keeps_light(job.output)) note("--exposure does not affect .exr and .hdr");
 
   ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, stereo.projection);
   if (wishes.size.width > 0) eye = {wishes.size.width, wishes.size.height};
@@ -219,7 +219,7 @@ void check_kinds(const Options& options, const ConvertJob& job) {
   }
   if (options.given("--fps") && from_video) throw UsageError("--fps is for frames: a video keeps its own times");
   if (job.has_packing && !to_video)
-    throw UsageError(fmt::format("'{}' is no video: --codec and the like need one", job.output));
+    throw UsageError(fmt::format("--codec and its like need video output, and '{}' is no video", job.output));
 }
 
 }  // namespace

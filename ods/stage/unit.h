@@ -53,7 +53,7 @@ struct UnitGuess {
   Survey survey;        // of the scene with that unit, in the file's units
 };
 
-// The unit that a scene is in. It stays metres unless people meet no room, place or object of that size.
+// The unit that a scene is in: metres, unless no room, place or object has that size in the world.
 //  - A box-shaped room that is too high is in the unit, among inches, centimetres and millimetres, that brings its
 //    height closest to 2.7 m; a place that is too wide is in centimetres or millimetres.
 //  - A room too small to stand in is enlarged by 10, 100 or 1000, if it is smaller than kSmallestPlace or its walls
