@@ -56,7 +56,8 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
       "set width, --samples and --noise together" + sizes);
   options.custom(
       "--noise", "LEVEL|none", "", [&](const std::string& word) { job.render.noise = parse_noise(word); },
-      "stop sampling parts of the picture below this noise, in Cycles' measure (its default is 0.01). none: every pixel "
+      "stop sampling parts of the picture below this noise, in Cycles' measure (its default is 0.01). none: every "
+      "pixel "
       "gets all samples");
   options.number("--samples", quality.samples, 1, ods::kMaxSamples, "the most samples of a pixel");
   options.custom(
