@@ -58,7 +58,7 @@ constexpr Command kCommands[] = {
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"submit", "send a command to a render farm, split into tasks", ods_submit},
-    {"jobs", "show how what was sent to Slurm gets on", ods_jobs},
+    {"jobs", "show the progress of Slurm jobs", ods_jobs},
     {"title", "make a title with depth for stereo 360", ods_title},
     {"over", "composite a picture or video over another", ods_over},
     {"rig", "plan perspective cameras for other renderers", ods_rig},

@@ -16,3 +16,5 @@ pkg_check_modules(Formats REQUIRED IMPORTED_TARGET lcms2 libheif libjpeg libpng 
   libzip>=1.7)
 pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat libavutil libswresample)
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)
+set(ods_libraries embree TBB::tbb PkgConfig::Deflate PkgConfig::FFmpeg PkgConfig::OpenEXR PkgConfig::Pango PkgConfig::Formats
+  draco::draco meshoptimizer::meshoptimizer fmt::fmt)

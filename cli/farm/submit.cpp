@@ -12,7 +12,7 @@
 #include "cli/farm/copy_inputs.h"
 #include "cli/farm/finished.h"
 #include "cli/farm/job_summary.h"
-#include "cli/farm/programs.h"
+#include "cli/console/programs.h"
 #include "cli/farm/queue.h"
 #include "cli/farm/submit_job.h"
 #include "ods/base/quote.h"
@@ -92,7 +92,7 @@ void submit(int argc, char** argv) {
     copy_files(copies);
     split->prepare();
   }
-  plan.groups.front().tasks = count_tasks(job, *split);
+  count_tasks(job, *split, plan);
   ods::SchedulerWishes wishes = job.wishes;
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);

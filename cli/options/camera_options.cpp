@@ -11,6 +11,8 @@
 #include "cli/options/field_option.h"
 #include "cli/options/projection_options.h"
 #include "ods/base/suggest.h"
+#include "ods/scene/motion.h"
+#include "ods/stage/place.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
 
@@ -56,8 +58,10 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
 
 void add_place_options(Options& options, CameraOptions& camera) {
   options.group("Camera");
-  options.text("--camera", "NAME", camera.view_point,
-               "a camera in the file (ods info lists them); by default the first");
+  options.text(
+      "--camera", "NAME", camera.view_point,
+      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
+      "a speck");
   add_position_option(options, camera);
 }
 
@@ -72,13 +76,28 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
   add_attitude_options(options, camera);
 }
 
+void take_camera(CameraOptions& camera, const ForeignScene& scene) {
+  if (!scene.camera) return;
+  const StereoCamera& own = scene.camera->camera;
+  camera.stereo.projection = own.projection;
+  if (own.pitch != 0.0f) camera.pitch = own.pitch;
+  if (own.roll != 0.0f) camera.roll = own.roll;
+  if (!scene.has_stereo) return;
+  camera.stereo.ipd = own.ipd;
+  camera.stereo.convergence = own.convergence;
+  camera.stereo.convergence_distance = own.convergence_distance;
+  camera.stereo.top = own.top;
+  camera.stereo.bottom = own.bottom;
+}
+
 void finish_camera_options(CameraOptions& camera, int width, int& height) {
   finish_eye_options(camera);
   finish_projection(camera.stereo.projection, width, height);
 }
 
 static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
-  return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  return is_named ? find_view_point(scene, camera.view_point) : ods::default_view(scene);
 }
 
 StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
@@ -93,16 +112,29 @@ StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene)
   return stereo;
 }
 
-StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
+bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
+  if (camera.position && camera.yaw) return false;
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  if (!is_named) return uses_own_camera(scene) && moves_view(scene.animation, 0);
+  const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
+  return moves_view(scene.animation, static_cast<int>(index));
+}
+
+void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
   const ViewPoint view = chosen_view(camera, scene);
-  const StereoCamera stereo = place_camera_again(camera, scene);
-  std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
+  const bool is_ours = ods::camera_choice(camera.view_point) != ods::CameraChoice::kNamed && !uses_own_camera(scene);
+  std::string from = is_ours ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
   note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", stereo.position.x, stereo.position.y,
                    stereo.position.z, stereo.yaw, from));
   if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {
     note(fmt::format("kept level; --pitch {:.4g} --roll {:.4g} tilts it as in the file", view.pitch, view.roll));
   }
+}
+
+StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
+  const StereoCamera stereo = place_camera_again(camera, scene);
+  note_camera(camera, scene, stereo);
   return stereo;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/scene/scene.h"
@@ -39,6 +40,9 @@ void add_camera_options(Options& options, CameraOptions& camera);
 // Likewise without --camera, where no scene could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
+// The lens, the tilt and, if it has any, the eyes of a foreign scene's camera. Its place is that of the view point.
+void take_camera(CameraOptions& camera, const ForeignScene& scene);
+
 // Checks the options as a whole, reads the maps, and finds the height of the picture if it is 0. Throws UsageError
 // and ods::Error.
 void finish_camera_options(CameraOptions& camera, int width, int& height);
@@ -51,6 +55,12 @@ ods::StereoCamera place_camera(const CameraOptions& camera, const ods::Scene& sc
 
 // Likewise without the note: for every frame of a video.
 ods::StereoCamera place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
+
+// That note. stereo: the camera, which may have moved since it was placed.
+void note_camera(const CameraOptions& camera, const ods::Scene& scene, const ods::StereoCamera& stereo);
+
+// Whether the file's animation, as it plays, moves this camera. Throws UsageError.
+bool file_moves_camera(const CameraOptions& camera, const ods::Scene& scene);
 
 // The camera that the options ask for if there is no scene: at the origin by default.
 ods::StereoCamera place_camera(const CameraOptions& camera);

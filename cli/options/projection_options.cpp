@@ -29,7 +29,7 @@ constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"bac
 void expect(bool useful, const char* option, const std::string& owners, const ProjectionSetting& projection) {
   if (useful) return;
   throw UsageError(
-      fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
+      fmt::format("{} is for {}, not for the projection {}", option, owners, ods::projection_name(projection)));
 }
 
 // LON0,LON1[,LAT0,LAT1]
@@ -95,18 +95,17 @@ ProjectionSetting projection_by_name(const std::string& option, const std::strin
       fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
 }
 
-void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& name) {
+void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& option) {
   options.group("Projection");
-  const std::string option = name.empty() ? "--projection" : name;
   const auto is_named = std::make_shared<bool>(false);
   options.custom(
-      name.empty() ? option : fmt::format("{},--projection", name), "NAME", name.empty() ? "lat-long" : "",
+      option, "NAME", option == "--projection" ? "lat-long" : "",
       [&projection, option, is_named](const std::string& text) {
         projection = projection_by_name(option, text);
         *is_named = true;
       },
       fmt::format("projection of each eye's picture: {}", fmt::join(ods::names_of(ods::named_projections()), ", ")));
-  options.offer(name.empty() ? option : name + ",--projection", ods::names_of(ods::named_projections()));
+  options.offer(option, ods::names_of(ods::named_projections()));
   options.custom(
       "--face", "NAME", "",
       [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },

@@ -9,8 +9,8 @@
 #include "ods/camera/projection.h"
 #include "ods/picture/metadata/stereo_format.h"
 
-// name: another name of the option --projection; empty: none.
-void add_projection_options(Options& options, ods::ProjectionSetting& projection, const std::string& name = "");
+// option: the name of the one that names the projection.
+void add_projection_options(Options& options, ods::ProjectionSetting& projection, const std::string& option = "--projection");
 
 // Throws UsageError, whose message says that `option` was given the name.
 ods::ProjectionSetting projection_by_name(const std::string& option, const std::string& name);

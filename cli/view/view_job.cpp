@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/console.h"
 #include "cli/console/options.h"
 #include "cli/options/layout_options.h"
@@ -37,7 +38,7 @@ constexpr size_t kMostItems = 2000;
 // Whether the studio is for it: a file of a scene, or a built-in one that no file has the name of.
 bool names_scene(const std::string& path) {
   const std::string extension = ods::small_letters(std::filesystem::path(path).extension().string());
-  if (extension == ".glb" || extension == ".gltf" || extension == ".zip") return true;
+  if (extension == ".glb" || extension == ".gltf" || extension == ".zip" || is_foreign_scene(path)) return true;
   return ods::find_builtin(path) && !std::filesystem::exists(path);
 }
 

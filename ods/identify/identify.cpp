@@ -369,7 +369,7 @@ Identity identify(const StoredPicture& whole, const FormatHint& known) {
   return identity;
 }
 
-std::string doubt_text(const Identity& identity, std::string_view options) {
+std::string doubt_text(const Identity& identity) {
   constexpr double kNamed = 0.05;
   constexpr size_t kMostNamed = 3;
   if (identity.readings.empty() || identity.is_sure()) return {};
@@ -379,7 +379,7 @@ std::string doubt_text(const Identity& identity, std::string_view options) {
     texts.push_back(fmt::format("{} ({:.2f})", reading_text(reading), reading.certainty));
   }
   if (identity.has_other_faces) texts.push_back("faces of a cube in another order than ods has, to be reordered first");
-  return fmt::format("{}: say which with {}", fmt::join(texts, " or "), options);
+  return fmt::format("{}: say which with --layout and --projection", fmt::join(texts, " or "));
 }
 
 }  // namespace ods

@@ -169,10 +169,10 @@ static std::string output_name(const std::string& path) {
 std::string convert_command(const Subject& subject, const std::string& options) {
   std::string from;
   if (subject.format.layout.source == LayoutSource::kCaller) {
-    from += fmt::format(" --from-layout {}", layout_name(subject.layout()));
+    from += fmt::format(" --layout {}", layout_name(subject.layout()));
   }
   if (subject.format.camera.projection != ProjectionSetting()) {
-    from += fmt::format(" --from-projection {}", projection_name(subject.projection()));
+    from += fmt::format(" --projection {}", projection_name(subject.projection()));
   }
   return fmt::format("ods convert {} -o {}{} {}", quoted(subject.path), output_name(subject.path), from, options);
 }

@@ -33,7 +33,7 @@ static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::stri
 static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
   if (metadata.projection != VideoProjection::kEquirect) {
     throw unusable(path,
-                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--from-projection "
+                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--projection "
                                "overrides a wrong claim)",
                                projection_name(*metadata.projection)));
   }
@@ -86,7 +86,7 @@ static void take_mesh(VideoInput& video, const VideoTrack& track) {
   } catch (const MalformedFile& fault) {
     if (!track.v1 || track.v1->projection != VideoProjection::kEquirect) {
       throw unusable(video.path,
-                     fmt::format("{}; --from-projection and --from-layout say what it shows", fault.what()));
+                     fmt::format("{}; --projection and --layout say what it shows", fault.what()));
     }
     notes.push_back(fmt::format("{}: taken as its V1 says, {}", fault.what(), metadata_text(*track.v1)));
     video.metadata = *track.v1;
@@ -102,14 +102,12 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
         path,
         "its eyes are layers of its stream (MV-HEVC, a spatial video of a phone), which ods does not take "
         "apart. FFmpeg 7.1 does: ffmpeg -i VIDEO -filter_complex '[0:v:view:0][0:v:view:1]hstack' FLAT_SBS.mp4; "
-        "--from-layout separate takes the first eye alone");
+        "--layout separate takes the first eye alone");
   }
   VideoInput video;
   video.path = path;
   video.track = track.id;
   video.fps = track.fps;
-  video.has_sound = !info.sound.empty();
-  if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
   StoredPicture& prototype = video.prototype;
   video.metadata = metadata_of(track, known, path, prototype.guesses);
   if (video.metadata.projection == VideoProjection::kMesh) take_mesh(video, track);

@@ -17,9 +17,7 @@ struct VideoInput {
   uint64_t track = 0;
   double fps = 0.0;            // 0: unknown
   SphericalMetadata metadata;  // complete
-  bool has_sound = false;
-  std::optional<Ambisonics> ambisonics;  // of its sound track
-  StoredPicture prototype;               // every picture except its pixels: eyes without layers
+  StoredPicture prototype;     // every picture except its pixels: eyes without layers
 };
 
 // Missing metadata is completed as ods inject does; `known` takes precedence, and may have any projection. The eye

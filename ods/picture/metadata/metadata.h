@@ -4,11 +4,9 @@
 // The camera in a picture file's header, written and read: our attributes in EXR files, and Google's "Photo Sphere XMP
 // Metadata" (GPano) in display-referred formats.
 //
-// Always present: ods:projection, ods:ipd, ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom
-// (with Start, End, Exponent). Present if they differ from the default camera: ods:longitude and ods:latitude of a part
-// of the sphere, ods:fov and ods:look (pan, tilt) of a lens, ods:aspect of a window, ods:convergence (with Distance),
-// ods:neck, ods:axis, ods:lens (radius, focus), ods:mirrored, ods:headTilt. All round-trip bit for bit, except merge
-// maps and head-tilt maps: the file says "map", and only a sidecar holds them.
+// The attributes are those of ods/camera/camera_fields.cpp where they matter to the picture, ods:projection,
+// ods:mirrored and ods:headTilt. All round-trip bit for bit, except merge maps and head-tilt maps: the file says "map",
+// and only a sidecar holds them.
 #pragma once
 #include <optional>
 #include <string>

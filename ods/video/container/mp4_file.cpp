@@ -400,15 +400,22 @@ static void write_header(const Mp4& video, const Plan& plan, AtomicFile& to) {
 }
 
 TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id,
-                  const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound) {
+                  const std::optional<SphericalMetadata>& metadata, const OtherTags& other) {
   Mp4 video = open_mp4(file);
   TagResult result;
+  size_t sounds = 0;
   for (Box& track : video.moov.children) {
     if (track.type != box_type("trak")) continue;
     open_box(track, 0);
-    if (is_video(track) && id_of(track) == track_id) result = tag_track(track, metadata, read_video(track, video.moov));
-    if (sound && handler_of(track) == box_type("soun")) tag_sound(track, *sound);
+    if (is_video(track) && id_of(track) == track_id) {
+      add_user_data(other.user.pictures, track);
+      result = tag_track(track, metadata, read_video(track, video.moov));
+    }
+    if (handler_of(track) != box_type("soun")) continue;
+    if (sounds < other.sound.size() && other.sound[sounds]) tag_sound(track, *other.sound[sounds]);
+    sounds++;
   }
+  add_user_data(other.user.movie, video.moov);
   const Plan plan = plan_move(video, file.size());
   move_header(video.moov, plan.move);
   result.moved = plan.move.growth != 0;
@@ -425,6 +432,7 @@ TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id,
       file.copy(box.offset, box.size, to);
     }
   }
+  for (const Box& box : other.user.file) write_box(box, to);
   return result;
 }
 
