@@ -17,6 +17,7 @@
 #include "ods/base/suggest.h"
 
 // One a file, in the folders beside this one.
+int ods_blender(int argc, char** argv);
 int ods_camera(int argc, char** argv);
 int ods_compare(int argc, char** argv);
 int ods_convert(int argc, char** argv);
@@ -64,6 +65,7 @@ constexpr Command kCommands[] = {
     {"rig", "plan perspective cameras for other renderers", ods_rig},
     {"stitch", "combine the views of those cameras into a picture", ods_stitch},
     {"info", "show what is in a scene", ods_info},
+    {"blender", "install the add-on for Blender", ods_blender},
     {"camera", "export a camera to another renderer", ods_camera},
     {"project", "project world points into each eye's picture", ods_project},
     {"compare", "measure the difference between two pictures", ods_compare},

@@ -42,7 +42,7 @@ std::string install_exporter() {
     std::error_code error;
     if (fs::file_size(path, error) != file.text.size() || error) ods::write_file(path.native(), file.text);
   }
-  return (folder / "omnistereo" / "bridge" / "run.py").native();
+  return folder.native();
 }
 
 std::string printable(const std::string& text) {
@@ -116,21 +116,16 @@ std::string describe(const BlenderOptions& options) {
   return fmt::format("{} {} {}", find_blender(options), options.bake, exporter_number());
 }
 
-void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {
-  std::vector<std::string> words = {find_blender(options),
-                                    "--background",
-                                    "--factory-startup",
-                                    "--disable-autoexec",
-                                    "--python-exit-code",
-                                    "4",
-                                    "--python",
-                                    install_exporter(),
-                                    "--",
-                                    fs::absolute(scene).native(),
-                                    folder};
-  if (options.bake > 0) words.insert(words.end(), {"--bake", std::to_string(options.bake)});
+// Runs one of our scripts in Blender to its end. what: begins the message of an error.
+static void run_script(const BlenderOptions& options, const std::vector<std::string>& flags, const char* script,
+                       const std::vector<std::string>& arguments, const std::string& what) {
+  const fs::path path = fs::path(install_exporter()) / "omnistereo" / "bridge" / script;
+  std::vector<std::string> words = {find_blender(options), "--background", "--disable-autoexec"};
+  words.insert(words.end(), flags.begin(), flags.end());
+  words.insert(words.end(), {"--python-exit-code", "4", "--python", path.native(), "--"});
+  words.insert(words.end(), arguments.begin(), arguments.end());
   const std::optional<Spawned> program = spawn_for_this_thread(words);
-  if (!program) fail(scene, "Blender cannot be started");
+  if (!program) fail(what, "Blender cannot be started");
   Listener listener;
   const bool in_time = listen(program->from, options.seconds, listener);
   close(program->from);
@@ -138,14 +133,24 @@ void run_blender(const BlenderOptions& options, const std::string& scene, const 
   int status = 0;
   waitpid(program->process, &status, 0);
   if (!in_time) {
-    fail(scene,
-         fmt::format("Blender was not done after {:g} seconds (--blender-limit gives it more)", options.seconds));
+    fail(what, fmt::format("Blender was not done after {:g} seconds (--blender-limit gives it more)", options.seconds));
   }
-  if (!listener.error().empty()) fail(scene, listener.error());
-  if (listener.is_done() && fs::exists(fs::path(folder) / "bridge.json")) return;
+  if (!listener.error().empty()) fail(what, listener.error());
+  if (listener.is_done()) return;
   const std::string how = WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL
                               ? fmt::format("Blender crashed (signal {})", WTERMSIG(status))
                           : WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "Blender cannot be started"
                                                                             : "Blender ended before it was done";
-  fail(scene, listener.last().empty() ? how : fmt::format("{}; it said: {}", how, listener.last()));
+  fail(what, listener.last().empty() ? how : fmt::format("{}; it said: {}", how, listener.last()));
+}
+
+void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {
+  std::vector<std::string> arguments = {fs::absolute(scene).native(), folder};
+  if (options.bake > 0) arguments.insert(arguments.end(), {"--bake", std::to_string(options.bake)});
+  run_script(options, {"--factory-startup"}, "run.py", arguments, scene);
+  if (!fs::exists(fs::path(folder) / "bridge.json")) fail(scene, "Blender ended before it was done");
+}
+
+void install_add_on(const BlenderOptions& options) {
+  run_script(options, {}, "install.py", {own_program()}, "the add-on");
 }

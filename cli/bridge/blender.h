@@ -20,3 +20,6 @@ std::string find_blender(const BlenderOptions& options);
 // Leaves scene.glb, bridge.json and perhaps world.exr in the folder. Throws Error(kInput): Blender says why, fails,
 // ends early or takes too long.
 void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder);
+
+// Installs and enables our add-on in the user's Blender. Throws likewise.
+void install_add_on(const BlenderOptions& options);

@@ -10,7 +10,9 @@
 #include "cli/options/eye_options.h"
 #include "cli/options/field_option.h"
 #include "cli/options/projection_options.h"
+#include "ods/base/error.h"
 #include "ods/base/suggest.h"
+#include "ods/picture/metadata/stereo_format.h"
 #include "ods/scene/motion.h"
 #include "ods/stage/place.h"
 
@@ -88,6 +90,22 @@ void take_camera(CameraOptions& camera, const ForeignScene& scene) {
   camera.stereo.convergence_distance = own.convergence_distance;
   camera.stereo.top = own.top;
   camera.stereo.bottom = own.bottom;
+}
+
+void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender) {
+  std::vector<std::string> warnings;
+  StereoCamera own;
+  if (is_foreign_scene(path)) {
+    const ForeignScene scene = convert_foreign_scene(path, blender);
+    if (!scene.camera) throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' has no camera", path));
+    take_camera(camera, scene);
+    own = scene.camera->camera;
+  } else {
+    own = camera.stereo = ods::open_camera(path, warnings).camera;
+  }
+  for (const std::string& warning : warnings) note(warning);
+  camera.position = own.position;
+  camera.yaw = own.yaw, camera.pitch = own.pitch, camera.roll = own.roll;
 }
 
 void finish_camera_options(CameraOptions& camera, int width, int& height) {

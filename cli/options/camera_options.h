@@ -43,6 +43,9 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 // The lens, the tilt and, if it has any, the eyes of a foreign scene's camera. Its place is that of the view point.
 void take_camera(CameraOptions& camera, const ForeignScene& scene);
 
+// The camera, with its place, of a .blend (blender: what converts it), a .camera.json or a picture. Throws ods::Error.
+void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender);
+
 // Checks the options as a whole, reads the maps, and finds the height of the picture if it is 0. Throws UsageError
 // and ods::Error.
 void finish_camera_options(CameraOptions& camera, int width, int& height);

@@ -142,7 +142,7 @@ camera((0, 0, 0))
   // The judge is what Blender itself sees.
   const std::string script = R"(
 import bpy
-S = bpy.context.scene; S.cycles.samples = 1; S.cycles.device = 'CPU'
+S = bpy.context.scene; S.cycles.samples = 1; S.cycles.device = 'CPU'; S.cycles.use_denoising = False
 S.render.resolution_x = 64; S.render.resolution_y = 32; S.render.resolution_percentage = 100
 m = S.render.image_settings; m.file_format = 'OPEN_EXR'; m.color_depth = '32'; m.color_mode = 'RGB'
 S.render.filepath = ')" + folder_.path("own.exr") +
@@ -151,6 +151,7 @@ bpy.ops.render.render(write_still=True)
 )";
   folder_.write("own.py", script);
   const Ran ran = run_line("blender --background --factory-startup " + file + " --python " + folder_.path("own.py"));
+  ASSERT_TRUE(fs::exists(folder_.path("own.exr"))) << ran.out;
   const Image own = read_image(folder_.path("own.exr"));
   double most = 0.0;
   for (int y = 2; y < 30; y++) {
@@ -277,12 +278,13 @@ t.links.new(n.outputs['Fac'], t.nodes['Principled BSDF'].inputs['Base Color']); 
 // Neither a text that Blender registers, nor a driver's expression.
 TEST_F(Blender, RunsNoPythonOfTheFile) {
   const std::string mark = folder_.path("mark");
-  const std::string file = make(R"(
+  const std::string file = make("mark = '" + mark + R"py('
 text = bpy.data.texts.new('evil.py'); text.use_module = True
-text.write("open(')" + mark + R"(', 'w')") o = plane('thing', 1, (0, 0, 0), material('white')) d =
-      o.driver_add('location', 0).driver; d.type = 'SCRIPTED'
-d.expression = "__import__('os').system('touch )" + mark + R"(')"
-)");
+text.write("open('" + mark + "', 'w')")
+o = plane('thing', 1, (0, 0, 0), material('white'))
+d = o.driver_add('location', 0).driver; d.type = 'SCRIPTED'
+d.expression = "__import__('os').system('touch " + mark + "')"
+)py");
   fs::remove(mark);
   info(file);
   EXPECT_FALSE(fs::exists(mark));

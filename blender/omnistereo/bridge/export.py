@@ -115,7 +115,7 @@ def _nodes_by_mark(glb):
 
 
 def _materials(report, prepared, context, size):
-    computed, strengths, translucent = {}, {}, set()
+    computed, strengths, translucent, scales = {}, {}, set(), {}
     used = {s.material for o in prepared.objects if o.type in prepare.MESHES and not o.hide_render
             for s in o.material_slots if s.material}
     for material in sorted(used, key=lambda m: m.name):
@@ -142,6 +142,8 @@ def _materials(report, prepared, context, size):
         found = materials.source_of(materials.output_of(material.node_tree).inputs["Surface"])
         if found is None or found.node.type != "BSDF_PRINCIPLED":
             continue
+        if "ods_own" not in found.node:
+            scales[material.name] = materials.albedo_scale(found.node)
         emission = materials.strength_of(found.node)
         if emission is None:
             report.warn(f"material '{material.name}': the strength of its emission is computed by nodes")
@@ -149,7 +151,7 @@ def _materials(report, prepared, context, size):
             strengths[material.name] = emission
         if "ods_translucent" in material:
             translucent.add(material.name)
-    return strengths, translucent
+    return strengths, translucent, scales
 
 
 def _add_instances(glb, prepared, nodes):
@@ -229,7 +231,7 @@ def export_scene(context, folder, size=0, report=None):
     prepared = prepare.prepare(context, report)
     materials.name_missing_pictures(report)
     report.step("reading materials", 0.15)
-    strengths, translucent = _materials(report, prepared, context, size)
+    strengths, translucent, scales = _materials(report, prepared, context, size)
     report.step("exporting", 0.55)
     path = os.path.join(folder, "scene.glb")
     _run_exporter(path)
@@ -237,7 +239,7 @@ def export_scene(context, folder, size=0, report=None):
     glb = Glb(path)
     marks = _nodes_by_mark(glb)
     nodes = {prepared.objects[mark]: index for mark, index in marks.items()}
-    materials.finish_in_file(glb, strengths, translucent)
+    materials.finish_in_file(glb, strengths, translucent, scales)
     _add_unseen(glb, prepared, marks)
     lights.name_oddities({light for _, _, light, _ in prepared.lights}, report)
     lamps = [lights.add_light(glb, key, name, light, matrix, report) for key, name, light, matrix in prepared.lights]

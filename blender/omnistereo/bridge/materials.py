@@ -232,6 +232,8 @@ def simplify(material, report):
     node = look.node
     if node is None or look.values:
         fresh = tree.nodes.new("ShaderNodeBsdfPrincipled")
+        if look.node is None:
+            fresh["ods_own"] = 1  # it stands for other shaders
         for key in list(PLAIN) + ["normal"]:
             _set(tree, fresh, key, look.get(key))
         node = fresh
@@ -284,11 +286,36 @@ def name_missing_pictures(report):
         report.warn(f"the picture{'s' if len(missing) > 1 else ''} {some(missing)} cannot be found")
 
 
-def finish_in_file(glb, strengths, translucent):
-    """Emission as Cycles has it: by material name its strength, for those whose colour is a picture."""
+def albedo_scale(node):
+    """How much brighter the Principled BSDF of Blender 3.x scatters than glTF's materials of the same colour.
+
+    There the gloss lies on top of the diffuse part and takes nothing from it, and the diffuse part is Disney's. Fitted
+    to what a sphere in a white world sends back, of either renderer, at seven roughnesses (docs/blender.md): within one
+    percent.
+    """
+    if bpy.app.version >= (4, 0, 0):
+        return 1.0
+    values = {key: put(node, key) for key in ("roughness", "specular", "metallic", "transmission")}
+    if values["metallic"].is_linked or values["transmission"].is_linked:
+        return 1.0
+    roughness = 0.5 if values["roughness"].is_linked else values["roughness"].default_value
+    specular = 0.5 if values["specular"].is_linked else values["specular"].default_value
+    diffuse = (1 - values["metallic"].default_value) * (1 - values["transmission"].default_value)
+    scale = (0.955 + 0.11 * roughness) / (1 - (0.089 - 0.071 * roughness) * 2 * min(specular, 1.0))
+    return 1.0 + (scale - 1.0) * diffuse
+
+
+def finish_in_file(glb, strengths, translucent, scales):
+    """What the exporter does not know: by material name the emission's colour and strength, and albedo_scale()."""
     for material in glb.list("materials"):
         material["doubleSided"] = True
         name = material.get("name")
+        if abs(scales.get(name, 1.0) - 1.0) > 1e-3:
+            material.setdefault("extensions", {})["ODS_albedo"] = {"scale": round(scales[name], 4)}
+            glb.use("ODS_albedo")
+        coat = material.get("extensions", {}).get("KHR_materials_clearcoat")
+        if coat and bpy.app.version < (4, 0, 0):
+            coat["clearcoatFactor"] = 0.25 * coat.get("clearcoatFactor", 0.0)
         if name in translucent:
             glb.use("KHR_materials_diffuse_transmission")
             color = material.get("pbrMetallicRoughness", {}).get("baseColorFactor", [1, 1, 1, 1])[:3]

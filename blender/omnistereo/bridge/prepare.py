@@ -117,6 +117,13 @@ class Prepared:
         self.lights = []  # (key, name, datablock, matrix), key: the light's object, None: a copy
 
 
+def _mesh_of(source, depsgraph):
+    """What is scattered. Geometry nodes scatter meshes that are no object's; they are found at their scatterer."""
+    if source.type == "MESH":
+        return source.data.copy()
+    return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=True, depsgraph=depsgraph)
+
+
 def _collect_instances(depsgraph, shown, prepared, report):
     groups, meshes, strange = {}, {}, set()
     for each in depsgraph.object_instances:
@@ -135,7 +142,7 @@ def _collect_instances(depsgraph, shown, prepared, report):
             continue
         data = source.data.as_pointer()
         if data not in meshes:
-            meshes[data] = bpy.data.meshes.new_from_object(source, preserve_all_data_layers=True, depsgraph=depsgraph)
+            meshes[data] = _mesh_of(source, depsgraph)
         key = (data, parent.name_full)
         if key not in groups:
             prototype = bpy.data.objects.new(source.original.name, meshes[data])
@@ -146,6 +153,18 @@ def _collect_instances(depsgraph, shown, prepared, report):
     if strange:
         report.warn(f"scattered {some(sorted(strange))} do not come across")
     return list(groups.values())
+
+
+def _stop_scattering(groups, depsgraph):
+    """What we scatter ourselves the exporter must not scatter again. Called when no instance is read any more."""
+    for parent in {group.parent for group in groups}:
+        for system in parent.particle_systems:
+            system.settings.render_type = "NONE"
+        if parent.type == "MESH" and any(m.type == "NODES" for m in parent.modifiers) and not parent.library:
+            mesh = bpy.data.meshes.new_from_object(parent.evaluated_get(depsgraph), preserve_all_data_layers=True,
+                                                   depsgraph=depsgraph)
+            parent.modifiers.clear()
+            parent.data = mesh
 
 
 def prepare(context, report):
@@ -174,6 +193,7 @@ def prepare(context, report):
                 each.instance_type = "NONE"
         except (AttributeError, TypeError):
             pass  # of a library
+    _stop_scattering(prepared.instances, depsgraph)
     for group in prepared.instances:
         scene.collection.objects.link(group.prototype)
     for number, each in enumerate(scene.objects):

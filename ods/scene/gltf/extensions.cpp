@@ -79,6 +79,7 @@ static constexpr Extension kExtensions[] = {
     {"MSFT_packing_occlusionRoughnessMetallic", kNoEffect, "the same textures, packed otherwise"},
     {"MSFT_texture_dds", kFallback, "DDS pictures"},
     {"NV_materials_mdl", kFallback, "materials in MDL"},
+    {"ODS_albedo", kRendered, "base colours of Blender 3, beyond 1 where need be"},
     {"ODS_light_shape", kRendered, "lights that have a size, and cones as Cycles has them"},
     {"ODS_unseen", kRendered, "surfaces that the camera does not see, such as area lights"},
     {"OMI_collider", kNoEffect, "physics"},

@@ -288,6 +288,19 @@ TEST(Gltf, CamerasComeBackAsTheyWereSet) {
 
 // --- materials
 
+TEST(Gltf, AlbedoScales) {
+  for (const auto& [scale, expected] : {std::pair{1.25, 0.5f}, std::pair{-1.0, 0.0f}, std::pair{7.0, 0.8f}}) {
+    GltfBuilder file = make_triangle();
+    file.json["extensionsUsed"] = {"ODS_albedo"};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.4, 0.4, 0.4, 0.5}}}},
+                               {"extensions", {{"ODS_albedo", {{"scale", scale}}}}}}};
+    file.primitive()["material"] = 0;
+    const Scene scene = file.load();
+    EXPECT_FLOAT_EQ(scene.materials[0].base_color.x, expected);
+    EXPECT_EQ(scene.materials[0].base_color.w, 0.5f);
+  }
+}
+
 TEST(Gltf, DefaultMaterialIsGltfs) {
   const Scene scene = make_triangle().load();
   const Material& material = scene.materials[size_t(scene.meshes[0].material)];
