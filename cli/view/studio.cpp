@@ -76,7 +76,16 @@ Json controls_json(int kind) {
   if (ods::has_fov(kind)) json.push_back("fov");
   if (ods::has_lens(kind)) json.push_back("lens");
   if (kind == ods::kPerspective) json.push_back("aspect");
+  if (kind == ods::kFisheyePolynomial) json.push_back("polynomial");
   return json;
+}
+
+// The usual lens of a fisheye-polynomial, as a sidecar says it.
+Json polynomial_lens_json() {
+  ods::Sidecar usual;
+  usual.camera.projection = ods::find_projection("fisheye-polynomial")->setting;
+  const Json projection = Json::parse(write_sidecar(usual)).at("projection");
+  return {{"sensor", projection.at("sensor")}, {"polynomial", projection.at("polynomial")}};
 }
 
 Json ranges_json() {
@@ -159,6 +168,7 @@ Json Studio::description() const {
                {"merges", ods::names_of(ods::kMergeTable)},
                {"convergences", ods::names_of(ods::kConvergenceTable)},
                {"projections", Json::array()},
+               {"polynomial_lens", polynomial_lens_json()},
                {"tones", ods::names_of(ods::kToneCurveTable)},
                {"envs", kEnvironments},
                {"qualities", kQualities},

@@ -149,7 +149,7 @@ TEST_F(Farm, FramesAndViewsAreShared) {
             0)
       << err;
   run_all(json::parse(folder.read("views/0007/frames.farm/plan.json")));
-  ASSERT_EQ(run("submit -q --to deadline --chunk 1 -- stitch " + folder.path("rig.json") + " " +
+  ASSERT_EQ(run("submit -q --to opencue --chunk 1 -- stitch " + folder.path("rig.json") + " " +
                 folder.path("views/####/####.exr") + " --frames 7-7 -o " + folder.path("st.####.exr")),
             0)
       << err;
@@ -204,7 +204,7 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
   ASSERT_EQ(run("submit -q --to flamenco -- lint " + folder.path("a.png") + " --layout top-bottom"), 0) << err;
   const std::vector<std::string> lint = {"lint", folder.path("a.png"), "--layout", "top-bottom"};
   EXPECT_EQ(plan("a")["groups"][0]["command"], lint);
-  for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes", "deadline"}) {
+  for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes"}) {
     const std::string convert = "-- convert " + folder.path("in.exr") + " --to cube-3x2 -o " + folder.path(to + ".png");
     ASSERT_EQ(run("submit -q --cpus 2 --mount / --to " + to + " " + convert), 0) << err;
     EXPECT_EQ(plan(to)["groups"].size(), 1u);
@@ -317,7 +317,7 @@ TEST_F(Farm, ATaskLooksAtItsOwnFramesOnly) {
 }
 
 TEST_F(Farm, DryRunsWriteNothing) {
-  for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes", "deadline"}) {
+  for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes"}) {
     ASSERT_EQ(
         run(fmt::format("submit --to {} --cpus 2 --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
                         video())),
