@@ -17,6 +17,7 @@
 #include "ods/base/suggest.h"
 
 // One a file, in the folders beside this one.
+int ods_blender(int argc, char** argv);
 int ods_camera(int argc, char** argv);
 int ods_compare(int argc, char** argv);
 int ods_convert(int argc, char** argv);
@@ -58,12 +59,13 @@ constexpr Command kCommands[] = {
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"submit", "send a command to a render farm, split into tasks", ods_submit},
-    {"jobs", "show how what was sent to Slurm gets on", ods_jobs},
+    {"jobs", "show the progress of Slurm jobs", ods_jobs},
     {"title", "make a title with depth for stereo 360", ods_title},
     {"over", "composite a picture or video over another", ods_over},
     {"rig", "plan perspective cameras for other renderers", ods_rig},
     {"stitch", "combine the views of those cameras into a picture", ods_stitch},
     {"info", "show what is in a scene", ods_info},
+    {"blender", "install the add-on for Blender", ods_blender},
     {"camera", "export a camera to another renderer", ods_camera},
     {"project", "project world points into each eye's picture", ods_project},
     {"compare", "measure the difference between two pictures", ods_compare},

@@ -91,11 +91,8 @@ export function groupsOf(view) {
   ];
 }
 
-// What a row's shown number may be: the server's range where it has one of the camera's names for the value
-// (ods/camera/camera_fields.cpp).
+// What a row's shown number may be: the server's range of the camera's number at this place in a sidecar, if it is one.
 export function limitsOf(ranges, { path, range, scale = 1 }) {
-  const name = path.replace(/^sidecar\.(projection\.)?/, '').replace(/^merge_(top|bottom)/, 'merge').replace('lens.focus_distance', 'focus distance')
-    .replace(/^polynomial/, 'lens polynomial')
-    .replace(/\.\d$/, '').replace('.', ' ');
-  return ranges?.[name]?.slice(0, 2).map((value) => value * scale) ?? range;
+  const place = path.replace(/^sidecar\./, '').replace(/\.\d$/, '');
+  return ranges?.[place]?.map((value) => value * scale) ?? range;
 }

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "cli/farm/programs.h"
+#include "cli/console/programs.h"
 
 namespace {
 

@@ -66,7 +66,7 @@ class Arguments {
 
 // The files of the scene beside it, which have to be there, too.
 void add_scene_files(SplitCommand& split, const SceneSource& scene) {
-  if (ods::find_builtin(scene.name)) return;
+  if (ods::find_builtin(scene.name) || scene.foreign) return;
   const fs::path folder = fs::absolute(scene.name).lexically_normal().parent_path();
   std::vector<ods::PlanPath> files;
   for (const std::string& file : ods::gltf_files(scene.name, confining_folder(scene))) {

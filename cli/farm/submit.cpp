@@ -12,7 +12,7 @@
 #include "cli/farm/copy_inputs.h"
 #include "cli/farm/finished.h"
 #include "cli/farm/job_summary.h"
-#include "cli/farm/programs.h"
+#include "cli/console/programs.h"
 #include "cli/farm/queue.h"
 #include "cli/farm/submit_job.h"
 #include "ods/base/quote.h"

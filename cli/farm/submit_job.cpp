@@ -11,7 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/console/spawn.h"
-#include "cli/farm/programs.h"
+#include "cli/console/programs.h"
 #include "ods/base/quote.h"
 #include "ods/files/atomic_file.h"
 

@@ -10,8 +10,11 @@
 #include "cli/options/eye_options.h"
 #include "cli/options/field_option.h"
 #include "cli/options/projection_options.h"
+#include "ods/base/error.h"
 #include "ods/base/suggest.h"
+#include "ods/picture/metadata/stereo_format.h"
 #include "ods/scene/motion.h"
+#include "ods/stage/place.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
 
@@ -57,8 +60,10 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
 
 void add_place_options(Options& options, CameraOptions& camera) {
   options.group("Camera");
-  options.text("--camera", "NAME", camera.view_point,
-               "a camera in the file (ods info lists them); by default the first");
+  options.text(
+      "--camera", "NAME", camera.view_point,
+      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
+      "a speck");
   add_position_option(options, camera);
 }
 
@@ -73,13 +78,44 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
   add_attitude_options(options, camera);
 }
 
+void take_camera(CameraOptions& camera, const ForeignScene& scene) {
+  if (!scene.camera) return;
+  const StereoCamera& own = scene.camera->camera;
+  camera.stereo.projection = own.projection;
+  if (own.pitch != 0.0f) camera.pitch = own.pitch;
+  if (own.roll != 0.0f) camera.roll = own.roll;
+  if (!scene.has_stereo) return;
+  camera.stereo.ipd = own.ipd;
+  camera.stereo.convergence = own.convergence;
+  camera.stereo.convergence_distance = own.convergence_distance;
+  camera.stereo.top = own.top;
+  camera.stereo.bottom = own.bottom;
+}
+
+void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender) {
+  std::vector<std::string> warnings;
+  StereoCamera own;
+  if (is_foreign_scene(path)) {
+    const ForeignScene scene = convert_foreign_scene(path, blender);
+    if (!scene.camera) throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' has no camera", path));
+    take_camera(camera, scene);
+    own = scene.camera->camera;
+  } else {
+    own = camera.stereo = ods::open_camera(path, warnings).camera;
+  }
+  for (const std::string& warning : warnings) note(warning);
+  camera.position = own.position;
+  camera.yaw = own.yaw, camera.pitch = own.pitch, camera.roll = own.roll;
+}
+
 void finish_camera_options(CameraOptions& camera, int width, int& height) {
   finish_eye_options(camera);
   finish_projection(camera.stereo.projection, width, height);
 }
 
 static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
-  return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  return is_named ? find_view_point(scene, camera.view_point) : ods::default_view(scene);
 }
 
 StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
@@ -95,15 +131,17 @@ StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene)
 }
 
 bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
-  if (scene.view_points.empty() || (camera.position && camera.yaw)) return false;
-  if (camera.view_point.empty()) return moves_view(scene.animation, 0);
+  if (camera.position && camera.yaw) return false;
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  if (!is_named) return uses_own_camera(scene) && moves_view(scene.animation, 0);
   const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
   return moves_view(scene.animation, static_cast<int>(index));
 }
 
 void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
   const ViewPoint view = chosen_view(camera, scene);
-  std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
+  const bool is_ours = ods::camera_choice(camera.view_point) != ods::CameraChoice::kNamed && !uses_own_camera(scene);
+  std::string from = is_ours ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
   note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", stereo.position.x, stereo.position.y,
                    stereo.position.z, stereo.yaw, from));

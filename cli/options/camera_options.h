@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/scene/scene.h"
@@ -38,6 +39,12 @@ void add_place_options(Options& options, CameraOptions& camera);
 void add_camera_options(Options& options, CameraOptions& camera);
 // Likewise without --camera, where no scene could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
+
+// The lens, the tilt and, if it has any, the eyes of a foreign scene's camera. Its place is that of the view point.
+void take_camera(CameraOptions& camera, const ForeignScene& scene);
+
+// The camera, with its place, of a .blend (blender: what converts it), a .camera.json or a picture. Throws ods::Error.
+void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender);
 
 // Checks the options as a whole, reads the maps, and finds the height of the picture if it is 0. Throws UsageError
 // and ods::Error.

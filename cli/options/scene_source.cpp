@@ -32,6 +32,16 @@ static void add_unit_option(Options& options, SceneSource& source) {
       "nothing that people meet has that size");
 }
 
+static void add_shape_options(Options& options, SceneSource& source) {
+  add_unit_option(options, source);
+  options.choice("--as", source.taken_for, ods::kTakenForTable,
+                 "what the scene is: an object is looked at from outside, in a place the viewer stands. auto: found by "
+                 "rays");
+  options.choice(
+      "--up", source.up, ods::kUpAxisTable,
+      "the axis of the file that points up. auto: y, as glTF has it, unless things stand on a floor along z");
+}
+
 // None: auto.
 static std::optional<float> parse_unit(const std::string& word) {
   if (word == "auto") return std::nullopt;
@@ -47,25 +57,43 @@ static ValueKind scene_kind() {
   return ValueKind::input_file("SCENE", [](const std::string& name) { return !ods::find_builtin(name); });
 }
 
-void add_scene_argument(Options& options, SceneSource& source) {
-  options.argument(scene_kind(), source.name, "a .glb or .gltf file, or a built-in scene (ods scenes lists them)");
-  options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
+static void add_blender_options(Options& options, SceneSource& source) {
+  options.text("--blender", "PROGRAM", source.blender.program,
+               "the Blender that converts .blend files and those of other programs; by default as PATH finds it");
+  options.number("--bake", source.blender.bake, 0, 8192,
+                 "with these: make pictures, this many pixels wide, of what materials compute by nodes");
+  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f, "seconds after which Blender must be done");
+}
+
+void add_scene_argument(Options& options, SceneSource& source,
+                        const std::function<void(const ForeignScene&)>& foreign) {
   options.group("Scene");
+  add_blender_options(options, source);
+  add_confine_option(options, source);
+  options.argument(
+      scene_kind(),
+      [&source, foreign](const std::string& name) {
+        source.name = name;
+        read_foreign(source);
+        if (source.foreign && foreign) foreign(*source.foreign);
+      },
+      "a .glb or .gltf file, a file of Blender (.blend) or one that it reads (.fbx, .obj, .usd, ...), or a built-in "
+      "scene (ods scenes lists them)");
+  options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.number("--scene", source.scene, 0, 1000000,
                  "number of the scene in the file, counted from 0; by default the file's default scene");
   options.text("--variant", "NAME", source.variant,
                "which of the file's material variants to show (ods info lists them); by default its first choice");
   options.flag("--solid-glass", source.solid_glass,
                "make closed meshes of glass refract that have no volume in the file, as those of Blender");
-  add_unit_option(options, source);
-  add_confine_option(options, source);
+  add_shape_options(options, source);
   options.flag("--portable", source.portable,
                "trace rays alike on every processor: nearly the same bits on all of them, and slower");
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
   options.text("--scene", scene_kind(), source.name, help);
-  add_unit_option(options, source);
+  add_shape_options(options, source);
   add_confine_option(options, source);
 }
 
@@ -78,6 +106,15 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   const size_t kMax = 12;
   const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMax));
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
+}
+
+void read_foreign(SceneSource& source) {
+  if (source.foreign || ods::find_builtin(source.name) || !is_foreign_scene(source.name)) return;
+  if (!source.confine.empty()) {
+    throw UsageError(
+        fmt::format("--confine does not hold for '{}': Blender reads all files that it names", source.name));
+  }
+  source.foreign = convert_foreign_scene(source.name, source.blender);
 }
 
 std::string confining_folder(const SceneSource& source) {
@@ -97,25 +134,63 @@ static std::string unit_word(float metres) {
 
 // Built-in scenes are in metres and have a view point.
 static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result, const ods::LookAround& look) {
-  const std::optional<float> unit = parse_unit(source.unit);
+  std::optional<float> unit = parse_unit(source.unit);
+  if (!unit && source.foreign && source.foreign->is_blender_file) unit = 1.0f;
   if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
-  const ods::Settled settled = ods::settle(scene, unit, !source.has_places, look);
+  const ods::SettleOptions options{unit, !source.has_places, source.taken_for, ods::camera_choice(source.camera)};
+  const ods::Settled settled = ods::settle(scene, options, look);
   if (result) *result = settled;
-  if (settled.unit_reason.empty()) return;
-  note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));
+  if (!settled.camera_reason.empty()) {
+    note(fmt::format("{}: it is not used (--camera '{}' uses it)", settled.camera_reason,
+                     scene.view_points.front().name));
+  }
+  if (!settled.unit_reason.empty()) {
+    note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason,
+                     unit_word(settled.metres_per_unit)));
+  }
+  if (settled.doubted) note(settle_doubt(settled.kind));
 }
 
-Scene open_scene(const SceneSource& source, ods::Settled* settled, const ods::LookAround& look) {
-  Scene scene = ods::load_scene(
-      source.name,
-      {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
+// The scene as --up has it.
+static Scene load_upright(const SceneSource& source) {
+  const std::string& file = source.foreign ? source.foreign->file : source.name;
+  ods::SceneOptions options{
+      .scene = source.scene.value_or(-1),
+      .confine = source.foreign ? "" : confining_folder(source),
+      .variant = source.variant,
+      .camera = ods::camera_choice(source.camera) == ods::CameraChoice::kNamed ? source.camera : "",
+      .z_up = source.up == ods::UpAxis::kZ};
+  Scene scene = ods::load_scene(file, options);
+  const bool is_upright = ods::find_builtin(source.name) || (source.foreign && source.foreign->is_blender_file);
+  if (source.up != ods::UpAxis::kAuto || is_upright || !ods::lies_on_its_back(scene)) return scene;
+  note("things in the file stand on a floor along its z axis: z is taken for up (--up z; --up y keeps it)");
+  options.z_up = true;
+  return ods::load_scene(file, options);
+}
+
+// Of a scene of another program, what Cycles sees in it: all closed glass is solid.
+static Scene load(const SceneSource& source) {
+  Scene scene = load_upright(source);
+  if (!source.foreign) return scene;
+  const ForeignScene& foreign = *source.foreign;
+  scene.name = std::filesystem::path(source.name).stem().string();
+  scene.warnings.insert(scene.warnings.begin(), foreign.warnings.begin(), foreign.warnings.end());
+  if (foreign.is_blender_file) make_glass_solid(scene);
+  return scene;
+}
+
+Scene open_scene(const SceneSource& given, ods::Settled* settled, const ods::LookAround& look) {
+  SceneSource source = given;
+  read_foreign(source);
+  Scene scene = load(source);
   scene.portable = source.portable;
   for (const std::string& name : source.catchers) {
     if (make_catchers(scene, name)) continue;
     throw UsageError(
         fmt::format("--shadow-catcher: nothing in the scene is called '{}'{}", name, suggestion(scene, name)));
   }
-  if (source.solid_glass && make_glass_solid(scene) == 0) {
+  const bool is_solid = source.foreign && source.foreign->is_blender_file;
+  if (source.solid_glass && !is_solid && make_glass_solid(scene) == 0) {
     note("--solid-glass changes nothing: no closed mesh has glass without a volume");
   }
   settle_scene(scene, source, settled, look);
@@ -147,7 +222,10 @@ static void note_sheet_glass(const Scene& scene) {
                   others == 0 ? " is" : fmt::format(" and {} other material{} are", others, others == 1 ? "" : "s")));
 }
 
-Scene open_lit_scene(const SceneSource& source, bool transparent) {
+Scene open_lit_scene(const SceneSource& given, bool transparent) {
+  SceneSource source = given;
+  read_foreign(source);
+  if (source.foreign && source.light.environment.empty()) source.light.environment = source.foreign->environment;
   const std::string confined_to = confining_folder(source);
   const ods::LightWishes wishes = read_wishes(source.light, transparent, confined_to);
   PlannedLight planned;

@@ -3,14 +3,17 @@
 //
 // The options that choose a scene and its light, shared by the commands that read one.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
 #include "cli/options/light_options.h"
 #include "ods/scene/scene.h"
 #include "ods/stage/place.h"
+#include "ods/stage/upright.h"
 
 struct SceneSource {
   std::string name;          // a file or a built-in scene
@@ -22,12 +25,24 @@ struct SceneSource {
   bool solid_glass = false;
   bool portable = false;
   std::string unit = "auto";
+  BlenderOptions blender;
+  std::optional<ForeignScene> foreign;  // what became of the scene of another program: read_foreign()
+  ods::TakenFor taken_for = ods::TakenFor::kAuto;
+  ods::UpAxis up = ods::UpAxis::kAuto;
+  std::string camera;       // as CameraOptions::view_point
   bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 
-void add_scene_argument(Options& options, SceneSource& source);
+// A scene of another program is converted as soon as it is read from the command line; `foreign` is then called, and
+// options that are added later change what that sets.
+void add_scene_argument(Options& options, SceneSource& source,
+                        const std::function<void(const ForeignScene&)>& foreign = {});
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
+
+// Has a scene of another program converted, if it is one and that has not happened. Throws UsageError, and as
+// convert_foreign_scene().
+void read_foreign(SceneSource& source);
 
 // The folder of --confine with links resolved; empty if the option was not given. Throws Error(kInput) if there is no
 // such folder.

@@ -146,7 +146,7 @@ void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& sce
   const bool timed = time.time || asks_for_video(time);
   const std::vector<std::string> names = ods::names_of(animation.clips);
   if (!timed && time.animation.empty()) {
-    if (!names.empty()) note("the scene stands at rest; --time SECONDS or --frames LIST plays its animation");
+    if (!names.empty()) note("rendering the rest pose; --time SECONDS or --frames LIST plays the animation");
     return;
   }
   if (!time.animation.empty() && names.empty()) throw UsageError("--animation: the scene has none");

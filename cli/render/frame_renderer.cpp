@@ -62,7 +62,9 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
 // Warns about a camera that the user or the file has placed where there is nothing to see. Where it stands by our own
 // choice it is in free space.
 void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
-  const bool own_choice = !job.camera.position && scene.view_points.empty();
+  const bool own_choice = !job.camera.position &&
+                          ods::camera_choice(job.camera.view_point) != ods::CameraChoice::kNamed &&
+                          !uses_own_camera(scene);
   const bool made_for_it = !job.camera.position && ods::find_builtin(job.scene.name);
   if (own_choice || made_for_it) return;
   const std::string fault = ods::view_fault(ods::SceneRays(scene), eye);

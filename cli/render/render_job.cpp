@@ -105,6 +105,19 @@ void check_rig(const Options& options, const RenderJob& job) {
 
 }  // namespace
 
+void add_camera_from_option(Options& options, RenderJob& job) {
+  options.group("Camera");
+  options.custom(
+      "--camera-from", ValueKind::input_file(), "",
+      [&](const std::string& path) { take_camera_file(job.camera, path, job.scene.blender); },
+      "take the camera, its place too, from a .blend, a .camera.json or a picture that carries it");
+}
+
+void take_foreign(RenderJob& job, const ForeignScene& scene) {
+  take_camera(job.camera, scene);
+  if (scene.fps) job.time.fps = *scene.fps;
+}
+
 void add_exposure_option(Options& options, RenderJob& job) {
   options.custom(
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
@@ -133,6 +146,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
   if (job.exposure) job.exposure = brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
+  job.scene.camera = job.camera.view_point;
   finish_quality(options, quality, job);
   job.has_layout = options.given("--layout") || options.given("--size");
   finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);
@@ -142,9 +156,10 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
 bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   Quality quality;
   Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
-  add_scene_argument(options, job.scene);
+  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_foreign(job, scene); });
   add_light_options(options, job.scene.light);
   add_picture_options(options, job);
+  add_camera_from_option(options, job);
   add_camera_options(options, job.camera);
   add_time_options(options, job.time);
   add_quality_options(options, job, quality);

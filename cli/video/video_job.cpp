@@ -28,7 +28,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   RenderJob& render = job.render;
   Quality quality;
   Options options("video", kSummary, kExamples);
-  add_scene_argument(options, render.scene);
+  add_scene_argument(options, render.scene, [&](const ForeignScene& scene) { take_foreign(render, scene); });
   add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
   options.text("--rig", ValueKind::input_file(), job.rig,
@@ -45,6 +45,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   add_picture_options(options, render.render, render.save);
   add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
+  add_camera_from_option(options, render);
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);

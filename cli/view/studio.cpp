@@ -90,9 +90,8 @@ Json polynomial_lens_json() {
 
 Json ranges_json() {
   Json json = Json::object();
-  for (const ods::CameraField field : ods::kCameraFields) {
-    const ods::FieldRange range = ods::range_of(field);
-    json[std::string(ods::field_name(field))] = {range.least, range.most};
+  for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+    json[std::string(row.place)] = {row.range.least, row.range.most};
   }
   return json;
 }
@@ -110,7 +109,9 @@ Studio::Studio(const SceneSource& source, std::function<size_t(const std::string
 
 Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& scene) {
   Settings settings;
-  settings.sidecar.camera = place_camera(CameraOptions(), scene);
+  CameraOptions camera;
+  if (source.foreign) take_camera(camera, *source.foreign);
+  settings.sidecar.camera = place_camera(camera, scene);
   settings.live.camera = settings.sidecar.camera;
   settings.live.exposure = usual_exposure(scene, settings.live.camera, ods::find_builtin(source.name) != nullptr);
   settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;

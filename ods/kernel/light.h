@@ -52,6 +52,21 @@ inline float punctual_falloff(float distance, float range) {
   return inverse_square * clamp(1.0f - share2 * share2, 0.0f, 1.0f);
 }
 
+// How much of a spot's light goes in a direction: the cosine of its angle from the axis.
+inline float cone_falloff(Light light, float cosine) {
+  float t = clamp(cosine * light.cone_scale + light.cone_offset, 0.0f, 1.0f);
+  float share = light.cone == kConeSquare ? t * t : t * t * (3.0f - 2.0f * t);
+  return light.cone == kConeSmoothCosine ? share * cosine : share;
+}
+
+// A direction in a cone around an axis, uniform in solid angle. cosine: of the cone's half angle.
+inline vec3 direction_in_cone(vec3 axis, float cosine, vec2 uv) {
+  float z = 1.0f - uv.x * (1.0f - cosine);
+  float r = sqrt(max(1.0f - z * z, 0.0f));
+  float phi = 2.0f * kPi * uv.y;
+  return from_frame(frame_around(axis), vec3(r * cos(phi), r * sin(phi), z));
+}
+
 #ifdef __cplusplus
 struct LightSampler : BsdfEvaluator {
 #endif
@@ -216,24 +231,40 @@ struct LightSampler : BsdfEvaluator {
     return result;
   }
 
-  inline LightSample sample_punctual(Light light, vec3 from) {
+  // A light with a size is a sphere of even radiance, or a disc in the sky. Its solid angle times its radiance is what
+  // it would bring as a point, times 2 / (1 + cosine of its half angle).
+  inline LightSample sample_punctual(Light light, vec3 from, vec2 uv) {
     LightSample result = no_light();
     result.valid = true;
     result.distance = kFarAway;
     result.direction = -light.direction;
     result.end = light.position;
-    result.radiance = light.intensity;
-    if (light.kind != kLightDirectional) {
-      vec3 to_light = light.position - from;
-      result.distance = length(to_light);
-      result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
-      result.radiance = light.intensity * punctual_falloff(result.distance, light.range);
-      if (light.kind == kLightSpot) {
-        float cone = clamp(-dot(result.direction, light.direction) * light.cone_scale + light.cone_offset, 0.0f, 1.0f);
-        result.radiance = result.radiance * (cone * cone);
-      }
+    result.radiance = light.intensity * (1.0f / light.probability);
+    if (light.kind == kLightDirectional) {
+      if (light.size <= 0.0f) return result;
+      float cosine = cos(light.size);
+      result.direction = direction_in_cone(result.direction, cosine, uv);
+      result.radiance = result.radiance * (2.0f / (1.0f + cosine));
+      return result;
     }
-    result.radiance = result.radiance * (1.0f / light.probability);
+    vec3 to_light = light.position - from;
+    result.distance = length(to_light);
+    result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
+    result.radiance = result.radiance * punctual_falloff(result.distance, light.range);
+    if (light.size > 0.0f) {
+      float sine = min(light.size / max(result.distance, 1e-20f), 1.0f);
+      float cosine = sqrt(1.0f - sine * sine);
+      vec3 axis = result.direction;
+      result.direction = direction_in_cone(axis, cosine, uv);
+      result.radiance = result.radiance * (2.0f / (1.0f + cosine));
+      float along = dot(axis, result.direction);
+      float half_chord = sqrt(max(sine * sine + along * along - 1.0f, 0.0f));
+      result.distance = result.distance * max(along - half_chord, 0.0f);
+      result.end = from + result.direction * result.distance;
+    }
+    if (light.kind == kLightSpot) {
+      result.radiance = result.radiance * cone_falloff(light, -dot(result.direction, light.direction));
+    }
     return result;
   }
 
@@ -281,7 +312,7 @@ struct LightSampler : BsdfEvaluator {
     Light light = scene_light(pick.y < slot.threshold ? slot.light : slot.alias);
     if (light.kind == kLightTriangle) return sample_triangle(light, from, uv);
     if (light.kind == kLightEnvironment) return sample_environment(from, cell, uv);
-    return sample_punctual(light, from);
+    return sample_punctual(light, from, uv);
   }
 
 #ifdef __cplusplus

@@ -196,8 +196,8 @@ struct PathTracer : LightCacheReader {
     if (path.bounce == 0) path.depth = path.travelled + t;
     path.normal = fades ? 0.01f * surface.normal : surface.normal;
     path.albedo = vec3(0.0f);
-    path.mirrored = !fades && !surface.layered && surface.metallic > 0.9f &&
-                    surface.roughness * surface.roughness < kSmoothAlpha;
+    path.mirrored =
+        !fades && !surface.layered && surface.metallic > 0.9f && surface.roughness * surface.roughness < kSmoothAlpha;
     if (fades) return;
     path.albedo = surface.layered ? albedo_of_layers(surface, path.ray.direction) : surface.base_color;
     if (path.bounce + path.passed > 0) path.albedo = path.albedo * min(path.throughput, vec3(1.0f));
@@ -280,6 +280,26 @@ struct PathTracer : LightCacheReader {
     path.vertex_radiance = path.radiance;
   }
 
+  // The light that a surface sends back along the path's ray, less what its coat keeps.
+  inline vec3 emission_seen(Surface surface, Hit hit) {
+    if (!surface.layered) return surface.emission;
+    Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
+    float cosine = abs(dot(surface.geometric, path.ray.direction));
+    return surface.emission * emission_below_coat(material, corners_of(hit), cosine);
+  }
+
+  // The path goes on straight behind a lamp of the role kPureLight. A shadow ray could have found what it meets there.
+  inline void pass_pure_light(Surface surface, Hit hit, PathSettings settings) {
+    path.throughput = path.throughput * medium_transmittance(current_medium(path.media), hit.t);
+    if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
+      if (path.mirrored) note_hit(surface, hit.t, false);
+      path.mirrored = false;
+      float light_pdf = hit_light_pdf(hit, path.ray.direction, path.travelled + hit.t);
+      meet_light(settings, emission_seen(surface, hit), light_pdf);
+    }
+    go_on(surface, hit.t);
+  }
+
   inline void shade(Hit hit, PathSettings settings) {
     path.shadow_pending = false;
     path.vertex_bounce = -1;
@@ -297,6 +317,10 @@ struct PathTracer : LightCacheReader {
     bool reduced = path.pdf > 0.0f && path.pdf < kBroadPdf;
     Surface surface = surface_at(hit, path.ray.direction, reduced);
     if (surface.layered) read_layers(hit, surface, path.ray.direction, reduced);
+    if (scene_instance(hit.instance).role == kPureLight) {
+      pass_pure_light(surface, hit, settings);
+      return;
+    }
 
     // glTF culls the backs of single-sided surfaces: the camera sees through them, light does not.
     bool volume = surface.volume;
@@ -321,11 +345,7 @@ struct PathTracer : LightCacheReader {
     bool unlit = scene_material(material_index).unlit == 1;
     if (!unlit && surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
       float distance = path.travelled + hit.t;
-      if (surface.layered) {
-        float cosine = abs(dot(surface.geometric, path.ray.direction));
-        surface.emission =
-            surface.emission * emission_below_coat(scene_material(material_index), corners_of(hit), cosine);
-      }
+      surface.emission = emission_seen(surface, hit);
       if (path.bounce == 0 && scene_instance(hit.instance).role == kDimmedLamp)
         surface.emission = dimmed(surface.emission);
       meet_light(settings, surface.emission, hit_light_pdf(hit, path.ray.direction, distance));

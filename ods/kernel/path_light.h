@@ -83,7 +83,7 @@ struct PathState {
 
   // The first hit, for the layers beside the picture.
   bool mirrored;  // the path has met mirrors only
-  float depth;  // along the camera ray from its own origin; negative: the ray hit nothing
+  float depth;    // along the camera ray from its own origin; negative: the ray hit nothing
   vec3 normal;
   vec3 albedo;
 };
@@ -161,6 +161,15 @@ struct PathLight : MediumReader {
     if (ray == kHalfAlphaRay) return 0.5f;
     uint key = hash_pair(hash_pair(path.seed, path.index), path_place() * 2u + uint(ray));
     return unit_float(hash_pair(key, hash_pair(uint(hit.instance), uint(hit.triangle))));
+  }
+
+  // Whether an instance is not there for a ray of the path. Every device calls this at each candidate hit of an
+  // instance of these two roles.
+  inline bool is_absent(int ray, int instance) {
+    int role = scene_instance(instance).role;
+    bool of_camera = ray != kShadowRay && path.bounce == 0;
+    if (role == kPureLight) return ray != kPathRay || of_camera || path.caught;
+    return role == kUnseen && of_camera;
   }
 
   // Weight of light that was found with pdf a and could also have been found with pdf b.

@@ -33,6 +33,8 @@ const int kOrdinary = 0;
 const int kCatcher = 1;       // invisible except for the shadows that others cast on it (ods/kernel/path.h)
 const int kFadingGround = 2;  // as the background, it has no albedo in layers and hardly a normal
 const int kDimmedLamp = 3;    // is seen no brighter than kSeenLamp
+const int kUnseen = 4;        // the camera looks through it
+const int kPureLight = 5;     // the camera looks through it, and all light passes it: it only shines
 
 // A mesh placed in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
 struct Instance {
@@ -158,6 +160,11 @@ const int kLightSpot = 2;
 const int kLightDirectional = 3;
 const int kLightEnvironment = 4;
 
+// How a spot fades from its inner to its outer cone; t goes from 0 at the outer one to 1, linear in the cosine.
+const int kConeSquare = 0;        // t^2, as KHR_lights_punctual suggests
+const int kConeSmooth = 1;        // t^2 (3 - 2 t), as Cycles has it
+const int kConeSmoothCosine = 2;  // times the cosine of the angle from the axis: Cycles up to Blender 3.4
+
 // One entry of Walker's alias table: a slot is picked uniformly, then kept with probability `threshold`; otherwise its
 // alias is taken.
 struct AliasEntry {
@@ -174,8 +181,10 @@ struct Light {
   vec3 direction;     // spot, directional: unit vector along which the light shines
   vec3 intensity;     // point, spot: W/sr (glTF: cd); directional: W/m2 (glTF: lux)
   float range;        // point, spot: metres; <= 0: unlimited
-  float cone_scale;   // spot: clamp(cos * scale + offset, 0, 1) squared fades from inner to outer cone
+  float cone_scale;   // spot: t = clamp(cos * scale + offset, 0, 1) fades from inner to outer cone
   float cone_offset;  //
+  int cone;           //       kConeSquare, ...
+  float size;  // point, spot: radius of a sphere, metres; directional: half of its angle, radians. No ray hits it
   float probability;  // of picking this light
 };
 
@@ -195,7 +204,7 @@ struct EnvironmentTexel {
 // A rectangle through which a room sees the environment, such as a window pane: corner + u * along + v * across.
 struct Portal {
   vec3 corner;
-  vec3 along;   // at right angles to across
+  vec3 along;  // at right angles to across
   vec3 across;
 };
 
@@ -226,7 +235,7 @@ struct Hit {
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 72 && sizeof(Mesh) == 24 && sizeof(Instance) == 64 && sizeof(Texture) == 32);
-static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 64);
+static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Light) == 72);
 static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 28 && sizeof(Hit) == 20);
 static_assert(sizeof(CacheCell) == 20 && sizeof(Portal) == 36);

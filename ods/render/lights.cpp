@@ -84,6 +84,8 @@ static Light make_punctual(const PunctualLight& source) {
   const float inner = std::cos(source.inner_cone), outer = std::cos(source.outer_cone);
   light.cone_scale = 1.0f / std::max(0.001f, inner - outer);
   light.cone_offset = -outer * light.cone_scale;
+  light.cone = source.cone;
+  light.size = source.size;
   return light;
 }
 

@@ -131,8 +131,8 @@ Bounds scene_bounds(const Scene& scene) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   Bounds bounds{vec3(kFar), vec3(-kFar)};
   for (size_t k = 0; k < scene.instances.size(); k++) {
-    if (is_hidden(scene, k)) continue;
     const Instance& instance = scene.instances[k];
+    if (is_hidden(scene, k) || instance.role == kPureLight) continue;
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     for (uint i = 0; i < mesh.vertex_count; i++) {
       const vec4 p(scene.vertices[mesh.first_vertex + i].position, 1.0f);
@@ -143,8 +143,12 @@ Bounds scene_bounds(const Scene& scene) {
   return bounds.low.x <= bounds.high.x ? bounds : Bounds();
 }
 
+bool uses_own_camera(const Scene& scene) {
+  return !scene.view_points.empty() && !(scene.viewing && scene.viewing->replaces_cameras);
+}
+
 ViewPoint default_view(const Scene& scene) {
-  if (!scene.view_points.empty()) return scene.view_points.front();
+  if (uses_own_camera(scene)) return scene.view_points.front();
   if (scene.viewing) return scene.viewing->view;
   const float kEyeHeight = 1.6f;
   const float kElbowRoom = 1.0f;

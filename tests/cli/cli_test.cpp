@@ -50,7 +50,7 @@ TEST_F(Cli, HelpStartsWithExamples) {
 TEST_F(Cli, HelpWinsWhereverItStands) {
   for (const char* words :
        {"convert absent.png --help", "convert absent.png -h", "convert -h absent.png", "convert absent.png -qh",
-        "camera --from absent.json --help", "camera --help --from absent.json", "convert --from-camera absent.json -h",
+        "camera --from absent.json --help", "camera --help --from absent.json", "convert --camera absent.json -h",
         "render furnace --width 0 --help", "render --progress loudly --help", "render --unknown -h",
         "render -h --width", "render furnace -o --help", "project x y --help"}) {
     EXPECT_EQ(run(words), 0) << words << "\n" << err;

@@ -231,7 +231,7 @@ TEST_F(Farm, ThePlanNamesEveryFile) {
       {"render toys --parts 2 --head-tilt-map @map.exr -o @p.exr", {"input @map.exr", "output @p.exr"}},
       {"stitch @rig.json @views/####/#.exr --report @s.png -o @out/s.#.exr",
        {"input @rig.json", "input @views", "output @out", "output @s.png"}},
-      {"convert @in.png --from-camera @in.camera.json --to cube-3x2 -o @c.png",
+      {"convert @in.png --camera @in.camera.json --to cube-3x2 -o @c.png",
        {"input @in.png", "input @in.camera.json", "output @c.png"}}};
   for (const Job& job : jobs) {
     const bool frames = job.words.find("--parts") == std::string::npos && !job.words.starts_with("convert");

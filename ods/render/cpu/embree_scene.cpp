@@ -121,8 +121,8 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or of shadow rays on one
-// that may be clear glass.
+// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or that some rays do not
+// meet, or of shadow rays on one that may be clear glass.
 template <bool kShadow>
 static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -138,7 +138,8 @@ static void filter(const RTCFilterFunctionNArguments* arguments) {
     hit.instance = instance_of(geometry, instance, context->still);
     hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, count, i));
     context->tracer->path.index = context->index + RTCRayN_id(arguments->ray, count, i);
-    if (context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
+    if (context->tracer->is_absent(context->ray, hit.instance) ||
+        context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
       arguments->valid[i] = 0;
     } else if (kShadow && context->ray == kShadowRay && context->tracer->is_clear(hit, true)) {
       arguments->valid[i] = 0;
@@ -163,8 +164,14 @@ static void write_positions(const Scene& scene, const Mesh& mesh, uint key, cons
   }
 }
 
+static bool has_absences(const Instance& instance) {
+  return instance.role == kUnseen || instance.role == kPureLight;
+}
+
 // A mesh's triangles as Embree geometry; placed: the instance whose matrix transforms copies of the vertices, or null.
-static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed) {
+// absences: some rays do not meet it.
+static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed,
+                                 bool absences) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const uint keys = key_count(scene, mesh.motion);
   rtcSetGeometryTimeStepCount(geometry, keys);
@@ -182,9 +189,9 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
     corners[3 * i] = triangles[i].x, corners[3 * i + 1] = triangles[i].y, corners[3 * i + 2] = triangles[i].z;
   }
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  const bool has_alpha = material.alpha_mode != kAlphaOpaque;
-  if (has_alpha) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
-  if (has_alpha || material.transmission > 0.0f) rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
+  const bool may_pass = material.alpha_mode != kAlphaOpaque || absences;
+  if (may_pass) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
+  if (may_pass || material.transmission > 0.0f) rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitGeometry(geometry);
   return geometry;
@@ -262,6 +269,10 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
   const bool split = std::count(handles_->moves.begin(), handles_->moves.end(), 1) > 0;
   if (split) handles_->still = new_scene(device);
   const std::vector<bool> shared = choose_shared(scene, handles_->moves, max_copied_triangles);
+  std::vector<char> absent_somewhere(scene.meshes.size());
+  for (const Instance& instance : scene.instances) {
+    if (has_absences(instance)) absent_somewhere[static_cast<size_t>(instance.mesh)] = 1;
+  }
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Instance& instance = scene.instances[i];
     const size_t mesh = static_cast<size_t>(instance.mesh);
@@ -269,12 +280,14 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
     if (hidden && !handles_->moves[i]) continue;
     if (!left_out.empty() && left_out[i] != 0) continue;
     if (!shared[mesh]) {
-      attach(split ? handles_->still : handles_->top, make_geometry(device, scene, scene.meshes[mesh], &instance), i);
+      attach(split ? handles_->still : handles_->top,
+             make_geometry(device, scene, scene.meshes[mesh], &instance, has_absences(instance)), i);
       continue;
     }
     if (!handles_->shared[mesh]) {
       handles_->shared[mesh] = new_scene(device);
-      attach(handles_->shared[mesh], make_geometry(device, scene, scene.meshes[mesh], nullptr), 0);
+      attach(handles_->shared[mesh],
+             make_geometry(device, scene, scene.meshes[mesh], nullptr, absent_somewhere[mesh] != 0), 0);
       rtcCommitScene(handles_->shared[mesh]);
     }
     handles_->coherent = false;

@@ -151,6 +151,8 @@ static Material read_material(const JsonValue& source, Scene& scene, TextureTabl
   Material material = default_material();
   const std::vector<double> base = numbers(pbr, "baseColorFactor", {1.0, 1.0, 1.0, 1.0});
   material.base_color = vec4(color(base, 1.0), clamped(base[3], 0.0, 1.0, 1.0));
+  const float scale = factor(extension(source, "ODS_albedo"), "scale", 2.0, 1.0);
+  for (int c = 0; c < 3; c++) material.base_color[c] *= scale;
   material.base_color_slot = textures.slot(pbr, "baseColorTexture", true);
   material.metallic = clamped(number(pbr, "metallicFactor", 1.0), 0.0, 1.0, 1.0);
   material.roughness = clamped(number(pbr, "roughnessFactor", 1.0), 0.0, 1.0, 1.0);

@@ -18,6 +18,7 @@
 #include "ods/render/lights.h"
 #include "ods/render/render_target.h"
 #include "ods/render/tables.h"
+#include "tests/support/lambert.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -178,18 +179,6 @@ TEST(Lamps, Directional) {
   sun.intensity = vec3(3.0f);
   scene.lights.push_back(sun);
   expect_floor(scene, 4, 1e-5, [](glm::dvec3) { return 3.0 * 0.8; });
-}
-
-// Lambert's formula: half the sum of the angles that the lamp's edges span, each times the cosine of its plane's
-// normal to the surface's.
-double polygon_irradiance(glm::dvec3 p, const std::vector<glm::dvec3>& corners, double radiance,
-                          glm::dvec3 normal = {0.0, 1.0, 0.0}) {
-  double sum = 0.0;
-  for (size_t i = 0; i < corners.size(); i++) {
-    const glm::dvec3 a = normalize(corners[i] - p), b = normalize(corners[(i + 1) % corners.size()] - p);
-    sum += std::acos(dot(a, b)) * dot(normalize(cross(a, b)), normal);
-  }
-  return std::abs(sum) * 0.5 * radiance;
 }
 
 // The same at a great height, where single precision is coarse and a shadow ray starts well off the floor.

@@ -286,32 +286,20 @@ TEST(Gltf, CamerasComeBackAsTheyWereSet) {
   }
 }
 
-TEST(Gltf, PunctualLights) {
-  GltfBuilder file = make_triangle();
-  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([
-      {"type": "spot", "color": [1, 0.5, 0], "intensity": 10, "range": 7, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}},
-      {"type": "point"}, {"type": "directional", "intensity": 3}])");
-  file.json["scenes"][0]["nodes"] = {0, 1, 2};
-  file.json["nodes"] = Json::parse(R"([{"translation": [1,2,3]}, {}, {"rotation": [-0.70710678,0,0,0.70710678]}])");
-  for (size_t i = 0; i < 3; i++) file.node(i)["extensions"]["KHR_lights_punctual"]["light"] = i;
-  const Scene scene = file.load();
-  ASSERT_EQ(scene.lights.size(), 3u);
-  const PunctualLight& spot = scene.lights[0];
-  EXPECT_EQ(spot.kind, kLightSpot);
-  expect_near(spot.position, vec3(1, 2, 3));
-  expect_near(spot.direction, vec3(0, 0, -1));
-  expect_near(spot.intensity, vec3(10, 5, 0));
-  EXPECT_EQ(spot.range, 7.0f);
-  EXPECT_FLOAT_EQ(spot.inner_cone, 0.1f);
-  EXPECT_FLOAT_EQ(spot.outer_cone, 0.2f);
-  EXPECT_EQ(scene.lights[1].kind, kLightPoint);
-  expect_near(scene.lights[1].intensity, vec3(1));
-  EXPECT_EQ(scene.lights[2].kind, kLightDirectional);
-  expect_near(scene.lights[2].direction, vec3(0, -1, 0));
-}
-
 // --- materials
+
+TEST(Gltf, AlbedoScales) {
+  for (const auto& [scale, expected] : {std::pair{1.25, 0.5f}, std::pair{-1.0, 0.0f}, std::pair{7.0, 0.8f}}) {
+    GltfBuilder file = make_triangle();
+    file.json["extensionsUsed"] = {"ODS_albedo"};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.4, 0.4, 0.4, 0.5}}}},
+                               {"extensions", {{"ODS_albedo", {{"scale", scale}}}}}}};
+    file.primitive()["material"] = 0;
+    const Scene scene = file.load();
+    EXPECT_FLOAT_EQ(scene.materials[0].base_color.x, expected);
+    EXPECT_EQ(scene.materials[0].base_color.w, 0.5f);
+  }
+}
 
 TEST(Gltf, DefaultMaterialIsGltfs) {
   const Scene scene = make_triangle().load();

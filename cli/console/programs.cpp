@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/farm/programs.h"
+#include "cli/console/programs.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

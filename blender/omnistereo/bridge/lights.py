@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+"""Lamps with the radiometry of Cycles.
+
+Measured in Blender 3.4 (docs/blender.md): a point light or a spot of W watts has W / (4 pi) watts per steradian, an
+area light of area A the radiance W / (4 A) on its front, and a sun's strength is the irradiance of a surface that faces
+it.
+"""
+import math
+
+import bpy
+
+from .glb import UNSIGNED_SHORT
+from .places import TO_GLTF, columns
+from .report import some
+
+SIDES = 64  # of the polygon that stands for a disc
+
+
+def color_of(light, report):
+    """Colour times what the light's own nodes make of it."""
+    color = [float(c) for c in light.color]
+    if getattr(light, "use_temperature", False) and hasattr(light, "temperature_color"):
+        color = [c * t for c, t in zip(color, light.temperature_color)]
+    if not light.use_nodes or light.node_tree is None:
+        return color
+    output = next((n for n in light.node_tree.nodes if n.type == "OUTPUT_LIGHT" and n.is_active_output), None)
+    if output is None or not output.inputs["Surface"].is_linked:
+        return [0.0] * 3
+    emission = output.inputs["Surface"].links[0].from_node
+    if emission.type != "EMISSION" or any(i.is_linked for i in emission.inputs):
+        report.warn(f"the nodes of light '{light.name}' are not followed: it has its colour and power")
+        return color
+    strength = emission.inputs["Strength"].default_value
+    return [c * e * strength for c, e in zip(color, emission.inputs["Color"].default_value)]
+
+
+def area_of(light, matrix):
+    width = light.size
+    height = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
+    across = matrix.to_3x3().col[0].length * width
+    along = matrix.to_3x3().col[1].length * height
+    round_share = math.pi / 4 if light.shape in ("DISK", "ELLIPSE") else 1.0
+    return width, height, across * along * round_share
+
+
+def corners_of(light):
+    """Of the lamp in its own plane, anticlockwise as seen from where it shines, with the area that it has."""
+    width = light.size
+    height = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
+    if light.shape not in ("DISK", "ELLIPSE"):
+        return [(-width / 2, -height / 2), (-width / 2, height / 2), (width / 2, height / 2), (width / 2, -height / 2)]
+    wider = math.sqrt(2 * math.pi / (SIDES * math.sin(2 * math.pi / SIDES)))
+    turns = [-2 * math.pi * i / SIDES for i in range(SIDES)]
+    return [(wider * width / 2 * math.cos(t), wider * height / 2 * math.sin(t)) for t in turns]
+
+
+def strength_of(kind, light, matrix):
+    """What one watt, or one W/m2 of a sun, becomes in the file."""
+    if kind == "AREA":
+        area = area_of(light, matrix)[2]
+        return 1.0 / (4.0 * area) if area > 0 else 0.0
+    return 1.0 if kind == "SUN" else 1.0 / (4.0 * math.pi)
+
+
+def _add_area(glb, name, light, radiance):
+    brightest = max(max(radiance), 1e-30)
+    material = glb.append("materials", {
+        "name": name,
+        "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0, "roughnessFactor": 1},
+        "emissiveFactor": [c / brightest for c in radiance],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": brightest}},
+    })
+    glb.use("KHR_materials_emissive_strength")
+    glb.use("ODS_unseen")
+    corners = corners_of(light)
+    triangles = [(0, i, i + 1) for i in range(1, len(corners) - 1)]
+    mesh = glb.append("meshes", {"name": name, "primitives": [{
+        "attributes": {
+            "POSITION": glb.add_accessor([(x, y, 0.0) for x, y in corners], "VEC3"),
+            "NORMAL": glb.add_accessor([(0.0, 0.0, -1.0)] * len(corners), "VEC3"),
+        },
+        "indices": glb.add_accessor(triangles, "SCALAR", UNSIGNED_SHORT),
+        "material": material,
+    }]})
+    return material, {"name": name, "mesh": mesh, "extensions": {"ODS_unseen": {"onlyLight": True}}}
+
+
+def _add_punctual(glb, name, light, intensity):
+    brightest = max(max(intensity), 1e-30)
+    lamp = {"name": name, "color": [c / brightest for c in intensity], "intensity": brightest}
+    shape = {}
+    if light.type == "SUN":
+        lamp["type"] = "directional"
+        shape["angle"] = min(light.angle, math.pi / 2)
+    else:
+        lamp["type"] = "spot" if light.type == "SPOT" else "point"
+        shape["radius"] = light.shadow_soft_size
+    if light.type == "SPOT":
+        outer = min(light.spot_size / 2, math.pi / 2 * 0.999)
+        # The blend is a share of what the cone's edge lacks to the cosine of its axis.
+        inner = math.acos(min(1.0, math.cos(outer) + (1 - math.cos(outer)) * light.spot_blend))
+        lamp["spot"] = {"innerConeAngle": max(0.0, min(inner, outer * 0.999)), "outerConeAngle": outer}
+        shape["cone"] = "smooth cosine" if bpy.app.version < (3, 5, 0) else "smooth"
+    lamp["extensions"] = {"ODS_light_shape": shape}
+    glb.use("KHR_lights_punctual")
+    glb.use("ODS_light_shape")
+    lamps = glb.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
+    lamps.append(lamp)
+    return len(lamps) - 1, {"name": name, "extensions": {"KHR_lights_punctual": {"light": len(lamps) - 1}}}
+
+
+class Lamp:
+    """A light in the file: its node, and what an animation of its power changes."""
+
+    def __init__(self, key, node, pointer):
+        self.key, self.node, self.pointer = key, node, pointer
+
+
+def add_light(glb, key, name, light, matrix, report):
+    """A light datablock at a place."""
+    strength = strength_of(light.type, light, matrix) * light.energy
+    if not strength > 0.0:
+        return None
+    power = [c * strength for c in color_of(light, report)]
+    if light.type == "AREA":
+        material, node = _add_area(glb, name, light, power)
+        pointer = f"/materials/{material}/extensions/KHR_materials_emissive_strength/emissiveStrength"
+        if getattr(light, "spread", math.pi) < math.pi * 0.999:
+            report.warn(f"area light '{name}' shines in all directions: its spread does not come across")
+    else:
+        index, node = _add_punctual(glb, name, light, power)
+        pointer = f"/extensions/KHR_lights_punctual/lights/{index}/intensity"
+    node["matrix"] = columns(TO_GLTF @ matrix)
+    return Lamp(key, glb.add_root(node), (pointer, max(power), light.energy))
+
+
+def name_oddities(lights, report):
+    """lights: datablocks."""
+    shadowless = [l.name for l in lights if not getattr(getattr(l, "cycles", None), "cast_shadow", True)]
+    if shadowless:
+        report.warn(f"{some(shadowless)} cast shadows: lights without them do not come across")

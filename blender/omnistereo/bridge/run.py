@@ -1,0 +1,21 @@
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+"""What `blender --background --python` runs: run.py -- SCENE FOLDER [--bake N]."""
+import os
+import sys
+import traceback
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.dont_write_bytecode = True
+
+from bridge.export import main  # noqa: E402
+from bridge.report import say  # noqa: E402
+
+code = 4
+try:
+    code = main(sys.argv[sys.argv.index("--") + 1 :])
+except BaseException as error:  # Blender would go on with an empty window
+    traceback.print_exc()
+    say("error", f"the exporter failed: {type(error).__name__}: {error}")
+sys.stderr.flush()
+os._exit(code)

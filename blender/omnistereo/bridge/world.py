@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+"""The world as a lat-long picture, as Cycles sees it. Its middle looks along Blender's +Y, which is glTF's -Z."""
+import math
+import os
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+from .camera import panorama_of
+from .places import TO_GLTF, columns
+
+LARGEST = 4096
+USUAL = 1024
+SUN_PIXELS = 64
+
+
+def _background(world):
+    """The Background node, if it alone makes the world."""
+    output = next((n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output), None)
+    if output is None or not output.inputs["Surface"].is_linked:
+        return None
+    node = output.inputs["Surface"].links[0].from_node
+    return node if node.type == "BACKGROUND" else None
+
+
+def even_color(world):
+    """The colour of a world that is the same in all directions; None: it is not."""
+    if world is None:
+        return [0.0] * 3
+    if not world.use_nodes or world.node_tree is None:
+        return [float(c) for c in world.color]
+    output = next((n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output), None)
+    if output is None or not output.inputs["Surface"].is_linked:
+        return [0.0] * 3
+    node = _background(world)
+    if node is None or any(i.is_linked for i in node.inputs):
+        return None
+    strength = node.inputs["Strength"].default_value
+    return [max(0.0, c * strength) for c in list(node.inputs["Color"].default_value)[:3]]
+
+
+def _trees(tree, seen):
+    if tree is None or tree.name in seen:
+        return
+    seen[tree.name] = tree
+    for node in tree.nodes:
+        if node.type == "GROUP":
+            _trees(node.node_tree, seen)
+
+
+def _nodes(world):
+    trees = {}
+    _trees(world.node_tree, trees)
+    return [node for tree in trees.values() for node in tree.nodes]
+
+
+def _width_of(nodes):
+    widths = [n.image.size[0] for n in nodes if n.type == "TEX_ENVIRONMENT" and n.image and n.image.size[0] > 0]
+    return min(max(widths), LARGEST) if widths else USUAL
+
+
+class _Stage:
+    """An empty scene with that world and a camera."""
+
+    def __init__(self, world):
+        self.scene = scene = bpy.data.scenes.new("ods world")
+        scene.world = world
+        world.cycles.sampling_method = "NONE"  # nothing is lit by it here
+        self.data = bpy.data.cameras.new("ods world")
+        self.camera = bpy.data.objects.new("ods world", self.data)
+        scene.collection.objects.link(self.camera)
+        scene.camera = self.camera
+        self.camera.rotation_euler = (math.pi / 2, 0, 0)
+        render, cycles = scene.render, scene.cycles
+        render.engine = "CYCLES"
+        cycles.device = "CPU"
+        cycles.use_denoising = False
+        cycles.use_adaptive_sampling = False
+        cycles.max_bounces = 0
+        cycles.pixel_filter_type = "BOX"
+        cycles.sample_clamp_direct = 0
+        render.film_transparent = False
+        render.use_compositing = render.use_sequencer = False
+        render.resolution_percentage = 100
+        render.use_file_extension = False
+        image = render.image_settings
+        image.file_format, image.color_mode, image.color_depth, image.exr_codec = "OPEN_EXR", "RGB", "32", "ZIP"
+
+    def render(self, path, width, height, samples):
+        self.scene.render.resolution_x, self.scene.render.resolution_y = width, height
+        self.scene.cycles.samples = samples
+        self.scene.render.filepath = path
+        bpy.ops.render.render(write_still=True, scene=self.scene.name)
+
+    def remove(self):
+        bpy.data.scenes.remove(self.scene)
+        bpy.data.cameras.remove(self.data)
+
+
+def _pixels(path):
+    image = bpy.data.images.load(path, check_existing=False)
+    image.colorspace_settings.name = "Non-Color"
+    values = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(values)
+    values = values.reshape(image.size[1], image.size[0], -1)[..., :3].astype(np.float64)
+    bpy.data.images.remove(image)
+    return values
+
+
+def _sun_direction(node):
+    """Towards the sun of a Nishita sky, in Blender's space; mapped skies keep theirs only unturned."""
+    elevation, turn = node.sun_elevation, node.sun_rotation
+    return Vector((math.cos(elevation) * math.sin(turn), math.cos(elevation) * math.cos(turn), math.sin(elevation)))
+
+
+def _measure_sun(stage, node, folder):
+    """The irradiance that the sun's disc brings to a surface that faces it: with the disc less without it."""
+    towards = _sun_direction(node)
+    half = math.tan(0.75 * node.sun_size)
+    stage.camera.rotation_euler = towards.to_track_quat("-Z", "Y").to_euler()
+    stage.data.type = "PERSP"
+    stage.data.sensor_fit = "HORIZONTAL"
+    stage.data.angle = 2 * math.atan(half)
+    pictures = []
+    for disc in (True, False):
+        node.sun_disc = disc
+        path = os.path.join(folder, "sun.exr")
+        stage.render(path, SUN_PIXELS, SUN_PIXELS, 16)
+        pictures.append(_pixels(path))
+        os.remove(path)
+    node.sun_disc = True
+    at = (np.arange(SUN_PIXELS) + 0.5) / SUN_PIXELS * 2 - 1
+    x, y = np.meshgrid(at * half, at * half)
+    # A pixel's solid angle times the cosine to the axis: dA cos^4.
+    weight = (2 * half / SUN_PIXELS) ** 2 / (1 + x * x + y * y) ** 2
+    return ((pictures[0] - pictures[1]) * weight[..., None]).sum(axis=(0, 1)).tolist()
+
+
+def _add_sun(glb, node, irradiance):
+    brightest = max(irradiance)
+    if not brightest > 0:
+        return
+    lamps = glb.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
+    glb.use("KHR_lights_punctual")
+    glb.use("ODS_light_shape")
+    lamps.append({
+        "name": "sun of the sky", "type": "directional", "intensity": brightest,
+        "color": [max(0.0, c / brightest) for c in irradiance],
+        "extensions": {"ODS_light_shape": {"angle": node.sun_size}},
+    })
+    turn = _sun_direction(node).to_track_quat("Z", "Y").to_matrix().to_4x4()
+    glb.add_root({
+        "name": "sun of the sky", "matrix": columns(TO_GLTF @ turn),
+        "extensions": {"KHR_lights_punctual": {"light": len(lamps) - 1}},
+    })
+
+
+def export_world(glb, scene, folder, report):
+    """What --env takes: numbers, or the name of a picture in the folder. The disc of a sky's sun becomes a light."""
+    world = scene.world
+    color = even_color(world)
+    if color is not None:
+        return ",".join(f"{c:.9g}" for c in color)
+    nodes = _nodes(world)
+    kinds = {n.type for n in nodes}
+    if "LIGHT_PATH" in kinds:
+        report.warn("the world looks different to the camera than to light: it comes across as the camera sees it")
+    output = next(n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output)
+    if output.inputs["Volume"].is_linked:
+        report.warn("the world's volume does not come across")
+    stage = _Stage(world)
+    skies = [n for n in nodes if n.type == "TEX_SKY" and hasattr(n, "sun_disc") and n.sun_disc
+             and n.sky_type not in ("PREETHAM", "HOSEK_WILKIE")]
+    for node in skies:
+        if node.inputs and node.inputs[0].is_linked:
+            report.warn("the sun of a turned sky is part of its picture, with soft shadows")
+            continue
+        _add_sun(glb, node, _measure_sun(stage, node, folder))
+        node.sun_disc = False
+    stage.camera.rotation_euler = (math.pi / 2, 0, 0)
+    stage.data.type = "PANO"
+    pano = panorama_of(stage.data)
+    pano.panorama_type = "EQUIRECTANGULAR"
+    pano.longitude_min, pano.longitude_max = -math.pi, math.pi
+    pano.latitude_min, pano.latitude_max = -math.pi / 2, math.pi / 2
+    width = _width_of(nodes)
+    samples = 1 if "TEX_ENVIRONMENT" in kinds else 4
+    stage.render(os.path.join(folder, "world.exr"), width, width // 2, samples)
+    stage.remove()
+    return "world.exr"

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Blender, started to convert a scene. No Python of the scene runs there.
+#pragma once
+#include <string>
+
+struct BlenderOptions {
+  std::string program;   // --blender; empty: as PATH finds it
+  int bake = 0;          // --bake: pixels of the pictures that are made of computed materials; 0: none
+  float seconds = 1800;  // --blender-limit
+};
+
+// What of this decides what comes out: which Blender, which exporter, which options.
+std::string describe(const BlenderOptions& options);
+
+// The program to start; empty: there is none. Throws Error(kInput) if --blender names none.
+std::string find_blender(const BlenderOptions& options);
+
+// Leaves scene.glb, bridge.json and perhaps world.exr in the folder. Throws Error(kInput): Blender says why, fails,
+// ends early or takes too long.
+void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder);
+
+// Installs and enables our add-on in the user's Blender. Throws likewise.
+void install_add_on(const BlenderOptions& options);

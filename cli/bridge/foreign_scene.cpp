@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bridge/foreign_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/bridge/scene_cache.h"
+#include "cli/console/console.h"
+#include "cli/console/programs.h"
+#include "ods/base/error.h"
+#include "ods/base/text.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/claim.h"
+#include "ods/files/private_folder.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+struct ForeignFormat {
+  std::string_view extension;
+  bool assimp;  // Assimp reads it, too
+};
+
+constexpr ForeignFormat kFormats[] = {
+    {".blend", false}, {".fbx", true},   {".obj", true},   {".dae", true},   {".ply", true},  {".stl", true},
+    {".usd", false},   {".usda", false}, {".usdc", false}, {".usdz", false}, {".abc", false},
+};
+
+constexpr std::chrono::hours kPatience{2};  // for another process that converts the same file
+
+const ForeignFormat* format_of(const std::string& path) {
+  const std::string extension = ods::small_letters(fs::path(path).extension().string());
+  const auto* const found = std::ranges::find(kFormats, extension, &ForeignFormat::extension);
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+  throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' {}", path, why));
+}
+
+// A gzip or zstd stream, or Blender's own words.
+void check_blend(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char start[8] = {};
+  file.read(start, 7);
+  const std::string_view words(start, 7);
+  const bool known = words == "BLENDER" || words.starts_with("\x1f\x8b") || words.starts_with("\x28\xb5\x2f\xfd");
+  if (!known) fail(path, "is no Blender file, or a damaged one");
+}
+
+void run_assimp(const std::string& path, const std::string& folder) {
+  const std::string made = folder + "/scene.glb";
+  const auto result = run_program({"assimp", "export", fs::absolute(path).native(), made, "-fglb2"});
+  if (!result || result->code != 0 || !fs::exists(made)) fail(path, "cannot be read by Assimp, nor is there a Blender");
+  ods::write_file(folder + "/bridge.json", R"({"omnistereo_bridge": 1, "assimp": true})");
+}
+
+ForeignScene read_result(const std::string& folder) {
+  std::ifstream file(folder + "/bridge.json");
+  const json found = json::parse(file, nullptr, false);
+  ForeignScene scene;
+  scene.file = folder + "/scene.glb";
+  if (!found.is_object()) fail(folder, "is damaged; remove it");
+  if (found.contains("environment") && found["environment"].is_string()) {
+    scene.environment = found["environment"];
+    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/" + scene.environment;
+  }
+  if (found.contains("fps") && found["fps"].is_number()) scene.fps = found["fps"];
+  for (const json& warning : found.value("warnings", json::array())) {
+    if (warning.is_string()) scene.warnings.push_back(warning);
+  }
+  if (found.contains("camera")) {
+    std::vector<std::string> ignored;
+    scene.camera = ods::read_sidecar(found["camera"].dump(), "the scene's camera", ignored);
+    scene.has_stereo = found["camera"].contains("merge_top");
+  }
+  return scene;
+}
+
+void convert(const std::string& path, const ForeignFormat& format, const BlenderOptions& options,
+             const std::string& kept) {
+  const ods::PrivateFolder folder(cache_folder() + "/.new-");
+  const std::string blender = find_blender(options);
+  if (!blender.empty()) {
+    note(fmt::format("Blender converts '{}'; what comes out is kept in '{}' while the file stays as it is", path,
+                     fs::path(kept).parent_path().native()));
+    run_blender(options, path, folder.path());
+  } else if (format.assimp && has_program("assimp")) {
+    note(fmt::format("Assimp converts '{}' as there is no Blender: without materials by nodes, and without its world",
+                     path));
+    run_assimp(path, folder.path());
+  } else if (format.assimp) {
+    fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
+  } else {
+    fail(path, "needs Blender to be read: install it, or say where it is with --blender PATH");
+  }
+  keep_scene(folder.path(), kept);
+}
+
+}  // namespace
+
+bool is_foreign_scene(const std::string& path) {
+  return format_of(path) != nullptr;
+}
+
+ForeignScene convert_foreign_scene(const std::string& path, const BlenderOptions& options) {
+  const ForeignFormat& format = *format_of(path);
+  const std::string kept = kept_scene(path, describe(options));
+  const bool is_blender_file = format.extension == ".blend";
+  if (is_blender_file) check_blend(path);
+  if (!is_kept(kept)) {
+    const auto claim = ods::claim(kept, kPatience);
+    if (!is_kept(kept)) convert(path, format, options, kept);
+  }
+  ForeignScene scene = read_result(kept);
+  scene.is_blender_file = is_blender_file;
+  return scene;
+}

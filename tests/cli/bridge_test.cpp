@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes of other programs, with a script in the place of Blender.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "ods/picture/metadata/sidecar.h"
+#include "tests/support/cli_runner.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Bridge : public ::testing::Test {
+ protected:
+  Bridge() {
+    setenv("XDG_CACHE_HOME", (folder_ + "/cache").c_str(), 1);
+    const Binary glb = make_triangle().glb();
+    write(folder_ + "/made.glb", {glb.begin(), glb.end()});
+    write(scene_, "BLENDER-v304 and so on");
+    answer(R"({"omnistereo_bridge": 1})");
+  }
+
+  // What the script does with $folder.
+  void program(const std::string& text) {
+    const fs::path path = folder_ + "/blender";
+    write(path, "#!/bin/sh\necho x >>" + folder_ + "/runs\nwhile [ \"$1\" != -- ]; do shift; done\nfolder=$3\n" + text);
+    fs::permissions(path, fs::perms::owner_all);
+  }
+
+  // The script converts well, with this in bridge.json.
+  void answer(const std::string& json, const std::string& before = "") {
+    write(folder_ + "/made.json", json);
+    program(before + "\ncp " + folder_ + "/made.glb \"$folder/scene.glb\"\ncp " + folder_ +
+            "/made.json \"$folder/bridge.json\"\necho 'ods-bridge done 1' >&2\n");
+  }
+
+  size_t runs() const { return read(folder_ + "/runs").size() / 2; }
+
+  std::vector<std::string> info() const { return {"info", scene_, "--blender", folder_ + "/blender"}; }
+
+  // What the cache holds, hidden files too.
+  size_t kept() const {
+    std::error_code error;
+    const fs::directory_iterator all(folder_ + "/cache/ods/scenes", error);
+    return error ? 0 : static_cast<size_t>(std::distance(begin(all), end(all)));
+  }
+
+  void expect_failure(const std::string& says, std::vector<std::string> more = {}) {
+    std::vector<std::string> words = info();
+    words.insert(words.end(), more.begin(), more.end());
+    Ods ods(words);
+    EXPECT_EQ(ods.finish(), 3) << says;
+    EXPECT_NE(ods.err.find("ods: error: '" + scene_ + "': " + says), std::string::npos) << ods.err;
+    EXPECT_EQ(ods.out, "");
+    EXPECT_EQ(kept(), 0u) << says;
+  }
+
+  const TemporaryFolder holder_;
+  const std::string folder_ = holder_.path(".");
+  const std::string scene_ = folder_ + "/house.blend";
+};
+
+TEST_F(Bridge, ConvertsOnceWhileTheFileIsTheSame) {
+  Ods first(info());
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_NE(first.out.find("scene          house"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("triangles      1 "), std::string::npos) << first.out;
+  EXPECT_NE(first.err.find("Blender converts '" + scene_), std::string::npos) << first.err;
+  Ods second(info());
+  EXPECT_EQ(second.finish(), 0);
+  EXPECT_EQ(second.err, "");
+  EXPECT_EQ(runs(), 1u);
+  std::vector<std::string> baked = info();
+  baked.insert(baked.end(), {"--bake", "64"});
+  EXPECT_EQ(Ods(baked).finish(), 0);
+  EXPECT_EQ(runs(), 2u) << "other options";
+  write(scene_, "BLENDER-v304 and something else");
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(runs(), 3u) << "another file";
+}
+
+TEST_F(Bridge, ConvertsAgainWhenAPictureHasChanged) {
+  const std::string picture = folder_ + "/wood.png";
+  write(picture, "12345");
+  struct stat found = {};
+  ASSERT_EQ(stat(picture.c_str(), &found), 0);
+  const int64_t stamp = int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec;
+  answer(R"({"omnistereo_bridge": 1, "reads": [[")" + picture + "\", 5, " + std::to_string(stamp) + "]]}");
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(runs(), 1u);
+  write(picture, "123456");
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(runs(), 2u);
+}
+
+TEST_F(Bridge, TwoProcessesConvertOnce) {
+  answer(R"({"omnistereo_bridge": 1})", "sleep 1");
+  Ods a(info()), b(info());
+  EXPECT_EQ(a.finish(), 0) << a.err;
+  EXPECT_EQ(b.finish(), 0) << b.err;
+  EXPECT_EQ(runs(), 1u);
+}
+
+TEST_F(Bridge, AFailingBlenderIsOneLine) {
+  program("kill -SEGV $$");
+  expect_failure("Blender crashed (signal 11)");
+  program("echo 'ods-bridge error it was saved by Blender 9.1' >&2\nexit 3");
+  expect_failure("it was saved by Blender 9.1");
+  program("echo 'no display' >&2\nexit 1");
+  expect_failure("Blender ended before it was done; it said: no display");
+  program("echo 'ods-bridge done 1' >&2");
+  expect_failure("Blender ended before it was done");
+  program("head -c 3000000 /dev/zero >&2\nexit 0");
+  expect_failure("Blender ended before it was done");
+}
+
+TEST_F(Bridge, AHangingBlenderIsEnded) {
+  program("echo $$ >" + folder_ + "/process\nsleep 1000 &\necho $! >>" + folder_ + "/process\nwait");
+  expect_failure("Blender was not done after 0.5 seconds", {"--blender-limit", "0.5"});
+  std::ifstream processes(folder_ + "/process");
+  for (int process = 0; processes >> process;) {
+    for (int i = 0; i < 100 && ::kill(process, 0) == 0; i++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const std::string state = read("/proc/" + std::to_string(process) + "/stat");
+    EXPECT_TRUE(state.empty() || state.find(") Z") != std::string::npos) << state;
+  }
+}
+
+TEST_F(Bridge, AnInterruptLeavesNothing) {
+  program("touch " + folder_ + "/started\nexec sleep 1000");
+  Ods ods(info());
+  while (!fs::exists(folder_ + "/started")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ods.kill(SIGTERM);
+  EXPECT_EQ(ods.finish(), 128 + SIGTERM);
+  EXPECT_EQ(kept(), 0u);
+}
+
+TEST_F(Bridge, SaysWhatIsMissing) {
+  Ods none({"info", scene_, "--blender", folder_ + "/nothing"});
+  EXPECT_EQ(none.finish(), 3);
+  EXPECT_NE(none.err.find("--blender: there is no program"), std::string::npos) << none.err;
+  write(folder_ + "/car.fbx", "x");
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder_ + "/nowhere").c_str(), 1);
+  Ods blend({"info", scene_}), fbx({"info", folder_ + "/car.fbx"});
+  EXPECT_EQ(blend.finish(), 3);
+  EXPECT_EQ(fbx.finish(), 3);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(blend.err.find("needs Blender to be read: install it, or say where it is with --blender PATH"),
+            std::string::npos)
+      << blend.err;
+  EXPECT_NE(fbx.err.find("needs Blender or Assimp's command to be read"), std::string::npos) << fbx.err;
+}
+
+TEST_F(Bridge, RefusesWhatIsNoBlenderFile) {
+  write(scene_, "hello");
+  Ods ods(info());
+  EXPECT_EQ(ods.finish(), 3);
+  EXPECT_NE(ods.err.find("is no Blender file, or a damaged one"), std::string::npos) << ods.err;
+  EXPECT_EQ(runs(), 0u);
+  EXPECT_EQ(Ods({"info", folder_ + "/none.blend"}).finish(), 3);
+  Ods confined({"info", scene_, "--confine", folder_});
+  EXPECT_EQ(confined.finish(), 2);
+  EXPECT_NE(confined.err.find("--confine does not hold"), std::string::npos) << confined.err;
+}
+
+TEST_F(Bridge, KeepsFortyScenesAtMost) {
+  const fs::path cache = folder_ + "/cache/ods/scenes";
+  for (int i = 0; i < 45; i++) {
+    const fs::path old = cache / std::to_string(i);
+    fs::create_directories(old);
+    write(old / "bridge.json", "{}");
+    fs::last_write_time(old / "bridge.json", fs::file_time_type::clock::now() - std::chrono::hours(100 - i));
+  }
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(kept(), 40u);
+  EXPECT_FALSE(fs::exists(cache / "5")) << "the oldest go first";
+  EXPECT_TRUE(fs::exists(cache / "6"));
+}
+
+// Options win over the file, and the file over what is usual.
+TEST_F(Bridge, CameraAndLightAreTheFiles) {
+  answer(R"({"omnistereo_bridge": 1, "environment": "0.5,0.5,0.5", "fps": 25, "warnings": ["hair of 'x' is lost"],
+      "camera": {"omnistereo_camera": 1, "ipd": 0.08, "pitch": 5,
+                 "projection": {"name": "lat-long", "longitude": [-90, 90]},
+                 "merge_top": {"mode": "cosine", "start": 50, "end": 80}, "merge_bottom": {"mode": "none"},
+                 "convergence": {"mode": "toe-in", "distance": 3}}})");
+  const std::string picture = folder_ + "/p.exr";
+  std::vector<std::string> words = {"render",    scene_,    "--blender", folder_ + "/blender", "-o", picture,
+                                    "--sidecar", "--width", "16",        "--samples",          "1",  "--bounces",
+                                    "1"};
+  for (const bool given : {false, true}) {
+    if (given) words.insert(words.end(), {"--ipd", "0.05"});
+    Ods ods(words);
+    ASSERT_EQ(ods.finish(), 0) << ods.err;
+    EXPECT_NE(ods.err.find("hair of 'x' is lost"), std::string::npos) << ods.err;
+    std::vector<std::string> warnings;
+    const StereoCamera camera = load_sidecar(folder_ + "/p.camera.json", warnings).camera;
+    EXPECT_EQ(camera.ipd, given ? 0.05f : 0.08f);
+    EXPECT_EQ(camera.pitch, 5.0f);
+    EXPECT_EQ(camera.projection.longitude, vec2(-90.0f, 90.0f));
+    EXPECT_EQ(camera.top.mode, kMergeCosine);
+    EXPECT_EQ(camera.top.start, 50.0f);
+    EXPECT_EQ(camera.bottom.mode, kMergeNone);
+    EXPECT_EQ(camera.convergence, kToeIn);
+    EXPECT_EQ(camera.convergence_distance, 3.0f);
+  }
+}
+
+}  // namespace
+}  // namespace ods
