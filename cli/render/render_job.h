@@ -39,9 +39,6 @@ struct RenderJob {
 // Adds --exposure auto|STOPS.
 void add_exposure_option(Options& options, RenderJob& job);
 
-// Adds --camera-from; options that are added later change what it takes.
-void add_camera_from_option(Options& options, RenderJob& job);
-
 // What a scene of another program says of camera and time: the default of the options.
 void take_foreign(RenderJob& job, const ForeignScene& scene);
 
