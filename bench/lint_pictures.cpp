@@ -454,11 +454,8 @@ void add_formed(std::vector<PicturePlant>& kinds) {
                      made.suffix = s > 0.0 ? "_LR" : "_HTB";
                    }});
   kinds.push_back({"VR180", {}, Check::kLayout, "", {0.0, 90.0, 180.0}, [](Made& made, double s) {
-                     made.target.camera.projection = find_projection("vr180")->setting;
+                     become_vr180(made);
                      made.target.camera.yaw += static_cast<float>(s);
-                     made.target.eye.width = made.target.eye.height;
-                     made.save.layout = Layout::kSideBySide;
-                     made.suffix = "_180_LR";
                    }});
   kinds.push_back({"cubes", {}, Check::kLayout, "", {0.0, 45.0}, [](Made& made, double s) {
                      made.target.camera.projection = find_projection("cube-3x2")->setting;
@@ -474,6 +471,7 @@ const std::vector<PicturePlant>& planted_faults() {
   static const std::vector<PicturePlant> plants = [] {
     std::vector<PicturePlant> made;
     add_alignment_faults(made);
+    add_divergence(made);
     add_color_faults(made);
     add_other_faults(made);
     add_warnings(made);

@@ -41,3 +41,8 @@ std::string save(const Made& made, const std::string& stem);
 using PicturePlant = Plant<Made>;
 const std::vector<PicturePlant>& planted_faults();
 const std::vector<PicturePlant>& correct_kinds();
+
+// Makes it one of the front half, side by side.
+void become_vr180(Made& made);
+// Eyes that diverge: the right one is turned so that a quarter of the places has so much parallax outwards.
+void add_divergence(std::vector<PicturePlant>& plants);

@@ -59,7 +59,7 @@ constexpr Command kCommands[] = {
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"submit", "send a command to a render farm, split into tasks", ods_submit},
-    {"jobs", "show how what was sent to Slurm gets on", ods_jobs},
+    {"jobs", "show the progress of Slurm jobs", ods_jobs},
     {"title", "make a title with depth for stereo 360", ods_title},
     {"over", "composite a picture or video over another", ods_over},
     {"rig", "plan perspective cameras for other renderers", ods_rig},
@@ -110,6 +110,13 @@ int unknown_command(const char* name) {
 }
 
 }  // namespace
+
+// Libraries' constructors run for a while: a Ctrl-C then is one like any other. What is left is the loader itself,
+// which no code of ours precedes; there the signal ends the process, which has done nothing yet. Sanitizers are not
+// ready then.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+[[gnu::section(".preinit_array"), gnu::used]] static void (*const before_constructors)() = [] { end_on_interrupts(); };
+#endif
 
 int main(int argc, char** argv) {
   open_closed_streams();

@@ -15,7 +15,8 @@
 
 static void read_photo(const std::string& path) {
   try {
-    if (ods::is_photo(path)) ods::read_right_eye(path);
+    std::vector<std::string> warnings;
+    if (ods::is_photo(path)) ods::read_right_eye(path, warnings);
   } catch (const ods::Error&) {
   }
 }

@@ -18,8 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // Libraries that few .cpp hide from all the others, by how their headers start.
-const std::set<std::string> kAvFiles = {"ods/video/av.cpp", "ods/video/decode.cpp", "ods/video/encode.cpp",
-                                        "ods/video/sound.cpp"};
+const std::set<std::string> kAvFiles = {"ods/video/decode.cpp",       "ods/video/encode.cpp",
+                                        "ods/video/tracks/av.cpp",    "ods/video/tracks/kept_tracks.cpp",
+                                        "ods/video/tracks/sound.cpp", "ods/video/tracks/text_track.cpp"};
+// Those that only open files.
+const std::set<std::string> kFormatFiles = [] {
+  std::set<std::string> files = kAvFiles;
+  files.insert("ods/video/tracks/kept_tags.cpp");
+  return files;
+}();
 const std::map<std::string, std::set<std::string>> kHidden = {
     {"embree", {"ods/render/cpu/embree_scene.cpp"}},
     {"CLI/", {"cli/console/options.cpp"}},
@@ -29,9 +36,10 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"tiffio.h",
      {"ods/image/codec/tiff_reader.cpp", "ods/image/codec/tiff_stream.cpp", "ods/image/codec/tiff_writer.cpp"}},
     {"webp/", {"ods/image/codec/webp.cpp"}},
+    {"libheif/", {"ods/image/codec/heif.cpp"}},
     {"libdeflate.h",
      {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp",
-      "ods/image/codec/tiff_writer.cpp"}},
+      "ods/image/codec/tiff_writer.cpp", "ods/video/container/mesh_box.cpp"}},
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
     {"meshoptimizer.h", {"ods/scene/gltf/meshopt.cpp"}},
     {"zip.h", {"ods/files/zip_archive.cpp"}},
@@ -39,9 +47,9 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"qrencode.h", {"cli/view/qr_code.cpp"}},
     {"lcms2", {"ods/image/icc_profile.cpp"}},
     {"libavcodec/", kAvFiles},
-    {"libavformat/", kAvFiles},
+    {"libavformat/", kFormatFiles},
     {"libavutil/", kAvFiles},
-    {"libswresample/", {"ods/video/av.cpp", "ods/video/sound.cpp"}},
+    {"libswresample/", {"ods/video/tracks/av.cpp", "ods/video/tracks/sound.cpp"}},
     {"fontconfig/", {"ods/compose/lettering.cpp"}},
     {"pango/", {"ods/compose/lettering.cpp"}}};
 

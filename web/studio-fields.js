@@ -17,13 +17,18 @@ function standardOf(view, { name }) {
   const [x, y] = projection.center;
   const [wide, high] = projection.span;
   return {
+    ...view.studio.polynomial_lens,
     longitude: [degrees(x - wide / 2), degrees(x + wide / 2)], latitude: [degrees(y - high / 2), degrees(y + high / 2)],
     fov: degrees(projection.angle), pan: 0, tilt: degrees(Math.asin(-projection.lens_back[1])), aspect: 1,
   };
 }
 
+const UP = [0, 1, 0]; // of a camera that is level
+
 export function readValue(view, settings, path) {
+  if (path === camera('axis')) return settings.sidecar.axis ? 'own' : 'camera';
   const value = valueAt(settings, path);
+  if (value === undefined && path.startsWith(camera('axis.'))) return UP[path.at(-1)];
   if (value !== undefined || !path.startsWith('sidecar.projection.')) return value;
   return valueAt(standardOf(view, settings.sidecar.projection), path.replace('sidecar.projection.', ''));
 }
@@ -50,6 +55,8 @@ export function groupsOf(view) {
       { path: camera('convergence.mode'), label: 'Convergence', options: options(studio.convergences) },
       { path: camera('convergence.distance'), label: 'Converge at', unit: 'm', step: 0.01, range: [0.01, 1000], when: (s) => s.sidecar.convergence.mode !== 'parallel' },
       { path: camera('neck'), label: 'Neck to eyes', unit: 'mm', scale: 1000, step: 1, range: [-1000, 1000], about: 'Distance of the eyes in front of the axis they turn about' },
+      { path: camera('axis'), label: 'Eyes turn about', options: [['camera', 'The camera’s up'], ['own', 'Another axis']], write: (word) => (word === 'own' ? UP : null) },
+      { label: 'Axis', when: (s) => s.sidecar.axis, parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`axis.${i}`), label, name: `Axis ${label}`, step: 0.01, range: [-1, 1] })) },
     ] },
     { name: 'Camera', open: true, rows: [
       { label: 'Position', parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`position.${i}`), label, name: `Position ${label}`, unit: 'm', step: 0.01, range: [-1e5, 1e5] })) },
@@ -74,6 +81,8 @@ export function groupsOf(view) {
       { path: camera('projection.tilt'), label: 'Tilt', unit: '°', step: 0.5, range: [-90, 90], when: has('lens') },
       { label: 'Longitude', when: has('range'), parts: [['Left', 0], ['Right', 1]].map(([label, i]) => ({ path: camera(`projection.longitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-360, 360] })) },
       { label: 'Latitude', when: has('range'), parts: [['Bottom', 0], ['Top', 1]].map(([label, i]) => ({ path: camera(`projection.latitude.${i}`), label, name: `${label} edge`, unit: '°', step: 0.5, range: [-90, 90] })) },
+      { label: 'Sensor', when: has('polynomial'), parts: ['Width', 'Height'].map((label, i) => ({ path: camera(`projection.sensor.${i}`), label, name: `Sensor’s ${label.toLowerCase()}`, unit: 'mm', step: 0.1, range: [0.001, 1000] })) },
+      ...[0, 1, 2, 3, 4].map((i) => ({ path: camera(`projection.polynomial.${i}`), label: `K${i}`, step: 1e-7, range: [-1e6, 1e6], when: has('polynomial'), about: i ? `Of the ${['', '', 'square', 'cube', 'fourth power'][i]}${i > 1 ? ' of the ' : ''}radius in mm, for the angle in radians` : 'The angle in the middle, in radians' })),
     ] },
     { name: 'Lens', rows: [
       { path: camera('lens.radius'), label: 'Lens radius', unit: 'mm', scale: 1000, step: 0.1, range: [0, 500], about: '0: everything is sharp' },
@@ -82,10 +91,8 @@ export function groupsOf(view) {
   ];
 }
 
-// What a row's shown number may be: the server's range where it has one of the camera's names for the value
-// (ods/camera/camera_fields.cpp).
+// What a row's shown number may be: the server's range of the camera's number at this place in a sidecar, if it is one.
 export function limitsOf(ranges, { path, range, scale = 1 }) {
-  const name = path.replace(/^sidecar\.(projection\.)?/, '').replace(/^merge_(top|bottom)/, 'merge').replace('lens.focus_distance', 'focus distance')
-    .replace(/\.\d$/, '').replace('.', ' ');
-  return ranges?.[name]?.slice(0, 2).map((value) => value * scale) ?? range;
+  const place = path.replace(/^sidecar\./, '').replace(/\.\d$/, '');
+  return ranges?.[place]?.map((value) => value * scale) ?? range;
 }

@@ -6,6 +6,8 @@ import { MergeCurve } from './merge-curve.js';
 import { groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, make, numberRow } from './studio-number.js';
 
+const LENGTHS = { longitude: 2, latitude: 2, sensor: 2, polynomial: 5, axis: 3 };
+const LIST = /^(?<list>.*\.(?<name>longitude|latitude|sensor|polynomial|axis))\.(?<i>\d)$/; // settings may lack it
 const LINK = /^sidecar\.merge_(top|bottom)\./;
 const numbersOfProjection = ['longitude', 'latitude', 'fov', 'aspect', 'pan', 'tilt', 'sensor', 'polynomial'];
 
@@ -71,20 +73,21 @@ export class Panel {
     return readValue(this.view, other ? settings : { sidecar: { projection: { name: now.sidecar.projection.name } } }, path);
   }
 
-  change({ path, projection }, value, gesture, dragging) {
-    const values = { [path]: value };
+  change({ path, projection, write }, value, gesture, dragging) {
+    const values = { [path]: write ? write(value) : value };
     const merge = this.linked && LINK.exec(path);
     if (merge) values[path.replace('merge_top', 'merge_bottom')] = value;
     if (projection) {
       for (const name of numbersOfProjection) values[`sidecar.projection.${name}`] = undefined;
       values['sidecar.picture.layout'] = value === 'vr180' ? 'side-by-side' : this.view.studio.settings.sidecar.picture.layout;
     }
-    const index = /^(.*\.(?:longitude|latitude))\.(\d)$/.exec(path);
+    const index = LIST.exec(path);
     if (index) {
-      const pair = [0, 1].map((i) => readValue(this.view, this.session.settings, `${index[1]}.${i}`));
-      pair[index[2]] = value;
+      const { list, name, i } = index.groups;
+      const numbers = Array.from({ length: LENGTHS[name] }, (_, each) => readValue(this.view, this.session.settings, `${list}.${each}`));
+      numbers[i] = value;
       delete values[path];
-      values[index[1]] = pair;
+      values[list] = numbers;
     }
     this.session.edit(values, gesture, dragging);
   }

@@ -46,15 +46,6 @@ ProgressStep video_step(std::string_view kind, double done, size_t frames, const
 
 namespace {
 
-double seconds_left(double done, double seconds) {
-  return done > 0.0 ? seconds * (1.0 - done) / done : 0.0;
-}
-
-std::string time_left(double done, double seconds) {
-  const bool can_tell = done >= 0.01 || seconds >= 20.0;  // the first steps are the slowest
-  return can_tell && done > 0.0 && done < 1.0 ? ", " + duration_text(seconds_left(done, seconds)) + " left" : "";
-}
-
 std::string frame_text(const ProgressStep& step) {
   return step.frames > 1 ? fmt::format(", frame {} of {}", step.frame, step.frames) : "";
 }
@@ -66,9 +57,28 @@ std::string percent_text(double done) {
                                          : fmt::format("{}", static_cast<int>(percent));
 }
 
-std::string json_line(double done, double seconds, const ProgressStep& step) {
-  std::string line = fmt::format("{{\"progress\":{:.4f},\"seconds\":{:.1f},\"seconds_left\":{:.1f}", done, seconds,
-                                 seconds_left(done, seconds));
+}  // namespace
+
+// None while there is too little to tell it from. What comes before the first report of any work, such as loading, is
+// no measure of the work: 20 seconds of that and a millionth of a frame would make years.
+std::optional<double> ProgressLines::seconds_left(double done, double seconds) const {
+  const double kEnoughWork = 0.01, kEnoughSeconds = 20.0;
+  const double measured = seconds - first_seconds_;
+  if (done <= 0.0 || (done < kEnoughWork && measured < kEnoughSeconds)) return std::nullopt;
+  const bool has_rate = measured >= 1.0 && done > first_done_;
+  const double rate = has_rate ? (done - first_done_) / measured : done / std::max(seconds, 1e-9);
+  return (1.0 - done) / rate;
+}
+
+std::string ProgressLines::time_left(double done, double seconds) const {
+  const std::optional<double> left = seconds_left(done, seconds);
+  return left && done < 1.0 ? ", " + duration_text(*left) + " left" : "";
+}
+
+std::string ProgressLines::json_line(double done, double seconds, const ProgressStep& step) const {
+  std::string line = fmt::format("{{\"progress\":{:.4f},\"seconds\":{:.1f}", done, seconds);
+  if (const std::optional<double> left = seconds_left(done, seconds))
+    line += fmt::format(",\"seconds_left\":{:.1f}", *left);
   if (!step.kind.empty()) line += fmt::format(",\"kind\":\"{}\"", step.kind);
   if (step.frames > 0) line += fmt::format(",\"frame\":{},\"frames\":{}", step.frame, step.frames);
   // File names need not be valid UTF-8.
@@ -76,8 +86,6 @@ std::string json_line(double done, double seconds, const ProgressStep& step) {
   if (!step.file.empty()) line += ",\"file\":" + nlohmann::json(step.file).dump(-1, ' ', false, lenient);
   return line + "}\n";
 }
-
-}  // namespace
 
 void ProgressLines::draw_bar(double done, double seconds, const ProgressStep& step) {
   const double kRedrawSeconds = 0.1;
@@ -100,6 +108,7 @@ bool ProgressLines::is_due(double seconds) {
 
 void ProgressLines::report(double done, double seconds, const ProgressStep& step) {
   done = std::clamp(done, 0.0, 1.0);
+  if (first_done_ == 0.0) first_done_ = done, first_seconds_ = seconds;
   if (mode_ == ProgressMode::kBar) return draw_bar(done, seconds, step);
   const int percent = static_cast<int>(100.0 * done + 1e-9);
   const int part = mode_ == ProgressMode::kPlain ? percent / 10 : percent;

@@ -5,6 +5,7 @@
 #pragma once
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -74,12 +75,17 @@ class ProgressLines {
   void clear();
 
  private:
+  std::optional<double> seconds_left(double done, double seconds) const;
+  std::string time_left(double done, double seconds) const;
+  std::string json_line(double done, double seconds, const ProgressStep& step) const;
   void draw_bar(double done, double seconds, const ProgressStep& step);
   bool is_due(double seconds);
 
   ProgressMode mode_;
   std::ostream& out_;
   int last_step_ = -1;
+  double first_done_ = 0.0;  // of the first report of any work
+  double first_seconds_ = 0.0;
   double due_ = 1.0;         // seconds: when the next line is due, regardless of the fraction
   double last_drawn_ = 0.0;  // seconds
   bool drawn_ = false;       // the bar is on the screen

@@ -36,7 +36,7 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   ods::Conversion conversion = ods::convert(job.picture, job.target);
   if (conversion.no_depth > 0) {
-    note(fmt::format("{}: {} of its depths are no distances (NaN, 0 or less): taken for far away", job.input,
+    note(fmt::format("{}: {} of its depths are invalid (NaN, 0 or less): taken for far away", job.input,
                      conversion.no_depth));
   }
   count_rows(conversion.rows, job.output, lines, start);

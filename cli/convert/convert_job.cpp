@@ -47,14 +47,16 @@ ods::FormatHint looked_at(const ConvertJob& job) {
   const std::string path = job.kind == FootageKind::kFrames ? job.files.path(0) : job.input;
   if (job.kind == FootageKind::kVideo && !ods::is_video(path)) return job.known;  // opening it says what is wrong
   std::vector<std::string> doubts;
-  const ods::FormatHint format = ods::identified(path, job.known, doubts, "--from-layout and --from-projection");
+  const ods::FormatHint format = ods::identified(path, job.known, doubts);
   for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", path, doubt));
   return format;
 }
 
-// Opens the input as soon as --from-* options are known; the options after it change what its header says.
+// Opens the input as soon as the options that say what it is are known; the options after it change what its header
+// says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.input = path;
+  finish_lens_options(job.known);
   job.kind = ods::footage_kind(path);
   if (job.kind == FootageKind::kFrames) job.files = ods::find_frames(path, wishes.frames);
   ods::OpenOptions open;
@@ -89,12 +91,13 @@ ods::TimeSpan parse_span(const std::string& text) {
 void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
   options.group("Input, if neither the file nor its name tells");
   options.custom(
-      "--from-projection", "NAME", "",
-      [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
+      "--projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "its projection");
-  add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
+  add_layout_option(options, job.known.layout, "its layout; separate: one eye");
+  add_lens_options(options, job.known);
   options.custom(
-      "--from-camera", ValueKind::input_file(), "",
+      "--camera", ValueKind::input_file(), "",
       [&](const std::string& path) {
         std::vector<std::string> warnings;
         const ods::Sidecar file = ods::open_camera(path, warnings);
@@ -108,7 +111,8 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
       "frames to convert, if the input is frames: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.argument(
       ValueKind::input_file("IN"), [&](const std::string& path) { open_header(path, job, wishes); },
-      "a picture (.png .jpg .tif .webp .hdr .exr), frames (#### in the name is the number) or a video (.mp4 .mov .mkv "
+      "a picture (.png .jpg .tif .webp .hdr .exr .heic .avif), frames (#### in the name is the number) or a video "
+      "(.mp4 .mov .mkv "
       ".webm); %V in the name: one file per eye");
 }
 
@@ -125,7 +129,8 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
   options.choice("--eyes", wishes.size.eyes, ods::kEyesTable, "which eyes to make");
   options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
   add_layout_option(options, wishes.layout,
-                    "how both eyes share the file; by default the input's, side-by-side for --to vr180");
+                    "how both eyes share the new file; by default the input's, side-by-side for --to vr180",
+                    "--to-layout");
   options.flag("--sidecar", job.save.sidecar,
                "also write the camera to picture.camera.json, which --from of other commands reads");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
@@ -183,7 +188,7 @@ void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
   job.has_exposure = options.given("--exposure"), job.has_tone = options.given("--tone");
   job.has_layout = wishes.layout.has_value();
   save_as_it_was(job.picture, stereo.projection, job.output, wishes.layout, job.has_tone, job.save);
-  if (job.has_exposure && keeps_light(job.output)) note("--exposure leaves .exr and .hdr as the scene is lit");
+  if (job.has_exposure && keeps_light(job.output)) note("--exposure does not affect .exr and .hdr");
 
   ods::Extent& eye = job.target.eye = ods::fitting_extent(job.picture, stereo.projection);
   if (wishes.size.width > 0) eye = {wishes.size.width, wishes.size.height};
@@ -217,7 +222,7 @@ void check_kinds(const Options& options, const ConvertJob& job) {
   }
   if (options.given("--fps") && from_video) throw UsageError("--fps is for frames: a video keeps its own times");
   if (job.has_packing && !to_video)
-    throw UsageError(fmt::format("'{}' is no video: --codec and the like need one", job.output));
+    throw UsageError(fmt::format("--codec and its like need video output, and '{}' is no video", job.output));
 }
 
 }  // namespace

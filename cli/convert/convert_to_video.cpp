@@ -77,7 +77,8 @@ VideoWishes wishes_for(const ConvertJob& job) {
   wishes.output = job.output;
   if (!job.footage) return wishes;
   const VideoStream& stream = job.footage->stream();
-  wishes.sound_cut.is_cut = job.trim.is_part();
+  wishes.keep.cut.is_cut = job.trim.is_part();
+  if (job.trim.to) wishes.keep.cut.length = *job.trim.to - job.trim.from;
   wishes = wishes_like(wishes, job.footage->video(), stream, job.has_target);
   if (!stream.words.is_hdr()) return wishes;
   if (wishes.bits == 8)
@@ -130,7 +131,7 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   ods::check_packing(plan, options.packing);
   say_what_players_need(wishes, plan, options);
   const size_t expected = job.footage ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
-  if (!options.copies_sound) say_length_of_sound(options, expected);
+  say_length_of_sound(options, expected);
   if (options.bitrate && expected > ods::kPartFrames) {
     note("--bitrate is kept over the whole video: if interrupted, it begins anew");
   }

@@ -16,7 +16,9 @@ bool has_same_commands(const ods::FarmPlan& plan) {
     return a.command == b.command && a.numbers == b.numbers;
   };
   try {
-    return std::ranges::equal(ods::open_plan(plan.folder).groups, plan.groups, same);
+    std::vector<ods::TaskGroup> then = ods::open_plan(plan.folder).groups;
+    std::erase_if(then, [](const ods::TaskGroup& group) { return group.name == kRawGroup; });
+    return std::ranges::equal(then, plan.groups, same);
   } catch (const ods::Error&) {  // there is none, or one of another version
     return false;
   }

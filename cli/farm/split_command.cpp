@@ -45,7 +45,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Split = std::optional<SplitCommand>;
 
-const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "-q"};
+const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "--raw", "-q"};
 const Words kByMachine = {"--threads", "--progress"};
 const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
 
@@ -96,7 +96,7 @@ size_t memory_of(const SplitCommand& split, const RenderJob& job) {
 }
 
 SplitCommand begin(std::vector<GivenWord>& given) {
-  refuse(given, {"--only", "--part"}, "that is what ods submit adds to every task");
+  refuse(given, {"--only", "--part", "--raw"}, "that is what ods submit adds to every task");
   SplitCommand split;
   for (const GivenWord& word : given) {
     if (word.name == "--threads") split.threads = std::stoi(word.value);
@@ -156,13 +156,19 @@ Split split_video(const Words& words) {
     VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames, frames);
   };
   given = without(given, kByFarm);
-  split.groups = {split_group(split, "frames", command_words("video", given), "--only", frame_pattern(split.output)),
+  const std::string pattern = frame_pattern(split.output);
+  if (split.halo > 0) {
+    split.raw = split_group(split, kRawGroup, command_words("video", given, {"--raw"}), "--only",
+                            pattern + std::string(kRawEnd));
+    split.disk = frames.size() * ods::samples_bytes(options_to_finish(job.render));
+  }
+  split.groups = {split_group(split, "frames", command_words("video", given), "--only", pattern),
                   {"video", command_words("video", given, kLate), ""}};
   return split;
 }
 
 // Options that decide what becomes of the samples: the merge has them.
-const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--exposure", "--tone"};
+const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--tone"};
 
 // Parts of another picture would be taken for finished, and refused by the merge.
 void check_parts(const RenderJob& first, const ods::FrameNames& names) {
@@ -207,9 +213,8 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
   check_parts(checked, *ods::frame_names(pattern));
   std::vector<GivenWord> of_merge = {{"", pattern}, {"-o", split.output}};
-  for (const GivenWord& word : only(given, kOfMerge)) {
-    if (word.name != "--exposure" || word.value != "auto") of_merge.push_back(word);
-  }
+  std::ranges::copy(only(given, kOfMerge), std::back_inserter(of_merge));
+  if (job.exposure) of_merge.push_back({"--exposure", fmt::format("{}", *job.exposure)});
   Words merge = kLate;
   if (!job.keep_parts) merge.push_back("--remove-parts");
   split.memory = memory_of(split, checked);

@@ -12,18 +12,22 @@
 
 #include "ods/farm/plan.h"
 
+// The group that a plan may have before the first of a SplitCommand.
+inline constexpr const char* kRawGroup = "raw";
+
 struct SplitCommand {
   std::string output;                     // the file, or the pattern of the frames, absolute
   std::vector<ods::TaskGroup> groups;     // the first is split; its tasks are not counted yet
   std::vector<ods::PlanPath> paths;       // that the commands name
   std::vector<std::string> scene_files;   // beside the scene: buffers and pictures
   size_t memory = 0;                      // bytes that a task takes
-  size_t disk = 0;                        // that all parts take, at most
+  size_t disk = 0;                        // that all parts take, or all raw frames, at most
   std::optional<int> threads;             // that the command asks for
   bool restart = false;                   // what is there is discarded
   std::string noun;                       // what the tasks make: "frame", "part", "view"
   size_t count = 0;                       // of these
   std::vector<int> numbers;               // theirs
+  std::optional<ods::TaskGroup> raw;      // before the first group, where that is cheaper: renders what that denoises
   int halo = 0;                           // on each side of a task's own, that it renders for the denoiser
   std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
 };

@@ -92,7 +92,7 @@ void submit(int argc, char** argv) {
     copy_files(copies);
     split->prepare();
   }
-  plan.groups.front().tasks = count_tasks(job, *split);
+  count_tasks(job, *split, plan);
   ods::SchedulerWishes wishes = job.wishes;
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);

@@ -13,6 +13,7 @@
 #include "cli/console/spawn.h"
 #include "cli/console/programs.h"
 #include "ods/base/quote.h"
+#include "ods/files/atomic_file.h"
 
 namespace fs = std::filesystem;
 
@@ -45,6 +46,9 @@ void add_options(Options& options, SubmitJob& job) {
   options.group("Tasks");
   options.number("--chunk", job.chunk, 0, 1000000,
                  "frames of a task; 0: as many as take ten minutes, by the time of the first one, which is made here");
+  options.flag("--raw-first", job.raw_first,
+               "videos that are denoised: render all frames first, each once, then denoise them; by default where that "
+               "is cheaper than rendering twice those beside a task's own");
   options.text("--name", "NAME", job.name, "name of the job; by default of what the command makes");
   options.number("--cpus", job.cpus, 0, 1024, "processors of a task, as --threads of the command; 0: a whole machine");
   options.number("--memory", job.memory, 0.1f, 4096.0f, "GB that a task takes; by default an estimate");
@@ -118,13 +122,8 @@ ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split) {
   return plan;
 }
 
-int count_tasks(const SubmitJob& job, const SplitCommand& split) {
-  if (split.noun == "part" || split.groups.front().option.empty()) return static_cast<int>(split.count);
-  if (job.chunk > 0) return ods::tasks_for(split.count, job.chunk);
-  if (job.dry) {
-    note("--dry-run makes no first frame: tasks of ten are assumed (--chunk N)");
-    return ods::tasks_for(split.count, 10);
-  }
+// Seconds that a frame takes: the first one is made here.
+static double time_first(const SplitCommand& split) {
   std::vector<std::string> words = {kThisProgram};
   const ods::TaskGroup& group = split.groups.front();
   words.insert(words.end(), group.command.begin(), group.command.end());
@@ -138,7 +137,41 @@ int count_tasks(const SubmitJob& job, const SplitCommand& split) {
   }
   const int rendered = split.count > 1 ? 1 + split.halo : 1;
   const double seconds = std::max(seconds_since(start), 1e-3);
-  const int chunk = ods::suitable_chunk(seconds / rendered, split.count, split.halo);
-  note(fmt::format("it took {}: tasks of {} (--chunk {})", duration_text(seconds), chunk, chunk));
-  return ods::tasks_for(split.count, chunk);
+  note(fmt::format("it took {}", duration_text(seconds)));
+  return seconds / rendered;
+}
+
+static bool has_room_for_raw(const SplitCommand& split) {
+  std::error_code error;
+  const fs::space_info space = fs::space(ods::existing_folder_of(split.output), error);
+  return !error && split.disk <= space.available;
+}
+
+// A task that denoises reads the frames beside its own, too: it has as many as keep that cheap.
+static void put_raw_first(const SplitCommand& split, int chunk, ods::FarmPlan& plan) {
+  ods::TaskGroup raw = *split.raw;
+  raw.tasks = ods::tasks_for(split.count, chunk);
+  plan.groups.front().tasks = ods::tasks_for(split.count, std::max(chunk, ods::least_chunk(split.halo)));
+  plan.groups.insert(plan.groups.begin(), raw);
+}
+
+void count_tasks(const SubmitJob& job, const SplitCommand& split, ods::FarmPlan& plan) {
+  int& tasks = plan.groups.front().tasks;
+  if (job.raw_first && !split.raw) throw UsageError("--raw-first is for videos that ods denoises over time");
+  if (split.noun == "part" || split.groups.front().option.empty()) {
+    tasks = static_cast<int>(split.count);
+    return;
+  }
+  int chunk = job.chunk > 0 ? job.chunk : 10;
+  bool raw_first = job.raw_first;
+  if (job.chunk == 0 && job.dry) note("--dry-run makes no first frame: tasks of ten are assumed (--chunk N)");
+  if (job.chunk == 0 && !job.dry) {
+    const double seconds = time_first(split);
+    raw_first |= split.raw && has_room_for_raw(split) &&
+                 ods::raw_first_is_cheaper(seconds, split.count, split.halo, split.disk / split.count);
+    chunk = ods::suitable_chunk(seconds, split.count, raw_first ? 0 : split.halo);
+    note(fmt::format("tasks of {} (--chunk {})", chunk, chunk));
+  }
+  if (raw_first) return put_raw_first(split, chunk, plan);
+  tasks = ods::tasks_for(split.count, chunk);
 }

@@ -16,6 +16,7 @@ struct SubmitJob {
   int chunk = 0;  // 0: by the time that the first one takes
   int cpus = 0;
   std::optional<float> memory;  // GB
+  bool raw_first = false;
   bool dry = false, copies = false;
   ods::SchedulerWishes wishes;
   std::vector<std::string> command;
@@ -30,5 +31,6 @@ ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split);
 // FOLDER/NAME.farm beside the output.
 std::string usual_folder(const std::string& output);
 
-// How many tasks. Without --chunk the first frame is made here, and its time decides.
-int count_tasks(const SubmitJob& job, const SplitCommand& split);
+// Sets how many tasks the groups have. Without --chunk the first frame is made here, and its time decides; also
+// whether the frames are rendered first and denoised by a group of their own.
+void count_tasks(const SubmitJob& job, const SplitCommand& split, ods::FarmPlan& plan);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/console/console.h"
+#include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/files/atomic_file.h"
 #include "ods/image/format/file_format.h"
@@ -27,6 +28,8 @@ double pixel_bytes(ods::FileFormat format, const ods::RenderOptions& options) {
       return 1.0;
     case ods::FileFormat::kHdr:
       return 4.0;
+    case ods::FileFormat::kHeif:
+      break;
     case ods::FileFormat::kExr:
       return 2.0 * channels + (options.layers ? 4.0 + 6.0 + 6.0 : 0.0);  // 32-bit Z, normals, albedo
   }
@@ -43,16 +46,41 @@ double largest_frame(const std::string& path, const ods::RenderOptions& options,
   return 1.0 * eye.width * eye.height * stored * pixel_bytes(*ods::format_of_path(path), options);
 }
 
-void say_disk_room(const std::string& path, size_t frames, double bytes_of_frame) {
+namespace {
+
+struct DiskRoom {
+  bool fits = true;
+  std::string text;  // empty: nothing to say
+};
+
+// how_much: "up to", "about".
+DiskRoom room_for(const std::string& path, size_t frames, double bytes_of_frame, const char* how_much) {
   std::error_code error;
   const fs::space_info space = fs::space(ods::existing_folder_of(path), error);
-  if (error || frames == 0) return;
+  if (error || frames == 0) return {};
   const double needed = static_cast<double>(frames) * bytes_of_frame;
   const bool fits = needed <= static_cast<double>(space.available);
-  if (fits && needed < 1e6) return;
+  if (fits && needed < 1e6) return {};
   const std::string shown = fs::path(path).parent_path().native();
-  const std::string text = fmt::format("the {} need up to {} in '{}'; {} are free", frames == 1 ? "frame" : "frames",
-                                       ods::bytes_text(static_cast<size_t>(needed)), shown.empty() ? "." : shown,
-                                       ods::bytes_text(static_cast<size_t>(space.available)));
-  fits ? note(text) : warn(text);
+  return {fits, fmt::format("the {} {} {} in '{}'; {} are free", frames == 1 ? "frame needs" : "frames need", how_much,
+                            ods::bytes_text(static_cast<size_t>(needed)), shown.empty() ? "." : shown,
+                            ods::bytes_text(static_cast<size_t>(space.available)))};
+}
+
+}  // namespace
+
+void say_disk_room(const std::string& path, size_t frames, double bytes_of_frame) {
+  const DiskRoom room = room_for(path, frames, bytes_of_frame, "up to");
+  if (!room.text.empty()) room.fits ? note(room.text) : warn(room.text);
+}
+
+void check_disk_room(const std::string& path, size_t frames, double bytes_of_frame, bool anyway) {
+  const DiskRoom room = room_for(path, frames, bytes_of_frame, "about");
+  if (room.fits && !room.text.empty()) note(room.text);
+  if (room.fits) return;
+  if (!anyway) {
+    throw ods::Error(ods::ErrorKind::kOutput,
+                     room.text + ": make room, choose a smaller --width, or render them anyway with --force");
+  }
+  warn(room.text);
 }

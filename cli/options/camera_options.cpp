@@ -13,6 +13,8 @@
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
 #include "ods/picture/metadata/stereo_format.h"
+#include "ods/scene/motion.h"
+#include "ods/stage/place.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
 
@@ -87,8 +89,10 @@ static void take_camera_file(CameraOptions& camera, const std::string& path, con
 }
 
 static void add_view_options(Options& options, CameraOptions& camera) {
-  options.text("--camera", "NAME", camera.view_point,
-               "a camera in the file (ods info lists them); by default the first");
+  options.text(
+      "--camera", "NAME", camera.view_point,
+      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
+      "a speck");
   add_position_option(options, camera);
 }
 
@@ -119,7 +123,8 @@ void finish_camera_options(CameraOptions& camera, int width, int& height) {
 }
 
 static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
-  return camera.view_point.empty() ? ods::default_view(scene) : find_view_point(scene, camera.view_point);
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  return is_named ? find_view_point(scene, camera.view_point) : ods::default_view(scene);
 }
 
 StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
@@ -134,16 +139,29 @@ StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene)
   return stereo;
 }
 
-StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
+bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
+  if (camera.position && camera.yaw) return false;
+  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
+  if (!is_named) return uses_own_camera(scene) && moves_view(scene.animation, 0);
+  const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
+  return moves_view(scene.animation, static_cast<int>(index));
+}
+
+void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
   const ViewPoint view = chosen_view(camera, scene);
-  const StereoCamera stereo = place_camera_again(camera, scene);
-  std::string from = scene.view_points.empty() ? view.name : "the scene's camera '" + view.name + "'";
+  const bool is_ours = ods::camera_choice(camera.view_point) != ods::CameraChoice::kNamed && !uses_own_camera(scene);
+  std::string from = is_ours ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
   note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", stereo.position.x, stereo.position.y,
                    stereo.position.z, stereo.yaw, from));
   if (!camera.pitch && !camera.roll && (std::abs(view.pitch) > 0.5f || std::abs(view.roll) > 0.5f)) {
     note(fmt::format("kept level; --pitch {:.4g} --roll {:.4g} tilts it as in the file", view.pitch, view.roll));
   }
+}
+
+StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
+  const StereoCamera stereo = place_camera_again(camera, scene);
+  note_camera(camera, scene, stereo);
   return stereo;
 }
 

@@ -56,5 +56,11 @@ ods::StereoCamera place_camera(const CameraOptions& camera, const ods::Scene& sc
 // Likewise without the note: for every frame of a video.
 ods::StereoCamera place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
 
+// That note. stereo: the camera, which may have moved since it was placed.
+void note_camera(const CameraOptions& camera, const ods::Scene& scene, const ods::StereoCamera& stereo);
+
+// Whether the file's animation, as it plays, moves this camera. Throws UsageError.
+bool file_moves_camera(const CameraOptions& camera, const ods::Scene& scene);
+
 // The camera that the options ask for if there is no scene: at the origin by default.
 ods::StereoCamera place_camera(const CameraOptions& camera);

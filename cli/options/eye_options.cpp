@@ -52,9 +52,9 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
   if (numbers.size() > 1) merge.end = numbers[1];
   if (numbers.size() > 2) merge.exponent = numbers[2];
   const bool legal = mode && parts.legal && numbers.size() <= 3 && merge.start < merge.end &&
-                     range_of(CameraField::kMergeStart).contains(merge.start) &&
-                     range_of(CameraField::kMergeEnd).contains(merge.end) &&
-                     range_of(CameraField::kMergeExponent).contains(merge.exponent);
+                     range_of(CameraField::kTopMergeStart).contains(merge.start) &&
+                     range_of(CameraField::kTopMergeEnd).contains(merge.end) &&
+                     range_of(CameraField::kTopMergeExponent).contains(merge.exponent);
   if (!legal) {
     throw UsageError(
         fmt::format("{} is {}, then ,START,END in degrees (0 <= START < END <= 90) and ,EXP (0.000001 to 100), "

@@ -123,7 +123,7 @@ void add_light_options(Options& options, LightOptions& light) {
   options.text("--env", kind("--env", "LIGHT"), light.environment,
                "light from all around, instead of the scene's own: studio, sky, sky:elevation=35,azimuth=120 (of the "
                "sun), white, a lat-long picture (.hdr, .exr, ...), R,G,B or one brightness; 0 is none. A scene without "
-               "light gets what suits it");
+               "light gets suitable light");
   options.text("--lamp", "auto|none|X,Y,Z", light.lamp,
                "a soft lamp that shines down from there; by default (auto) only closed rooms without light get one");
   options.flag("--unlit", light.unlit, "show all colours as they are painted, without light and shadow");

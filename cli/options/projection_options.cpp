@@ -29,7 +29,7 @@ constexpr Face kFaces[] = {{"front", 0.0f, 0.0f},  {"right", 90.0f, 0.0f}, {"bac
 void expect(bool useful, const char* option, const std::string& owners, const ProjectionSetting& projection) {
   if (useful) return;
   throw UsageError(
-      fmt::format("{} is for {}, not for --projection {}", option, owners, ods::projection_name(projection)));
+      fmt::format("{} is for {}, not for the projection {}", option, owners, ods::projection_name(projection)));
 }
 
 // LON0,LON1[,LAT0,LAT1]
@@ -95,18 +95,17 @@ ProjectionSetting projection_by_name(const std::string& option, const std::strin
       fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
 }
 
-void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& name) {
+void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& option) {
   options.group("Projection");
-  const std::string option = name.empty() ? "--projection" : name;
   const auto is_named = std::make_shared<bool>(false);
   options.custom(
-      name.empty() ? option : fmt::format("{},--projection", name), "NAME", name.empty() ? "lat-long" : "",
+      option, "NAME", option == "--projection" ? "lat-long" : "",
       [&projection, option, is_named](const std::string& text) {
         projection = projection_by_name(option, text);
         *is_named = true;
       },
       fmt::format("projection of each eye's picture: {}", fmt::join(ods::names_of(ods::named_projections()), ", ")));
-  options.offer(name.empty() ? option : name + ",--projection", ods::names_of(ods::named_projections()));
+  options.offer(option, ods::names_of(ods::named_projections()));
   options.custom(
       "--face", "NAME", "",
       [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },
@@ -127,6 +126,45 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
   options.custom(
       "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
       fmt::format("where it points ({}), degrees right and up; the eyes stay level", ods::kinds_with(ods::has_lens)));
+}
+
+// One circle for both eyes, or one for each.
+static void parse_circles(const std::string& text, ods::FormatHint& known) {
+  const std::vector<float> numbers = parse_numbers(text);
+  known.lenses.clear();
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    ods::FisheyeLens& lens = known.lenses.emplace_back();
+    lens.center = vec2(numbers[i], numbers[i + 1]), lens.radius = numbers[i + 2], lens.fov = 0.0f;
+  }
+  if ((numbers.size() == 3 || numbers.size() == 6) && known.lenses[0].radius > 0.0f) return;
+  throw UsageError(
+      fmt::format("--circle is X,Y,R, the middle and the radius of the image circle in pixels of the eye's picture, or "
+                  "X,Y,R,X,Y,R for the left eye and the right one, not '{}'",
+                  text));
+}
+
+void add_lens_options(Options& options, ods::FormatHint& known) {
+  options.flag("--front-and-back", known.front_and_back,
+               "its halves are fisheyes that look ahead and back (Gear 360, Theta, Insta360): one eye");
+  options.custom(
+      "--circle", "X,Y,R[,X,Y,R]", "", [&known](const std::string& text) { parse_circles(text, known); },
+      "its fisheye's image circle, where it does not touch the edges: middle and radius in pixels of the eye's "
+      "picture; "
+      "six numbers: the left eye's and the right one's");
+}
+
+void finish_lens_options(ods::FormatHint& known) {
+  constexpr float kUsualFov = 195.0f;  // of cameras that look ahead and back
+  if (known.lenses.empty() && !known.front_and_back) return;
+  if (known.front_and_back && !known.layout) known.layout = ods::Layout::kSideBySide;
+  if (!known.projection || !ods::is_fisheye(known.projection->kind)) {
+    known.projection = ods::find_projection("fisheye")->setting;
+    if (known.front_and_back) known.projection->fov = kUsualFov;
+  }
+  for (ods::FisheyeLens& lens : known.lenses) {
+    lens.kind = known.projection->kind;
+    if (lens.fov == 0.0f) lens.fov = known.projection->fov;
+  }
 }
 
 void finish_projection(ProjectionSetting& projection, int width, int& height) {

@@ -7,9 +7,10 @@
 
 #include "cli/console/options.h"
 #include "ods/camera/projection.h"
+#include "ods/picture/metadata/stereo_format.h"
 
-// name: another name of the option --projection; empty: none.
-void add_projection_options(Options& options, ods::ProjectionSetting& projection, const std::string& name = "");
+// option: the name of the one that names the projection.
+void add_projection_options(Options& options, ods::ProjectionSetting& projection, const std::string& option = "--projection");
 
 // Throws UsageError, whose message says that `option` was given the name.
 ods::ProjectionSetting projection_by_name(const std::string& option, const std::string& name);
@@ -17,3 +18,10 @@ ods::ProjectionSetting projection_by_name(const std::string& option, const std::
 // Finds the height of one eye's picture if it is 0, or else the aspect of a perspective view. Throws UsageError if the
 // numbers do not fit together.
 void finish_projection(ods::ProjectionSetting& projection, int width, int& height);
+
+// Options for files that show a camera's own fisheyes: --front-and-back and --circle. Add them before the argument that
+// opens the file.
+void add_lens_options(Options& options, ods::FormatHint& known);
+
+// What these options imply: a fisheye, and two halves if they look ahead and back.
+void finish_lens_options(ods::FormatHint& known);

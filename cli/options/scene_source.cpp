@@ -32,6 +32,16 @@ static void add_unit_option(Options& options, SceneSource& source) {
       "nothing that people meet has that size");
 }
 
+static void add_shape_options(Options& options, SceneSource& source) {
+  add_unit_option(options, source);
+  options.choice("--as", source.taken_for, ods::kTakenForTable,
+                 "what the scene is: an object is looked at from outside, in a place the viewer stands. auto: found by "
+                 "rays");
+  options.choice(
+      "--up", source.up, ods::kUpAxisTable,
+      "the axis of the file that points up. auto: y, as glTF has it, unless things stand on a floor along z");
+}
+
 // None: auto.
 static std::optional<float> parse_unit(const std::string& word) {
   if (word == "auto") return std::nullopt;
@@ -76,14 +86,14 @@ void add_scene_argument(Options& options, SceneSource& source,
                "which of the file's material variants to show (ods info lists them); by default its first choice");
   options.flag("--solid-glass", source.solid_glass,
                "make closed meshes of glass refract that have no volume in the file, as those of Blender");
-  add_unit_option(options, source);
+  add_shape_options(options, source);
   options.flag("--portable", source.portable,
                "trace rays alike on every processor: nearly the same bits on all of them, and slower");
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
   options.text("--scene", scene_kind(), source.name, help);
-  add_unit_option(options, source);
+  add_shape_options(options, source);
   add_confine_option(options, source);
 }
 
@@ -127,27 +137,46 @@ static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* 
   std::optional<float> unit = parse_unit(source.unit);
   if (!unit && source.foreign && source.foreign->is_blender_file) unit = 1.0f;
   if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
-  const ods::Settled settled = ods::settle(scene, unit, !source.has_places, look);
+  const ods::SettleOptions options{unit, !source.has_places, source.taken_for, ods::camera_choice(source.camera)};
+  const ods::Settled settled = ods::settle(scene, options, look);
   if (result) *result = settled;
-  if (settled.unit_reason.empty()) return;
-  note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason, unit_word(settled.metres_per_unit)));
+  if (!settled.camera_reason.empty()) {
+    note(fmt::format("{}: it is not used (--camera '{}' uses it)", settled.camera_reason,
+                     scene.view_points.front().name));
+  }
+  if (!settled.unit_reason.empty()) {
+    note(fmt::format("{} (--unit {}; --unit m keeps its size)", settled.unit_reason,
+                     unit_word(settled.metres_per_unit)));
+  }
+  if (settled.doubted) note(settle_doubt(settled.kind));
 }
 
-// What Cycles sees in it: all closed glass is solid.
-static Scene load_foreign(const SceneSource& source) {
+// The scene as --up has it.
+static Scene load_upright(const SceneSource& source) {
+  const std::string& file = source.foreign ? source.foreign->file : source.name;
+  ods::SceneOptions options{
+      .scene = source.scene.value_or(-1),
+      .confine = source.foreign ? "" : confining_folder(source),
+      .variant = source.variant,
+      .camera = ods::camera_choice(source.camera) == ods::CameraChoice::kNamed ? source.camera : "",
+      .z_up = source.up == ods::UpAxis::kZ};
+  Scene scene = ods::load_scene(file, options);
+  const bool is_upright = ods::find_builtin(source.name) || (source.foreign && source.foreign->is_blender_file);
+  if (source.up != ods::UpAxis::kAuto || is_upright || !ods::lies_on_its_back(scene)) return scene;
+  note("things in the file stand on a floor along its z axis: z is taken for up (--up z; --up y keeps it)");
+  options.z_up = true;
+  return ods::load_scene(file, options);
+}
+
+// Of a scene of another program, what Cycles sees in it: all closed glass is solid.
+static Scene load(const SceneSource& source) {
+  Scene scene = load_upright(source);
+  if (!source.foreign) return scene;
   const ForeignScene& foreign = *source.foreign;
-  Scene scene = ods::load_scene(foreign.file, {.scene = source.scene.value_or(-1), .variant = source.variant});
   scene.name = std::filesystem::path(source.name).stem().string();
   scene.warnings.insert(scene.warnings.begin(), foreign.warnings.begin(), foreign.warnings.end());
   if (foreign.is_blender_file) make_glass_solid(scene);
   return scene;
-}
-
-static Scene load(const SceneSource& source) {
-  if (source.foreign) return load_foreign(source);
-  return ods::load_scene(
-      source.name,
-      {.scene = source.scene.value_or(-1), .confine = confining_folder(source), .variant = source.variant});
 }
 
 Scene open_scene(const SceneSource& given, ods::Settled* settled, const ods::LookAround& look) {

@@ -13,6 +13,7 @@
 #include "cli/options/light_options.h"
 #include "ods/scene/scene.h"
 #include "ods/stage/place.h"
+#include "ods/stage/upright.h"
 
 struct SceneSource {
   std::string name;          // a file or a built-in scene
@@ -26,6 +27,9 @@ struct SceneSource {
   std::string unit = "auto";
   BlenderOptions blender;
   std::optional<ForeignScene> foreign;  // what became of the scene of another program: read_foreign()
+  ods::TakenFor taken_for = ods::TakenFor::kAuto;
+  ods::UpAxis up = ods::UpAxis::kAuto;
+  std::string camera;       // as CameraOptions::view_point
   bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 

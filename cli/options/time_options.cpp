@@ -74,19 +74,16 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 is none");
-  options.choice("--grain", time.grain, kGrainTable,
-                 "noise pattern: the same in every frame, or different in each; by default changing where --turntable "
-                 "or --fly-to moves the camera, else fixed");
+  options.choice(
+      "--grain", time.grain, kGrainTable,
+      "noise pattern: the same in every frame, or different in each; by default changing with --turntable or "
+      "--fly-to and where the file moves the camera, else fixed");
   options.flag("--skip-existing", time.skip_existing,
                "do not render files that exist; several processes with this option share the rest");
 }
 
 bool asks_for_video(const TimeOptions& time) {
   return time.is_video || !time.frames.empty() || time.duration || ods::moves(time.move);
-}
-
-Grain grain_of(const TimeOptions& time) {
-  return time.grain.value_or(ods::moves(time.move) ? Grain::kChanging : Grain::kFixed);
 }
 
 void check_time_options(const TimeOptions& time) {
@@ -140,12 +137,16 @@ static void turn_object(TimeOptions& time, ods::Scene& scene) {
   time.move.turns = 0.0;
 }
 
-void start_clock(TimeOptions& time, ods::Scene& scene) {
+static Grain usual_grain(const TimeOptions& time, const CameraOptions& camera, const ods::Scene& scene) {
+  return ods::moves(time.move) || file_moves_camera(camera, scene) ? Grain::kChanging : Grain::kFixed;
+}
+
+void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& scene) {
   ods::Animation& animation = scene.animation;
   const bool timed = time.time || asks_for_video(time);
   const std::vector<std::string> names = ods::names_of(animation.clips);
   if (!timed && time.animation.empty()) {
-    if (!names.empty()) note("the scene stands at rest; --time SECONDS or --frames LIST plays its animation");
+    if (!names.empty()) note("rendering the rest pose; --time SECONDS or --frames LIST plays the animation");
     return;
   }
   if (!time.animation.empty() && names.empty()) throw UsageError("--animation: the scene has none");
@@ -154,6 +155,7 @@ void start_clock(TimeOptions& time, ods::Scene& scene) {
                                  ods::did_you_mean(time.animation, names)));
   }
   const double length = ods::length_of(animation);
+  if (!time.grain) time.grain = usual_grain(time, camera, scene);
   time.move.seconds = time.duration ? static_cast<double>(*time.duration) : length > 0.0 ? length : 10.0;
   turn_object(time, scene);
 }

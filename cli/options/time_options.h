@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "cli/options/camera_options.h"
 #include "ods/base/names.h"
 #include "ods/camera/camera_move.h"
 #include "ods/scene/scene.h"
@@ -34,7 +35,7 @@ struct TimeOptions {
   std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
   float shutter = 0.0f;        // shutter angle, degrees: 360 is the time between two frames
-  std::optional<Grain> grain;  // empty: grain_of() chooses
+  std::optional<Grain> grain;  // empty: start_clock() chooses
   bool skip_existing = false;
   bool is_video = false;  // true: the command makes a video, whatever other options say
 };
@@ -44,16 +45,13 @@ void add_time_options(Options& options, TimeOptions& time);
 // Whether the options ask for a video, frame by frame.
 bool asks_for_video(const TimeOptions& time);
 
-// What time.grain says; by default kChanging if the options move the camera.
-Grain grain_of(const TimeOptions& time);
-
 // Checks the options as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);
 
-// Starts the requested animations and finds the length of the video. Where --turntable turns an object instead of the
-// camera, the object's turning becomes a part of the scene's animation, and time.move no longer has it. Throws
-// UsageError.
-void start_clock(TimeOptions& time, ods::Scene& scene);
+// Starts the requested animations, finds the length of the video, and sets time.grain: by default kChanging if the
+// options or the file move the camera. Where --turntable turns an object instead of the camera, the object's turning
+// becomes a part of the scene's animation, and time.move no longer has it. Throws UsageError.
+void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& scene);
 
 // Checks the value of --only. Throws UsageError and ods::Error(kUsage).
 void check_only(const std::string& only);

@@ -17,6 +17,7 @@
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/lint/players.h"
+#include "ods/video/tracks/sound.h"
 
 using ods::Chroma, ods::Container, ods::Extent, ods::VideoCodec, ods::Layout;
 
@@ -191,9 +192,10 @@ VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const 
     wishes.bits = wishes.bits.value_or(own->bits);
     wishes.chroma = wishes.chroma.value_or(own->chroma);
   }
-  if (!wishes.sound.empty() || !video.has_sound) return wishes;
-  wishes.sound = video.path;
-  wishes.copies_sound = true;
+  wishes.keep.path = video.path;
+  wishes.keep.track = video.track;
+  wishes.keep.has_sound = wishes.sound.empty();
+  wishes.keep.tell = [path = video.path](const std::string& words) { warn(fmt::format("'{}': {}", path, words)); };
   return wishes;
 }
 
@@ -209,8 +211,7 @@ ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int th
   options.rate = wishes.rate;
   options.threads = threads;
   options.sound = wishes.sound;
-  options.copies_sound = wishes.copies_sound;
-  options.sound_cut = wishes.sound_cut;
+  options.keep = wishes.keep;
   options.for_apple = wishes.for_apple;
   check_container(container, options.packing.codec);
   check_quality(options);

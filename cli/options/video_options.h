@@ -18,9 +18,8 @@ struct VideoWishes {
   std::optional<ods::Chroma> chroma;
   std::optional<float> bitrate;
   std::string encoder, preset, sound;
-  bool copies_sound = false;
   bool for_apple = false;
-  ods::SoundCut sound_cut;
+  ods::KeepOptions keep;
   ods::FrameRate rate;
 };
 
@@ -32,8 +31,8 @@ void add_video_options(Options& options, VideoWishes& wishes);
 // Adds the packing options alone, to the group that is open.
 void add_packing_options(Options& options, VideoWishes& wishes);
 
-// What was not asked for is as in the video from which the new one is made: codec, bits, chroma, rate, and its sound,
-// which is copied. has_target: --target was given.
+// What was not asked for is as in the video from which the new one is made: codec, bits, chroma, rate, and all that it
+// has beside its pictures; what of that cannot be kept becomes a warning. has_target: --target was given.
 VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream,
                         bool has_target);
 

@@ -31,9 +31,9 @@ void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::Pro
   options.text("--half-a", "NAME", job.layers.half_a, "layer with the mean of half of the samples");
   options.text("--half-b", "NAME", job.layers.half_b, "layer with that of the others");
   options.custom(
-      "--from-projection", "NAME", "",
-      [&](const std::string& name) { projection = projection_by_name("--from-projection", name); }, "its projection");
-  add_layout_option(options, job.known.layout, "its layout; separate: one eye", "--from-layout");
+      "--projection", "NAME", "",
+      [&](const std::string& name) { projection = projection_by_name("--projection", name); }, "its projection");
+  add_layout_option(options, job.known.layout, "its layout; separate: one eye");
 }
 
 void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::Layout>& layout, bool& alone) {
@@ -44,7 +44,7 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
       "in the name writes one file per eye");
   options.flag("--each-eye", alone, "denoise each eye alone");
   options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, where it is installed; needs no statistics");
-  add_layout_option(options, layout, "how both eyes share the file; by default the input's");
+  add_layout_option(options, layout, "how both eyes share the new file; by default the input's", "--to-layout");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");

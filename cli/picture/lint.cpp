@@ -52,6 +52,8 @@ bool read_options(LintJob& job, int argc, char** argv) {
   add_layout_option(options, job.lint.layout,
                     "layout, if neither the file nor its name (_TB, _LR, ...) tells; separate: one eye");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
+  ods::FormatHint lenses;
+  add_lens_options(options, lenses);
   add_projection_options(options, job.projection);
   options.group("Videos");
   options.number("--every", job.every, 0, 1 << 30,
@@ -65,6 +67,10 @@ bool read_options(LintJob& job, int argc, char** argv) {
   if (options.given("--projection") || options.given("--face") || options.given("--range")) {
     job.lint.projection = job.projection;
   }
+  if (lenses.front_and_back) throw UsageError("--front-and-back is one eye, and lint judges two: convert it");
+  lenses.projection = job.lint.projection;
+  finish_lens_options(lenses);
+  job.lint.lenses = lenses.lenses;
   return true;
 }
 

@@ -43,12 +43,11 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
       "frames of the background: 1-100, 1-100x2, ...; by default all");
   add_share_options(options, job.share);
   options.custom(
-      "--from-projection", "NAME", "",
-      [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
+      "--projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "the background's projection, if neither the file nor its name tells");
-  add_layout_option(options, job.known.layout, "the background's layout, if neither the file nor its name tells",
-                    "--from-layout");
-  add_layout_option(options, job.layout, "layout of the output; by default the background's");
+  add_layout_option(options, job.known.layout, "the background's layout, if neither the file nor its name tells");
+  add_layout_option(options, job.layout, "layout of the output; by default the background's", "--to-layout");
   options.flag("--by-depth", job.over.by_depth,
                "hide foreground that is farther away than the background; both need depth");
   options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "opacity of the foreground");

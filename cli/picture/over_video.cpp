@@ -35,7 +35,7 @@ Range range_of(const OverJob& job) {
 VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
   VideoWishes wishes = job.video;
   wishes.output = job.output;
-  wishes.sound_cut.is_cut = job.frames.has_value();
+  wishes.keep.cut.is_cut = job.frames.has_value();
   return wishes_like(wishes, video, stream, job.has_target);
 }
 
@@ -53,7 +53,7 @@ void check_job(const OverJob& job, const VideoInput& video) {
   if (job.has_tone || job.has_exposure)
     throw UsageError("--exposure and --tone are for scene-linear frames, not for videos");
   if (job.layout && *job.layout != video.prototype.layout) {
-    throw UsageError(fmt::format("the video stays {}; --layout needs frames as output (-o 'x.####.png')",
+    throw UsageError(fmt::format("the video stays {}; --to-layout needs frames as output (-o 'x.####.png')",
                                  layout_name(video.prototype.layout)));
   }
   if (video.metadata.projection == ods::VideoProjection::kOther) {

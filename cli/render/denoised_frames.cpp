@@ -56,7 +56,7 @@ Rendered DenoisedFrames::make(size_t index, const std::function<void(double done
   std::vector<ods::FrameBeside> beside;
   const auto add = [&](size_t other, const auto& places) {
     const RawFrame& raw = window_.at(other).raw;
-    if (other != index) beside.push_back({raw.picture, raw.camera, places, grain_of(job_.time) == Grain::kFixed});
+    if (other != index) beside.push_back({raw.picture, raw.camera, places, all_[other].seed == all_[index].seed});
   };
   add(first, frame.before);
   add(last, frame.after);

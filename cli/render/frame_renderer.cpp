@@ -5,14 +5,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <set>
 
 #include "cli/console/console.h"
+#include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/finish_picture.h"
 #include "ods/kernel/random.h"
+#include "ods/render/light_cache.h"
 #include "ods/render/render_target.h"
+#include "ods/render/unfinished.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/sheet_glass.h"
 #include "ods/scene/shutter.h"
@@ -55,7 +62,9 @@ Shot make_shot(const RenderJob& job, const TimeOptions& time, ods::Scene& scene,
 // Warns about a camera that the user or the file has placed where there is nothing to see. Where it stands by our own
 // choice it is in free space.
 void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
-  const bool own_choice = !job.camera.position && scene.view_points.empty();
+  const bool own_choice = !job.camera.position &&
+                          ods::camera_choice(job.camera.view_point) != ods::CameraChoice::kNamed &&
+                          !uses_own_camera(scene);
   const bool made_for_it = !job.camera.position && ods::find_builtin(job.scene.name);
   if (own_choice || made_for_it) return;
   const std::string fault = ods::view_fault(ods::SceneRays(scene), eye);
@@ -95,26 +104,32 @@ constexpr double kShareOfRendering = 0.97;  // of the time; denoising takes the 
 
 }  // namespace
 
-Frame make_frame(const RenderJob& job, const ods::FrameNames& names, int number) {
+Frame make_frame(uint32_t seed, const TimeOptions& time, const ods::FrameNames& names, int number) {
   const auto bits = static_cast<ods::uint>(number);
-  const bool changing = grain_of(job.time) == Grain::kChanging;
-  return {number, number / static_cast<double>(job.time.fps), names.path(number),
-          changing ? ods::hash_pair(job.render.seed, bits) : job.render.seed};
+  const bool changing = time.grain == Grain::kChanging;
+  return {number, number / static_cast<double>(time.fps), names.path(number),
+          changing ? ods::hash_pair(seed, bits) : seed};
 }
 
-FrameRenderer::FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene)
-    : job_(job), time_(time), scene_(scene) {}
+FrameRenderer::FrameRenderer(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, Frame first)
+    : job_(job), time_(time), scene_(scene), first_(std::move(first)) {}
+
+void FrameRenderer::say_where() const {
+  ods::set_time(scene_, first_.time);
+  const ods::StereoCamera camera = ods::moved(place_camera_again(job_.camera, scene_), time_.move, first_.time);
+  note_camera(job_.camera, scene_, camera);
+  check_view(job_, scene_, camera.position);
+  note_straight_light(job_, scene_);
+}
 
 // Returns the cameras during the shutter.
 std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
+  if (!renderer_) say_where();
   Shot shot = make_shot(job_, time_, scene_, frame);
   add_change(change_, shot.change);
   if (renderer_) {
     renderer_->update(change_);
   } else {
-    place_camera(job_.camera, scene_);  // prints a note with the position
-    check_view(job_, scene_, shot.cameras.front().position);
-    note_straight_light(job_, scene_);
     renderer_.emplace(scene_, job_.render.threads);
   }
   change_ = {};
@@ -151,7 +166,7 @@ ods::Picture FrameRenderer::first_look(const Frame& frame) {
 
 float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
-    return exposure_ = job_.exposure.value_or(0.0f);
+    return exposure_ = job_.exposure.value_or(job_.brighter);
   }
   std::set<size_t> chosen;
   for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
@@ -160,10 +175,73 @@ float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   const std::optional<float> stops = ods::suitable_exposure(looks);
   if (!stops) {
     warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
-    return 0.0f;
+    return exposure_ = job_.brighter;
   }
-  note(fmt::format("exposure {:+.1f} stops, from a first look at the light (--exposure {:.1f})", *stops, *stops));
-  return exposure_ = *stops;
+  exposure_ = brightened(*stops, job_.brighter);
+  const std::string more = job_.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job_.brighter);
+  note(
+      fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure_, more, exposure_));
+  return exposure_;
+}
+
+// Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and
+// where few paths would not fill the light cache.
+static ods::RenderOptions small_picture(const ods::RenderOptions& whole, const ods::StereoCamera& camera) {
+  constexpr double kLeast = 1.0 / 64.0, kFewestPixels = 16384.0, kPathsThatFill = 65536.0, kMostForPaths = 0.25;
+  const auto paths = static_cast<double>(ods::light_cache_paths(whole));
+  const double for_paths = paths == 0.0 ? 0.0 : std::min(kPathsThatFill / paths, kMostForPaths);
+  const double for_pixels = std::min(kFewestPixels / (1.0 * whole.width * whole.height), 1.0);
+  const double share = std::max({kLeast, for_paths, for_pixels});
+  const int step = ods::width_step(camera.projection);
+  ods::RenderOptions small = whole;
+  small.width = std::max(static_cast<int>(whole.width * std::sqrt(share)) / step * step, step);
+  small.height = 0;
+  small.cache_paths = static_cast<int>(paths * share);
+  return ods::with_height(small, camera);
+}
+
+SmallFrame FrameRenderer::try_small(const Frame& frame, const std::string& path) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  const ods::StereoCamera& camera = cameras[cameras.size() / 2];
+  const ods::RenderOptions whole = options_for(frame, camera), small = small_picture(whole, camera);
+  const double set = seconds_since(start);
+  ods::Picture picture = renderer_->render(cameras, small);
+  const double rendered = seconds_since(start) - set;
+  const double times = 1.0 * whole.width * whole.height / (1.0 * small.width * small.height);
+  double bytes = 0.0;
+  for (const std::string& file : finish_picture(job_, camera, std::move(picture), path)) {
+    bytes += static_cast<double>(std::filesystem::file_size(file));
+  }
+  const double finished = seconds_since(start) - set - rendered;
+  const double limit = whole.time_limit > 0.0 ? whole.time_limit : std::numeric_limits<double>::infinity();
+  return {set + std::min(times * rendered, limit) + times * finished, times * bytes};
+}
+
+void FrameRenderer::keep_raw(const Frame& frame, const std::function<void(double done)>& report) {
+  const std::vector<ods::StereoCamera> cameras = set_time(frame);
+  const ods::RenderOptions options = options_for(frame, cameras[cameras.size() / 2]);
+  ods::check_picture_memory(options);
+  ods::PictureSamples samples = ods::no_samples(options);
+  ods::Progress progress;
+  progress.report = report;
+  renderer_->sample(cameras, options, samples, progress);
+  ods::write_unfinished(raw_path(frame), {{}, {}, exposure_, {}, options}, samples);
+}
+
+// What keep_raw() has written; none: there is nothing of use.
+static std::optional<ods::Picture> read_raw(const std::string& path, const ods::RenderOptions& options) {
+  if (!ods::is_saved(path)) return std::nullopt;
+  try {
+    ods::PictureSamples samples;
+    ods::read_unfinished(path, samples);
+    if (ods::fit(samples, options)) return ods::develop(std::move(samples), options);
+    warn(fmt::format("'{}' is of another picture: the frame is rendered again", path));
+  } catch (const ods::Error& error) {
+    if (error.kind() != ods::ErrorKind::kInput) throw;
+    warn(fmt::format("{}: the frame is rendered again", error.what()));
+  }
+  return std::nullopt;
 }
 
 RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(double done)>& report) {
@@ -172,7 +250,8 @@ RawFrame FrameRenderer::render_raw(const Frame& frame, const std::function<void(
   const ods::RenderOptions options = options_for(frame, camera);
   ods::Progress progress;
   progress.report = report;
-  RawFrame raw{frame.time, camera, renderer_->render(cameras, options, progress), {}};
+  std::optional<ods::Picture> kept = read_raw(raw_path(frame), options);
+  RawFrame raw{frame.time, camera, kept ? std::move(*kept) : renderer_->render(cameras, options, progress), {}};
   if (!scene_.animation.playing.empty()) raw.hits = renderer_->center_hits(camera, options);
   return raw;
 }

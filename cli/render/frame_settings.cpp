@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "ods/base/text.h"
+#include "ods/camera/camera_fields.h"
 #include "ods/files/confined_file.h"
 #include "ods/files/md5.h"
 #include "ods/scene/builtin/builtin.h"
@@ -66,8 +67,8 @@ void add_light(Settings& settings, const LightOptions& light, const std::string&
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {
-  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, blender, foreign,
-               has_places] = source;
+  const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, blender, foreign, taken_for,
+               up, camera, has_places] = source;
   const std::string confined_to = confining_folder(source);
   std::error_code error;
   const bool is_file = !ods::find_builtin(name) && std::filesystem::is_regular_file(name, error);
@@ -88,26 +89,9 @@ void add_scene(Settings& settings, const SceneSource& source) {
   add_flag(settings, "--portable", portable);
   add_light(settings, light, confined_to);
   add(settings, "--unit", unit);
+  add(settings, "--as", std::string(name_in(ods::kTakenForTable, taken_for)));
+  add(settings, "--up", std::string(name_in(ods::kUpAxisTable, up)));
   add(settings, "--shadow-catcher", fmt::format("{}", fmt::join(catchers, ", ")));
-}
-
-void add_projection(Settings& settings, const ods::ProjectionSetting& projection) {
-  const auto& [kind, longitude, latitude, fov, aspect, sensor, polynomial, pan, tilt] = projection;
-  add(settings, "--projection", std::string(ods::projection_name(projection)));
-  add(settings, "--range", fmt::format("{},{},{},{}", longitude.x, longitude.y, latitude.x, latitude.y));
-  add_float(settings, "--fov", fov);
-  add_float(settings, "width over height", aspect);
-  if (kind == ods::kFisheyePolynomial) {
-    add(settings, "--sensor", fmt::format("{},{}", sensor.x, sensor.y));
-    add(settings, "--lens-polynomial", fmt::format("{}", fmt::join(polynomial, ",")));
-  }
-  add(settings, "--lens-direction", fmt::format("{},{}", pan, tilt));
-}
-
-std::string merge_text(const ods::PoleMergeSetting& merge) {
-  const auto& [mode, start, end, exponent] = merge;
-  if (mode == ods::kMergeNone) return "none";
-  return fmt::format("{},{},{},{}", ods::merge_name(mode), start, end, exponent);
 }
 
 void add_map(Settings& settings, const std::string& option, const std::shared_ptr<const ods::Image>& map,
@@ -118,11 +102,13 @@ void add_map(Settings& settings, const std::string& option, const std::shared_pt
       {option, ods::md5(fmt::format("{}x{}", map->width, map->height) + std::string(bytes)), ods::one_line(path)});
 }
 
-// The rig's position and angles are those that place_camera() replaces for every scene.
+// place_camera() replaces the rig's position and angles for every scene.
+bool is_of_place(std::string_view setting) {
+  return setting == "position" || setting == "yaw" || setting == "pitch" || setting == "roll";
+}
+
 void add_camera(Settings& settings, const CameraOptions& camera) {
   const auto& [rig, merge_map, merge_map_inverted, head_tilt_map, view_point, position, yaw, pitch, roll] = camera;
-  const auto& [rig_position, rig_yaw, rig_pitch, rig_roll, ipd, top, bottom, map, tilt_map, projection, convergence,
-               convergence_distance, neck, axis, lens_radius, focus_distance, mirrored] = rig;
   const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
     return angle ? fmt::format("{}", *angle) : fallback;
   };
@@ -131,19 +117,14 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
   add(settings, "--yaw", chosen(yaw, "of the scene"));
   add(settings, "--pitch", chosen(pitch, "0"));
   add(settings, "--roll", chosen(roll, "0"));
-  add_float(settings, "--ipd", ipd);
-  add(settings, "--merge-top", merge_text(top));
-  add(settings, "--merge-bottom", merge_text(bottom));
-  add_map(settings, "--merge-map", map, merge_map);
-  add_map(settings, "--head-tilt-map", tilt_map, head_tilt_map);
-  add_projection(settings, projection);
-  const bool parallel = convergence == ods::kParallel;
-  add(settings, "--convergence",
-      parallel ? "parallel" : fmt::format("{},{}", ods::convergence_name(convergence), convergence_distance));
-  add_float(settings, "--eye-to-neck", neck);
-  add(settings, "--axis", axis ? text_of(*axis) : "camera");
-  add(settings, "--lens", lens_radius == 0.0f ? "none" : fmt::format("{},{}", lens_radius, focus_distance));
-  add_flag(settings, "--left-handed", mirrored);
+  add(settings, "--projection", std::string(ods::projection_name(rig.projection)));
+  for (const auto& [name, value] : camera_settings(rig)) {
+    if (is_of_place(name)) continue;
+    add(settings, name == "aspect" ? "width over height" : fmt::format("--{}", name), value.empty() ? "none" : value);
+  }
+  add_map(settings, "--merge-map", rig.merge_map, merge_map);
+  add_map(settings, "--head-tilt-map", rig.head_tilt_map, head_tilt_map);
+  add_flag(settings, "--left-handed", rig.mirrored);
 }
 
 void add_time(Settings& settings, const TimeOptions& options) {
@@ -154,7 +135,7 @@ void add_time(Settings& settings, const TimeOptions& options) {
   add(settings, "--animation", animation.empty() ? "all" : animation);
   add_float(settings, "--fps", fps);
   add_float(settings, "--shutter", shutter);
-  add(settings, "--grain", std::string(grain_name(grain_of(options))));
+  add(settings, "--grain", own_grain ? std::string(grain_name(*own_grain)) : "by default");
   add(settings, "--turntable", fmt::format("{}{}", turns, pivot ? "," + text_of(*pivot) : ""));
   std::vector<std::string> places;
   for (const ods::vec3& place : fly_to) places.push_back(text_of(place));

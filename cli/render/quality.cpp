@@ -56,9 +56,10 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
       "set width, --samples and --noise together" + sizes);
   options.custom(
       "--noise", "LEVEL|none", "", [&](const std::string& word) { job.render.noise = parse_noise(word); },
-      "parts of the picture that are as clean as this get no more samples; in Cycles' measure, where 0.01 is its "
-      "default. none: every pixel gets all samples");
-  options.number("--samples", quality.samples, 1, ods::kMaxSamples, "the most samples that a pixel gets");
+      "stop sampling parts of the picture below this noise, in Cycles' measure (its default is 0.01). none: every "
+      "pixel "
+      "gets all samples");
+  options.number("--samples", quality.samples, 1, ods::kMaxSamples, "the most samples of a pixel");
   options.custom(
       "--time-limit", "TIME", "", [&](const std::string& word) { job.render.time_limit = parse_time_limit(word); },
       "the best picture that takes no longer, for each frame of a video: 90s, 10m, 1.5h. It depends on the machine");

@@ -15,6 +15,7 @@
 #include "cli/frames/shared_frames.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/denoised_frames.h"
+#include "cli/render/forecast.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
 
@@ -27,7 +28,7 @@ std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time) {
   if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
   const FrameNames names = video_names(job.output);
   std::vector<Frame> frames;
-  for (const int number : video_frames(time)) frames.push_back(make_frame(job, names, number));
+  for (const int number : video_frames(time)) frames.push_back(make_frame(job.render.seed, time, names, number));
   return frames;
 }
 
@@ -121,6 +122,18 @@ void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::v
   }
 }
 
+// Leaves the frames as rendered to whoever denoises them.
+void render_raw(FrameRenderer& renderer, const std::vector<Frame>& frames, const StepReport& report) {
+  std::vector<SharedFrame> files;
+  for (const Frame& frame : frames) files.push_back({frame.number, raw_path(frame)});
+  const int count = static_cast<int>(frames.size());
+  make_shared_frames(files, "frame", [&](size_t i) {
+    const ProgressStep step{"render", static_cast<int>(i) + 1, count, files[i].path};
+    renderer.keep_raw(frames[i], [&](double done) { report((static_cast<double>(i) + done) / count, step); });
+    announce_file(files[i].path);
+  });
+}
+
 void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
   if (!asks_for_video(job.time) || frames.empty()) return;
   say_disk_room(job.output, frames.size(), largest_frame(job.output, job.render, job.save));
@@ -133,11 +146,11 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
   if (frames.empty()) return;
   say_room(job, frames);
-  FrameRenderer renderer(job, time, scene);
+  FrameRenderer renderer(job, time, scene, all.front());
   job.save.exposure = renderer.find_exposure(all);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
@@ -166,7 +179,7 @@ std::vector<int> frames_of(const RenderJob& job) {
   TimeOptions time = job.time;
   if (!time.frames.empty() && time.frames != "all") return video_frames(time);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   check_length(scene, time);
   return video_frames(time);
 }
@@ -176,7 +189,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   check_length(scene, time);
   const std::vector<int> numbers = video_frames(time);
   planned(numbers);
@@ -184,12 +197,13 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   wait_for_frames(files_of(all), "frame", job.wait);
   const std::vector<Frame> frames = choose_frames(time, all);
   const bool shared = !time.only.empty();
-  FrameRenderer renderer(job, time, scene);
+  FrameRenderer renderer(job, time, scene, all.front());
   const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
                      frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
-    say_room(job, frames);
+    shared ? say_room(job, frames) : say_forecast(job, renderer, frames);
+    if (job.raw) return render_raw(renderer, frames, report), RenderedFrames{numbers, exposure};
     const auto saved = [&](const Rendered& frame) {
       if (shared) std::ranges::for_each(frame.files, announce_file);
     };

@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
@@ -111,6 +115,13 @@ void add_exposure_option(Options& options, RenderJob& job) {
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
       "exposure in stops. auto: what suits the light, found by a first look, the same for both eyes and all frames; "
       ".hdr and .exr stay scene-linear and ignore it");
+  options.number("--brighter", job.brighter, -ods::kMostStops, ods::kMostStops,
+                 "stops added to the exposure, also to that of auto: 1 is twice as bright, -1 half");
+}
+
+float brightened(float exposure, float brighter) {
+  const double sum = std::clamp(double{exposure} + double{brighter}, -double{ods::kMostStops}, double{ods::kMostStops});
+  return static_cast<float>(std::round(1e4 * sum) / 1e4);
 }
 
 void add_wait_option(Options& options, float& seconds, const char* noun) {
@@ -124,8 +135,10 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
     throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
   }
   job.given = options.given_words();
+  if (job.exposure) job.exposure = brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
+  job.scene.camera = job.camera.view_point;
   finish_quality(options, quality, job);
   job.has_layout = options.given("--layout") || options.given("--size");
   finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);
@@ -150,8 +163,10 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   if (job.parts > 0 && !for_farm) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
   const auto part_names = job.part ? ods::frame_names(job.output) : std::nullopt;
   if (part_names) job.output = part_names->path(job.part->number);
-  if (job.exposure && !job.part && keeps_light(job.output))
-    note("--exposure does not change .exr and .hdr, which are scene-linear");
+  for (const char* word : {"--exposure", "--brighter"}) {
+    if (options.given(word) && !job.part && keeps_light(job.output))
+      note(fmt::format("{} does not change .exr and .hdr, which are scene-linear", word));
+  }
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
   }

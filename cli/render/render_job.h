@@ -23,6 +23,7 @@ struct RenderJob {
   ods::SaveOptions save;
   std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
   std::optional<float> exposure;         // stops; none: FrameRenderer::find_exposure() chooses
+  float brighter = 0.0f;                 // stops, added to what it chooses
   bool has_layout = false;               // given by an option
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
@@ -30,14 +31,19 @@ struct RenderJob {
   int parts = 0;                  // --parts, for ods submit
   bool keep_parts = false;        // likewise: when they are merged
   float wait = 0.0f;              // seconds: for files that other machines have written
+  bool raw = false;               // render a video's frames for the denoiser, which another process runs
+  bool force = false;             // render a video's frames although the disk cannot hold them
   std::vector<GivenWord> given;   // the command line
   bool resume = false;            // a still picture goes on from what an interrupted run has kept
   bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// Adds --exposure auto|STOPS.
+// Adds --exposure auto|STOPS and --brighter STOPS.
 void add_exposure_option(Options& options, RenderJob& job);
+
+// The exposure with --brighter, within what --exposure takes: rounded, so that printed it is the same number.
+float brightened(float exposure, float brighter);
 
 // What a scene of another program says of camera and time: the default of the options.
 void take_foreign(RenderJob& job, const ForeignScene& scene);

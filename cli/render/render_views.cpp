@@ -25,11 +25,11 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
   ods::mark_folders(rig, files);
   ods::SaveOptions save = job.save;
-  save.exposure = job.exposure.value_or(0.0f);  // auto: 0, as the stitched picture is still to be judged
+  save.exposure = job.exposure.value_or(job.brighter);  // auto: 0, as the stitched picture is still to be judged
   save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
-  start_clock(time, scene);
+  start_clock(time, job.camera, scene);
   ods::set_time(scene, static_cast<double>(time.time.value_or(0.0f)));
   ods::RenderOptions options = job.render;
   options.width = rig.view.width, options.height = rig.view.height, options.eyes = ods::Eyes::kMonoEye;

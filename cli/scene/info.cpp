@@ -31,6 +31,7 @@ void info(int argc, char** argv) {
   if (!options.parse(argc, argv)) return;
   console.quiet = true;  // notes would repeat the result
   source.has_places = camera.position.has_value();
+  source.camera = camera.view_point;
   SceneFindings found;
   const ods::Scene scene = open_scene(source, &found.settled);
   found.viewing = scene.viewing;

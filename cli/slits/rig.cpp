@@ -86,6 +86,7 @@ std::pair<ods::Sidecar, float> survey(RigJob& job) {
   ods::Sidecar file = read_camera_source(job.source);
   if (job.scene.name.empty()) return {file, job.nearest.value_or(1.0f)};
   job.scene.has_places = true;  // the rig is for programs that have the scene in its own size
+  job.scene.camera = job.source.camera.view_point;
   ods::Scene scene = open_scene(job.scene);
   file.camera = place_camera(job.source.camera, scene);
   return {file, measure(scene, file.camera)};

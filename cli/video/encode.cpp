@@ -18,7 +18,7 @@ constexpr const char* kExamples =
     "  ods encode 'shot.####.exr' -o shot_360_TB.mp4\n"
     "  ods encode 'shot_%V.####.png' -o shot_360_TB.mp4 --target quest --fps 60 --audio sound.wav\n"
     "  ods encode 'shot.####.exr' -o shot.mov --target master --frames 1-250\n"
-    "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --from-projection vr180 --codec av1 --bits 10";
+    "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --projection vr180 --codec av1 --bits 10";
 
 constexpr const char* kSummary =
     "Encodes frames from any renderer as a video that players recognize as stereo 360: both eyes in a frame, the left\n"
@@ -38,9 +38,9 @@ struct EncodeJob {
 };
 
 ods::Layout video_layout(const std::string& word) {
-  const ods::Layout layout = layout_by_name("--layout", word);
+  const ods::Layout layout = layout_by_name("--to-layout", word);
   if (layout == ods::Layout::kTopBottom || layout == ods::Layout::kSideBySide) return layout;
-  throw UsageError("--layout of a video must be top-bottom or side-by-side");
+  throw UsageError("--to-layout of a video must be top-bottom or side-by-side");
 }
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
@@ -52,20 +52,19 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
       "frames to encode, in this order: 1-100, 1-100x2 or 1,5,10-20; by default all");
   options.custom(
-      "--from-projection", "NAME", "",
-      [&](const std::string& name) { job.known.projection = projection_by_name("--from-projection", name); },
+      "--projection", "NAME", "",
+      [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "the frames' projection, if neither the files nor their names tell");
   add_layout_option(options, job.known.layout,
-                    "the frames' layout, if neither the files nor their names tell; separate: one eye",
-                    "--from-layout");
+                    "the frames' layout, if neither the files nor their names tell; separate: one eye");
   options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
   add_video_options(options, job.video);
   options.custom(
       "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); }, "frames per second");
   options.custom(
-      "--layout", "LAYOUT", "", [&](const std::string& word) { job.layout = video_layout(word); },
-      "how both eyes share a frame: top-bottom, or side-by-side (usual for vr180)");
+      "--to-layout", "LAYOUT", "", [&](const std::string& word) { job.layout = video_layout(word); },
+      "how both eyes share a frame of the video: top-bottom, or side-by-side (usual for vr180)");
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);

@@ -149,7 +149,7 @@ void inject_video(const InjectJob& job, ProgressLines& lines) {
     if (const double seconds = seconds_since(start); seconds > kSoon)
       lines.report(done, seconds, {"inject", 0, 0, job.output});
   };
-  const ods::TagResult result = tag_video(job.file, job.output, track.id, metadata, sound, progress);
+  const ods::TagResult result = tag_video(job.file, job.output, track.id, metadata, {{sound}, {}}, progress);
   lines.clear();
   for (const std::string& guess : guesses) note(guess);
   if (metadata) say_what_is_written(*metadata, result, video.container);

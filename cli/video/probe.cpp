@@ -28,8 +28,12 @@ constexpr const char* kSummary =
 
 // A photo with a damaged right eye is still a picture of the left one.
 void probe_right_eye(PictureReport& report, const std::string& path, std::vector<std::string>& warnings) {
+  if (report.info.is_pair) {
+    report.right_eye = fmt::format("{}x{}", report.info.width, report.info.height);
+    return;
+  }
   try {
-    const ods::MemoryFile file(ods::read_right_eye(path));
+    const ods::MemoryFile file(ods::read_right_eye(path, warnings));
     const ods::FileInfo eye = ods::read_info(file.path());
     report.right_eye = fmt::format("{}x{}", eye.width, eye.height);
     if (eye.width == report.info.width && eye.height == report.info.height) return;

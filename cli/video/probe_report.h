@@ -14,7 +14,7 @@ struct PictureReport {
   ods::FileInfo info;
   ods::StereoFormat format;
   std::optional<ods::StereoCamera> gpano;
-  std::string right_eye;  // of a Cardboard photo: "64x32", or its fault
+  std::string right_eye;  // of a VR photo: "64x32", or its fault
 };
 
 // Of a video or a picture.

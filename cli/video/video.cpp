@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/render/frame_renderer.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_job.h"
@@ -31,7 +33,7 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
   journal.plan(frames, own_frames(job.render.time.only, frames));
   stitch.frames = job.render.time.frames;
   stitch.only = job.render.time.only;
-  return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(0.0f)};
+  return {stitch_frames(stitch, rig, report), job.render.exposure.value_or(job.render.brighter)};
 }
 
 void make_video(VideoJob job, ProgressLines& lines) {
@@ -78,6 +80,8 @@ void make_video(VideoJob job, ProgressLines& lines) {
   announce_file(job.video.output);
   note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, frames.size()),
                    duration_text(seconds_since(start))));
+  std::error_code ignored;
+  for (size_t i = 0; i < frames.size(); i++) std::filesystem::remove(files.path(i) + std::string(kRawEnd), ignored);
   if (job.keep_frames) return note(fmt::format("the frames are in {}", journal.folder()));
   journal.remove();
 }

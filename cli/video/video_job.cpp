@@ -7,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/denoised_frames.h"
 
 namespace {
 
@@ -34,6 +35,11 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
                "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
   options.flag("--keep-frames", job.keep_frames, "keep VIDEO.frames, which ods encode can read");
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
+  options.flag(
+      "--raw", render.raw,
+      "with --only: render frames and leave them noisy beside where they belong; the same command without --raw "
+      "denoises them");
+  options.flag("--force", render.force, "render the frames although the disk cannot hold them");
   add_wait_option(options, render.wait, "frames");
   options.group("Picture");
   add_picture_options(options, render.render, render.save);
@@ -53,6 +59,9 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
     throw UsageError("--restart and --only exclude each other: other processes may be making frames");
   }
   render.render.layers = false;
+  if (render.raw && (render.time.only.empty() || !job.rig.empty() || !draws_on_neighbours(render))) {
+    throw UsageError("--raw needs --only, and frames that ods denoises");
+  }
   job.video.rate = parse_rate(fmt::format("{}", render.time.fps));
   render.time.fps = static_cast<float>(job.video.rate.value());
   return true;

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "cli/console/console.h"
+#include "cli/render/frame_renderer.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/frames.h"
 #include "ods/files/read_file.h"
@@ -147,6 +148,14 @@ void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& 
   write_note();
 }
 
+// The frame that a file is, or what it was or will be made of: raw, or half stitched.
+static std::string frame_of(const std::string& name) {
+  for (const std::string_view end : {kRawEnd, std::string_view(".stitching")}) {
+    if (name.ends_with(end)) return name.substr(0, name.size() - end.size());
+  }
+  return name;
+}
+
 std::set<std::string> VideoJournal::frame_files() const {
   std::set<std::string> files;
   const ods::FrameNames names = *ods::frame_names(kFrame);
@@ -158,7 +167,7 @@ bool VideoJournal::has_frames() const {
   if (type_of(folder_) != fs::file_type::directory) return false;
   const std::set<std::string> own = frame_files();
   std::error_code ignored;
-  const auto is_own = [&](const auto& entry) { return own.contains(entry.path().filename().native()); };
+  const auto is_own = [&](const auto& entry) { return own.contains(frame_of(entry.path().filename().native())); };
   return std::any_of(fs::directory_iterator(folder_, ignored), fs::directory_iterator(), is_own);
 }
 
@@ -172,9 +181,8 @@ void VideoJournal::remove() const {
   for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
     const std::string name = entry.path().filename().native();
     const std::string of = name.starts_with(".") ? name.substr(1, name.find(".tmp.") - 1) : "";
-    const std::string stitched = name.ends_with(".stitching") ? name.substr(0, name.rfind('.')) : "";
-    const bool is_half_frame = own.contains(of) && is_half(name, of);
-    if (own.contains(name) || own.contains(stitched) || is_half_frame || is_half(name, kNote)) gone.push_back(name);
+    const bool is_half_frame = own.contains(frame_of(of)) && is_half(name, of);
+    if (own.contains(frame_of(name)) || is_half_frame || is_half(name, kNote)) gone.push_back(name);
   }
   gone.push_back(kNote);  // last: until then the note identifies the rest as ours
   for (const std::string& name : gone) unlinkat(folder, name.c_str(), 0);

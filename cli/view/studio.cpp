@@ -76,14 +76,22 @@ Json controls_json(int kind) {
   if (ods::has_fov(kind)) json.push_back("fov");
   if (ods::has_lens(kind)) json.push_back("lens");
   if (kind == ods::kPerspective) json.push_back("aspect");
+  if (kind == ods::kFisheyePolynomial) json.push_back("polynomial");
   return json;
+}
+
+// The usual lens of a fisheye-polynomial, as a sidecar says it.
+Json polynomial_lens_json() {
+  ods::Sidecar usual;
+  usual.camera.projection = ods::find_projection("fisheye-polynomial")->setting;
+  const Json projection = Json::parse(write_sidecar(usual)).at("projection");
+  return {{"sensor", projection.at("sensor")}, {"polynomial", projection.at("polynomial")}};
 }
 
 Json ranges_json() {
   Json json = Json::object();
-  for (const ods::CameraField field : ods::kCameraFields) {
-    const ods::FieldRange range = ods::range_of(field);
-    json[std::string(ods::field_name(field))] = {range.least, range.most};
+  for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+    json[std::string(row.place)] = {row.range.least, row.range.most};
   }
   return json;
 }
@@ -160,6 +168,7 @@ Json Studio::description() const {
                {"merges", ods::names_of(ods::kMergeTable)},
                {"convergences", ods::names_of(ods::kConvergenceTable)},
                {"projections", Json::array()},
+               {"polynomial_lens", polynomial_lens_json()},
                {"tones", ods::names_of(ods::kToneCurveTable)},
                {"envs", kEnvironments},
                {"qualities", kQualities},

@@ -30,7 +30,7 @@ std::unique_ptr<HttpServer> listen(WebOptions web, bool any_will_do, ViewSite& s
     return std::make_unique<HttpServer>(web, answer);
   } catch (const UsageError&) {
     if (!any_will_do) throw;
-    note(fmt::format("another program has port {}: this one is another each time. --port NUMBER keeps one", web.port));
+    note(fmt::format("another program has port {}: using a random port. --port NUMBER chooses one", web.port));
     web.port = 0;
     return std::make_unique<HttpServer>(web, answer);
   }

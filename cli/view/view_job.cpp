@@ -47,7 +47,7 @@ std::vector<std::string> files_in(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string path = entry.path().string();
     if (!entry.is_regular_file() || entry.path().filename().string().starts_with('.')) continue;
-    if (ods::format_of_path(path) || ods::is_video(path)) paths.push_back(path);
+    if (ods::names_picture(path) || ods::is_video(path)) paths.push_back(path);
   }
   std::ranges::sort(paths);
   return paths;
@@ -87,6 +87,7 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "its projection");
+  add_lens_options(options, job.known);
   options.group("Page");
   options.flag("--lan", job.lan, "let a headset or phone in the same network see it: https, with a QR code");
   options.flag("--keep-secret", job.keep_secret,
@@ -101,6 +102,7 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   if (!options.parse(argc, argv)) return false;
   if (job.paths.empty()) throw UsageError("name a picture, a video, a folder or a scene: ods view picture_360_TB.png");
   if (job.keep_secret && !job.lan) throw UsageError("--keep-secret is for --lan: other addresses are kept anyway");
+  finish_lens_options(job.known);
   job.browser = !stay;
   const auto scene = std::ranges::find_if(job.paths, names_scene);
   if (scene != job.paths.end()) {

@@ -39,6 +39,7 @@ std::string decode_base64(std::string_view text) {
   int count = 0;
   for (const char letter : text) {
     const int value = kValues[static_cast<unsigned char>(letter)];
+    if (value < 0 && (letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n')) continue;
     if (value < 0) break;
     bits = bits << 6 | static_cast<uint32_t>(value);
     count += 6;

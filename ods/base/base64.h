@@ -10,7 +10,7 @@ namespace ods {
 
 std::string encode_base64(std::string_view bytes);
 
-// Stops at the first character outside the alphabet.
+// Skips white space, which XML has around it. Stops at the first other character outside the alphabet.
 std::string decode_base64(std::string_view text);
 
 }  // namespace ods

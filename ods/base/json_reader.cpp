@@ -104,13 +104,6 @@ bool JsonReader::vector(const std::string& key, glm::vec2& value, float low, flo
   return true;
 }
 
-bool JsonReader::vector(const std::string& key, glm::vec3& value, float low, float high) {
-  std::vector<float> found;
-  if (!numbers(key, found, 3, low, high)) return false;
-  value = {found[0], found[1], found[2]};
-  return true;
-}
-
 std::string JsonReader::word(const std::string& key) {
   const Json* json = find(key);
   if (json && (!json->is_string() || *json == "")) fail(key, "must be a word in quotes");

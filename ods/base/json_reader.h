@@ -43,7 +43,6 @@ class JsonReader {
   void integer(const std::string& key, int& value, int low, int high);
   void flag(const std::string& key, bool& value);
   bool vector(const std::string& key, glm::vec2& value, float low, float high);  // returns whether the key is present
-  bool vector(const std::string& key, glm::vec3& value, float low, float high);
   bool numbers(const std::string& key, std::vector<float>& values, size_t count, float low, float high);
 
   // At most 64 characters, short enough for a message. Empty if the key is missing.

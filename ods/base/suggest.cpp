@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/base/suggest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -34,9 +36,31 @@ std::string did_you_mean(const std::string& typed, const std::vector<std::string
   return nearest == words.size() ? "" : "; did you mean '" + words[nearest] + "'?";
 }
 
+using namespace std::string_view_literals;
+
+static constexpr std::pair<std::string_view, std::string_view> kForeign[] = {
+    {"GIF8"sv, "a GIF picture"sv},
+    {"BM"sv, "a BMP picture"sv},
+    {"8BPS"sv, "a Photoshop picture"sv},
+    {"\0\0\0\x0cJXL "sv, "a JPEG XL picture"sv},
+    {"\xff\x0a"sv, "a JPEG XL picture"sv},
+    {"\0\0\0\x0cjP  "sv, "a JPEG 2000 picture"sv},
+    {"\0\0\0\x18"
+     "ftypcrx "sv,
+     "a raw photo of a Canon camera (CR3)"sv},
+    {"%PDF"sv, "a PDF document"sv},
+};
+
 std::string taken_by(std::string_view start) {
-  using namespace std::string_view_literals;
   const auto begins = [&](std::string_view bytes) { return start.starts_with(bytes); };
+  if (start.size() >= 12 && start.substr(4, 4) == "ftyp") {
+    for (const std::string_view brand : {"heic", "heix", "mif1", "msf1", "avif", "avis", "hevc"}) {
+      if (start.substr(8, 4) == brand) return "; it is a picture: ods probe, lint, convert and view take pictures";
+    }
+  }
+  for (const auto& [bytes, what] : kForeign) {
+    if (begins(bytes)) return fmt::format("; it is {}, which ods does not read", what);
+  }
   if (start.substr(std::min<size_t>(4, start.size())).starts_with("ftyp") || begins("\x1a\x45\xdf\xa3"sv)) {
     return "; it is a video: ods probe, lint, convert, inject, view and over take videos";
   }

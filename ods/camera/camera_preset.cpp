@@ -83,7 +83,7 @@ StereoCamera like_google(const Values& values) {
 // ours is not: it gives the same picture there.
 StereoCamera like_clodo(float ipd, float modulation, float handedness, float angle) {
   if (std::abs(handedness) != 1.0f) throw std::invalid_argument("povray: the handedness is -1 or 1");
-  StereoCamera camera = plain(ipd, modulation >= range_of(CameraField::kMergeExponent).least
+  StereoCamera camera = plain(ipd, modulation >= range_of(CameraField::kTopMergeExponent).least
                                        ? merge_from(kMergeCosine, 0.0f, 90.0f, modulation)
                                        : PoleMergeSetting());
   camera.mirrored = handedness > 0.0f;
@@ -141,13 +141,13 @@ constexpr PresetParameter kArnoldProto[] = {{"eyeSeparation", "0.065", "distance
 StereoCamera like_arnold_proto(const Values& values) {
   const auto merge = [&](const std::string& pole, float angle) {
     const std::string mode = values.word(pole + "MergeMode", {"none", "linear", "cos"});
-    const float exponent = values.number(pole + "MergeExp", CameraField::kMergeExponent);
+    const float exponent = values.number(pole + "MergeExp", CameraField::kTopMergeExponent);
     if (mode == "none") return PoleMergeSetting();
     return mode == "linear" ? merge_from(kMergeLinear, angle, 90.0f) : merge_from(kMergeCosine, angle, 90.0f, exponent);
   };
   StereoCamera camera = plain(values.number("eyeSeparation", CameraField::kIpd));
   camera.neck = values.number("eyeToNeckDistance", CameraField::kNeck);
-  camera.top = merge("top", values.number("topMergeAngle", CameraField::kMergeStart));
+  camera.top = merge("top", values.number("topMergeAngle", CameraField::kTopMergeStart));
   camera.bottom = merge("bottom", -values.number("bottomMergeAngle", -90.0f, 0.0f));
   return camera;
 }
@@ -163,8 +163,8 @@ StereoCamera like_cycles(const Values& values) {
   const std::string mode = values.word("convergence_mode", {"PARALLEL", "OFFAXIS", "TOE"});
   camera.convergence = mode == "PARALLEL" ? kParallel : kToeIn;  // its two other modes are the same in a panorama
   camera.convergence_distance = values.number("convergence_distance", CameraField::kConvergenceDistance);
-  const float from = values.number("pole_merge_angle_from", CameraField::kMergeStart);
-  const float to = values.number("pole_merge_angle_to", CameraField::kMergeEnd);
+  const float from = values.number("pole_merge_angle_from", CameraField::kTopMergeStart);
+  const float to = values.number("pole_merge_angle_to", CameraField::kTopMergeEnd);
   if (values.word("use_pole_merge", {"0", "1"}) == "1") camera.top = camera.bottom = merge_from(kMergeCosine, from, to);
   return camera;
 }

@@ -246,7 +246,7 @@ int over_video(Footage& back, Footage& front, int first, int last, const OverOpt
   }
   NewVideo video;
   video.size = stream.size, video.options = options, video.metadata = back.video().metadata;
-  const VideoClock clock(stream, decoded->time, options.sound_cut.is_cut);
+  const VideoClock clock(stream, decoded->time, options.keep.cut.is_cut);
   clock.set(video.options);
   const auto pending = [&]() -> std::optional<PendingFrame> {
     if (next > first && next <= last) decoded = back.decode(next);
@@ -255,7 +255,6 @@ int over_video(Footage& back, Footage& front, int first, int last, const OverOpt
   };
   // A foreground frame may take four floats per pixel, and its cover as much.
   const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
-  if (options.copies_sound) video.ambisonics = back.video().ambisonics;
   video.count = std::max(1, std::min(last, stream.count - 1) - first + 1);
   video.frame_bytes = pixels * (front.kind() == FootageKind::kPicture ? 6 : 6 + 32);
   return write_video(video, pending, path, progress).frames;

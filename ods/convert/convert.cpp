@@ -20,6 +20,8 @@ namespace ods {
 ConvertTarget same_format(const StoredPicture& picture) {
   ConvertTarget format{picture.camera, picture.size, {}};
   for (const StoredEye& eye : picture.eyes) format.eyes.push_back(eye.eye);
+  if (picture.front_and_back) format.eyes = {kMono};
+  if (!picture.maps.empty()) format.eye = fitting_extent(picture, picture.camera.projection);
   return format;
 }
 
@@ -62,6 +64,7 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
 }
 
 bool is_same_picture(const StoredPicture& picture, const ConvertTarget& target) {
+  if (!picture.maps.empty()) return false;
   StereoCamera stereo = target.camera;
   stereo.position = picture.camera.position, stereo.lens_radius = picture.camera.lens_radius;
   stereo.focus_distance = picture.camera.focus_distance;
@@ -76,7 +79,12 @@ Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& pro
   const ProjectionSetting& own = picture.camera.projection;
   const double natural = natural_height(own, picture.size.width);
   const double stretch = std::max(1.0, picture.size.height / natural);  // for eyes that are squeezed horizontally
-  const double width = stretch * pixels_per_radian(own, picture.size.width) / pixels_per_radian(projection, 1.0);
+  double density = stretch * pixels_per_radian(own, picture.size.width);
+  if (!picture.maps.empty()) {
+    const double measured = pixels_per_radian(*picture.maps[0], picture.size, vec3(0.0f, 0.0f, -1.0f));
+    if (measured > 0.0) density = measured;
+  }
+  const double width = density / pixels_per_radian(projection, 1.0);
   const int step = width_step(projection) == 1 ? 4 : 2 * width_step(projection);
   Extent extent;
   extent.width = std::max(1, static_cast<int>(std::lround(std::min(width, double{kMaxSide}) / step))) * step;

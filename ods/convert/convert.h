@@ -34,7 +34,7 @@ struct ConvertTarget {
   ViewAngles turned{0.0f, 0.0f, 0.0f};
 };
 
-// The target that leaves a picture unchanged.
+// The target that leaves a picture unchanged; of one that is stored by maps, the lat-long that shows as much.
 ConvertTarget same_format(const StoredPicture& picture);
 
 // Whether every target pixel is the picture's own at the same place. Never of a projection with an image circle, whose

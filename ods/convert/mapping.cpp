@@ -2,7 +2,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/convert/mapping.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace ods {
+
+constexpr float kWidestSeam = 0.1f;  // radians: parallax makes near things double in it
+
+// How much more of the picture lies within lens 1 than within lens 0, radians; the overlap of their circles in
+// `overlap`.
+static float balance_of_lenses(const StoredPicture& picture, vec3 direction, float& overlap) {
+  const float first = picture.maps[0]->inside(direction), second = picture.maps[1]->inside(direction);
+  overlap = first + second;  // axes are opposite
+  return second - first;
+}
+
+static vec3 in_picture(const Source& source, vec3 direction) {
+  const Camera& camera = source.camera;
+  return {dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.back)};
+}
+
+WeightedPlace Mapping::other_lens(int index, vec2 home, vec2 uv) const {
+  if (!source.picture->front_and_back) return {};
+  const Ray ray = ray_of(index, home, uv);
+  if (ray.direction == vec3(0.0f)) return {};
+  const vec3 direction = turn ? *turn * ray.direction : ray.direction;
+  float overlap = 0.0f;
+  const float balance = balance_of_lenses(*source.picture, in_picture(source, direction), overlap);
+  const float seam = std::min(overlap, kWidestSeam);
+  if (!(seam > 0.0f)) return {};
+  const float share = 0.5f - std::abs(balance) / (2.0f * seam);  // balance changes twice as fast as the angle
+  if (!(share > 0.0f)) return {};
+  const Place place = place_of_line(source, balance > 0.0f ? 0 : 1, direction);
+  return {place, place.seen ? share : 0.0f};
+}
 
 Place Mapping::find(int index, vec2 home, vec2 uv) const {
   const size_t i = static_cast<size_t>(index);
@@ -13,7 +46,11 @@ Place Mapping::find(int index, vec2 home, vec2 uv) const {
     const float phi = camera.projection.center.y + (0.5f - uv.y) * camera.projection.span.y;
     if (abs(phi) > 0.5f * kPi) source_eye = eye_over_pole(source, source_eye, phi > 0.0f);
   }
-  return place_of_line(source, source_eye, turn ? *turn * ray.direction : ray.direction);
+  const vec3 direction = turn ? *turn * ray.direction : ray.direction;
+  if (!source.picture->front_and_back) return place_of_line(source, source_eye, direction);
+  float overlap = 0.0f;
+  const bool is_behind = balance_of_lenses(*source.picture, in_picture(source, direction), overlap) > 0.0f;
+  return place_of_line(source, is_behind ? 1 : 0, direction);
 }
 
 bool is_turned(const ConvertTarget& target) {

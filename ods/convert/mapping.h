@@ -11,6 +11,11 @@
 
 namespace ods {
 
+struct WeightedPlace {
+  Place place;
+  float weight = 0.0f;
+};
+
 // Maps the target's pixels to places in the source.
 struct Mapping {
   StereoCamera stereo;  // owns the maps that `camera` reads
@@ -23,6 +28,10 @@ struct Mapping {
 
   // uv may be outside the cell of `home`: the target's own filter reaches there.
   Place find(int index, vec2 home, vec2 uv) const;
+
+  // Of a camera that looks ahead and back: the same place in the lens that shows it less well, and its share of the
+  // pixel, below a half; 0 beyond the seam, and of all other pictures.
+  WeightedPlace other_lens(int index, vec2 home, vec2 uv) const;
   Ray ray_of(int index, vec2 home, vec2 uv) const {
     return camera_ray(camera, eyes[static_cast<size_t>(index)], home, uv, vec2(0.0f));
   }

@@ -26,7 +26,7 @@ Source make_source(const StoredPicture& picture) {
   source.picture = &picture;
   source.camera = make_camera(picture.camera);
   source.camera.center = vec3(0.0f);
-  if (picture.eyes.size() == 2 && source.camera.ipd > 0.0f) {
+  if (picture.eyes.size() == 2 && source.camera.ipd > 0.0f && picture.maps.empty()) {
     source.other_above = is_apart_at_pole(source.camera, true);
     source.other_below = is_apart_at_pole(source.camera, false);
   }
@@ -74,6 +74,10 @@ static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
 
 // Finds a direction, given in the picture's own frame.
 static Place find_direction(const Source& source, int source_eye, vec3 d) {
+  if (!source.picture->maps.empty()) {
+    const ImagePoint shown = source.picture->maps[static_cast<size_t>(source_eye)]->place(d);
+    return {source_eye, shown.uv * size_of(source), shown.seen};
+  }
   const ImagePoint found = place_of(source.camera.projection, d);
   Place place{source_eye, found.uv * size_of(source), is_seen(source, found)};
   keep_in_cell(source, d, place);
@@ -127,6 +131,7 @@ static Texel nearest_of_edge(const Source& source, int source_eye, const Cell& c
 
 Texel texel_of(const Source& source, int source_eye, const Cell& cell, int x, int y) {
   if (has_texel(source, cell, x, y)) return {source_eye, x, y};
+  if (!source.picture->maps.empty()) return nearest_of_edge(source, source_eye, cell, x, y);
   const Camera& camera = source.camera;
   const vec2 home =
       0.5f * (middle_of(source, cell.left, cell.top) + middle_of(source, cell.right - 1, cell.bottom - 1));

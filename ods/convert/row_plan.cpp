@@ -25,7 +25,8 @@ struct CellRow {
 struct Node {
   Place at;
   Place beside;
-  Cell cell;  // in the source
+  Cell cell;             // in the source
+  bool is_seam = false;  // another lens shows it, too
 };
 
 }  // namespace
@@ -40,7 +41,8 @@ static Node find_node(const Mapping& mapping, const CellRow& row, int x) {
   const vec2 home = mapping.home_of((row.cell.left + row.cell.right) / 2, (row.cell.top + row.cell.bottom) / 2);
   const Place at = mapping.find(row.index, home, mapping.uv_of(px, py));
   const Place beside = mapping.find(row.index, home, mapping.uv_of(px, py + static_cast<float>(way_down(row))));
-  return {at, beside, mapping.source_cell(at)};
+  return {at, beside, mapping.source_cell(at),
+          mapping.other_lens(row.index, home, mapping.uv_of(px, py)).weight > 0.0f};
 }
 
 static std::optional<Stretch> find_stretch(const Node& first, const Node& middle, const Node& last, int pixels,
@@ -50,7 +52,7 @@ static std::optional<Stretch> find_stretch(const Node& first, const Node& middle
   stretch.bend = last.at.at - 2.0f * middle.at.at + first.at.at;
   vec2* down = stretch.down;
   for (const Node* node : {&first, &middle, &last}) {
-    if (!node->at.seen || !node->beside.seen || node->at.source_eye != stretch.source_eye ||
+    if (!node->at.seen || !node->beside.seen || node->is_seam || node->at.source_eye != stretch.source_eye ||
         node->beside.source_eye != stretch.source_eye || !same_cell(node->cell, stretch.cell))
       return {};
     *down++ = (node->beside.at - node->at.at) * static_cast<float>(way);
@@ -73,8 +75,8 @@ Footprint find_footprint(const Mapping& mapping, int index, int x, int y, const 
   const Projection& projection = mapping.source.camera.projection;
   const Extent size = mapping.source.picture->size;
   const Cell own = cell_of(projection, size, place.at);
-  const bool round = has_range(projection.kind);                                       // columns wrap
-  const float turn = static_cast<float>(size.width) * 2.0f * kPi / projection.span.x;  // columns of 360 degrees
+  const bool round = has_range(projection.kind) && mapping.source.picture->maps.empty();  // columns wrap
+  const float turn = static_cast<float>(size.width) * 2.0f * kPi / projection.span.x;     // columns of 360 degrees
   const auto neighbour = [&](vec2 way, bool away) {
     for (const float step : {away ? -1.0f : 1.0f, away ? 1.0f : -1.0f, 0.1f, -0.1f}) {
       const vec2 at = middle + way * step;
@@ -176,7 +178,9 @@ class RowPlanner {
       const Place at = is_near ? Place{place.source_eye, place.at + point.texels, true}
                                : mapping_.find(index_, home, home + point.pixels * size);
       if (!at.seen) continue;
-      plan_.places.push_back({at, point.weight});
+      const WeightedPlace other = mapping_.other_lens(index_, home, home + point.pixels * size);
+      plan_.places.push_back({at, point.weight * (1.0f - other.weight)});
+      if (other.weight > 0.0f) plan_.places.push_back({other.place, point.weight * other.weight});
       weight += point.weight;
     }
     pixel.count = plan_.places.size() - pixel.first;

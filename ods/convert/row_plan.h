@@ -32,10 +32,6 @@ struct Stretch {
 };
 
 // A pixel that is computed alone: the sum of the picture at weighted places, over the weight of those that are seen.
-struct WeightedPlace {
-  Place place;
-  float weight = 0.0f;
-};
 struct SinglePixel {
   int x = 0;
   Place middle;

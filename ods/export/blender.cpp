@@ -75,7 +75,7 @@ class Script {
     if (setting.kind == kFisheye) return fisheye();
     line("panorama.panorama_type = \"EQUIRECTANGULAR\"");
     if (setting.kind != kLatLong) {
-      warn(fmt::format("Blender is not told the projection {}, lat-long stands in; --for osl has it",
+      warn(fmt::format("Blender is not told the projection {}, using lat-long instead; --for osl has it",
                        projection_name(setting)));
     }
     const ProjectionSetting range = setting.kind == kLatLong ? setting : ProjectionSetting();

@@ -46,7 +46,7 @@ std::string json_strings(const std::vector<std::string>& words) {
 void warn_of_projection(const Sidecar& file, std::string_view system, std::vector<std::string>& warnings) {
   if (file.camera.projection.kind == kLatLong) return;
   warnings.push_back(
-      fmt::format("{} has no projection {}; lat-long stands in", system, projection_name(file.camera.projection)));
+      fmt::format("{} has no projection {}: using lat-long instead", system, projection_name(file.camera.projection)));
 }
 
 }  // namespace

@@ -133,13 +133,25 @@ double halo_cost(int halo, int tasks, size_t frames) {
   return 2.0 * halo * (tasks - 1) / static_cast<double>(frames);  // the film's ends have nothing beyond
 }
 
+static constexpr double kTaskSeconds = 600.0;
+
+int least_chunk(int halo) {
+  return std::max(1, static_cast<int>(std::ceil(2.0 * halo / kMostHaloCost)));
+}
+
 int suitable_chunk(double seconds_per_frame, size_t frames, int halo) {
   assert(seconds_per_frame > 0.0 && frames > 0);
-  const double kSeconds = 600.0;
-  const auto by_time = std::clamp(kSeconds / seconds_per_frame, 1.0, 1e6);
+  const auto by_time = std::clamp(kTaskSeconds / seconds_per_frame, 1.0, 1e6);
   const auto by_machines = std::max(1.0, std::ceil(static_cast<double>(frames) / 16.0));
-  const auto by_halo = std::ceil(2.0 * halo / kMostHaloCost);
-  return static_cast<int>(std::max(std::min(by_time, by_machines), by_halo));
+  return std::max(static_cast<int>(std::min(by_time, by_machines)), least_chunk(halo));
+}
+
+bool raw_first_is_cheaper(double seconds_per_frame, size_t frames, int halo, size_t raw_bytes) {
+  if (seconds_per_frame * least_chunk(halo) < kTaskSeconds) return false;
+  const double kDiskSpeed = 1e8;
+  const double twice = halo_cost(halo, tasks_for(frames, suitable_chunk(seconds_per_frame, frames, halo)), frames);
+  const double written_and_read = 2.0 + kMostHaloCost;  // tasks that denoise read those beside theirs, too
+  return seconds_per_frame * twice > written_and_read * static_cast<double>(raw_bytes) / kDiskSpeed;
 }
 
 int tasks_for(size_t frames, int chunk) {

@@ -73,9 +73,17 @@ double halo_cost(int halo, int tasks, size_t frames);
 // What a chunk of ours costs at most in that way.
 inline constexpr double kMostHaloCost = 0.25;
 
+// Frames of a task whose halo costs that.
+int least_chunk(int halo);
+
 // Frames of a task that takes about ten minutes, if the frames are not so few that machines would be idle: at least
 // sixteen tasks, unless that would cost more than kMostHaloCost. Precondition: seconds_per_frame > 0, frames > 0.
 int suitable_chunk(double seconds_per_frame, size_t frames, int halo);
+
+// Whether it is cheaper to render all frames first, each once, and to denoise them by a second group, than to render
+// those beside a task's own twice: a frame as rendered has raw_bytes, and a shared disk takes 100 MB a second. Not
+// where tasks of ten minutes have least_chunk() frames or more. Precondition: as suitable_chunk().
+bool raw_first_is_cheaper(double seconds_per_frame, size_t frames, int halo, size_t raw_bytes);
 
 // Tasks of at most `chunk` frames.
 int tasks_for(size_t frames, int chunk);

@@ -9,7 +9,8 @@
 //   opencue     job.xml of cjsl-1.15: a layer per group
 //   flamenco    a job type in JavaScript
 //   kubernetes  an Indexed Job per group, and submit.sh, which applies one after the other
-//   deadline    a pair of job_info and plugin_info per group, for the plug-in CommandLine of Deadline 10, and submit.sh
+//
+// A scheduler is here if something can judge what we write for it: its own tool, or a published schema.
 #pragma once
 #include <string>
 #include <string_view>
@@ -40,9 +41,8 @@ std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes& 
 std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes& wishes);
 std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerWishes& wishes);
 std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerWishes& wishes);
-std::vector<FarmFile> write_deadline(const FarmPlan& plan, const SchedulerWishes& wishes);
 
-enum class Scheduler { kSlurm, kOpenJd, kOpenCue, kFlamenco, kKubernetes, kDeadline };
+enum class Scheduler { kSlurm, kOpenJd, kOpenCue, kFlamenco, kKubernetes };
 
 struct SchedulerRow {
   Scheduler member;
@@ -58,7 +58,6 @@ inline constexpr SchedulerRow kSchedulerTable[] = {
     {Scheduler::kOpenCue, "opencue", write_opencue, "send job.xml with opencue.api.launchSpec()"},
     {Scheduler::kFlamenco, "flamenco", write_flamenco, "copy the script into the Manager's folder scripts"},
     {Scheduler::kKubernetes, "kubernetes", write_kubernetes, "sh submit.sh"},
-    {Scheduler::kDeadline, "deadline", write_deadline, "sh submit.sh"},
 };
 static_assert(has_every_member(kSchedulerTable));
 

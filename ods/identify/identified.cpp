@@ -8,6 +8,7 @@
 
 #include "ods/base/error.h"
 #include "ods/identify/identify.h"
+#include "ods/identify/lenses.h"
 #include "ods/video/container/complete_metadata.h"
 #include "ods/video/video_input.h"
 
@@ -82,18 +83,17 @@ std::optional<Identity> identify_video(const std::string& path, uint64_t track, 
   return best;
 }
 
-static FormatHint identified_picture(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
-                                     std::string_view options) {
+static FormatHint identified_picture(const std::string& path, const FormatHint& known,
+                                     std::vector<std::string>& notes) {
   if (names_eye(path)) return known;
   const StereoFormat format = find_format(read_info(path), path, known);
   const std::optional<Identity> identity = identify_if_open(path, format, known);
   if (!identity) return known;
-  if (const std::string doubt = doubt_text(*identity, options); !doubt.empty()) notes.push_back(doubt);
+  if (const std::string doubt = doubt_text(*identity); !doubt.empty()) notes.push_back(doubt);
   return with_seen(known, format, *identity);
 }
 
-static FormatHint identified_film(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
-                                  std::string_view options) {
+static FormatHint identified_film(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
   const VideoFile info = read_video_file(path);
   const VideoTrack& track = choose_track(info, {}, path);
   SphericalMetadata told;
@@ -105,7 +105,7 @@ static FormatHint identified_film(const std::string& path, const FormatHint& kno
   const std::optional<Identity> identity = identify_video(path, track.id, known);
   if (!identity || identity->readings.empty()) return known;
   if (!identity->is_sure()) {
-    notes.push_back(doubt_text(*identity, options));
+    notes.push_back(doubt_text(*identity));
     return known;
   }
   const Reading& best = identity->best();
@@ -116,10 +116,12 @@ static FormatHint identified_film(const std::string& path, const FormatHint& kno
   return all;
 }
 
-FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
-                      std::string_view options) {
+FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
   const bool is_film = !names_eye(path) && is_video(path);
-  return (is_film ? identified_film : identified_picture)(path, known, notes, options);
+  // Before the pixels' other marks: two circles may pass for many things.
+  const FormatHint all = with_lenses(path, known, notes);
+  if (!all.lenses.empty()) return all;
+  return (is_film ? identified_film : identified_picture)(path, all, notes);
 }
 
 }  // namespace ods

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/camera/odd_halves.h"
 #include "ods/identify/eye_match.h"
 #include "ods/identify/marks.h"
 #include "ods/identify/pairs.h"
@@ -53,7 +54,8 @@ Cut one_eye(const Thumbnail& thumbnail) {
 Cut two_halves(const Thumbnail& thumbnail, EyePacking how) {
   Cut cut;
   cut.how = how;
-  cut.eyes = unpack(*layout_with({how}), thumbnail.light);
+  const Layout layout = *layout_with({how});
+  cut.eyes = unpack(layout, without_middle(layout, thumbnail.light));
   const EyeMatch match = match_eyes(cut.eyes);
   cut.two_eyes = match.mark();
   const char* halves = how == EyePacking::kStacked ? "its upper and lower half" : "its left and right half";
@@ -100,7 +102,8 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
   for (const EyePacking how : {EyePacking::kStacked, EyePacking::kBeside}) {
     const Extent small{thumbnail.light.width, thumbnail.light.height};
     const Layout layout = *layout_with({how});
-    if (unpacked_size(layout, thumbnail.file) && unpacked_size(layout, small))
+    if (unpacked_size(layout, without_middle(layout, thumbnail.file)) &&
+        unpacked_size(layout, without_middle(layout, small)))
       cuts.push_back(two_halves(thumbnail, how));
   }
   for (const EyePacking how : {EyePacking::kRows, EyePacking::kColumns, EyePacking::kCheckerboard}) {
@@ -267,7 +270,7 @@ double other_faces_in(const std::vector<CubeMarks>& cubes) {
 }
 
 void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent file, std::vector<Candidate>& candidates) {
-  const std::optional<Extent> eye = whole_eye(layout, file);
+  const std::optional<Extent> eye = whole_eye(layout, without_middle(layout, file));
   if (!eye || !allows(known, layout)) return;
   const double aspect = static_cast<double>(eye->width) / eye->height;
   const std::vector<CubeMarks> cubes = marks_of_cubes(cut, *eye);
@@ -366,7 +369,7 @@ Identity identify(const StoredPicture& whole, const FormatHint& known) {
   return identity;
 }
 
-std::string doubt_text(const Identity& identity, std::string_view options) {
+std::string doubt_text(const Identity& identity) {
   constexpr double kNamed = 0.05;
   constexpr size_t kMostNamed = 3;
   if (identity.readings.empty() || identity.is_sure()) return {};
@@ -376,7 +379,7 @@ std::string doubt_text(const Identity& identity, std::string_view options) {
     texts.push_back(fmt::format("{} ({:.2f})", reading_text(reading), reading.certainty));
   }
   if (identity.has_other_faces) texts.push_back("faces of a cube in another order than ods has, to be reordered first");
-  return fmt::format("{}: say which with {}", fmt::join(texts, " or "), options);
+  return fmt::format("{}: say which with --layout and --projection", fmt::join(texts, " or "));
 }
 
 }  // namespace ods

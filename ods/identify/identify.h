@@ -61,16 +61,12 @@ FormatHint with_seen(const FormatHint& known, const StereoFormat& format, const 
 // have passed. Nothing if they cannot be decoded.
 std::optional<Identity> identify_video(const std::string& path, uint64_t track, const FormatHint& known = {});
 
-// The options that decide, for messages.
-inline constexpr std::string_view kDecidingOptions = "--layout and --projection";
-
 // `known` for commands that open a picture or a video, with what its pixels show where no word tells. `notes` gets what
 // is in doubt. Throws Error(kInput) as read_info(), read_video_file() and choose_track().
-FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes,
-                      std::string_view options = kDecidingOptions);
+FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes);
 
-// The readings that are in doubt, and the options that decide, for messages; empty if one is sure:
+// The readings that are in doubt, and the options of every command that decide, for messages; empty if one is sure:
 // "one eye, lat-long (0.60) or side-by-side, vr180 (0.38): say which with --layout and --projection".
-std::string doubt_text(const Identity& identity, std::string_view options = kDecidingOptions);
+std::string doubt_text(const Identity& identity);
 
 }  // namespace ods

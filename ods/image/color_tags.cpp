@@ -14,6 +14,7 @@
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/tiff_directory.h"
+#include "ods/image/heif_items.h"
 #include "ods/image/icc_profile.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
@@ -231,6 +232,15 @@ static ColorSpace read_webp(const FileInput& file) {
   return {};
 }
 
+// 2: unspecified. libheif has made full-range RGB of it.
+static ColorSpace read_heif(const FileInput& file) {
+  const HeifItems items = read_heif_items(file);
+  if (!items.icc.empty()) return read_icc_profile(items.icc);
+  if (!items.color || (*items.color)[0] == 2 || (*items.color)[1] == 2) return {};
+  const auto [primaries, transfer] = *items.color;
+  return of_cicp(std::string{static_cast<char>(primaries), static_cast<char>(transfer), 0, 1});
+}
+
 // Eight numbers: x and y of red, green, blue and white.
 static ColorSpace read_exr(const FileInfo& info) {
   const auto found = info.numbers.find("chromaticities");
@@ -251,6 +261,8 @@ static ColorSpace read_said(const std::string& path, FileFormat format, const Fi
       return read_webp(FileInput(path));
     case FileFormat::kExr:
       return read_exr(info);
+    case FileFormat::kHeif:
+      return read_heif(FileInput(path));
     case FileFormat::kHdr:
       break;
   }
@@ -263,6 +275,8 @@ ColorSpace read_color_space(const std::string& path, FileFormat format, const Fi
     color = read_said(path, format, info);
   } catch (const Error&) {
     return {};  // reading the pixels reports the fault
+  } catch (const MalformedFile&) {
+    return {};
   }
   const bool is_linear = color.curve == ColorSpace::Curve::kDefault || color.curve == ColorSpace::Curve::kLinear;
   if (info.is_float && !is_linear) {

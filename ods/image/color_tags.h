@@ -7,6 +7,7 @@
 //   JPEG   an ICC profile in APP2
 //   TIFF   an ICC profile, else TransferFunction, WhitePoint and PrimaryChromaticities
 //   WebP   an ICC profile
+//   HEIF   an ICC profile, else nclx
 //   EXR    chromaticities
 //
 // A gAMA within 5 % of 1/2.2 is taken for sRGB, as libpng does: programs write 0.45455 for sRGB.

@@ -30,7 +30,7 @@ Image read_image(const std::string& path, std::string* color_fault = nullptr);
 // Throws Error(kInput).
 FileInfo read_info(const std::string& path);
 
-// Reads a file in bands from the top, so that it is never in memory as a whole (except WebP, progressive JPEG and
+// Reads a file in bands from the top, so that it is never in memory as a whole (except WebP, HEIF, progressive JPEG and
 // interlaced PNG, whose decoders cannot do otherwise). Colours of integer files are sRGB code values with unassociated
 // alpha; a file in another colour space is converted to sRGB in 16 bits. Colours of float files are linear with
 // associated alpha, in the file's primaries: color_space() converts them. Integers in a float file (ids, 32 bits)
@@ -56,8 +56,9 @@ class RowReader {
   virtual const std::map<size_t, unsigned>& beyond_floats() const = 0;
 };
 
-// Throws Error(kInput) as read_image() does, and also for an EXR whose data window is not its whole picture.
-std::unique_ptr<RowReader> open_rows(const std::string& path);
+// view: 1 reads the right eye of a file with FileInfo::is_pair. Throws Error(kInput) as read_image() does, and also for
+// an EXR whose data window is not its whole picture.
+std::unique_ptr<RowReader> open_rows(const std::string& path, int view = 0);
 
 // Some channels of a file, by name and in this order. Integers are decoded from sRGB, floats are returned unchanged.
 // Throws Error(kInput), also if a channel does not exist.

@@ -85,10 +85,13 @@ void check_parallax(const Subject& subject, LintReport& report);
 void check_poles(const Subject& subject, LintReport& report);
 void check_seam(const Subject& subject, LintReport& report);
 void check_alignment(const Subject& subject, LintReport& report);  // height, pitch, roll and size of one eye
+// swapped: how certain it is that the eyes are, for then all parallax is outwards.
+void check_divergence(const Subject& subject, double swapped, LintReport& report);
 void check_colors(const Subject& subject, LintReport& report);     // of one eye against the other
 void check_sharpness(const Subject& subject, LintReport& report);  // likewise
 void check_horizon(const Subject& subject, LintReport& report);
 void check_dead_poles(const Subject& subject, LintReport& report);
+void check_black(const Subject& subject, LintReport& report);
 void check_codes(const Subject& subject, LintReport& report);     // highlights, banding
 void check_shape(const Subject& subject, LintReport& report);     // aspect, video levels
 void check_metadata(const Subject& subject, LintReport& report);  // except the layout, which check_layout() measures

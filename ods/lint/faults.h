@@ -27,13 +27,15 @@ enum class Fault {
   kEyePitched,      // one eye looks up or down against the other
   kEyeRolled,
   kEyeMagnified,
-  kEyeTinted,  // colours differ, and not only because one eye is brighter
+  kEyesDiverge,  // what is far has parallax outwards
+  kEyeTinted,    // colours differ, and not only because one eye is brighter
   kEyeBrighter,
   kEyeGamma,  // one eye has more contrast
   kEyeBlurred,
   kNotLevel,  // lines that should be vertical are not, in both eyes
   kDeadPole,  // a disc without a picture at a pole
   kClipped,   // highlights
+  kBlack,     // nothing is to be seen
   kBanding,
   kEyeLate,          // of a video: one eye is ahead of the other in time
   kCutsDiffer,       // likewise: at the cuts
@@ -79,6 +81,7 @@ inline constexpr FaultRow kFaultTable[] = {
     {Fault::kEyePitched, "eye-pitched", "one eye is pitched against the other", Severity::kFault},
     {Fault::kEyeRolled, "eye-rolled", "one eye is rolled against the other", Severity::kFault},
     {Fault::kEyeMagnified, "eye-magnified", "one eye's picture is larger", Severity::kFault},
+    {Fault::kEyesDiverge, "eyes-diverge", "the eyes must diverge", Severity::kFault},
     {Fault::kEyeTinted, "eye-tinted", "one eye has other colours", Severity::kFault},
     {Fault::kEyeBrighter, "eye-brighter", "one eye is brighter", Severity::kFault},
     {Fault::kEyeGamma, "eye-gamma", "one eye has more contrast", Severity::kFault},
@@ -86,6 +89,7 @@ inline constexpr FaultRow kFaultTable[] = {
     {Fault::kNotLevel, "not-level", "the picture is not level", Severity::kWarning},
     {Fault::kDeadPole, "dead-pole", "a pole without a picture", Severity::kWarning},
     {Fault::kClipped, "clipped", "highlights are clipped", Severity::kWarning},
+    {Fault::kBlack, "black", "the picture is black", Severity::kFault},
     {Fault::kBanding, "banding", "gradients have become stairs", Severity::kWarning},
     {Fault::kEyeLate, "eye-late", "one eye is ahead in time", Severity::kFault},
     {Fault::kCutsDiffer, "cuts-differ", "the eyes are cut at different frames", Severity::kFault},
@@ -117,10 +121,12 @@ enum class Check {
   kVideoLevels,  // of codecs
   kHeadsets,     // sizes that they take
   kAlignment,    // height, pitch, roll and size of one eye against the other
+  kConvergence,  // whether the eyes must diverge
   kColors,       // of one eye against the other
   kSharpness,    // likewise
   kHorizon,      // whether the picture is level
   kDeadPoles,    // whether the poles have a picture
+  kBlack,        // whether there is anything to see
   kHighlights,
   kBanding,
   kEyeTime,     // of a video: whether both eyes show the same moment
@@ -141,10 +147,12 @@ inline constexpr NameRow<Check> kCheckTable[] = {
     {Check::kVideoLevels, "video levels"},
     {Check::kHeadsets, "sizes of headsets"},
     {Check::kAlignment, "height, pitch, roll and size between the eyes"},
+    {Check::kConvergence, "whether the eyes diverge"},
     {Check::kColors, "colours between the eyes"},
     {Check::kSharpness, "sharpness between the eyes"},
     {Check::kHorizon, "whether it is level"},
     {Check::kDeadPoles, "whether the poles have a picture"},
+    {Check::kBlack, "whether it is black"},
     {Check::kHighlights, "highlights"},
     {Check::kBanding, "banding"},
     {Check::kEyeTime, "time between the eyes"},

@@ -111,6 +111,7 @@ LintReport lint_subject(Subject subject) {
   if (small || check_layout(subject, report)) {
     check_metadata(subject, report);
     check_shape(subject, report);
+    check_black(subject, report);
     if (!small) check_pixels(subject, report);
   } else {
     reason = "the layout must be right first";

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/camera/direction_map.h"
 #include "ods/camera/layout.h"
 #include "ods/camera/projection.h"
 #include "ods/lint/faults.h"
@@ -34,6 +35,7 @@ struct NotJudged {
 struct LintOptions {
   std::optional<Layout> layout;                 // none: that of guess_layout()
   std::optional<ProjectionSetting> projection;  // none: that of the file, its sidecar or its name, else lat-long
+  std::vector<FisheyeLens> lenses;              // as in FormatHint: then the eyes are judged as they are when unwrapped
 };
 
 struct LintReport {

@@ -203,7 +203,8 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
 
 constexpr double kConclusive = 0.3;  // of the share of one sign
 
-static void check_swap(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
+// Returns how certain it is that they are swapped.
+static double check_swap(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
   const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
   double certainty = std::max(0.0, -upright * enough);
   std::string evidence = fmt::format("the left eye sees {:.0f} % of {} places farther left than the right eye does",
@@ -222,7 +223,7 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
   } else {
     judge(report, Check::kEyeOrder);
   }
-  if (upright > -0.1) return;
+  if (upright > -0.1) return 0.0;
   const EyeArrangement eyes = arrangement_of(subject.layout());
   const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
   const char* cure = stacked && !eyes.squeezed
@@ -230,9 +231,18 @@ static void check_swap(const Subject& subject, const Parallaxes& parallaxes, dou
                      : stacked ? "the right eye is on top: exchange the halves"
                                : "exchange the eyes, or tell the player the other order";
   report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, cure});
+  return certainty;
 }
 
-static void check_waves(const Parallaxes& parallaxes, double upright, LintReport& report) {
+// How well a magnified eye explains the signs: it also differs in height, as parallax does not.
+static double explained_by_zoom(const Subject& subject, const Parallaxes& parallaxes) {
+  constexpr double kSurely = 3.0;  // standard errors
+  const Alignment::Term& zoom = subject.alignment.terms[kZoomTerm];
+  if (std::abs(zoom.value) < kSurely * zoom.error) return 0.0;
+  return std::abs(explained(parallaxes, [](double theta) { return 2.0 * theta / kPi2; }));
+}
+
+static void check_waves(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
   const Wave one = best_wave(parallaxes, 1), two = best_wave(parallaxes, 2);
   const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
   const auto add = [&](Fault fault, const Wave& wave, double other, const char* shape, const char* cure) {
@@ -244,7 +254,7 @@ static void check_waves(const Parallaxes& parallaxes, double upright, LintReport
                                            shape, wave.turn, 50.0 + 50.0 * wave.share, 50.0 + 50.0 * std::abs(upright)),
                                cure});
   };
-  add(Fault::kTwoCameras, one, two.share, "theta",
+  add(Fault::kTwoCameras, one, std::max(two.share, explained_by_zoom(subject, parallaxes)), "theta",
       "render again with a viewing circle (omni-directional stereo); what two fixed cameras saw cannot be mended");
   add(Fault::kMirroredCircle, two, one.share, "2 theta",
       "the renderer turns its eyes against its rays: negate one coordinate of the eye's place there, and render again");
@@ -255,22 +265,26 @@ void check_parallax(const Subject& subject, LintReport& report) {
   for (const Matches& matches : subject.matches) add_matches(parallaxes, matches, subject);
   const double around = seen_around(subject.scales.back()[0]);
   if (check_twice(subject, subject.matches, report)) {
-    for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "both eyes see the same picture");
+    for (const Check check : {Check::kEyeOrder, Check::kCircle, Check::kConvergence}) {
+      skip(report, check, "both eyes see the same picture");
+    }
     return;
   }
   weigh(parallaxes);
   const double upright = explained(parallaxes, [](double) { return 1.0; });
   if (parallaxes.sectors < 1.5) {
-    for (const Check check : {Check::kEyeOrder, Check::kCircle}) skip(report, check, "not enough detail with parallax");
+    for (const Check check : {Check::kEyeOrder, Check::kCircle, Check::kConvergence}) {
+      skip(report, check, "not enough detail with parallax");
+    }
     return;
   }
-  check_swap(subject, parallaxes, upright, report);
+  check_divergence(subject, check_swap(subject, parallaxes, upright, report), report);
   if (around < 0.8) {
     skip(report, Check::kCircle, "the picture does not go all around");
     return;
   }
   judge(report, Check::kCircle);
-  check_waves(parallaxes, upright, report);
+  check_waves(subject, parallaxes, upright, report);
 }
 
 }  // namespace ods

@@ -131,6 +131,10 @@ static std::string advice(const VideoFile& video, const VideoTrack& track, const
 std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack& track, const std::string& path) {
   std::vector<std::string> warnings;
   const PlayerView v2 = v2_view(video, track), name = name_view(path);
+  if (track.has_layers) {
+    warnings.emplace_back(
+        "its eyes are layers of its stream (MV-HEVC): players that do not know that, and ods, see one");
+  }
   const std::string make_one = advice(video, track, path, "makes them one");
   if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {
     warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ{}", metadata_text(*track.v1),
@@ -171,7 +175,9 @@ std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& 
   PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
   if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.reason = "GPano says so, which knows no stereo";
   std::vector<PlayerView> views{{"ods", picture_text(format), format.layout.reason}, gpano};
-  if (format.is_photo) views.push_back({"reads VR photos", picture_text(format), "GImage has the right eye"});
+  if (format.is_photo && !info.is_pair) {
+    views.push_back({"reads VR photos", picture_text(format), "GImage has the right eye"});
+  }
   views.push_back(name_view(path));
   views.push_back(shape_view({info.width, info.height}));
   return views;

@@ -42,8 +42,16 @@ Band measure(const Subject& subject, const Matches& matches, bool top, double fr
 
 }  // namespace
 
+// So that what is seen there does not depend on the exposure. As in the other scales, the right view is corrected.
+static std::vector<GrayView> evenly_exposed(const Subject& subject) {
+  const int width = subject.scales[1][0].width;
+  std::vector<GrayView> views = make_gray_views(subject.eyes, subject.projection(), true, width);
+  if (moves_pixels(subject.correction)) views[1] = corrected_view(views[1], subject.correction);
+  return views;
+}
+
 void check_poles(const Subject& subject, LintReport& report) {
-  const std::vector<GrayView>& views = subject.scales[1];
+  const std::vector<GrayView> views = evenly_exposed(subject);
   Search search;
   search.rows = std::max(4, views[0].height / 36);
   search.columns = std::max(4, views[0].width / 30);

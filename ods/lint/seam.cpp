@@ -24,16 +24,17 @@ namespace ods {
 
 namespace {
 
-constexpr int kBlocks = 128;          // of rows, each averaged
-constexpr double kNoise = 0.003;      // as displayed: breaks below are no structure
-constexpr double kSharpest = 8.0;     // a break counts no more
-constexpr double kFewBits = 0.033;    // for a pixel of a video: its codec breaks the picture at its edges
-constexpr size_t kWidths[] = {2, 6};  // columns that are averaged on either side, against noise and texture
-constexpr double kStructure = 0.1;    // sharpness of columns where there is something that could break
-constexpr size_t kNear = 8;           // columns on either side that tell how much a row varies there
-constexpr double kGrain = 0.015;      // as displayed: what a row varies anyway
-constexpr double kMostExcess = 3.0;   // a step counts no more
-constexpr double kHalfPixel = 2.5;    // times the steps beside it: so much if a picture was resized without its seam
+constexpr int kBlocks = 128;                      // of rows, each averaged
+constexpr double kNoise = 0.003;                  // as displayed: breaks below are no structure
+constexpr double kSharpest = 8.0;                 // a break counts no more
+constexpr double kFewBits = 0.033;                // for a pixel of a video: its codec breaks the picture at its edges
+constexpr size_t kWidths[] = {2, 6};              // columns that are averaged on either side, against noise and texture
+constexpr double kUnseen = 0.004, kSeen = 0.008;  // steps at the seam, as displayed
+constexpr double kStructure = 0.1;                // sharpness of columns where there is something that could break
+constexpr size_t kNear = 8;                       // columns on either side that tell how much a row varies there
+constexpr double kGrain = 0.015;                  // as displayed: what a row varies anyway
+constexpr double kMostExcess = 3.0;               // a step counts no more
+constexpr double kHalfPixel = 2.5;  // times the steps beside it: so much if a picture was resized without its seam
 
 using Columns = std::vector<double>;
 
@@ -153,6 +154,18 @@ bool has_structure(const std::vector<Columns>& scores) {
   });
 }
 
+// How much the seam's columns differ beyond what the ones beside them do, as displayed: the mean of all rows. What is
+// below a code value or two, nobody sees.
+double step_at_seam(const std::vector<Image>& eyes, size_t wide) {
+  double step = 0.0;
+  for (int i = 0; i < kBlocks; i++) {
+    double both = 1.0;
+    for (const Image& eye : eyes) both = std::min(both, breaks_of(row_of(eye, i), wide).back());
+    step += both / kBlocks;
+  }
+  return step;
+}
+
 // Where the seam exceeds the others most.
 Break coarse_break(const std::vector<Columns>& scores) {
   Break found;
@@ -167,7 +180,8 @@ Break coarse_break(const std::vector<Columns>& scores) {
 bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& report) {
   const std::vector<Columns> coarse = coarse_scores(eyes);
   const Break found = is_smoothed ? coarse_break(coarse) : break_of(measure(eyes, excess_of), 0.02);
-  const double certainty = is_smoothed ? ramp(found.ratio(), 1.05, 1.35) * ramp(found.seam, 0.0, 0.8)
+  const double certainty = is_smoothed ? ramp(found.ratio(), 1.05, 1.35) * ramp(found.seam, 0.0, 0.8) *
+                                             ramp(step_at_seam(eyes, kWidths[0]), kUnseen, kSeen)
                                        : ramp(found.ratio(), 2.5, 3.5) * ramp(found.seam, 0.1, 0.2);
   if (certainty >= 0.1) {
     report.findings.push_back(

@@ -11,6 +11,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/convert/unwrap.h"
 #include "ods/identify/identify.h"
 #include "ods/lint/checks.h"
 #include "ods/picture/load_eyes.h"
@@ -84,9 +85,17 @@ static void load(Subject& subject, const LintOptions& options) {
   OpenOptions open;
   open.format.layout = options.layout;
   open.format.projection = options.projection;
+  open.format.lenses = options.lenses;
   open.color_only = true;
   const FormatHint known = open.format;
   subject.format = find_format(subject.info, path, known);
+  if (!options.lenses.empty()) {
+    const StoredPicture picture = unwrapped(open_picture(path, open));
+    subject.format.camera.projection = picture.camera.projection;
+    subject.eyes = grey_eyes(picture);
+    subject.small = small_colors(picture, Layout::kSeparate);
+    return;
+  }
   if (names_eye(path) || subject.format.is_photo || subject.layout() == Layout::kMultiview) {
     const StoredPicture picture = open_picture(path, open);
     subject.eyes = grey_eyes(picture);
@@ -160,10 +169,10 @@ static std::string output_name(const std::string& path) {
 std::string convert_command(const Subject& subject, const std::string& options) {
   std::string from;
   if (subject.format.layout.source == LayoutSource::kCaller) {
-    from += fmt::format(" --from-layout {}", layout_name(subject.layout()));
+    from += fmt::format(" --layout {}", layout_name(subject.layout()));
   }
   if (subject.format.camera.projection != ProjectionSetting()) {
-    from += fmt::format(" --from-projection {}", projection_name(subject.projection()));
+    from += fmt::format(" --projection {}", projection_name(subject.projection()));
   }
   return fmt::format("ods convert {} -o {}{} {}", quoted(subject.path), output_name(subject.path), from, options);
 }

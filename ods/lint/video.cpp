@@ -9,6 +9,7 @@
 #include <map>
 
 #include "ods/base/error.h"
+#include "ods/convert/unwrap.h"
 #include "ods/lint/checks.h"
 #include "ods/lint/frame_trace.h"
 #include "ods/lint/players.h"
@@ -118,14 +119,15 @@ class VideoJudge {
  private:
   static FormatHint hint(const LintOptions& options) {
     FormatHint known;
-    known.layout = options.layout, known.projection = options.projection;
+    known.layout = options.layout, known.projection = options.projection, known.lenses = options.lenses;
     return known;
   }
 
   double seconds_of(const DecodedFrame& frame) const { return decoder_.stream().seconds_at(frame.time); }
 
   void look_at(const DecodedFrame& frame) {
-    const StoredPicture picture = picture_of(video_, decoder_.stream(), frame);
+    const StoredPicture stored = picture_of(video_, decoder_.stream(), frame);
+    const StoredPicture picture = stored.maps.empty() ? stored : unwrapped(stored);
     LintReport report = lint_subject(subject_of(video_, decoder_.stream(), picture, options_.picture));
     shot_.judged++, frames_++;
     for (Finding& finding : report.findings) {

@@ -18,7 +18,7 @@
 // picture over black.
 //
 // A png, jpg or tif of one eye carries GPano. A stereo one does not, because GPano has no stereo and viewers would wrap
-// both eyes around one sphere. But NAME.vr.jpg with two eyes is a Cardboard photo: the left eye with GPano and the
+// both eyes around one sphere. But NAME.vr.jpg with two eyes is a VR photo: the left eye with GPano and the
 // right one embedded (ods/picture/metadata/vr_photo.h), whatever the layout.
 #pragma once
 #include <functional>
@@ -47,7 +47,7 @@ struct SaveOptions {
 };
 
 // Throws what save_picture() would throw, as far as it is known before rendering. Error(kUsage): an unknown extension,
-// an unsuitable layout, a size too large for the format, a projection (if known) that a Cardboard photo cannot hold.
+// an unsuitable layout, a size too large for the format, a projection (if known) that a VR photo cannot hold.
 // Error(kOutput): a folder without write permission, a name that is a folder. `eyes` as in EyeImage, `eye` the size of
 // one. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,

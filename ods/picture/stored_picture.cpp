@@ -12,11 +12,13 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/camera/odd_halves.h"
 #include "ods/files/memory_file.h"
 #include "ods/files/scratch.h"
 #include "ods/picture/channel_layers.h"
 #include "ods/picture/checkerboard.h"
 #include "ods/picture/metadata/vr_photo.h"
+#include "ods/picture/stored_lenses.h"
 
 namespace ods {
 
@@ -242,7 +244,7 @@ struct EyeView {
 
 }  // namespace
 
-static std::vector<EyeView> views_of(Layout layout, Extent eye) {
+static std::vector<EyeView> views_of(Layout layout, Extent eye, Extent whole) {
   std::vector<EyeView> views(2);
   const Extent file = packed_size(layout, eye, 2);
   for (int y = 0; y < file.height; y++) {
@@ -251,6 +253,11 @@ static std::vector<EyeView> views_of(Layout layout, Extent eye) {
       if (part.y == 0) view.x = part.x, view.y = y, view.pixel_step = part.step;
       if (part.y == 1) view.row_step = y - view.y;
     }
+  }
+  if (!arrangement_of(layout).is_halves()) return views;
+  for (EyeView& view : views) {  // beyond the middle, which an odd side leaves out
+    view.x += view.x > 0 ? whole.width - file.width : 0;
+    view.y += view.y > 0 ? whole.height - file.height : 0;
   }
   return views;
 }
@@ -303,7 +310,8 @@ static void open_right_eye(Readers& readers, const MemoryFile& file, const std::
 }
 
 static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const std::string& path) {
-  const std::optional<Extent> size = unpacked_size(picture.layout, {info.width, info.height});
+  const std::optional<Extent> size =
+      unpacked_size(picture.layout, without_middle(picture.layout, Extent{info.width, info.height}));
   if (!size) {
     throw unreadable(
         path, fmt::format("{}x{} pixels are not two eyes, {}", info.width, info.height, layout_name(picture.layout)));
@@ -336,7 +344,8 @@ static std::vector<StoredEye> make_eyes(const std::vector<FileShare>& shares, La
   const EyePacking how = arrangement_of(layout).how;
   if (how == EyePacking::kAlone) return {make_eye(eye, shares[0], {})};
   if (how == EyePacking::kCheckerboard) return {make_eye(kLeft, shares[0], {}), make_eye(kRight, shares[0], {})};
-  const std::vector<EyeView> views = views_of(layout, size);
+  const FileInfo& info = shares[0].reader->info();
+  const std::vector<EyeView> views = views_of(layout, size, {info.width, info.height});
   return {make_eye(kLeft, shares[0], views[0]), make_eye(kRight, shares[0], views[1])};
 }
 
@@ -396,11 +405,16 @@ struct PictureReader::State {
 PictureReader::PictureReader(const std::string& path, const OpenOptions& options) {
   Readers readers = open_files(path);
   StereoFormat format = find_format(readers[0]->info(), path, options.format);
-  if (format.is_photo) open_right_eye(readers, MemoryFile(read_right_eye(path)), path);
+  if (format.is_photo && readers[0]->info().is_pair) {
+    readers.push_back(open_rows(path, 1));
+    check_pair(readers, path);
+  } else if (format.is_photo)
+    open_right_eye(readers, MemoryFile(read_right_eye(path, format.guesses)), path);
   StoredPicture header = describe(readers, format, path);
   std::vector<FileShare> shares = shares_of(readers, path, header.layout, options.color_only);
   keep_common(shares, path, header.guesses);
   header.eyes = make_eyes(shares, header.layout, header.size, format.eye);
+  take_lenses(header, options.format, path);
   state_.reset(new State{path, options, std::move(readers), format.eye, std::move(shares), std::move(header)});
 }
 
@@ -422,6 +436,7 @@ StoredPicture PictureReader::read(const std::string& scratch_folder) {
   leave_out_unreadable(shares, state_->path, picture.guesses);
   picture.memory->release();
   picture.eyes = make_eyes(shares, picture.layout, picture.size, state_->eye);
+  for (size_t i = 0; i < picture.eyes.size(); i++) picture.eyes[i].eye = state_->header.eyes[i].eye;
   const bool is_checkerboard = arrangement_of(picture.layout).how == EyePacking::kCheckerboard;
   if (is_checkerboard) take_checkerboard_apart(picture, options);
   return picture;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/camera/direction_map.h"
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
@@ -42,8 +43,12 @@ struct StoredPicture {
   std::vector<StoredEye> eyes;  // one, or left and right, with the same layers
   bool is_float = false;        // scene-linear; else display-encoded
   Layout layout = Layout::kSeparate;
-  std::string layout_reason;         // where the layout comes from: "its name ends in _TB"
-  StereoCamera camera;               // as far as known: projection, ipd, merge, convergence, pose
+  std::string layout_reason;  // where the layout comes from: "its name ends in _TB"
+  StereoCamera camera;        // as far as known: projection, ipd, merge, convergence, pose
+  // How a camera stored its eyes, where that is no projection: one map for each eye. `camera` then has the lat-long
+  // that shows as much.
+  std::vector<std::shared_ptr<const DirectionMap>> maps;
+  bool front_and_back = false;       // with maps: the eyes, both kMono, are the two lenses of a camera of one eye
   bool has_ipd = false;              // known from caller, file or sidecar; else the default
   std::string rig_mark;              // ods:rig: the slit rig that this view belongs to; empty: unspecified
   std::vector<std::string> guesses;  // what was guessed, for messages: "top-bottom: ..."

@@ -279,6 +279,31 @@ static std::vector<double> telling_times(const Animation& animation) {
   return times;
 }
 
+// Whether a track's keys differ: some programs write keys of all that stands still.
+static bool changes(const Keyframes& keys) {
+  const size_t of_key = keys.values.size() / keys.times.size();
+  return !std::equal(keys.values.begin() + static_cast<ptrdiff_t>(of_key), keys.values.end(), keys.values.begin());
+}
+
+static bool moves_node(const Animation& animation, int node) {
+  return std::ranges::any_of(animation.playing, [&](int clip) {
+    return std::ranges::any_of(animation.clips[static_cast<size_t>(clip)].tracks, [&](const Track& track) {
+      const bool is_place = track.property == Property::kTranslation || track.property == Property::kRotation ||
+                            track.property == Property::kScale;
+      return is_place && track.target == node && changes(track.keys);
+    });
+  });
+}
+
+bool moves_view(const Animation& animation, int view_point) {
+  const auto view = std::ranges::find(animation.views, view_point, &MovingView::view_point);
+  if (view == animation.views.end()) return false;
+  for (int node = view->node; node != -1; node = animation.nodes[static_cast<size_t>(node)].parent) {
+    if (moves_node(animation, node)) return true;
+  }
+  return false;
+}
+
 bool is_ever_visible(const Scene& scene) {
   if (is_anything_visible(scene)) return true;
   Scene moving = scene;

@@ -28,6 +28,9 @@ void add_change(SceneChange& sum, const SceneChange& change);
 // origin are hidden (Scene::hidden), as are those of a node that is not visible; such a node's lights are dark.
 SceneChange set_time(Scene& scene, double seconds);
 
+// Whether the playing clips move this view point (an index in the scene), or what it is fixed to.
+bool moves_view(const Animation& animation, int view_point);
+
 // Whether an instance is visible as the scene stands, or at any key of any of its animations.
 bool is_ever_visible(const Scene& scene);
 

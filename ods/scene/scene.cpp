@@ -143,8 +143,12 @@ Bounds scene_bounds(const Scene& scene) {
   return bounds.low.x <= bounds.high.x ? bounds : Bounds();
 }
 
+bool uses_own_camera(const Scene& scene) {
+  return !scene.view_points.empty() && !(scene.viewing && scene.viewing->replaces_cameras);
+}
+
 ViewPoint default_view(const Scene& scene) {
-  if (!scene.view_points.empty()) return scene.view_points.front();
+  if (uses_own_camera(scene)) return scene.view_points.front();
   if (scene.viewing) return scene.viewing->view;
   const float kEyeHeight = 1.6f;
   const float kElbowRoom = 1.0f;

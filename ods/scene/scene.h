@@ -49,9 +49,10 @@ struct ViewPoint {
 
 // How a scene is looked at where it proposes no view point itself (ods/stage/place.h).
 struct Viewing {
-  ViewPoint view;          // its name says why it is there
-  bool is_object = false;  // the scene is an object, seen from outside: a turntable turns it
-  vec3 middle{0.0f};       // of the object
+  ViewPoint view;                 // its name says why it is there
+  bool is_object = false;         // the scene is an object, seen from outside: a turntable turns it
+  bool replaces_cameras = false;  // default_view() is this one, although the scene has view points
+  vec3 middle{0.0f};              // of the object
 };
 
 // Rays are offset from their surface by up to this fraction of its distance from the origin, because of single
@@ -143,8 +144,11 @@ struct Bounds {
 // The box around all visible instances' vertices, lamps of the role kPureLight left out.
 Bounds scene_bounds(const Scene& scene);
 
-// The default viewpoint: the scene's first; otherwise that of Scene::viewing; otherwise, where nobody has looked for
-// one, at eye height in the scene's bounds or in front of them, looking along -Z.
+// Whether the default view is a view point of the scene.
+bool uses_own_camera(const Scene& scene);
+
+// The default viewpoint: the scene's first, if it is used; otherwise that of Scene::viewing; otherwise, where nobody
+// has looked for one, at eye height in the scene's bounds or in front of them, looking along -Z.
 ViewPoint default_view(const Scene& scene);
 
 // Whether its surfaces emit light. Unlit materials do not: they show a colour but light nothing.

@@ -175,7 +175,7 @@ std::optional<Stand> best_stand(const SceneRays& rays, const Bounds& core, float
 }
 
 std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float metres_per_unit) {
-  constexpr int kCells = 7, kSectors = 16, kLeastSectors = 13;
+  constexpr int kCells = 7, kSectors = 16, kLeastSectors = 13, kLeastThings = 12;
   constexpr float kSteep = 0.26f;  // the sine of 15 degrees: what is above and below does not surround
   static const std::vector<vec3> kDirections = sphere_directions(2048);
   Stand best;
@@ -194,7 +194,7 @@ std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float
       sectors.insert(std::min(static_cast<int>(turn * kSectors), kSectors - 1));
       things.insert(sight.instance);
     }
-    if (static_cast<int>(sectors.size()) < kLeastSectors || things.size() < 4 || backs > fronts) continue;
+    if (static_cast<int>(sectors.size()) < kLeastSectors || things.size() < kLeastThings || backs > fronts) continue;
     const float worth = static_cast<float>(fronts) / 512.0f + 0.6f * depth_within(core, eye);
     if (worth > best.worth) best = {eye, std::nullopt, std::numeric_limits<float>::infinity(), 0.0f, worth, {}};
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "ods/stage/object_or_place.h"
 #include "ods/stage/stands.h"
 
 namespace ods {
@@ -107,29 +109,26 @@ float distance_to_see(const Scene& scene, const Bounds& core) {
   return distance;
 }
 
-float backs_seen_outside(const SceneRays& rays, const Bounds& core) {
+void for_views_from_outside(const Bounds& core, int count, const std::function<void(vec3 from, vec3 way)>& look) {
   const vec3 middle = 0.5f * (core.low + core.high), half = 0.5f * (core.high - core.low);
   const float radius = 2.0f * length(half);
-  int hits = 0, backs = 0;
-  const std::vector<vec3> out = sphere_directions(256);
+  const std::vector<vec3> out = sphere_directions(count);
   for (size_t i = 0; i < out.size(); i++) {
     const vec3 aim = middle + 0.7f * half * out[(i * 97) % out.size()];
     const vec3 from = middle + radius * out[i];
-    const Sight sight = rays.look(from, normalize(aim - from));
-    if (sight.leaves()) continue;
-    hits++;
-    backs += sight.front ? 0 : 1;
+    look(from, normalize(aim - from));
   }
-  return hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
 }
 
-// The seat of a sofa whose unit is wrong looks like a place. But it is closed from all sides, from below too, as no
-// landscape is, and open where the walls of a courtyard would be.
-static bool stands_on_object(const SceneRays& rays, float metres_per_unit, const Survey& survey) {
-  constexpr float kLargest = 30.0f;  // metres; on a smaller one, a viewer would see its edge
-  const vec3 size = (survey.core.high - survey.core.low) * metres_per_unit;
-  return survey.stand->open.upper > kOpenUpwards && survey.stand->walls < 0.9f &&
-         std::max({size.x, size.y, size.z}) > kLargest && backs_seen_outside(rays, survey.core) < 0.05f;
+float backs_seen_outside(const SceneRays& rays, const Bounds& core) {
+  int hits = 0, backs = 0;
+  for_views_from_outside(core, 256, [&](vec3 from, vec3 way) {
+    const Sight sight = rays.look(from, way);
+    if (sight.leaves()) return;
+    hits++;
+    backs += sight.front ? 0 : 1;
+  });
+  return hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
 }
 
 // In a furnished room most triangles are furniture, so the core may have no walls: what is seen from a first stand
@@ -145,7 +144,6 @@ static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& sur
     survey.stand = best_float(rays, survey.core, metres_per_unit);
     return;
   }
-  if (stands_on_object(rays, metres_per_unit, survey)) return survey.stand.reset();
   if (!has_outliers) return;
   const Bounds seen = seen_bounds(rays, survey.stand->eye);
   survey.core.low = min(survey.core.low, seen.low);
@@ -154,7 +152,23 @@ static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& sur
   if (stand) survey.stand = stand;
 }
 
-Survey survey(const SceneRays& rays, float metres_per_unit) {
+// An object and a place in metres are of like size up to some metres: from then on it is worth a word.
+static bool may_be_object(const PlaceSigns& signs) {
+  constexpr float kLikeObjects = 10.0f;
+  return signs.backs_outside < 0.1f && signs.extent > kLikeObjects && signs.detail < 1.0f;
+}
+
+static void judge(const SceneRays& rays, float metres_per_unit, TakenFor taken_for, Survey& survey) {
+  if (!survey.stand || taken_for == TakenFor::kPlace) return;
+  const PlaceSigns signs = place_signs(rays, survey, metres_per_unit);
+  const bool object = taken_for == TakenFor::kObject || is_object(signs);
+  survey.doubted = taken_for == TakenFor::kAuto && (object || may_be_object(signs));
+  if (!object) return;
+  survey.refused = std::exchange(survey.stand, std::nullopt);
+  survey.core = core_bounds(rays.scene());
+}
+
+Survey survey(const SceneRays& rays, float metres_per_unit, TakenFor taken_for) {
   Survey survey;
   const Scene& scene = rays.scene();
   survey.has_light = has_light(scene);
@@ -162,6 +176,7 @@ Survey survey(const SceneRays& rays, float metres_per_unit) {
   survey.bounds = scene_bounds(scene);
   survey.core = core_bounds(scene);
   find_stand(rays, metres_per_unit, survey);
+  judge(rays, metres_per_unit, taken_for, survey);
   survey.kind = !survey.stand                             ? SceneKind::kObject
                 : survey.stand->open.upper > kOpenUpwards ? SceneKind::kOpenPlace
                                                           : SceneKind::kClosedRoom;

@@ -24,10 +24,9 @@ float extent(const Bounds& box) {
 }
 
 // Whether the upper corners can be seen from high above the stand, as in a room; under a dome they cannot.
-bool is_boxy(const SceneRays& rays, const Survey& survey) {
-  const Bounds& box = survey.bounds;
+bool is_boxy(const SceneRays& rays, const Bounds& box, const Stand& stand) {
   const vec3 middle = 0.5f * (box.low + box.high), half = 0.5f * (box.high - box.low);
-  const vec3 from(survey.stand->eye.x, *survey.stand->floor + 0.8f * survey.stand->headroom, survey.stand->eye.z);
+  const vec3 from(stand.eye.x, *stand.floor + 0.8f * stand.headroom, stand.eye.z);
   int seen = 0;
   for (const vec3& corner : {vec3(-1, 1, -1), vec3(1, 1, -1), vec3(-1, 1, 1), vec3(1, 1, 1)}) {
     const vec3 way = middle + 0.85f * half * corner - from;
@@ -46,32 +45,37 @@ float strangeness(float height) {
   return std::abs(std::log(height / kUsualRoom));
 }
 
-UnitGuess with_unit(const SceneRays& rays, float metres, const std::string& what) {
-  return {metres, fmt::format("{}, so its unit is taken for {}", what, unit_text(metres)), survey(rays, metres)};
+UnitGuess with_unit(const SceneRays& rays, float metres, TakenFor taken_for, const std::string& what) {
+  return {metres, fmt::format("{}, so its unit is taken for {}", what, unit_text(metres)),
+          survey(rays, metres, taken_for)};
 }
 
-UnitGuess smaller_place(const SceneRays& rays, Survey own) {
-  const Stand& stand = *own.stand;
-  if (own.kind == SceneKind::kClosedRoom && stand.floor && stand.headroom > kHighestRoom && is_boxy(rays, own)) {
+// A room or place that is too large. Nobody builds a room that high, so what looks like an object may be one, too.
+std::optional<UnitGuess> smaller_place(const SceneRays& rays, const Survey& own, TakenFor taken_for) {
+  const std::optional<Stand>& stand = own.stand ? own.stand : own.refused;
+  if (!stand || !stand->floor || taken_for == TakenFor::kObject) return std::nullopt;
+  if (stand->open.upper <= kOpenUpwards && std::isfinite(stand->headroom) && stand->headroom > kHighestRoom &&
+      is_boxy(rays, own.bounds, *stand)) {
     const float units[] = {0.0254f, 0.01f, 0.001f};
     const float best = *std::min_element(std::begin(units), std::end(units), [&](float a, float b) {
-      return strangeness(stand.headroom * a) < strangeness(stand.headroom * b);
+      return strangeness(stand->headroom * a) < strangeness(stand->headroom * b);
     });
-    return with_unit(rays, best, fmt::format("the room is {:.4g} m high", stand.headroom));
+    return with_unit(rays, best, TakenFor::kPlace, fmt::format("the room is {:.4g} m high", stand->headroom));
   }
-  if (own.kind == SceneKind::kOpenPlace && stand.floor && extent(own.core) > kWidestPlace) {
+  if (own.kind == SceneKind::kOpenPlace && extent(own.core) > kWidestPlace) {
     const float metres = extent(own.core) * 0.01f <= kWidestPlace ? 0.01f : 0.001f;
-    return with_unit(rays, metres, fmt::format("the place is {:.4g} km wide", extent(own.core) * 1e-3f));
+    return with_unit(rays, metres, taken_for, fmt::format("the place is {:.4g} km wide", extent(own.core) * 1e-3f));
   }
-  return {1.0f, "", std::move(own)};
+  return std::nullopt;
 }
 
 // A room that is too small to stand in.
-std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own) {
+std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own, TakenFor taken_for) {
+  if (taken_for == TakenFor::kObject || own.refused) return std::nullopt;
   if (extent(own.core) >= kSmallestPlace && backs_seen_outside(rays, own.core) < 0.5f) return std::nullopt;
   std::optional<UnitGuess> best;
   for (const float metres : {10.0f, 100.0f, 1000.0f}) {
-    UnitGuess guess = with_unit(rays, metres, fmt::format("the room is {:.2g} m wide", extent(own.core)));
+    UnitGuess guess = with_unit(rays, metres, taken_for, fmt::format("the room is {:.2g} m wide", extent(own.core)));
     if (guess.survey.kind != SceneKind::kClosedRoom) continue;
     const float height = guess.survey.stand->headroom * metres;
     if (!best || strangeness(height) < strangeness(best->survey.stand->headroom * best->metres)) best = guess;
@@ -83,7 +87,7 @@ std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own) {
 UnitGuess model(const SceneRays& rays, Survey own) {
   const float size = distance_to_see(rays.scene(), own.core);
   const bool fits = size >= kSmallestObject && size <= kLargestObject;
-  if (fits || size <= 0.0f || !rays.scene().view_points.empty()) return {1.0f, "", std::move(own)};
+  if (fits || size <= 0.0f) return {1.0f, "", std::move(own)};
   const float exact = std::clamp(kModelSize / size, kLeastUnit, kMostUnit);
   const float metres = std::strtof(fmt::format("{:.3g}", exact).c_str(), nullptr);  // so that it can be repeated
   const float longest = extent(own.core);
@@ -121,11 +125,12 @@ const UnitRow* unit_of(float metres) {
   return row == std::end(kUnitTable) ? nullptr : row;
 }
 
-UnitGuess guess_unit(const SceneRays& rays, bool shows_models) {
-  Survey own = survey(rays);
+UnitGuess guess_unit(const SceneRays& rays, bool shows_models, TakenFor taken_for) {
+  Survey own = survey(rays, 1.0f, taken_for);
   if (own.kind == SceneKind::kNothing) return {1.0f, "", std::move(own)};
-  if (own.stand) return smaller_place(rays, std::move(own));
-  if (std::optional<UnitGuess> room = larger_room(rays, own)) return std::move(*room);
+  if (std::optional<UnitGuess> place = smaller_place(rays, own, taken_for)) return std::move(*place);
+  if (own.stand) return {1.0f, "", std::move(own)};
+  if (std::optional<UnitGuess> room = larger_room(rays, own, taken_for)) return std::move(*room);
   if (!shows_models) return {1.0f, "", std::move(own)};
   return model(rays, std::move(own));
 }

@@ -53,17 +53,18 @@ struct UnitGuess {
   Survey survey;        // of the scene with that unit, in the file's units
 };
 
-// The unit that a scene is in. It stays metres unless people meet no room, place or object of that size.
+// The unit that a scene is in: metres, unless no room, place or object has that size in the world.
 //  - A box-shaped room that is too high is in the unit, among inches, centimetres and millimetres, that brings its
 //    height closest to 2.7 m; a place that is too wide is in centimetres or millimetres.
 //  - A room too small to stand in is enlarged by 10, 100 or 1000, if it is smaller than kSmallestPlace or its walls
 //  show
 //    their backs to the outside.
 //  - An object on its own is shown as a model of kModelSize if it is smaller than kSmallestObject or larger than
-//    kLargestObject, unless the scene has a view point: a picture of a ring or of a tower at its own size would have
-//    next to nothing to see in stereo. Its size is distance_to_see(). Not if shows_models is false, as where places in
-//    the scene are given, which are as the file has it.
-UnitGuess guess_unit(const SceneRays& rays, bool shows_models = true);
+//    kLargestObject: a picture of a ring or of a tower at its own size would have next to nothing to see in stereo. Its
+//    size is distance_to_see(). Not if shows_models is false, as where places in the scene are given, which are as the
+//    file has it, or where a camera of the file is used.
+// taken_for: as in survey().
+UnitGuess guess_unit(const SceneRays& rays, bool shows_models = true, TakenFor taken_for = TakenFor::kAuto);
 
 // Multiplies all lengths of a scene: instances, lights and their range, view points, volumes, and what is animated. The
 // picture stays what it was, seen by smaller or larger eyes: point and spot lights get the factor's square in power, so

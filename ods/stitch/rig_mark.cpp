@@ -13,12 +13,13 @@
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/camera/camera_fields.h"
 #include "ods/files/md5.h"
 #include "ods/stitch/slit_file.h"
 
 namespace ods {
 
-static constexpr const char* kVersion = "1";
+static constexpr const char* kVersion = "2";
 
 // Turns -0, which a file may contain, into 0.
 static double number(float value) {
@@ -29,14 +30,6 @@ static std::string numbers(const std::vector<float>& values) {
   std::string text;
   for (const float value : values) text += fmt::format("{}{}", text.empty() ? "" : ",", number(value));
   return text;
-}
-
-static std::string numbers(vec2 v) {
-  return numbers(std::vector{v.x, v.y});
-}
-
-static std::string numbers(vec3 v) {
-  return numbers(std::vector{v.x, v.y, v.z});
 }
 
 // The pixel aspect (height over width) of a view. Rounded, because the file stores the angle across, but the aspect is
@@ -53,24 +46,13 @@ static std::string views_hash(const SlitRig& rig) {
   return md5(text);
 }
 
-static std::string merge_words(const PoleMergeSetting& merge) {
-  if (merge.mode == kMergeNone) return "none";
-  return fmt::format("{},{}", merge_name(merge.mode), numbers(std::vector{merge.start, merge.end, merge.exponent}));
-}
-
-static std::string camera_words(const StereoCamera& camera) {
-  std::string text = fmt::format(
-      "ipd={} position={} yaw={} pitch={} roll={} neck={} merge_top={} merge_bottom={} longitude={} latitude={}",
-      number(camera.ipd), numbers(camera.position), number(camera.yaw), number(camera.pitch), number(camera.roll),
-      number(camera.neck), merge_words(camera.top), merge_words(camera.bottom), numbers(camera.projection.longitude),
-      numbers(camera.projection.latitude));
-  if (camera.convergence != kParallel) {
-    text +=
-        fmt::format(" convergence={},{}", convergence_name(camera.convergence), number(camera.convergence_distance));
+static std::string camera_text(const StereoCamera& camera) {
+  std::string text;
+  for (const auto& [name, value] : camera_settings(camera)) {
+    if (!value.empty()) text += fmt::format(" {}={}", name, value);
   }
-  if (camera.axis) text += " axis=" + numbers(*camera.axis);
   if (camera.mirrored) text += " mirrored=true";
-  if (camera.merge_map) text += " merge_map=" + md5(numbers(camera.merge_map->pixels));
+  if (camera.merge_map) text += " merge-map=" + md5(numbers(camera.merge_map->pixels));
   return text;
 }
 
@@ -80,11 +62,11 @@ std::string rig_mark(const SlitRig& rig) {
   for (const int eye : rig.eyes) eyes.push_back(eye_name(eye));
   return fmt::format(
       "ods-rig={} views={} slits={} pitches={} caps={} blend={} padding={} scale={} depth={} view={}x{} fov={} "
-      "picture={}x{} eyes={} {}",
+      "picture={}x{} eyes={}{}",
       kVersion, views_hash(rig), options.slits, options.pitches, options.caps, number(options.blend), options.padding,
       number(options.scale), view_depth_name(options.depth), rig.view.width, rig.view.height,
       number(rig.views[0].projection.fov), rig.eye.width, rig.eye.height, fmt::join(eyes, ","),
-      camera_words(rig.camera));
+      camera_text(rig.camera));
 }
 
 // --- comparing ------------------------------------------------------------------------------------------------------

@@ -148,7 +148,7 @@ void write_testcard_video(const TestcardVideo& video, const VideoPlan& plan, int
     const int number = next++;
     return PendingFrame{{number, 1}, [&video, number] { return testcard_frame(video, number); }};
   };
-  write_video({plan.size, options, plan.metadata, {}, frames, 3 * video.still->bytes()}, pending, path, progress);
+  write_video({plan.size, options, plan.metadata, frames, 3 * video.still->bytes()}, pending, path, progress);
 }
 
 }  // namespace ods

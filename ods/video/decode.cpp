@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "ods/base/error.h"
-#include "ods/video/av.h"
+#include "ods/video/tracks/av.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -153,6 +153,18 @@ static Owned<AVFrame> upright(const AVFrame& from) {
 }
 
 // --- decoding --------------------------------------------------------------------------------------------------------
+
+static std::vector<std::string> unkept_words(const AVFrame& frame) {
+  constexpr std::pair<AVFrameSideDataType, const char*> kKinds[] = {
+      {AV_FRAME_DATA_A53_CC, "closed captions in the pictures (CEA-608, CEA-708)"},
+      {AV_FRAME_DATA_DYNAMIC_HDR_PLUS, "HDR10+ words in the pictures"},
+      {AV_FRAME_DATA_DOVI_RPU_BUFFER, "Dolby Vision words in the pictures"}};
+  std::vector<std::string> words;
+  for (const auto& [kind, name] : kKinds) {
+    if (av_frame_get_side_data(&frame, kind) != nullptr) words.emplace_back(name);
+  }
+  return words;
+}
 
 struct VideoDecoder::State {
   std::string what;  // for messages
@@ -323,6 +335,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   state.check(*frame);
   DecodedFrame result;
   result.time = state.last = state.time_of(*frame);
+  if (state.count == 0) state.stream.unkept = unkept_words(*frame);
   if (state.count++ == 0 && !state.has_skipped)
     state.stream.start = static_cast<double>(result.time.start) / state.ticks();
   if (state.stream.is_turned) frame = upright(*frame);

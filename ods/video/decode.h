@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ods/video/encode.h"
 #include "ods/video/video_codec.h"
@@ -27,7 +28,9 @@ struct VideoStream {
   FrameRate clock;          // ticks per second of FrameTime
   double start = 0.0;       // when the first picture is shown, in seconds
   double file_start = 0.0;  // when the first picture or sound begins
-  int count = 0;            // number of pictures, as stated or computed from the duration; 0: unknown
+  // What the first picture carries beside its pixels and no encoder here keeps, for people. Known once it is decoded.
+  std::vector<std::string> unkept;
+  int count = 0;  // number of pictures, as stated or computed from the duration; 0: unknown
 
   // From the first picture on.
   double seconds_at(const FrameTime& time) const { return static_cast<double>(time.start) / clock.value() - start; }

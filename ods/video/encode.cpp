@@ -7,16 +7,19 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <thread>
 
 #include "ods/base/error.h"
-#include "ods/video/av.h"
-#include "ods/video/sound.h"
+#include "ods/video/tracks/av.h"
+#include "ods/video/tracks/kept_tracks.h"
+#include "ods/video/tracks/sound.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/mastering_display_metadata.h>
 #include <libavutil/opt.h>
 }
 
@@ -173,17 +176,70 @@ static void set_threads(AVCodecContext& context, const EncoderFacts& facts, cons
   if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") context.thread_count = std::clamp(wanted, 2, 64);
 }
 
+// What HDR pictures say of their light, in the stream's own messages too: as x264, x265 and SVT-AV1 want to be told.
+// Units of the first two: 1/50,000 of a chromaticity and 1/10,000 of a candela per square metre.
+namespace {
+
+struct LightWords {
+  std::string display, level;  // empty: unsaid
+};
+
+}  // namespace
+
+static LightWords light_words(const ColorWords& words, bool in_units) {
+  LightWords result;
+  AVMasteringDisplayMetadata display;
+  if (words.mastering_display.size() == sizeof display) {
+    std::memcpy(&display, words.mastering_display.data(), sizeof display);
+    const auto value = [&](AVRational number, int unit) {
+      const double plain = number.den == 0 ? 0.0 : av_q2d(number);
+      return in_units ? fmt::format("{}", std::llround(plain * unit)) : fmt::format("{:.6g}", plain);
+    };
+    const auto place = [&](const AVRational* xy) { return value(xy[0], 50000) + "," + value(xy[1], 50000); };
+    result.display = fmt::format("G({})B({})R({})WP({})L({},{})", place(display.display_primaries[1]),
+                                 place(display.display_primaries[2]), place(display.display_primaries[0]),
+                                 place(display.white_point), value(display.max_luminance, 10000),
+                                 value(display.min_luminance, 10000));
+  }
+  AVContentLightMetadata level;
+  if (words.light_level.size() == sizeof level) {
+    std::memcpy(&level, words.light_level.data(), sizeof level);
+    result.level = fmt::format("{},{}", level.MaxCLL, level.MaxFALL);
+  }
+  return result;
+}
+
+// ":NAME=VALUE" for each that is there.
+static std::string light_options(const LightWords& light, std::string_view display, std::string_view level) {
+  std::string text;
+  if (!light.display.empty()) text += fmt::format(":{}={}", display, light.display);
+  if (!light.level.empty()) text += fmt::format(":{}={}", level, light.level);
+  return text;
+}
+
+static std::string light_options(std::string_view encoder, const ColorWords& words) {
+  if (encoder == "libx264") return light_options(light_words(words, true), "mastering-display", "cll");
+  if (encoder == "libx265") return light_options(light_words(words, true), "master-display", "max-cll");
+  if (encoder == "libsvtav1") return light_options(light_words(words, false), "mastering-display", "content-light");
+  return "";
+}
+
 static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const std::string_view name = facts.name;
   const Extent size{context.width, context.height};
-  if (name == "libx264" && smallest_level(Codec::kH264, size, options.rate.value()) > "5.2") {
-    set(context, "x264-params", "mvrange=511");  // otherwise the decoders of early headsets show garbage
+  const std::string light = light_options(name, options.words);
+  if (name == "libx264") {
+    const bool is_fast = smallest_level(Codec::kH264, size, options.rate.value()) > "5.2";
+    // Without it the decoders of early headsets show garbage.
+    const std::string words = (is_fast ? ":mvrange=511" : "") + light;
+    if (!words.empty()) set(context, "x264-params", words.substr(1));
   }
+  if (name == "libsvtav1" && !light.empty()) set(context, "svtav1-params", light.substr(1));
   if (name == "libx264" && options.preset.empty() && is_large(context)) set(context, "rc-lookahead", "20");
   if (name == "libx265") {                                   // logs to the console on its own
     std::string words = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
     if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
-    words += fmt::format(":ctu={}", largest_block(context));
+    words += fmt::format(":ctu={}", largest_block(context)) + light;
     set(context, "x265-params", words);
   }
   if (name == "libaom-av1" || name == "libvpx-vp9") set(context, "row-mt", "1");
@@ -230,10 +286,17 @@ static void abandon(AVCodecContext& encoder, const Packing& packing, bool is_new
   }
 }
 
+static std::vector<std::unique_ptr<SideTracks>> open_side_tracks(const EncodeOptions& options, Container container) {
+  std::vector<std::unique_ptr<SideTracks>> tracks;
+  if (!options.keep.path.empty()) tracks.push_back(keep_tracks(options.keep, container));
+  if (!options.sound.empty()) tracks.push_back(pack_sound({options.sound}, container));
+  return tracks;
+}
+
 void check_encoder(Container container, const EncodeOptions& options) {
   assert(can_hold(container, options.packing.codec));
   abandon(*open_encoder({256, 256}, options, false), options.packing, true);
-  open_sound(options, container);
+  open_side_tracks(options, container);
 }
 
 // What an HDR video says of its light, for the container.
@@ -257,7 +320,7 @@ struct VideoEncoder::State {
   Owned<AVFormatContext> file;
   Owned<AVCodecContext> pictures;  // none between two parts
   AVRational tick{0, 1};
-  std::unique_ptr<Sound> sound;
+  std::vector<std::unique_ptr<SideTracks>> others;
   int64_t count = 0;                     // frames of this part so far
   int64_t end = 0;                       // of all pictures so far
   int64_t decoded = INT64_MIN;           // of the last picture
@@ -318,17 +381,18 @@ struct VideoEncoder::State {
     packet.stream_index = 0;
     av_packet_rescale_ts(&packet, tick, file->streams[0]->time_base);
     written(av_interleaved_write_frame(file.get(), &packet));
-    add_sound(until, false);
+    add_others(until, false);
   }
 
-  // Adds the sound up to this time.
-  void add_sound(int64_t ticks, bool is_end) {
-    if (!sound) return;
+  // Adds what the other tracks have up to this time.
+  void add_others(int64_t ticks, bool is_end) {
     const double until = static_cast<double>(ticks) * av_q2d(tick);
-    while (const Owned<AVPacket> packet = sound->next(until, is_end)) {
-      packet->stream_index = 1;
-      av_packet_rescale_ts(packet.get(), packet->time_base, file->streams[1]->time_base);
-      written(av_interleaved_write_frame(file.get(), packet.get()));
+    for (const auto& tracks : others) {
+      while (const Owned<AVPacket> packet = tracks->next(until, is_end)) {
+        av_packet_rescale_ts(packet.get(), packet->time_base,
+                             file->streams[static_cast<size_t>(packet->stream_index)]->time_base);
+        written(av_interleaved_write_frame(file.get(), packet.get()));
+      }
     }
   }
 };
@@ -354,8 +418,8 @@ VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent siz
   if (has_boxes(container) && options.packing.codec == VideoCodec::kHevc) {
     stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // the only tag that Apple plays
   }
-  state.sound = open_sound(options, container);
-  if (state.sound) state.sound->describe(*made(avformat_new_stream(file, nullptr)));
+  state.others = open_side_tracks(options, container);
+  for (const auto& tracks : state.others) tracks->add_to(*file);
   if (has_boxes(container)) av_opt_set(file->priv_data, "movflags", "+faststart+write_colr", 0);
   state.written(avio_open(&file->pb, address.c_str(), AVIO_FLAG_WRITE));
   state.written(avformat_write_header(file, nullptr));
@@ -396,7 +460,7 @@ std::string VideoEncoder::header() const {
 void VideoEncoder::finish() {
   State& state = *state_;
   state.end_pictures();
-  state.add_sound(state.end, true);
+  state.add_others(state.end, true);
   state.written(av_write_trailer(state.file.get()));
   state.written(avio_closep(&state.file->pb));
 }

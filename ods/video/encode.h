@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ods/files/atomic_file.h"
+#include "ods/video/tracks/keep_options.h"
 #include "ods/video/video_codec.h"
 #include "ods/video/video_frame.h"
 
@@ -31,12 +32,6 @@ struct FrameTime {
   int64_t duration = 1;
 };
 
-// Which part of a file's sound is copied.
-struct SoundCut {
-  double start = 0.0;   // the time in the file at which the video begins, in seconds
-  bool is_cut = false;  // drop sound before it and after the end of the pictures
-};
-
 struct EncodeOptions {
   Packing packing;
   std::string encoder;             // one of known_encoders(); empty: the first available
@@ -46,10 +41,9 @@ struct EncodeOptions {
   std::optional<FrameRate> clock;  // ticks per second of FrameTime; none: a tick per picture
   ColorCode color;                 // of the frames
   ColorWords words;
-  int threads = 0;            // 0: the encoder chooses
-  std::string sound;          // a file with sound; empty: a silent video
-  bool copies_sound = false;  // copy its packets, with any number of channels; else encode it anew
-  SoundCut sound_cut;
+  int threads = 0;    // 0: the encoder chooses
+  std::string sound;  // a file with sound to encode; empty: none but what is kept
+  KeepOptions keep;
   bool for_apple = false;  // SphericalMetadata
 };
 
@@ -66,14 +60,6 @@ struct EncodedPicture {
 int key_interval(const FrameRate& rate);
 
 bool has_encoder(std::string_view name);
-
-// The sound of a file. Throws Error(kInput): there is none, or it has other than 1, 2 or 4 channels. Four channels are
-// first-order ambisonics in AmbiX (W Y Z X, SN3D).
-struct SoundInfo {
-  int channels = 0;
-  double seconds = 0.0;  // 0: unknown
-};
-SoundInfo read_sound_info(const std::string& path);
 
 // Throws Error(kUsage) if this machine cannot encode such pictures or sound; the message says what is missing and what
 // is available. Writes nothing.

@@ -180,7 +180,7 @@ TagResult make_video(const FrameFiles& files, const VideoPlan& plan, const Displ
   check_packing(plan, options.packing);
   const size_t pixels = static_cast<size_t>(plan.size.width) * static_cast<size_t>(plan.size.height);
   const size_t decoded = pixels * 4 * sizeof(float);  // a decoded frame takes up to four floats per pixel
-  const NewVideo video{plan.size, options, plan.metadata, {}, static_cast<int>(files.frames.size()), decoded, {}};
+  const NewVideo video{plan.size, options, plan.metadata, static_cast<int>(files.frames.size()), decoded, {}};
   size_t next = 0;
   const auto frames = [&]() -> std::optional<PendingFrame> {
     if (next == files.frames.size()) return std::nullopt;

@@ -25,7 +25,7 @@ VideoClock::VideoClock(const VideoStream& stream, const FrameTime& first, bool i
 
 void VideoClock::set(EncodeOptions& options) const {
   options.clock = clock_;
-  options.sound_cut.start = start_;
+  options.keep.cut.start = start_;
 }
 
 int64_t VideoClock::even(int64_t ticks) const {

@@ -3,7 +3,7 @@
 //
 // The times of a video that is made of another's pictures.
 //
-// A part of a video (SoundCut::is_cut) begins with its first picture; a whole one keeps the distance between the
+// A part of a video (TimeCut::is_cut) begins with its first picture; a whole one keeps the distance between the
 // beginnings of picture and sound. Matroska rounds times to milliseconds; where they are those of an even rate, so
 // rounded, they become exact again.
 #pragma once

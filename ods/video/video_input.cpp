@@ -10,7 +10,9 @@
 
 #include "ods/base/error.h"
 #include "ods/files/scratch.h"
+#include "ods/picture/stored_lenses.h"
 #include "ods/video/container/complete_metadata.h"
+#include "ods/video/container/mesh_box.h"
 
 namespace ods {
 
@@ -31,7 +33,7 @@ static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::stri
 static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
   if (metadata.projection != VideoProjection::kEquirect) {
     throw unusable(path,
-                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--from-projection "
+                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--projection "
                                "overrides a wrong claim)",
                                projection_name(*metadata.projection)));
   }
@@ -62,17 +64,53 @@ static void set_orientation(StereoCamera& stereo, const SphericalMetadata& metad
   stereo.roll = static_cast<float>(metadata.roll);
 }
 
+// The metadata of a lat-long that shows as much as these meshes.
+static void say_lat_long(SphericalMetadata& metadata, const std::vector<TextureMesh>& eyes, Layout layout) {
+  const bool is_half = std::all_of(eyes.begin(), eyes.end(), is_front_half);
+  set_projection(metadata, find_projection(is_half ? "vr180" : "lat-long")->setting);
+  metadata.stereo = layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(layout);
+}
+
+// Reads the mesh of a video that has one; if nobody can, V1 tells.
+static void take_mesh(VideoInput& video, const VideoTrack& track) {
+  std::vector<std::string>& notes = video.prototype.guesses;
+  try {
+    if (track.mesh.empty()) throw MalformedFile("it says mesh, and has none");
+    const ProjectionMeshes meshes = parse_mesh_box(track.mesh);
+    const MeshedEyes eyes = eyes_of_meshes(meshes, *video.metadata.stereo);
+    if (!meshes.fits_checksum)
+      notes.emplace_back("the checksum of its mesh does not match: another program changed it");
+    for (const TextureMesh& eye : eyes.eyes) video.prototype.maps.push_back(make_map(eye));
+    say_lat_long(video.metadata, eyes.eyes, eyes.layout);
+    notes.push_back(fmt::format("it has its camera's lenses as a mesh ({} triangles)", eyes.eyes[0].triangles.size()));
+  } catch (const MalformedFile& fault) {
+    if (!track.v1 || track.v1->projection != VideoProjection::kEquirect) {
+      throw unusable(video.path,
+                     fmt::format("{}; --projection and --layout say what it shows", fault.what()));
+    }
+    notes.push_back(fmt::format("{}: taken as its V1 says, {}", fault.what(), metadata_text(*track.v1)));
+    video.metadata = *track.v1;
+    if (!video.metadata.stereo) video.metadata.stereo = VideoStereo::kOneView;
+  }
+}
+
 VideoInput open_video(const std::string& path, const FormatHint& known) {
   const VideoFile info = read_video_file(path);
   const VideoTrack& track = choose_track(info, {}, path);
+  if (track.has_layers && !known.layout) {
+    throw unusable(
+        path,
+        "its eyes are layers of its stream (MV-HEVC, a spatial video of a phone), which ods does not take "
+        "apart. FFmpeg 7.1 does: ffmpeg -i VIDEO -filter_complex '[0:v:view:0][0:v:view:1]hstack' FLAT_SBS.mp4; "
+        "--layout separate takes the first eye alone");
+  }
   VideoInput video;
   video.path = path;
   video.track = track.id;
   video.fps = track.fps;
-  video.has_sound = !info.sound.empty();
-  if (video.has_sound) video.ambisonics = info.sound[0].ambisonics;
   StoredPicture& prototype = video.prototype;
   video.metadata = metadata_of(track, known, path, prototype.guesses);
+  if (video.metadata.projection == VideoProjection::kMesh) take_mesh(video, track);
   FileInfo file;
   file.width = track.size.width;
   file.height = track.size.height;
@@ -100,6 +138,7 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   prototype.size = *eye;
   prototype.eyes.resize(prototype.layout == Layout::kSeparate ? 1 : 2);
   for (size_t i = 0; prototype.eyes.size() == 2 && i < 2; i++) prototype.eyes[i].eye = i == 0 ? kLeft : kRight;
+  take_lenses(prototype, known, path);
   return video;
 }
 

@@ -17,15 +17,13 @@ struct VideoInput {
   uint64_t track = 0;
   double fps = 0.0;            // 0: unknown
   SphericalMetadata metadata;  // complete
-  bool has_sound = false;
-  std::optional<Ambisonics> ambisonics;  // of its sound track
-  StoredPicture prototype;               // every picture except its pixels: eyes without layers
+  StoredPicture prototype;     // every picture except its pixels: eyes without layers
 };
 
 // Missing metadata is completed as ods inject does; `known` takes precedence, and may have any projection. The eye
-// distance comes from the video (vexu), else from its sidecar, which also gives the rest of the camera. Throws
-// Error(kInput): a damaged video, a flat one, a projection other than lat-long or a part of it, or metadata that
-// nothing determines.
+// distance comes from the video (vexu), else from its sidecar, which also gives the rest of the camera. A mesh becomes
+// StoredPicture::maps; one that cannot be read gives way to V1. Throws Error(kInput): a damaged video, a flat one, a
+// projection other than a mesh, lat-long or a part of it, or metadata that nothing determines.
 VideoInput open_video(const std::string& path, const FormatHint& known = {});
 
 // Its colours as 16-bit code values, whatever the video's bit depth.

@@ -13,6 +13,9 @@
 #include "ods/base/pipeline.h"
 #include "ods/files/md5.h"
 #include "ods/files/parts_file.h"
+#include "ods/video/tracks/kept_tags.h"
+#include "ods/video/tracks/kept_tracks.h"
+#include "ods/video/tracks/sound.h"
 
 namespace ods {
 
@@ -114,23 +117,40 @@ static int encode_frames(const NewVideo& video, const std::function<std::optiona
   return done;
 }
 
+// What the old video says, and that four channels of new sound are first-order ambisonics.
+static OtherTags other_tags(const EncodeOptions& options, Container container) {
+  OtherTags tags;
+  if (!has_boxes(container)) return tags;
+  tags.sound = kept_ambisonics(options.keep, container);
+  if (!options.sound.empty()) {
+    const bool is_field = read_sound_info(options.sound).channels == 4;
+    tags.sound.push_back(is_field ? std::optional(Ambisonics()) : std::nullopt);
+  }
+  if (!options.keep.path.empty()) tags.user = read_user_data(options.keep.path, options.keep.track);
+  return tags;
+}
+
+static void tell_lost_tags(const KeepOptions& keep, const std::string& made) {
+  if (!keep.tell) return;
+  for (const std::string& tag : lost_tags(keep, made)) keep.tell(fmt::format("{} has no place in the new file", tag));
+}
+
 WrittenVideo write_video(const NewVideo& video, const std::function<std::optional<PendingFrame>()>& next,
                          const std::string& path, const Progress& progress) {
   const EncodeOptions& options = video.options;
+  const Container container = *container_of_path(path);
   AtomicFile untagged(path);
-  VideoEncoder encoder(untagged, *container_of_path(path), video.size, options);
+  VideoEncoder encoder(untagged, container, video.size, options);
   WrittenVideo written;
   Parts parts(video, path, encoder);
   written.frames = encode_frames(video, next, encoder, parts, progress);
   encoder.finish();
-  std::optional<Ambisonics> ambisonics = video.ambisonics;
-  if (!options.copies_sound && !options.sound.empty() && read_sound_info(options.sound).channels == 4) {
-    ambisonics.emplace();
-  }
   SphericalMetadata metadata = video.metadata;
   metadata.for_apple = metadata.for_apple || options.for_apple;
   const VideoFile made = read_video_file(untagged.temporary());
-  written.tags = tag_video(untagged.temporary(), path, choose_track(made, {}, path).id, metadata, ambisonics);
+  written.tags =
+      tag_video(untagged.temporary(), path, choose_track(made, {}, path).id, metadata, other_tags(options, container));
+  tell_lost_tags(options.keep, path);
   parts.remove();
   return written;
 }

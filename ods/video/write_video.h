@@ -25,10 +25,9 @@ inline constexpr int kPartFrames = 240;
 struct NewVideo {
   Extent size;
   EncodeOptions options;
-  SphericalMetadata metadata;            // options.for_apple adds to it
-  std::optional<Ambisonics> ambisonics;  // of sound that is copied; sound that is encoded anew tells by its channels
-  int count = 0;                         // frames, as far as known: for the progress
-  size_t frame_bytes = 0;                // memory that making one takes, beside the frame itself
+  SphericalMetadata metadata;  // options.for_apple adds to it
+  int count = 0;               // frames, as far as known: for the progress
+  size_t frame_bytes = 0;      // memory that making one takes, beside the frame itself
   Resume resume = {};
 };
 

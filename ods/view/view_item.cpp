@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "ods/base/error.h"
 #include "ods/convert/convert.h"
 #include "ods/files/file_input.h"
 #include "ods/image/format/file_format.h"
@@ -20,6 +21,7 @@ namespace ods {
 // What browsers decode, with each eye in a rectangle of its own.
 static bool browsers_read(const std::string& path, const StoredPicture& picture) {
   const auto format = format_of_path(path);
+  if (!picture.maps.empty()) return false;
   if (format != FileFormat::kPng && format != FileFormat::kJpeg && format != FileFormat::kWebp) return false;
   return picture.eyes.size() == 1 || arrangement_of(picture.layout).is_halves();
 }
@@ -31,6 +33,12 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
   item.name = std::filesystem::path(path).filename().string();
   if (!names_eye(path) && is_video(path)) {
     const VideoInput video = open_video(path, known);
+    if (!video.prototype.maps.empty()) {
+      throw Error(ErrorKind::kInput,
+                  fmt::format("cannot show '{}': it has fisheyes as its camera stored them, which browsers do not "
+                              "unwrap: ods convert makes a video of it that they show",
+                              path));
+    }
     item.is_video = item.has_own_file = true;
     item.picture = video.prototype;
     item.fps = video.fps;
@@ -89,7 +97,7 @@ static Json projections() {
 
 static Json item_json(const ViewItem& item, size_t index) {
   const std::vector<std::string> files = item_files(item, index);
-  const bool is_mono = item.picture.eyes.size() == 1;
+  const bool is_mono = item.picture.eyes.size() == 1 || item.picture.front_and_back;
   Json json = {{"name", item.name}, {"kind", item.is_video ? "video" : "picture"}};
   if (item.has_own_file) {
     json["image"] = files[0];

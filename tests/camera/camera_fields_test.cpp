@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "ods/camera/camera_move.h"
@@ -84,45 +86,78 @@ StereoCamera full_rig(const ProjectionSetting& projection) {
   return camera;
 }
 
-TEST(CameraFields, EveryFieldHasANameARangeAndNumbers) {
-  std::set<std::string_view> names;
-  StereoCamera camera = full_rig({});
-  for (const CameraField field : kCameraFields) {
-    EXPECT_TRUE(names.insert(field_name(field)).second) << field_name(field);
-    EXPECT_LT(range_of(field).least, range_of(field).most) << field_name(field);
-    EXPECT_FALSE(numbers_of(camera, field).empty()) << field_name(field);
-    for (const float* number : numbers_of(camera, field)) EXPECT_TRUE(range_of(field).contains(*number));
-    for (const float beyond : {range_of(field).least - 1.0f, range_of(field).most * 1.01f, std::nanf("")}) {
-      StereoCamera bad = full_rig({});
-      *numbers_of(bad, field)[0] = beyond;
-      EXPECT_NE(camera_fault(bad).find(field_name(field)), std::string::npos) << camera_fault(bad);
+TEST(CameraFields, EveryFieldHasItsOwnPlacesAndARange) {
+  std::set<std::string_view> names, places;
+  const ProjectionSetting lens = find_projection("fisheye-polynomial")->setting;
+  StereoCamera camera = full_rig(lens);
+  for (const CameraFieldRow& row : camera_fields()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_TRUE(places.insert(row.place).second) << row.name;
+    EXPECT_LT(row.range.least, row.range.most) << row.name;
+    EXPECT_FALSE(row.numbers(camera).empty()) << row.name;
+    for (const float number : values_of(camera, row)) EXPECT_TRUE(row.range.contains(number));
+    for (const float beyond : {row.range.least - 1.0f, row.range.most * 1.01f, std::nanf("")}) {
+      StereoCamera bad = full_rig(lens);
+      *row.numbers(bad)[0] = beyond;
+      EXPECT_NE(camera_fault(bad).find(row.name), std::string::npos) << camera_fault(bad);
     }
+  }
+  for (const CameraModeRow& row : camera_modes()) EXPECT_TRUE(places.insert(row.place).second) << row.place;
+}
+
+// A new member does not compile here: it gets a row or a place among those that have none.
+TEST(CameraFields, EveryMemberHasARow) {
+  [[maybe_unused]] const auto& [position, yaw, pitch, roll, ipd, top, bottom, merge_map, head_tilt_map, projection,
+                                convergence, distance, neck, axis, lens_radius, focus_distance, mirrored] =
+      StereoCamera();
+  [[maybe_unused]] const auto& [kind, longitude, latitude, fov, aspect, sensor, polynomial, pan, tilt] = projection;
+  [[maybe_unused]] const auto& [mode, start, end, exponent] = top;
+  const size_t of_camera = 17 - std::size({"top", "bottom", "merge_map", "head_tilt_map", "projection", "mirrored"});
+  const size_t of_lens = 9 - std::size({"kind"}), of_merges = 2 * 4;
+  EXPECT_EQ(camera_fields().size() + camera_modes().size(), of_camera + of_lens + of_merges);
+}
+
+TEST(CameraFields, TheSidecarsPageNamesEveryKey) {
+  std::ifstream file(ODS_SOURCE_DIR "/docs/camera-sidecar.md");
+  const std::string page(std::istreambuf_iterator<char>(file), {});
+  std::vector<std::string_view> places;
+  for (const CameraFieldRow& row : camera_fields()) places.push_back(row.place);
+  for (const CameraModeRow& row : camera_modes()) places.push_back(row.place);
+  for (const std::string_view place : places) {
+    const std::string key(place.substr(place.find('.') + 1));
+    EXPECT_TRUE(page.find(fmt::format("`{}`", place)) != std::string::npos ||
+                page.find(fmt::format("`{}`", key)) != std::string::npos)
+        << place;
   }
 }
 
 // The last of a field's numbers is at an end of its range, in every projection that allows it.
 TEST(CameraFields, ExtremesComeBack) {
-  for (const CameraField field : kCameraFields) {
+  using enum CameraField;
+  for (const CameraFieldRow& row : camera_fields()) {
+    const CameraField field = row.member;
     int legal[2] = {0, 0};
     for (const NamedProjection& named : named_projections()) {
       for (const bool most : {false, true}) {
         StereoCamera camera = full_rig(named.setting);
-        const FieldRange range = range_of(field);
-        *numbers_of(camera, field).back() = most ? range.most : range.least;
-        if (field == CameraField::kLongitude) camera.projection.longitude.x = camera.projection.longitude.y - 300.0f;
-        if (field == CameraField::kLongitude && !most) camera.projection.longitude += 300.0f;
-        if (field == CameraField::kLatitude && !most)
-          std::swap(camera.projection.latitude.x, camera.projection.latitude.y);
+        const std::vector<float*> numbers = row.numbers(camera);
+        if (numbers.empty()) continue;
+        *numbers.back() = most ? row.range.most : row.range.least;
+        if (field == kLongitude) camera.projection.longitude.x = camera.projection.longitude.y - 300.0f;
+        if (field == kLongitude && !most) camera.projection.longitude += 300.0f;
+        if (field == kLatitude && !most) std::swap(camera.projection.latitude.x, camera.projection.latitude.y);
         if (!camera_fault(camera).empty()) continue;
-        SCOPED_TRACE(std::string(field_name(field)) + " " + std::string(named.name));
+        SCOPED_TRACE(std::string(row.name) + " " + std::string(named.name));
         legal[most ? 1 : 0]++;
         expect_round_trips(camera);
       }
     }
     // A merge cannot start at the pole nor end at the horizon.
-    EXPECT_GT(legal[0] + (field == CameraField::kMergeEnd ? 1 : 0), 0) << field_name(field);
-    const bool turns_back = field == CameraField::kPolynomial;  // with so large a K4
-    EXPECT_GT(legal[1] + (field == CameraField::kMergeStart || turns_back ? 1 : 0), 0) << field_name(field);
+    const bool is_end = field == kTopMergeEnd || field == kBottomMergeEnd;
+    const bool is_start = field == kTopMergeStart || field == kBottomMergeStart;
+    EXPECT_GT(legal[0] + (is_end ? 1 : 0), 0) << row.name;
+    const bool turns_back = field == kPolynomial;  // with so large a K4
+    EXPECT_GT(legal[1] + (is_start || turns_back ? 1 : 0), 0) << row.name;
   }
 }
 
@@ -142,9 +177,9 @@ TEST(CameraFields, RandomCamerasComeBack) {
   for (size_t i = 0; i < 20000; i++) {
     StereoCamera camera = full_rig(named_projections()[i % named_projections().size()].setting);
     if (dice.next() < 0.3f) camera.axis.reset();
-    for (const CameraField field : kCameraFields) {
-      const FieldRange range = range_of(field);
-      for (float* number : numbers_of(camera, field)) {
+    for (const CameraFieldRow& row : camera_fields()) {
+      const FieldRange range = row.range;
+      for (float* number : row.numbers(camera)) {
         if (dice.next() < 0.5f) continue;
         // Near either end as often as anywhere.
         const float share = dice.next(), power = dice.next() < 0.5f ? 1.0f : 6.0f;

@@ -65,7 +65,7 @@ TEST_F(CliConvert, Vr180LiesSideBySideUnlessTold) {
   EXPECT_EQ(open("half.exr").layout, ods::Layout::kSideBySide);
   ASSERT_EQ(convert(folder.path("half.exr"), "whole.exr", "--to lat-long --width 32"), 0) << err;
   EXPECT_EQ(open("whole.exr").layout, ods::Layout::kTopBottom);
-  ASSERT_EQ(convert(room, "told.exr", "--to vr180 --layout bottom-top"), 0) << err;
+  ASSERT_EQ(convert(room, "told.exr", "--to vr180 --to-layout bottom-top"), 0) << err;
   EXPECT_EQ(open("told.exr").layout, ods::Layout::kBottomTop);
   ASSERT_EQ(run("camera --projection vr180 --width 64"), 0) << err;
   const std::string sidecar = folder.path("a.camera.json");
@@ -90,7 +90,7 @@ TEST_F(CliConvert, OptionsAreJudgedByThePicture) {
 
   const std::string half = make("half.png", "--projection vr180 --sidecar");
   std::filesystem::rename(folder.path("half.camera.json"), folder.path("other.json"));
-  EXPECT_EQ(convert(half, "whole.exr", "--from-camera " + folder.path("other.json")), 0) << err;
+  EXPECT_EQ(convert(half, "whole.exr", "--camera " + folder.path("other.json")), 0) << err;
   EXPECT_EQ(open("whole.exr").layout, ods::Layout::kSideBySide);
 }
 
@@ -98,7 +98,7 @@ TEST_F(CliConvert, ToItselfIsTheSamePicture) {
   const std::string room = make("room.png");
   ASSERT_EQ(convert(room, "same.png", "-q"), 0) << err;
   EXPECT_EQ(run("compare " + room + " " + folder.path("same.png") + " --max-error 0"), 0) << err << out;
-  ASSERT_EQ(convert(room, "wide.png", "-q --layout side-by-side"), 0) << err;
+  ASSERT_EQ(convert(room, "wide.png", "-q --to-layout side-by-side"), 0) << err;
   EXPECT_EQ(run("compare " + room + " " + folder.path("wide.png") + " --max-error 0"), 0) << err << out;
 }
 
@@ -142,7 +142,7 @@ TEST_F(CliConvert, GuessesAreReported) {
   const std::string room = make("room_TB.png");
   ASSERT_EQ(convert(room, "a.png"), 0);
   EXPECT_NE(err.find("_TB"), std::string::npos) << err;
-  ASSERT_EQ(convert(room, "a.png", "--from-projection lat-long --from-layout top-bottom"), 0);
+  ASSERT_EQ(convert(room, "a.png", "--projection lat-long --layout top-bottom"), 0);
   EXPECT_EQ(err.find("_TB"), std::string::npos) << err;
 }
 
@@ -152,7 +152,7 @@ TEST_F(CliConvert, EyesOfTheirOwn) {
   ASSERT_EQ(convert(room, "eye_%V.png"), 0) << err;
   EXPECT_TRUE(std::filesystem::exists(folder.path("eye_right.png")));
   ASSERT_EQ(convert(folder.path("eye_%V.png"), "both.png", "-q"), 0) << err;
-  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --from-projection perspective"), 2);
+  EXPECT_EQ(convert(folder.path("mono.png"), "two.png", "--eyes both --projection perspective"), 2);
   EXPECT_NE(err.find("depth"), std::string::npos) << err;
 }
 
@@ -168,7 +168,7 @@ TEST_F(CliConvert, WarnsOfNamesThatMislead) {
   ASSERT_EQ(convert(room, "y_LR.png"), 0) << err;
   EXPECT_NE(err.find("warning: "), std::string::npos) << err;
   EXPECT_NE(err.find("_LR"), std::string::npos) << err;
-  ASSERT_EQ(convert(room, "y_LR.png", "--layout side-by-side"), 0) << err;
+  ASSERT_EQ(convert(room, "y_LR.png", "--to-layout side-by-side"), 0) << err;
   EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
   make("z_180_LR.png", "--projection vr180");  // side-by-side by itself
   EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
@@ -218,7 +218,7 @@ TEST_F(CliConvert, RefusalsSayWhy) {
       {"--range 0,1e-20", "0.01 degrees"},
       {"--merge-map-inverted", "--merge-map FILE"},
       {"--height 40", "--width"},
-      {"--from-layout tob", "--from-layout"},
+      {"--layout tob", "--layout"},
   };
   for (const auto& one : cases) {
     EXPECT_EQ(convert(room, "no.png", one[0]), 2) << one[0];

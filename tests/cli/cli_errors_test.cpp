@@ -202,7 +202,7 @@ TEST_F(CliErrors, OfVideos) {
           {encode + "--bits 7", kUsage, "--bits"},
           {encode + "--fps x", kUsage, "--fps"},
           {encode + "--fps 10000", kUsage, "--fps"},
-          {encode + "--layout anaglyph-dubois", kUsage, "--layout"},
+          {encode + "--to-layout anaglyph-dubois", kUsage, "--to-layout"},
           {encode + "--audio @absent.wav", kInput, "absent.wav"},
           {encode + "--audio @broken.png", kInput, "broken.png"},
           {encode + "--audio @p_TB.png", kInput, "p_TB.png': it has none; give --audio a sound file"},

@@ -63,6 +63,35 @@ TEST_F(CliFrames, NoiseIsFixedOrChanges) {
   EXPECT_FALSE(bytes("changing.1.png") == bytes("changing.2.png"));
 }
 
+// A camera that flies from 0,1,4 to 0,3,4 in two seconds.
+TEST_F(CliFrames, AFilesCameraThatMovesIsNamedWhereItBeginsAndChangesTheNoise) {
+  ods::GltfBuilder file = ods::make_skinned(false);
+  file.json["cameras"] = ods::Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"].push_back(ods::Json::parse(R"({"camera": 0, "translation": [5, 5, 5]})"));
+  file.json["scenes"][0]["nodes"] = {0, 1, 3};
+  ods::animate(file, ods::node_target(3, "translation"), {0, 2}, {0, 1, 4, 0, 3, 4}, "VEC3");
+  const ods::Binary bytes_of_file = file.glb();
+  own.write("fly.glb", {bytes_of_file.begin(), bytes_of_file.end()});
+  const auto flight = [&](const std::string& name, const std::string& more) {
+    return run("render " + own.path("fly.glb") + " --unit m --width 32 --samples 1 --fps 10 --frames 10-19 -o " +
+               folder.path(name) + " " + more);
+  };
+  for (const std::string more : {"", "--shutter 180", "--exposure 0"}) {
+    ASSERT_EQ(flight("a.##.png", more), 0) << err;
+    EXPECT_NE(err.find("camera at 0,2,4, yaw 0 ("), std::string::npos) << more << err;
+  }
+  ASSERT_EQ(flight("fly.##.png", "--fly-to 0,2,9"), 0) << err;
+  EXPECT_EQ(err.find("camera at 0,2,4,"), std::string::npos) << "one second along the way: " << err;
+  ASSERT_EQ(flight("changing.##.png", "--grain changing --exposure 0"), 0) << err;
+  ASSERT_EQ(flight("fixed.##.png", "--grain fixed --exposure 0"), 0) << err;
+  EXPECT_TRUE(bytes("a.15.png") == bytes("changing.15.png"));
+  EXPECT_FALSE(bytes("a.15.png") == bytes("fixed.15.png"));
+  const std::string placed = "--position 0,2,4 --yaw 0 --exposure 0 ";
+  ASSERT_EQ(flight("placed.##.png", placed), 0) << err;
+  ASSERT_EQ(flight("placed_fixed.##.png", placed + "--grain fixed"), 0) << err;
+  EXPECT_TRUE(bytes("placed.15.png") == bytes("placed_fixed.15.png"));
+}
+
 TEST_F(CliFrames, WhatIsThereIsSkipped) {
   ASSERT_EQ(run(video("--frames 1-3")), 0) << err;
   const std::string second = bytes("shot.0002.png");

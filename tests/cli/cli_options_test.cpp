@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "ods/base/json_reader.h"
 #include "ods/camera/camera_fields.h"
@@ -135,13 +136,10 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
       camera.projection = ods::find_projection(projection)->setting;
       camera.top.mode = camera.bottom.mode = ods::kMergeCosine, camera.convergence = ods::kToeIn;
       std::string words;
-      for (const ods::CameraField field : ods::kCameraFields) {
-        const ods::FieldRange range = range_of(field);
-        const bool derived = field == ods::CameraField::kAspect || field == ods::CameraField::kLongitude ||
-                             field == ods::CameraField::kLatitude || field == ods::CameraField::kMergeStart ||
-                             field == ods::CameraField::kMergeEnd || field == ods::CameraField::kFov ||
-                             field == ods::CameraField::kSensor || field == ods::CameraField::kPolynomial;
-        for (float* number : numbers_of(camera, field)) *number = derived ? *number : most ? range.most : range.least;
+      for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+        const bool derived = std::set<std::string_view>{"aspect", "range", "fov"}.contains(row.setting) ||
+                             row.name.ends_with("merge start") || row.name.ends_with("merge end");
+        for (float* number : row.numbers(camera)) *number = derived ? *number : most ? row.range.most : row.range.least;
       }
       const bool lens = projection != "lat-long";
       if (lens) camera.projection.fov = projection == "fisheye" ? (most ? 360.0f : 1.0f) : most ? 170.0f : 0.001f;
@@ -182,7 +180,7 @@ TEST_F(Cli, ALensPolynomialHasItsNumbersAndIsChecked) {
     expect_one_error();
   }
   EXPECT_EQ(run("camera --width 64 --projection fisheye --sensor 20,10"), 2);
-  EXPECT_NE(err.find("--sensor is for fisheye-polynomial, not for --projection fisheye"), std::string::npos) << err;
+  EXPECT_NE(err.find("--sensor is for fisheye-polynomial, not for the projection fisheye"), std::string::npos) << err;
 }
 
 // A picture of one value, in the code of its file.

@@ -200,6 +200,7 @@ const std::map<std::string, std::string> kVideoAlone = {
     {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
     {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
     {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
+    {"--brighter", "1"},     {"--force", ""},
 };
 const std::map<std::string, std::string> kOfFrames = {
     {"--scene", "0"},
@@ -263,6 +264,7 @@ const std::set<std::string> kOthers = {"--output",
                                        "--time",
                                        "--only",
                                        "--wait",
+                                       "--raw",
                                        "--sidecar",
                                        "--merge-map-inverted",
                                        "--head-tilt-map",
@@ -374,14 +376,52 @@ TEST_F(Video, FramesThatNoJobOfOursMadeStay) {
   EXPECT_EQ(folder.read("victim"), "mine");
 }
 
-TEST_F(Video, TheRoomThatFramesNeedIsReported) {
-  ASSERT_EQ(run("video furnace --width 512 --samples 1 --frames 1-4 -o " + folder.path("a.mp4")), 0) << err;
-  EXPECT_NE(err.find("the frames need up to 6 MB in '" + folder.path("a.mp4.frames") + "'; "), std::string::npos)
-      << err;
+// Noise, which no file makes small: 0.4 MB a frame before compression.
+const std::string kNoisyFrames =
+    "video room --width 256 --samples 1 --denoise none --frames 1-6 --grain changing --indirect path -o ";
+
+TEST_F(Video, WhatTheDiskCannotHoldIsNotBegun) {
   const ods::TinyDisk disk;
   if (!disk.mounted()) GTEST_SKIP() << "skipped: a small tmpfs can only be mounted by root with CAP_SYS_ADMIN";
-  EXPECT_EQ(run("video furnace --width 512 --samples 1 --frames 1-4 -o " + disk.folder().path("a.mp4")), 4) << err;
-  EXPECT_NE(err.find("warning: the frames need up to 6 MB"), std::string::npos) << err;
+  EXPECT_EQ(run(kNoisyFrames + disk.folder().path("a.mp4")), 4) << err;
+  EXPECT_NE(err.find("error: the frames need about "), std::string::npos) << err;
+  EXPECT_NE(err.find(" MB in '" + disk.folder().path("a.mp4.frames") + "'; "), std::string::npos) << err;
+  EXPECT_NE(err.find("or render them anyway with --force"), std::string::npos) << err;
+  EXPECT_TRUE(disk.folder().names().empty()) << "nothing is left of the look";
+  EXPECT_EQ(run(kNoisyFrames + disk.folder().path("a.mp4") + " --force"), 4) << err;
+  EXPECT_NE(err.find("warning: the frames need about "), std::string::npos) << err;
+  EXPECT_EQ(err.find("or render them anyway with --force"), std::string::npos) << "until it is full: " << err;
+}
+
+// The pattern stands for what the files have: a fifth more or less.
+TEST_F(Video, TheRoomThatFramesNeedIsKnownBeforeTheyAre) {
+  ASSERT_EQ(run(kNoisyFrames + folder.path("a.mp4") + " --keep-frames"), 0) << err;
+  const size_t at = err.find("the frames need about ");
+  ASSERT_NE(at, std::string::npos) << err;
+  double bytes = 0.0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path("a.mp4.frames"))) {
+    bytes += static_cast<double>(file.file_size());
+  }
+  EXPECT_NEAR(std::stod(err.substr(at + 22)) * 1e6 / bytes, 1.0, 0.2) << err << bytes;
+}
+
+// Days are told in seconds, from what was measured.
+TEST_F(Video, ALongRenderingIsKnownAndWhatWouldBeFaster) {
+  Ods command({"video", "toys", "--width", "64", "--samples", "512", "--noise", "none", "--frames", "1-20000", "-o",
+               folder.path("a.mp4")});
+  command.wait_for("faster: ");
+  command.kill(SIGTERM);
+  EXPECT_EQ(command.finish(), 128 + SIGTERM) << command.err;
+  EXPECT_NE(command.err.find(" h, "), std::string::npos) << command.err;
+  EXPECT_NE(command.err.find(" for each frame, by a first look\n"), std::string::npos) << command.err;
+  EXPECT_NE(command.err.find("faster: --width 32 for a quarter of the time, --time-limit "), std::string::npos)
+      << command.err;
+  EXPECT_EQ(command.err.find(".look-"), std::string::npos) << command.err;
+  if (std::filesystem::exists(folder.path("a.mp4.frames"))) {
+    for (const auto& file : std::filesystem::directory_iterator(folder.path("a.mp4.frames"))) {
+      EXPECT_FALSE(file.path().filename().native().starts_with(".look")) << file.path();
+    }
+  }
 }
 
 // However often it is killed, wherever: at last there is the video of an undisturbed run.

@@ -265,7 +265,7 @@ TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {
       {video, "same_360_TB.mp4", "", "ods inject"},
       {video, "a.mp4", "--fps 25", "--fps is for frames"},
       {video, "a.mp4", "--frames 1-2", "--trim"},
-      {video, "a.mp4", "--layout anaglyph", "a video's layout is"},
+      {video, "a.mp4", "--to-layout anaglyph", "a video's layout is"},
       {video, "a.mp4", "--mono --exposure 1", "scene-linear"},
       {video, "a.png", "", "has many pictures"},
       {video, "a.#.png", "--crf 20", "is no video"},

@@ -120,7 +120,7 @@ TEST_F(EncodeCommand, ExitCodesSayWhatWasWrong) {
       {all + "-o " + video + " --fps 0", 2, "--fps is a number or a fraction"},
       {all + "-o " + video + " --fps 30/0", 2, "--fps is a number or a fraction"},
       {all + "-o " + video + " --fps nan", 2, "--fps is a number or a fraction"},
-      {all + "-o " + video + " --layout anaglyph", 2, "top-bottom or side-by-side"},
+      {all + "-o " + video + " --to-layout anaglyph", 2, "top-bottom or side-by-side"},
       {all + "-o " + folder.path("a.1.png/video.mp4"), 4, "video.mp4"},
       {"encode " + pattern() + " --frames 1-x -o " + video, 2, "frames '1-x'"},
       {"encode " + folder.path("b.#.png") + " -o " + video, 3, "there is no file like"},
@@ -174,7 +174,7 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
 TEST_F(EncodeCommand, SizesBeyondEveryLevelAreReportedWithTheLargest) {
   ods::made::write_frames(pattern(), {1}, Layout::kTopBottom, {4096, 544});
   const std::string words = "encode " + pattern() +
-                            " --from-layout top-bottom --from-projection lat-long --codec h264 " +
+                            " --layout top-bottom --projection lat-long --codec h264 " +
                             "--preset ultrafast -o " + folder.path("video.mp4");
   ASSERT_EQ(run(words + " --fps 900"), 0) << err;
   EXPECT_EQ(err.find("no level"), std::string::npos) << err;

@@ -34,6 +34,47 @@ TEST_F(Farm, AVideoInTasksHasTheBitsOfOneProcess) {
   EXPECT_TRUE(folder.read("a.mp4") == folder.read("b.mp4"));
 }
 
+// Each frame is rendered once. What is not of use is rendered again.
+TEST_F(Farm, FramesThatAreRenderedFirstAndThenDenoisedHaveTheBitsOfOneProcess) {
+  const std::string more = " --frames 1-11 --keep-frames --denoise own --shutter 180";
+  ASSERT_EQ(run("submit --to slurm --chunk 3 --raw-first -- " + video() + more), 0) << err;
+  EXPECT_NE(err.find("11 frames in 4 tasks, then frames in 2 tasks, then video; no frame is rendered twice"),
+            std::string::npos)
+      << err;
+  EXPECT_NE(err.find("the raw frames take up to "), std::string::npos) << err;
+  const json groups = plan("a")["groups"];
+  ASSERT_EQ(groups.size(), 3u);
+  const auto raw = [&](int frame) { return folder.path(fmt::format("a.mp4.frames/frame.{:06}.exr.raw", frame)); };
+  ASSERT_EQ(run(video("b.mp4") + more), 0) << err;
+  const auto frame = [&](const char* film, int number) {
+    return folder.read(fmt::format("{}.mp4.frames/frame.{:06}.exr", film, number));
+  };
+  for (int task = 1; task <= 4; task++) run_task(groups[0], task);
+  for (int number = 1; number <= 11; number++) EXPECT_TRUE(std::filesystem::is_regular_file(raw(number))) << number;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("a.mp4.frames/frame.000001.exr")));
+  std::filesystem::copy_file(raw(2), folder.path("kept"));
+  std::filesystem::copy_file(raw(9), raw(2), std::filesystem::copy_options::overwrite_existing);
+  run_task(groups[1], 1);
+  EXPECT_FALSE(frame("a", 2) == frame("b", 2)) << "raw frames are read, not rendered again";
+  for (int number = 1; number <= 5; number++) {
+    std::filesystem::remove(folder.path(fmt::format("a.mp4.frames/frame.{:06}.exr", number)));
+  }
+  std::filesystem::copy_file(folder.path("kept"), raw(2), std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::resize_file(raw(4), 1000);
+  std::filesystem::remove(raw(10));
+  run_task(groups[1], 2), run_task(groups[1], 1);
+  run_task(groups[2], 1);
+  for (int number = 1; number <= 11; number++) {
+    EXPECT_TRUE(frame("a", number) == frame("b", number)) << number;
+    EXPECT_FALSE(std::filesystem::exists(raw(number))) << number;
+  }
+  EXPECT_TRUE(folder.read("a.mp4") == folder.read("b.mp4"));
+  for (const std::string wrong : {"video toys --raw -o a.mp4", "video toys --raw --only 1/2 --denoise none -o a.mp4",
+                                  "submit --to openjd --raw-first --chunk 1 -- video toys --denoise none -o a.mp4"}) {
+    EXPECT_EQ(run(wrong), 2) << wrong;
+  }
+}
+
 TEST_F(Farm, ATaskOfAVideoNamesTheFramesThatItMakes) {
   for (const std::string denoise : {"none", "own"}) {
     const std::string name = denoise + ".mp4",
@@ -79,7 +120,8 @@ TEST_F(Farm, WhatPartsTakeIsSaidAndTheyGoAfterTheMerge) {
   }
   EXPECT_LE(bytes, most);
   EXPECT_GT(bytes, 0.3 * most) << "an estimate, not any large number";
-  ASSERT_EQ(run("merge " + folder.path("p.exr.parts/part_####.exr") + " --remove-parts -q -o " + folder.path("q.exr")), 0)
+  ASSERT_EQ(run("merge " + folder.path("p.exr.parts/part_####.exr") + " --remove-parts -q -o " + folder.path("q.exr")),
+            0)
       << err;
   EXPECT_FALSE(std::filesystem::exists(folder.path("p.exr.parts/part_0001.exr")));
   ASSERT_EQ(run(still + folder.path("p.exr") + " --keep-parts"), 0) << err;
@@ -107,7 +149,7 @@ TEST_F(Farm, FramesAndViewsAreShared) {
             0)
       << err;
   run_all(json::parse(folder.read("views/0007/frames.farm/plan.json")));
-  ASSERT_EQ(run("submit -q --to deadline --chunk 1 -- stitch " + folder.path("rig.json") + " " +
+  ASSERT_EQ(run("submit -q --to opencue --chunk 1 -- stitch " + folder.path("rig.json") + " " +
                 folder.path("views/####/####.exr") + " --frames 7-7 -o " + folder.path("st.####.exr")),
             0)
       << err;
@@ -162,7 +204,7 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
   ASSERT_EQ(run("submit -q --to flamenco -- lint " + folder.path("a.png") + " --layout top-bottom"), 0) << err;
   const std::vector<std::string> lint = {"lint", folder.path("a.png"), "--layout", "top-bottom"};
   EXPECT_EQ(plan("a")["groups"][0]["command"], lint);
-  for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes", "deadline"}) {
+  for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes"}) {
     const std::string convert = "-- convert " + folder.path("in.exr") + " --to cube-3x2 -o " + folder.path(to + ".png");
     ASSERT_EQ(run("submit -q --cpus 2 --mount / --to " + to + " " + convert), 0) << err;
     EXPECT_EQ(plan(to)["groups"].size(), 1u);
@@ -189,7 +231,7 @@ TEST_F(Farm, ThePlanNamesEveryFile) {
       {"render toys --parts 2 --head-tilt-map @map.exr -o @p.exr", {"input @map.exr", "output @p.exr"}},
       {"stitch @rig.json @views/####/#.exr --report @s.png -o @out/s.#.exr",
        {"input @rig.json", "input @views", "output @out", "output @s.png"}},
-      {"convert @in.png --from-camera @in.camera.json --to cube-3x2 -o @c.png",
+      {"convert @in.png --camera @in.camera.json --to cube-3x2 -o @c.png",
        {"input @in.png", "input @in.camera.json", "output @c.png"}}};
   for (const Job& job : jobs) {
     const bool frames = job.words.find("--parts") == std::string::npos && !job.words.starts_with("convert");
@@ -275,7 +317,7 @@ TEST_F(Farm, ATaskLooksAtItsOwnFramesOnly) {
 }
 
 TEST_F(Farm, DryRunsWriteNothing) {
-  for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes", "deadline"}) {
+  for (const char* to : {"slurm", "openjd", "opencue", "flamenco", "kubernetes"}) {
     ASSERT_EQ(
         run(fmt::format("submit --to {} --cpus 2 --mount / --dry-run --chunk 5 --copy-scene -- {} --frames 1-1000", to,
                         video())),

@@ -86,6 +86,21 @@ TEST(Progress, ALongVideoIsReportedByTime) {
   }
 }
 
+// Half a minute of loading and the first tile of the first of many frames are no measure of the rest.
+TEST(Progress, NothingIsToldOfTheTimeFromNothing) {
+  std::ostringstream out, json;
+  ProgressLines lines(ProgressMode::kPlain, out), objects(ProgressMode::kJson, json);
+  const double tile = 1e-9;
+  for (ProgressLines* each : {&lines, &objects}) {
+    each->report(tile, 30.0, {"render", 1, 100000, "a.exr"});
+    each->report(2.0 * tile, 30.1, {"render", 1, 100000, "a.exr"});
+    each->report(1e-5, 60.0, {"render", 1, 100000, "a.exr"});  // a frame in 29.9 seconds
+  }
+  EXPECT_EQ(out.str(), "ods: 0 %, frame 1 of 100000\nods: 0 %, frame 1 of 100000, 833:24:30 h left\n");
+  EXPECT_EQ(json.str().find("seconds_left"), json.str().rfind("seconds_left")) << json.str();
+  EXPECT_NE(json.str().find("\"seconds\":60.0,\"seconds_left\":3000"), std::string::npos) << json.str();
+}
+
 TEST(Progress, JsonNamesTheFrameAndTheFile) {
   const std::string text = video_shown(ProgressMode::kJson);
   const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);

@@ -134,6 +134,29 @@ TEST_F(Stage, TheExposureIsSaidAndCanBeRepeated) {
     EXPECT_EQ(run(render + "a.png --exposure " + word), 2);
 }
 
+TEST_F(Stage, BrighterIsAStopMoreThanWhatIsChosenOrGiven) {
+  const std::string render = "render room --env 40 --denoise none" + kTiny;
+  ASSERT_EQ(run(render + folder.path("auto.png")), 0) << err;
+  const std::string chosen = number_after(err, "--exposure ");
+  ASSERT_NE(chosen, "none") << err;
+  ASSERT_EQ(run(render + folder.path("brighter.png") + " --brighter 1.5"), 0) << err;
+  EXPECT_NE(err.find("from a first look at the light and --brighter 1.5 ("), std::string::npos) << err;
+  const std::string stops = number_after(err, "--exposure ");
+  EXPECT_NEAR(std::stof(stops), std::stof(chosen) + 1.5f, 1e-3f);
+  for (const std::string& same : {"--exposure " + stops, "--brighter 1.5 --exposure " + chosen}) {
+    ASSERT_EQ(run(render + folder.path("same.png") + " " + same), 0) << err;
+    EXPECT_TRUE(bytes("brighter.png") == bytes("same.png")) << same;
+  }
+  EXPECT_FALSE(bytes("auto.png") == bytes("brighter.png"));
+  const std::string own = "render room --denoise none" + kTiny;
+  ASSERT_EQ(run(own + folder.path("own.png") + " --brighter -1"), 0) << err;
+  ASSERT_EQ(run(own + folder.path("given.png") + " --exposure -1"), 0) << err;
+  EXPECT_TRUE(bytes("own.png") == bytes("given.png")) << "a built-in scene is made for exposure 0";
+  ASSERT_EQ(run(own + folder.path("light.exr") + " --brighter 1"), 0) << err;
+  EXPECT_NE(err.find("--brighter does not change .exr and .hdr"), std::string::npos) << err;
+  EXPECT_EQ(run(own + folder.path("a.png") + " --brighter 31"), 2);
+}
+
 TEST_F(Stage, FramesAndPartsShareTheExposure) {
   const std::string room = box("room.glb", 6, 2.6f, 5, false);
   const std::string video = "render " + room + kTiny + folder.path("shot.#.png") + " --turntable 1 --frames ";

@@ -132,7 +132,19 @@ TEST_F(StudioCommand, DescribesItsControls) {
     EXPECT_EQ(has("range"), ods::has_range(named.setting.kind)) << named.name;
     EXPECT_EQ(has("fov"), ods::has_fov(named.setting.kind)) << named.name;
     EXPECT_EQ(has("lens"), ods::has_lens(named.setting.kind)) << named.name;
+    EXPECT_EQ(has("polynomial"), named.name == "fisheye-polynomial") << named.name;
   }
+  // The page's numbers are those that the server takes where none are given.
+  Json settings = studio["settings"];
+  settings["sidecar"]["projection"] = {{"name", "fisheye-polynomial"}};
+  const std::string usual = asked("set", settings)["command"];
+  settings["sidecar"]["projection"].update(studio["polynomial_lens"]);
+  EXPECT_EQ(asked("set", settings)["command"], usual);
+  settings["sidecar"]["projection"]["polynomial"][1] = -0.05;
+  settings["sidecar"]["axis"] = {0.0, 1.0, 0.5};
+  const std::string own = asked("set", settings)["command"];
+  EXPECT_NE(own.find("--axis 0,1,0.5 "), std::string::npos) << own;
+  EXPECT_NE(own.find("--lens-polynomial "), std::string::npos) << own;
 }
 
 // Thirty changes in quick succession; then the picture is that of the command that the page shows.

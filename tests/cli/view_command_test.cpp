@@ -125,7 +125,7 @@ TEST_F(ViewCommand, SendsThePartOfAFileThatIsAskedFor) {
 // An EXR or HDR comes eye by eye; another layout divides it otherwise.
 TEST_F(ViewCommand, DividesLightAsItIsAskedTo) {
   const std::string light = folder.path("light_360_TB.exr");
-  ASSERT_EQ(run("convert " + picture + " -q --layout top-bottom -o " + light), 0) << err;
+  ASSERT_EQ(run("convert " + picture + " -q --to-layout top-bottom -o " + light), 0) << err;
   Served::TearDown();
   serve({light});
   const std::string own = body_of(get("item/0/left.jpg")), as_found = body_of(get("item/0/left.jpg?layout=top-bottom"));

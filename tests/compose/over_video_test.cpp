@@ -69,9 +69,9 @@ class VideoOver : public ::testing::Test {
     EncodeOptions options;
     options.packing = *packing_like(back.stream(), *container_of_path(name));
     options.rate = back.stream().rate;
-    options.sound = video;
-    options.copies_sound = true;
-    options.sound_cut = {back.stream().start + first / options.rate.value(), first > 0 || last < INT_MAX};
+    options.keep.path = video;
+    options.keep.track = back.video().track;
+    options.keep.cut = {back.stream().start + first / options.rate.value(), INFINITY, first > 0 || last < INT_MAX};
     over_video(back, before, first, last, {}, options, folder.path(name));
     return folder.path(name);
   }

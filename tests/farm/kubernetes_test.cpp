@@ -46,6 +46,32 @@ TEST_F(Schedulers, KubernetesIsAnIndexedJobThatStopsOnWrongCommands) {
   EXPECT_THROW(write_kubernetes(plan, wishes), Error) << "a whole machine cannot be asked for";
 }
 
+// Its classes are made from the published OpenAPI schema.
+TEST_F(Schedulers, KubernetesModelsTakeEveryJob) {
+  const std::string models = "node -e \"require('kubernetes-models/batch/v1')\"";
+  if (const std::string why = missing("kubernetes-models in NODE_PATH", models); !why.empty()) GTEST_SKIP() << why;
+  plan.cpus = 3;
+  plan.groups.insert(plan.groups.begin(), plan.groups.front());
+  plan.groups.front().name = "raw";
+  write(Scheduler::kKubernetes);
+  folder.write("judge.js", R"js(
+const { Job } = require('kubernetes-models/batch/v1');
+const job = JSON.parse(require('fs').readFileSync(0, 'utf8'));
+try { new Job(job).validate(); console.log('valid'); } catch (error) { console.log(error.message); }
+)js");
+  const auto judge = [&](const std::string& json_text) {
+    folder.write("job.json", json_text);
+    return run_line("node " + folder.path("judge.js") + " <" + folder.path("job.json")).out;
+  };
+  for (const char* group : {"raw", "frames", "video"}) {
+    json job = json::parse(
+        by_python("import yaml, json\nprint(json.dumps(yaml.safe_load(text)))", std::string(group) + ".yaml"));
+    EXPECT_EQ(judge(job.dump()), "valid\n");
+    job["spec"]["podFailurePolicy"]["rules"][1]["onPodConditions"][0].erase("status");
+    EXPECT_NE(judge(job.dump()).find("must have required property"), std::string::npos);
+  }
+}
+
 // A pod's host name is that of the job and its index, at most 63 characters.
 TEST_F(Schedulers, KubernetesNamesLeaveRoomForPods) {
   plan.cpus = 1;

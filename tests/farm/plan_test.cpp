@@ -109,6 +109,18 @@ TEST(Plan, FramesBesideATasksOwnCostAtMostAQuarter) {
   }
 }
 
+TEST(Plan, FramesAreRenderedFirstWhereRenderingTwiceCostsMore) {
+  const size_t gigabyte = 1'000'000'000;
+  EXPECT_TRUE(raw_first_is_cheaper(600.0, 48, 1, gigabyte)) << "ten of 48 are rendered twice: 125 s a frame";
+  EXPECT_FALSE(raw_first_is_cheaper(80.0, 48, 1, gigabyte)) << "17 s, and the disk takes 22";
+  EXPECT_TRUE(raw_first_is_cheaper(80.0, 48, 1, gigabyte / 10));
+  EXPECT_FALSE(raw_first_is_cheaper(60.0, 48, 1, gigabyte / 10)) << "a task of ten minutes has ten of them";
+  EXPECT_FALSE(raw_first_is_cheaper(2.0, 10'000, 1, gigabyte / 100)) << "long tasks have few frames beside them";
+  EXPECT_FALSE(raw_first_is_cheaper(600.0, 48, 0, 1)) << "nothing is rendered twice";
+  EXPECT_EQ(least_chunk(1), 8);
+  EXPECT_EQ(least_chunk(0), 1);
+}
+
 TEST(Plan, TasksHoldAllFrames) {
   EXPECT_EQ(tasks_for(100, 10), 10);
   EXPECT_EQ(tasks_for(101, 10), 11);

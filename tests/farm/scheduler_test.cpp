@@ -53,66 +53,10 @@ TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 13u);
 }
 
-TEST_F(Schedulers, DeadlineGetsAPairOfFilesPerJob) {
-  if (const std::string why = missing("python3", "command -v python3"); !why.empty()) GTEST_SKIP() << why;
-  EXPECT_THROW(write_deadline(plan, wishes), Error) << "it cannot be told of quotes";
-  set_names({"a scene's $HOME.glb", "日本 & co.glb"});
-  const std::vector<FarmFile> files = write(Scheduler::kDeadline);
-  EXPECT_NE(text_of(files, "frames.job_info")
-                .find("Plugin=CommandLine\nName=film_1 frames\nBatchName=film_1\n"
-                      "Frames=1-12\nChunkSize=1\n"),
-            std::string::npos);
-  for (size_t group = 0; group < 2; group++) {
-    const std::string words = by_python(
-        "import shlex\n"
-        "line = [l for l in text.split('\\n') if l.startswith('Arguments=')][0][10:].replace('<STARTFRAME>', '5')\n"
-        "lexer = shlex.shlex(line, posix=True, punctuation_chars=False)\n"
-        "lexer.quotes, lexer.escape, lexer.whitespace_split, lexer.commenters = '\"', '', True, ''\n"
-        "for word in lexer: print(word)",
-        group == 0 ? "frames.plugin_info" : "video.plugin_info");
-    EXPECT_EQ(words, expected(group, 5, {"--progress", "deadline"}));
-  }
-  folder.write("deadlinecommand", "#!/bin/sh\ncat \"$1\" >>" + folder.path("sent") + "\necho JobID=abc123\n");
-  const Ran ran = run_line(
-      fmt::format("chmod +x {0}/deadlinecommand; PATH={0}:$PATH sh {1}", folder.path(""), in_folder("submit.sh")));
-  EXPECT_EQ(ran.out, "abc123 frames\nabc123 video\n");
-  const std::string sent = folder.read("sent");
-  EXPECT_GT(sent.find("JobDependencies=abc123\n"), sent.find("Name=film_1 video"));
-  EXPECT_NE(sent.find("JobDependencies=abc123\n"), std::string::npos);
-}
-
-// It may fail by its exit code, by what it prints, or with the second job only.
-TEST_F(Schedulers, DeadlineStopsAtAJobThatIsNotTaken) {
-  set_names({"scene.glb"});
-  write(Scheduler::kDeadline);
-  struct Failure {
-    std::string command;
-    std::string out;
-    size_t asked;
-  };
-  const std::string why = "submit.sh: deadlinecommand has not taken ";
-  const std::vector<Failure> failures = {
-      {"echo JobID=abc123; exit 3", "JobID=abc123\n" + why + "frames (exit code 3); nothing behind it was sent\n", 1},
-      {"echo 'Error: no plug-in'", "Error: no plug-in\n" + why + "frames (exit code 0); nothing behind it was sent\n",
-       1},
-      {"case $1 in video*) exit 1 ;; esac; echo JobID=abc-123",
-       "abc-123 frames\n\n" + why + "video (exit code 1); nothing behind it was sent\n", 2}};
-  for (const Failure& failure : failures) {
-    folder.write("asked", "");
-    folder.write("deadlinecommand", "#!/bin/sh\necho x >>" + folder.path("asked") + "\n" + failure.command + "\n");
-    const Ran ran = run_line(
-        fmt::format("chmod +x {0}/deadlinecommand; PATH={0}:$PATH sh {1}", folder.path(""), in_folder("submit.sh")));
-    EXPECT_EQ(ran.code, 1);
-    EXPECT_EQ(ran.out, failure.out);
-    EXPECT_EQ(folder.read("asked").size(), 2 * failure.asked);
-  }
-}
-
 // Of a hundred thousand tasks: as long as one of ten, but for Slurm's arrays.
 TEST_F(Schedulers, ManyTasksAreFewFiles) {
   plan.groups[0].tasks = 100'000;
   for (const SchedulerRow& row : kSchedulerTable) {
-    if (row.member == Scheduler::kDeadline) set_names({"a.glb"}), plan.groups[0].tasks = 100'000;
     wishes.mount = "/disk", plan.cpus = 4;
     const std::vector<FarmFile> files = row.write(plan, wishes);
     EXPECT_TRUE(files.size() <= 5 || row.member == Scheduler::kSlurm) << row.name;

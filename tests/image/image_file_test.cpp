@@ -35,6 +35,8 @@ const char* extension_of(FileFormat format) {
       return "hdr";
     case FileFormat::kExr:
       return "exr";
+    case FileFormat::kHeif:
+      break;
   }
   return "";
 }

@@ -123,8 +123,33 @@ TEST_F(LintEyes, ThatDifferInSizeAreFound) {
   EyeCorrection made;
   made.zoom = 1.03f;
   const LintReport report = lint(make(made, "larger_TB.png"));
-  EXPECT_EQ(faults_of(report).count(Fault::kEyeMagnified), 1u);
+  EXPECT_EQ(faults_of(report), std::set<Fault>{Fault::kEyeMagnified});
   EXPECT_NEAR(number_after(cure_of(report, Fault::kEyeMagnified), "--right-zoom"), 1.0f / 1.03f, 0.003f);
+}
+
+// What is far in this scene has hardly any parallax.
+TEST_F(LintEyes, ThatMustDivergeAreFoundAndCured) {
+  for (const float amount : {-0.75f, -3.0f}) {
+    EyeCorrection made;
+    made.yaw = amount;
+    const LintReport report = lint(make(made, "wide_TB.png"));
+    EXPECT_EQ(faults_of(report), std::set<Fault>{Fault::kEyesDiverge}) << amount;
+    EyeCorrection cured;
+    cured.yaw = number_after(cure_of(report, Fault::kEyesDiverge), "--right-yaw");
+    EXPECT_NEAR(cured.yaw, -amount, 0.15f);
+    EXPECT_EQ(faults_of(lint(corrected(folder.path("wide_TB.png"), cured, "cured_TB.png"))), std::set<Fault>{});
+  }
+  EyeCorrection inwards;
+  inwards.yaw = 1.5f;
+  EXPECT_EQ(faults_of(lint(make(inwards, "near_TB.png"))), std::set<Fault>{});
+}
+
+TEST_F(LintEyes, ThatSeeNothingAreFound) {
+  EyeCorrection dark;
+  dark.gain = vec3(0.001f);
+  const LintReport report = lint(make(dark, "dark_TB.png"));
+  EXPECT_EQ(faults_of(report).count(Fault::kBlack), 1u);
+  EXPECT_NE(finding_of(report, Fault::kBlack).evidence.find("the right eye"), std::string::npos);
 }
 
 // Swapped eyes that are rolled as well are both.

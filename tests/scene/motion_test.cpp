@@ -163,6 +163,30 @@ TEST(Motion, CamerasAndLightsRideOnNodes) {
   expect_near(dvec3(end.lights[0].position), {0, 3, 0});
 }
 
+// Whether the first view point moves; the camera is a child of node 1.
+bool moves_camera(const Json& target, const std::vector<float>& values, const std::string& type) {
+  GltfBuilder file = make_triangle();
+  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"].push_back(Json::parse(R"({"children": [2]})"));
+  file.json["nodes"].push_back(Json::parse(R"({"camera": 0})"));
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  animate(file, node_target(1, "scale"), {0, 1}, {1, 1, 1, 1, 1, 1}, "VEC3");  // stands still
+  animate(file, target, {0, 1}, values, type);
+  Scene scene = file.load();
+  EXPECT_FALSE(moves_view(scene.animation, 0)) << "at rest";
+  play(scene.animation, "");
+  return moves_view(scene.animation, 0);
+}
+
+TEST(Motion, ACameraMovesWithWhatItIsFixedTo) {
+  const float s = std::sqrt(0.5f);
+  EXPECT_TRUE(moves_camera(node_target(2, "translation"), {0, 1, 0, 0, 2, 0}, "VEC3"));
+  EXPECT_TRUE(moves_camera(node_target(1, "translation"), {0, 1, 0, 0, 2, 0}, "VEC3"));
+  EXPECT_TRUE(moves_camera(node_target(1, "rotation"), {0, 0, 0, 1, 0, -s, 0, s}, "VEC4"));
+  EXPECT_FALSE(moves_camera(node_target(2, "translation"), {0, 1, 0, 0, 1, 0}, "VEC3"));
+  EXPECT_FALSE(moves_camera(node_target(0, "translation"), {0, 1, 0, 0, 2, 0}, "VEC3"));
+}
+
 TEST(Motion, MaterialsChange) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;

@@ -157,7 +157,7 @@ TEST(Settle, LetsOthersLookAroundInTheSettledScene) {
   for (const float size : {1.0f, 100.0f}) {
     Scene scene = resized(make_simple_room(), size);
     int looks = 0;
-    const Settled settled = settle(scene, std::nullopt, true, [&](const SceneRays& rays, const Survey& survey) {
+    const Settled settled = settle(scene, {}, [&](const SceneRays& rays, const Survey& survey) {
       looks++;
       EXPECT_EQ(survey.kind, SceneKind::kClosedRoom);
       ASSERT_TRUE(survey.stand && survey.stand->floor);

@@ -61,12 +61,12 @@ TEST(Unit, ObjectsTooSmallOrLargeForStereoAreShownAsModels) {
   }
   Scene composed = resized(make_chair(), 15.0f);
   composed.view_points.push_back({"own", vec3(0, 5, 30)});
-  EXPECT_EQ(guessed(composed), 1.0f) << "whoever placed a camera knew the size";
+  EXPECT_EQ(settle(composed).metres_per_unit, 1.0f) << "whoever placed a camera knew the size";
 }
 
 TEST(Unit, AGivenUnitIsNotQuestioned) {
   Scene scene = resized(make_walled_room(), 100.0f);
-  const Settled settled = settle(scene, 0.02f);
+  const Settled settled = settle(scene, {.metres_per_unit = 0.02f});
   EXPECT_EQ(settled.metres_per_unit, 0.02f);
   EXPECT_EQ(settled.unit_reason, "");
   EXPECT_NEAR(scene_bounds(scene).high.x, 6.4f, 1e-4f);

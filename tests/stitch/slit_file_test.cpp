@@ -96,11 +96,11 @@ TEST(RigMark, SaysWhichSettingIsAnother) {
   camera.ipd = 0.07f;
   EXPECT_EQ(difference(options, camera), "ipd is 0.07, not 0.065");
   camera = {}, camera.top = {kMergeCosine, 0.0f, 90.0f, 1.0f};
-  EXPECT_EQ(difference(options, camera), "merge_top is cosine,0,90,1, not none");
+  EXPECT_EQ(difference(options, camera), "merge-top is cosine,0,90,1, not none");
   other = options, other.slits = 14, other.scale = 2.0f;
   EXPECT_TRUE(difference(other, turned_camera()).ends_with("; and 3 more")) << difference(other, turned_camera());
   EXPECT_EQ(mark_difference("nonsense", mark), "the mark is damaged");
-  EXPECT_EQ(mark_difference("ods-rig=2 views=00", mark), "the mark was written by another version of ods");
+  EXPECT_EQ(mark_difference("ods-rig=1 views=00", mark), "the mark was written by another version of ods");
 }
 
 // A fade of another width needs no other views, and may be tried with those that are there.

@@ -33,6 +33,8 @@ inline float tolerance(FileFormat format) {
       return 0.004f;
     case FileFormat::kExr:
       return 0.0005f;
+    case FileFormat::kHeif:
+      break;
   }
   return 0.0f;
 }

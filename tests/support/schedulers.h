@@ -16,7 +16,6 @@
 
 namespace ods {
 
-// Deadline's command line cannot hold all of them.
 inline const std::vector<std::string> kNames = {"it's a \"scene\".glb", "$HOME `id` $(id).glb",
                                                 "naïve 日本 & <b> #IFRAME.glb", "back\\slash;|*?.glb"};
 

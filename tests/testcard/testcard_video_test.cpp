@@ -12,6 +12,7 @@
 
 #include "ods/camera/sizes.h"
 #include "ods/video/footage.h"
+#include "ods/video/tracks/sound.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {

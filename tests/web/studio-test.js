@@ -12,7 +12,7 @@ const merge = { mode: 'cosine', start: 60, end: 90, exponent: 1 };
 const SETTINGS = {
   sidecar: {
     picture: { layout: 'top-bottom' }, projection: { name: 'lat-long' }, position: [0, 1.5, 0], yaw: 0, pitch: 0, roll: 0, ipd: 0.065,
-    neck: 0, merge_top: merge, merge_bottom: merge, convergence: { mode: 'parallel', distance: 2 }, lens: { radius: 0, focus_distance: 2 },
+    neck: 0, merge_top: merge, merge_bottom: merge, axis: null, convergence: { mode: 'parallel', distance: 2 }, lens: { radius: 0, focus_distance: 2 },
   },
   exposure: 1, tone: 'neutral', env: 'auto', variant: '', time: 0, width: 4096,
 };
@@ -206,6 +206,20 @@ async function testPanel(server, session, panel) {
   expect(row('sidecar.projection.fov').hidden && !row('sidecar.projection.longitude.0').hidden, 'controls of another projection');
   session.edit({ 'sidecar.projection.name': 'mirror-ball' });
   expect(!row('sidecar.projection.fov').hidden && !row('sidecar.projection.pan').hidden, 'a projection without its controls');
+  expect(row('sidecar.projection.sensor.0').hidden && row('sidecar.projection.polynomial.0').hidden, 'a polynomial lens of another projection');
+  session.edit({ 'sidecar.projection.name': 'fisheye-polynomial' });
+  expect(!row('sidecar.projection.sensor.0').hidden && !row('sidecar.projection.polynomial.4').hidden, 'no controls of a polynomial lens');
+  type('sidecar.projection.polynomial.1', '-0.05');
+  expect(session.settings.sidecar.projection.polynomial.join() === '0,-0.05,2,3,4', 'the other numbers of the lens are lost');
+  expect(row('sidecar.axis.0').hidden, 'an axis that nobody has chosen');
+  const axis = row('sidecar.axis').querySelector('select');
+  axis.value = 'own';
+  axis.dispatchEvent(new Event('change'));
+  expect(!row('sidecar.axis.0').hidden && session.settings.sidecar.axis.join() === '0,1,0', 'no axis of its own');
+  type('sidecar.axis.2', '0.5');
+  expect(session.settings.sidecar.axis.join() === '0,1,0.5', 'the axis does not follow its controls');
+  session.edit({ 'sidecar.axis': null });
+  expect(row('sidecar.axis').querySelector('select').value === 'camera', 'the axis is not given back');
   expect(row('sidecar.convergence.distance').hidden, 'a distance without convergence');
   session.edit({ 'sidecar.convergence.mode': 'toe-in' });
   expect(!row('sidecar.convergence.distance').hidden, 'no distance of convergence');
@@ -240,7 +254,8 @@ export async function testStudio() {
   const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };
   const studio = {
     scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], convergences: ['parallel', 'toe-in'],
-    projections: ['lat-long', 'mirror-ball'], controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
+    projections: ['lat-long', 'mirror-ball', 'fisheye-polynomial'], polynomial_lens: { sensor: [36, 24], polynomial: [0, 1, 2, 3, 4] },
+    controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
   };
   const element = document.createElement('div');
   document.body.append(element);

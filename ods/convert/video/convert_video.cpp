@@ -7,11 +7,29 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "ods/base/error.h"
 #include "ods/video/video_clock.h"
 
 namespace ods {
+
+static glm::dmat3 frame_of(const ViewAngles& angles) {
+  const auto degrees = [](float value) { return glm::radians(static_cast<double>(value)); };
+  const auto [right, up, back] = orientation(degrees(angles.yaw), degrees(angles.pitch), degrees(angles.roll));
+  return {right, up, back};
+}
+
+// How sound turns with the pictures; none: they do not turn.
+static SoundTurn sound_turn(const Footage& footage, const VideoConversion& conversion) {
+  const auto angles = [](const StereoCamera& camera) { return ViewAngles{camera.yaw, camera.pitch, camera.roll}; };
+  const glm::dmat3 before = frame_of(angles(footage.video().prototype.camera));
+  const glm::dmat3 turn = glm::transpose(frame_of(angles(conversion.target.camera))) * before;
+  if (turn == glm::transpose(before) * before && conversion.turns.empty()) return {};
+  return [turn, keys = conversion.turns, start = footage.stream().start](double seconds) {
+    return keys.empty() ? turn : turn * frame_of(turned_at(keys, seconds - start));
+  };
+}
 
 int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOptions options, const std::string& path,
                   const Progress& progress) {
@@ -20,7 +38,11 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
   options.rate = stream.rate, options.color = stream.color, options.words = stream.words;
   std::optional<DecodedFrame> frame = footage.next();
   if (!frame) throw Error(ErrorKind::kUsage, fmt::format("there is no picture in that part of '{}'", footage.path()));
-  const VideoClock clock(stream, frame->time, options.sound_cut.is_cut);
+  if (options.keep.tell) {
+    for (const std::string& each : stream.unkept) options.keep.tell(each + " are lost");
+  }
+  options.keep.turn = sound_turn(footage, conversion);
+  const VideoClock clock(stream, frame->time, options.keep.cut.is_cut);
   clock.set(options);
 
   const FrameFormat format{conversion.layout, options.packing, options.color};
@@ -38,7 +60,6 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
   NewVideo video;
   video.size = packed_size(conversion.layout, conversion.target.eye, eyes);
   video.options = options, video.metadata = conversion.metadata, video.resume = conversion.resume;
-  if (options.copies_sound) video.ambisonics = footage.video().ambisonics;
   video.count = footage.expected_count();
   const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
   video.frame_bytes = pixels * 6;  // the decoded frame
@@ -51,6 +72,8 @@ StoredPicture open_frame(const FrameFiles& files, size_t index, const StoredPict
   open.format.camera = first.camera;
   const std::string path = files.path(index);
   StoredPicture picture = open_picture(path, open);
+  picture.maps = first.maps, picture.front_and_back = first.front_and_back;
+  for (size_t i = 0; i < std::min(picture.eyes.size(), first.eyes.size()); i++) picture.eyes[i].eye = first.eyes[i].eye;
   if (picture.size.width == first.size.width && picture.size.height == first.size.height &&
       picture.eyes.size() == first.eyes.size())
     return picture;

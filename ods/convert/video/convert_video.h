@@ -25,8 +25,8 @@ struct VideoConversion {
   Resume resume = {};
 };
 
-// Converts the part of the video that Footage::choose() chose. `options` give the packing, and where sound comes from;
-// rate, clock and colours are those of the video; sound_cut.is_cut must be set for a part. Returns the number of
+// Converts the part of the video that Footage::choose() chose. `options` give the packing, and what is kept;
+// rate, clock and colours are those of the video; keep.cut.is_cut must be set for a part. Returns the number of
 // frames. Throws Error as VideoDecoder and write_video(); kUsage: there is no picture in that part.
 int convert_video(Footage& video, const VideoConversion& conversion, EncodeOptions options, const std::string& path,
                   const Progress& progress = {});

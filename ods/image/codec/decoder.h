@@ -58,6 +58,11 @@ std::unique_ptr<Decoder> open_tiff(const PictureBytes& file);
 std::unique_ptr<Decoder> open_webp(const PictureBytes& file);
 std::unique_ptr<Decoder> open_hdr(const PictureBytes& file);
 std::unique_ptr<Decoder> open_exr(const PictureBytes& file);
+// view: 1 is the right eye of a pair (FileInfo::is_pair).
+std::unique_ptr<Decoder> open_heif(const PictureBytes& file, int view);
+
+// The picture as it is to be shown (ods/image/orientation.h).
+std::unique_ptr<Decoder> turned(std::unique_ptr<Decoder> stored, int orientation);
 
 // Throws Error(kInput) where a picture is larger than image_limits.h allows a file of this size to be. `tile`: the
 // longer side of its tiles.

@@ -13,6 +13,7 @@
 #include "ods/image/codec/decoder.h"
 #include "ods/image/color_tags.h"
 #include "ods/image/image_file.h"
+#include "ods/image/orientation.h"
 #include "ods/image/tone.h"
 
 namespace ods {
@@ -67,10 +68,10 @@ static FileFormat format_of(const PictureBytes& file) {
                       "it is a video; ods convert VIDEO -o 'x.####.png' makes pictures of it; ods "
                       "probe, lint, inject, view and over take videos, too");
   }
-  throw cannot_read(file.name, fmt::format("it is none of {}{}", known_extensions(), taken_by(start)));
+  throw cannot_read(file.name, fmt::format("it is none of {}{}", readable_extensions(), taken_by(start)));
 }
 
-static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileFormat format) {
+static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileFormat format, int view = 0) {
   switch (format) {
     case FileFormat::kPng:
       return open_png(file);
@@ -82,6 +83,8 @@ static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileForma
       return open_webp(file);
     case FileFormat::kHdr:
       return open_hdr(file);
+    case FileFormat::kHeif:
+      return open_heif(file, view);
     case FileFormat::kExr:
       break;
   }
@@ -97,10 +100,13 @@ struct Opened {
 
 }  // namespace
 
-static Opened open(const std::string& path) {
+static Opened open(const std::string& path, int view = 0) {
   const PictureBytes file = picture_on_disk(path);
   const FileFormat format = format_of(file);
-  Opened opened{open_decoder(file, format), {}};
+  Opened opened{open_decoder(file, format, view), {}};
+  if (format == FileFormat::kJpeg || format == FileFormat::kTiff) {
+    opened.decoder = turned(std::move(opened.decoder), orientation_of(FileInput(path)));
+  }
   FileInfo& info = opened.decoder->info;
   opened.color = read_color_space(path, format, info);
   info.color = opened.color.name;
@@ -210,7 +216,7 @@ namespace {
 
 class FileRows final : public RowReader {
  public:
-  explicit FileRows(const std::string& path);
+  FileRows(const std::string& path, int view);
   const FileInfo& info() const override { return info_; }
   const ColorSpace& color_space() const override { return color_; }
   void widen() override;
@@ -229,8 +235,8 @@ class FileRows final : public RowReader {
   std::vector<std::byte> narrow_;         // 8-bit integers that become 16-bit ones
 };
 
-FileRows::FileRows(const std::string& path) {
-  Opened opened = open(path);
+FileRows::FileRows(const std::string& path, int view) {
+  Opened opened = open(path, view);
   decoder_ = std::move(opened.decoder);
   color_ = opened.color;
   info_ = decoder_->info;
@@ -264,8 +270,8 @@ void FileRows::read(int begin, int end, size_t channels, std::byte* to) {
 
 }  // namespace
 
-std::unique_ptr<RowReader> open_rows(const std::string& path) {
-  return std::make_unique<FileRows>(path);
+std::unique_ptr<RowReader> open_rows(const std::string& path, int view) {
+  return std::make_unique<FileRows>(path, view);
 }
 
 }  // namespace ods

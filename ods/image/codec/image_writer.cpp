@@ -36,6 +36,8 @@ static std::unique_ptr<Encoder> create_encoder(AtomicFile& file, const FileHeade
       return create_webp(file, header);
     case FileFormat::kHdr:
       return create_hdr(file, header);
+    case FileFormat::kHeif:
+      throw cannot_write(file, "HEIF is only read");
     case FileFormat::kExr:
       break;
   }

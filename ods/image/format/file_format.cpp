@@ -27,15 +27,33 @@ static const Extension kExtensions[] = {
     {"tiff", FileFormat::kTiff}, {"webp", FileFormat::kWebp}, {"hdr", FileFormat::kHdr},   {"exr", FileFormat::kExr},
 };
 
+constexpr std::string_view kOnlyRead[] = {"heic", "heif", "avif"};
+
+static std::string extension_of(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().native();
+  return small_letters(extension.substr(extension.empty() ? 0 : 1));
+}
+
 std::optional<FileFormat> format_of_path(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().native();
-  if (extension.empty()) return std::nullopt;
-  extension.erase(0, 1);
-  extension = small_letters(extension);
+  const std::string extension = extension_of(path);
   for (const Extension& known : kExtensions) {
     if (known.name == extension) return known.format;
   }
   return std::nullopt;
+}
+
+bool names_picture(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return format_of_path(path) ||
+         std::find(std::begin(kOnlyRead), std::end(kOnlyRead), extension) != std::end(kOnlyRead);
+}
+
+// ISO/IEC 23008-12 and the AVIF specification: the brand of the file.
+static bool is_heif(std::string_view bytes) {
+  if (bytes.size() < 12 || bytes.substr(4, 4) != "ftyp") return false;
+  constexpr std::string_view kBrands[] = {"heic", "heix", "heim", "heis", "mif1", "mif2",
+                                          "avif", "miaf", "hevc", "hevx", "msf1", "avis"};
+  return std::find(std::begin(kBrands), std::end(kBrands), bytes.substr(8, 4)) != std::end(kBrands);
 }
 
 std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file) {
@@ -47,6 +65,7 @@ std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file) {
   if (bytes.starts_with("RIFF"sv) && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP"sv) return FileFormat::kWebp;
   if (bytes.starts_with("#?RADIANCE"sv) || bytes.starts_with("#?RGBE"sv)) return FileFormat::kHdr;
   if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return FileFormat::kExr;
+  if (is_heif(bytes)) return FileFormat::kHeif;
   return std::nullopt;
 }
 
@@ -61,6 +80,12 @@ std::string known_extensions() {
     if (!list.empty()) list += ", ";
     list += known.name;
   }
+  return list;
+}
+
+std::string readable_extensions() {
+  std::string list = known_extensions();
+  for (const std::string_view extension : kOnlyRead) list += ", " + std::string(extension);
   return list;
 }
 
@@ -79,6 +104,7 @@ int longest_side(FileFormat format) {
     case FileFormat::kTiff:
     case FileFormat::kHdr:
     case FileFormat::kExr:
+    case FileFormat::kHeif:
       break;
   }
   return std::numeric_limits<int>::max();

@@ -15,6 +15,7 @@ struct FileInfo {
   int width = 0;
   int height = 0;
   int parts = 1;                                      // of an EXR; all else here is that of the first
+  bool is_pair = false;                               // it has a second picture of this size, of the right eye (HEIC)
   bool is_float = false;                              // scene-linear; else display-encoded
   std::vector<std::string> channels;                  // R, G, B, A first
   std::vector<SampleType> samples;                    // the type of each channel, as RowReader returns them

@@ -4,11 +4,9 @@
 // The camera in a picture file's header, written and read: our attributes in EXR files, and Google's "Photo Sphere XMP
 // Metadata" (GPano) in display-referred formats.
 //
-// Always present: ods:projection, ods:ipd, ods:position, ods:yaw, ods:pitch, ods:roll, ods:poleMergeTop and -Bottom
-// (with Start, End, Exponent). Present if they differ from the default camera: ods:longitude and ods:latitude of a part
-// of the sphere, ods:fov and ods:look (pan, tilt) of a lens, ods:aspect of a window, ods:convergence (with Distance),
-// ods:neck, ods:axis, ods:lens (radius, focus), ods:mirrored, ods:headTilt. All round-trip bit for bit, except merge
-// maps and head-tilt maps: the file says "map", and only a sidecar holds them.
+// The attributes are those of ods/camera/camera_fields.cpp where they matter to the picture, ods:projection,
+// ods:mirrored and ods:headTilt. All round-trip bit for bit, except merge maps and head-tilt maps: the file says "map",
+// and only a sidecar holds them.
 #pragma once
 #include <optional>
 #include <string>
@@ -33,7 +31,11 @@ bool fits_gpano(const ProjectionSetting& projection);
 // For a picture of one eye of this size. Precondition: fits_gpano().
 void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, Extent size);
 
-// The projection and orientation in an XMP packet's GPano, as attributes or as elements.
+// The projection and orientation in an XMP packet's GPano, as attributes or as elements. VR180 cameras leave out the
+// ProjectionType: then the crop's six numbers say that it is lat-long.
 std::optional<StereoCamera> gpano_camera(const std::string& xmp);
+
+// Sets the orientation that GPano states, whatever its projection; 0 where it states none.
+void read_gpano_pose(const std::string& xmp, StereoCamera& camera);
 
 }  // namespace ods

@@ -23,37 +23,27 @@ constexpr size_t kLargestFile = 1u << 30u;  // bytes; room for two of the larges
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
-Json numbers(std::initializer_list<float> values) {
+// The object and the key of a place: "lens.radius" is `radius` of `lens`, "yaw" is a key of the file itself.
+struct Place {
+  std::string object;
+  std::string key;
+};
+
+Place place_of(std::string_view text) {
+  const size_t dot = text.find('.');
+  if (dot == std::string_view::npos) return {"", std::string(text)};
+  return {std::string(text.substr(0, dot)), std::string(text.substr(dot + 1))};
+}
+
+Json& at(Json& json, std::string_view text) {
+  const Place place = place_of(text);
+  return place.object.empty() ? json[place.key] : json[place.object][place.key];
+}
+
+Json to_json(const std::vector<float>& values) {
+  if (values.size() == 1) return decimal(values[0]);
   Json json = Json::array();
-  for (float value : values) json.push_back(decimal(value));
-  return json;
-}
-
-Json to_json(vec2 v) {
-  return numbers({v.x, v.y});
-}
-
-Json to_json(vec3 v) {
-  return numbers({v.x, v.y, v.z});
-}
-
-Json to_json(const PoleMergeSetting& merge) {
-  return {{"mode", merge_name(merge.mode)},
-          {"start", decimal(merge.start)},
-          {"end", decimal(merge.end)},
-          {"exponent", decimal(merge.exponent)}};
-}
-
-Json to_json(const ProjectionSetting& setting) {
-  Json json = {{"name", projection_name(setting)},      {"longitude", to_json(setting.longitude)},
-               {"latitude", to_json(setting.latitude)}, {"fov", decimal(setting.fov)},
-               {"aspect", decimal(setting.aspect)},     {"pan", decimal(setting.pan)},
-               {"tilt", decimal(setting.tilt)}};
-  if (setting.kind == kFisheyePolynomial) {
-    json["sensor"] = to_json(setting.sensor);
-    json["polynomial"] = Json::array();
-    for (const float k : setting.polynomial) json["polynomial"].push_back(decimal(k));
-  }
+  for (const float value : values) json.push_back(decimal(value));
   return json;
 }
 
@@ -74,55 +64,48 @@ Json conventions() {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-void read_number(JsonReader& in, const char* key, float& value, CameraField field) {
-  in.number(key, value, range_of(field).least, range_of(field).most);
-}
-
-template <class Vector>
-bool read_vector(JsonReader& in, const char* key, Vector& value, CameraField field) {
-  return in.vector(key, value, range_of(field).least, range_of(field).most);
-}
-
-void read_merge(JsonReader& in, PoleMergeSetting& merge) {
-  const std::string mode = in.word("mode");
-  if (!mode.empty()) {
-    const auto known = merge_of(mode);
-    if (!known) in.fail("mode", fmt::format("is unknown: '{}'", mode));
-    merge.mode = *known;
+// What the tables of a camera say of one object of the file; "" is the file itself.
+void read_object(JsonReader& in, std::string_view object, StereoCamera& camera) {
+  for (const CameraModeRow& row : camera_modes()) {
+    const Place place = place_of(row.place);
+    if (place.object != object) continue;
+    const std::string word = in.word(place.key);
+    const auto named = std::ranges::find(row.names, word, &NameRow<int>::name);
+    if (named != row.names.end()) row.value(camera) = named->member;
+    if (named == row.names.end() && !word.empty()) in.fail(place.key, fmt::format("is unknown: '{}'", word));
   }
-  read_number(in, "start", merge.start, CameraField::kMergeStart);
-  read_number(in, "end", merge.end, CameraField::kMergeEnd);
-  read_number(in, "exponent", merge.exponent, CameraField::kMergeExponent);
+  for (const CameraFieldRow& row : camera_fields()) {
+    const Place place = place_of(row.place);
+    if (place.object != object) continue;
+    const std::vector<float*> numbers = row.numbers(camera);
+    std::vector<float> values;
+    if (numbers.size() == 1) in.number(place.key, *numbers[0], row.range.least, row.range.most);
+    if (numbers.size() < 2 || !in.numbers(place.key, values, numbers.size(), row.range.least, row.range.most)) continue;
+    for (size_t i = 0; i < values.size(); i++) *numbers[i] = values[i];
+  }
+}
+
+void read_merge(JsonReader& in, std::string_view object, StereoCamera& camera, const PoleMergeSetting& merge) {
+  read_object(in, object, camera);
   if (merge.start >= merge.end) in.fail("start", "must be below its end");
 }
 
-void read_projection(JsonReader& in, ProjectionSetting& setting) {
+void read_projection(JsonReader& in, StereoCamera& camera) {
   const std::string name = in.word("name");
   const NamedProjection* named = find_projection(name.empty() ? "lat-long" : name);
   if (!named) in.fail("name", fmt::format("is unknown: '{}'", name));
-  setting = named->setting;
-  read_vector(in, "longitude", setting.longitude, CameraField::kLongitude);
-  read_vector(in, "latitude", setting.latitude, CameraField::kLatitude);
-  read_number(in, "fov", setting.fov, CameraField::kFov);
-  read_number(in, "aspect", setting.aspect, CameraField::kAspect);
-  read_number(in, "pan", setting.pan, CameraField::kPan);
-  read_number(in, "tilt", setting.tilt, CameraField::kTilt);
-  read_vector(in, "sensor", setting.sensor, CameraField::kSensor);
-  const FieldRange range = range_of(CameraField::kPolynomial);
-  std::vector<float> k;
-  if (in.numbers("polynomial", k, setting.polynomial.size(), range.least, range.most)) {
-    std::copy(k.begin(), k.end(), setting.polynomial.begin());
-  }
-  const std::string fault = projection_fault(setting);
+  camera.projection = named->setting;
+  read_object(in, "projection", camera);
+  const std::string fault = projection_fault(camera.projection);
   if (!fault.empty()) in.fail("", "is impossible: " + fault);
 }
 
-void read_convergence(JsonReader& in, StereoCamera& camera) {
-  const std::string mode = in.word("mode");
-  const std::optional<int> convergence = find_in(kConvergenceTable, mode);
-  if (convergence) camera.convergence = *convergence;
-  if (!convergence && !mode.empty()) in.fail("mode", fmt::format("is unknown: '{}'", mode));
-  read_number(in, "distance", camera.convergence_distance, CameraField::kConvergenceDistance);
+// null: no axis of its own.
+void read_pose(JsonReader& in, StereoCamera& camera) {
+  if (in.find("axis") && !in.is_null("axis")) camera.axis = vec3(0.0f);
+  read_object(in, "", camera);
+  if (camera.axis && !(length(*camera.axis) > 1e-6f)) in.fail("axis", "must be a direction");
+  in.flag("mirrored", camera.mirrored);
 }
 
 std::shared_ptr<const Image> read_map(JsonReader& in) {
@@ -160,57 +143,30 @@ void read_picture(JsonReader& in, Sidecar& file) {
   in.fail("eyes", R"(must be ["left", "right"], ["left"], ["right"] or ["mono"])");
 }
 
-void read_pose(JsonReader& in, StereoCamera& camera) {
-  read_vector(in, "position", camera.position, CameraField::kPosition);
-  read_number(in, "yaw", camera.yaw, CameraField::kYaw);
-  read_number(in, "pitch", camera.pitch, CameraField::kPitch);
-  read_number(in, "roll", camera.roll, CameraField::kRoll);
-  read_number(in, "ipd", camera.ipd, CameraField::kIpd);
-  read_number(in, "neck", camera.neck, CameraField::kNeck);
-  in.flag("mirrored", camera.mirrored);
-  vec3 axis(0.0f);
-  if (!in.is_null("axis") && read_vector(in, "axis", axis, CameraField::kAxis)) {
-    if (!(length(axis) > 1e-6f)) in.fail("axis", "must be a direction");
-    camera.axis = axis;
-  }
-}
-
-void read_lens(JsonReader& in, StereoCamera& camera) {
-  read_number(in, "radius", camera.lens_radius, CameraField::kLensRadius);
-  read_number(in, "focus_distance", camera.focus_distance, CameraField::kFocusDistance);
-}
-
 }  // namespace
 
 std::string write_sidecar(const Sidecar& file) {
   const StereoCamera& camera = file.camera;
   Json eyes = Json::array();
   for (int eye : file.eyes) eyes.push_back(eye_name(eye));
-  const Json json = {
-      {"omnistereo_camera", kSidecarVersion},
-      {"made_by", "ods " ODS_VERSION},
-      {"conventions", conventions()},
-      {"picture",
-       {{"eye_width", file.eye.width},
-        {"eye_height", file.eye.height},
-        {"layout", layout_name(file.layout)},
-        {"eyes", eyes}}},
-      {"projection", to_json(camera.projection)},
-      {"position", to_json(camera.position)},
-      {"yaw", decimal(camera.yaw)},
-      {"pitch", decimal(camera.pitch)},
-      {"roll", decimal(camera.roll)},
-      {"ipd", decimal(camera.ipd)},
-      {"neck", decimal(camera.neck)},
-      {"merge_top", to_json(camera.top)},
-      {"merge_bottom", to_json(camera.bottom)},
-      {"merge_map", camera.merge_map ? to_json(*camera.merge_map) : Json(nullptr)},
-      {"head_tilt_map", camera.head_tilt_map ? to_json(*camera.head_tilt_map) : Json(nullptr)},
-      {"convergence",
-       {{"mode", convergence_name(camera.convergence)}, {"distance", decimal(camera.convergence_distance)}}},
-      {"axis", camera.axis ? to_json(*camera.axis) : Json(nullptr)},
-      {"lens", {{"radius", decimal(camera.lens_radius)}, {"focus_distance", decimal(camera.focus_distance)}}},
-      {"mirrored", camera.mirrored}};
+  Json json = {{"omnistereo_camera", kSidecarVersion},
+               {"made_by", "ods " ODS_VERSION},
+               {"conventions", conventions()},
+               {"picture",
+                {{"eye_width", file.eye.width},
+                 {"eye_height", file.eye.height},
+                 {"layout", layout_name(file.layout)},
+                 {"eyes", eyes}}},
+               {"projection", {{"name", projection_name(camera.projection)}}}};
+  for (const CameraModeRow& row : camera_modes()) at(json, row.place) = mode_of(camera, row);
+  for (const CameraFieldRow& row : camera_fields()) {
+    const std::vector<float> values = values_of(camera, row);
+    if (!values.empty()) at(json, row.place) = to_json(values);
+  }
+  if (!camera.axis) json["axis"] = nullptr;
+  json["merge_map"] = camera.merge_map ? to_json(*camera.merge_map) : Json(nullptr);
+  json["head_tilt_map"] = camera.head_tilt_map ? to_json(*camera.head_tilt_map) : Json(nullptr);
+  json["mirrored"] = camera.mirrored;
   return json.dump(2) + "\n";
 }
 
@@ -223,17 +179,18 @@ Sidecar read_sidecar(std::string_view text, const std::string& name, std::vector
   Sidecar file;
   StereoCamera& camera = file.camera;
   read_pose(in, camera);
-  in.part("projection", [&](JsonReader& reader) { read_projection(reader, camera.projection); });
+  in.part("projection", [&](JsonReader& part) { read_projection(part, camera); });
   file.layout = default_layout(camera.projection);
-  in.part("picture", [&](JsonReader& reader) { read_picture(reader, file); });
-  in.part("merge_top", [&](JsonReader& reader) { read_merge(reader, camera.top); });
-  in.part("merge_bottom", [&](JsonReader& reader) { read_merge(reader, camera.bottom); });
+  in.part("picture", [&](JsonReader& part) { read_picture(part, file); });
+  in.part("merge_top", [&](JsonReader& part) { read_merge(part, "merge_top", camera, camera.top); });
+  in.part("merge_bottom", [&](JsonReader& part) { read_merge(part, "merge_bottom", camera, camera.bottom); });
+  for (const char* object : {"convergence", "lens"}) {
+    in.part(object, [&](JsonReader& part) { read_object(part, object, camera); });
+  }
   for (const auto& [key, map] :
        {std::pair{"merge_map", &camera.merge_map}, std::pair{"head_tilt_map", &camera.head_tilt_map}}) {
-    if (!in.is_null(key)) in.part(key, [&map = map](JsonReader& reader) { *map = read_map(reader); });
+    if (!in.is_null(key)) in.part(key, [&map = map](JsonReader& part) { *map = read_map(part); });
   }
-  in.part("convergence", [&](JsonReader& reader) { read_convergence(reader, camera); });
-  in.part("lens", [&](JsonReader& reader) { read_lens(reader, camera); });
   in.finish();
   if (!camera.merge_map && (camera.top.mode == kMergeMap || camera.bottom.mode == kMergeMap)) {
     in.fail("merge_map", "is missing, but a merge uses it");

@@ -9,6 +9,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/camera/odd_halves.h"
 #include "ods/files/file_input.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/format/xmp_file.h"
@@ -80,10 +81,9 @@ static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
 }
 
-// The projections that a shape alone identifies.
+// The projections that a shape alone identifies. 3:2 is not one of a cube's: most cameras' photos have it.
 static std::vector<const NamedProjection*> shapes() {
-  return {find_projection("lat-long"), find_projection("cube-3x2"), find_projection("cube-6x1"),
-          find_projection("cube-1x6")};
+  return {find_projection("lat-long"), find_projection("cube-6x1"), find_projection("cube-1x6")};
 }
 
 static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSetting>& known) {
@@ -173,12 +173,13 @@ static std::optional<Sidecar> find_sidecar(const FileInfo& info, const std::stri
 }
 
 static bool is_taken_as_photo(const FileInfo& info, const std::string& path, const FormatHint& known) {
-  return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && is_photo(path);
+  return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && (info.is_pair || is_photo(path));
 }
 
 static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
                                const std::optional<Sidecar>& sidecar, bool photo) {
-  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a Cardboard photo with an embedded right eye"};
+  if (info.is_pair && photo) return {Layout::kSeparate, LayoutSource::kFile, "its stereo pair has both eyes"};
+  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a VR photo with an embedded right eye"};
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
@@ -211,6 +212,9 @@ static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const st
   if (!info.is_float) {
     const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
     const std::optional<StereoCamera> camera = gpano_camera(xmp);
+    if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
+      warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");
+    }
     if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
       warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
                                      xmp_property(xmp, "GPano:ProjectionType")));
@@ -248,9 +252,9 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, c
 
 // The file's own metadata takes precedence over its sidecar, which may be older. Maps come from the sidecar, which
 // alone holds them.
-static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
-                                               const std::optional<Sidecar>& sidecar,
-                                               std::vector<std::string>& guesses) {
+static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, const std::string& path,
+                                                      const FormatHint& known, const std::optional<Sidecar>& sidecar,
+                                                      std::vector<std::string>& guesses) {
   if (known.camera) return known.camera;
   const bool has_maps = sidecar && (sidecar->camera.merge_map || sidecar->camera.head_tilt_map);
   if (sidecar && (has_maps || !info.text.contains("ods:projection"))) return sidecar->camera;
@@ -258,12 +262,36 @@ static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }
 
+// Phones take pairs with two flat lenses, and may say how wide they see.
+static StereoCamera camera_of_pair(const FileInfo& info, std::vector<std::string>& guesses) {
+  constexpr float kUsualFov = 63.4f;
+  const auto said = info.numbers.find("heif:fov");
+  StereoCamera camera;
+  camera.projection = find_projection("perspective")->setting;
+  camera.projection.fov = said != info.numbers.end() ? said->second[0] : kUsualFov;
+  camera.projection.aspect = static_cast<float>(info.width) / static_cast<float>(std::max(info.height, 1));
+  if (said == info.numbers.end()) guesses.push_back(fmt::format("{} degrees across: it does not say", kUsualFov));
+  return camera;
+}
+
+// A square eye of a VR photo whose GPano gives no crop is VR180: no other camera writes such photos.
+static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
+                                               const std::optional<Sidecar>& sidecar, StereoFormat& format) {
+  std::optional<StereoCamera> camera = find_stated_camera(info, path, known, sidecar, format.guesses);
+  if (!camera && info.is_pair) return camera_of_pair(info, format.guesses);
+  if (camera || !format.is_photo || info.width != info.height) return camera;
+  camera.emplace().projection = find_projection("vr180")->setting;
+  read_gpano_pose(read_xmp(path), *camera);
+  format.guesses.push_back("vr180: it is a VR photo with square eyes");
+  return camera;
+}
+
 StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known) {
   StereoFormat format;
   const std::optional<Sidecar> sidecar = find_sidecar(info, path, known, format.guesses);
   format.is_photo = is_taken_as_photo(info, path, known);
   format.layout = find_layout(info, path, known, sidecar, format.is_photo);
-  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format.guesses);
+  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format);
   format.has_camera = camera.has_value();
   // GPano knows no layout, but says what one eye covers: if that is all of the file, there is no other.
   if (camera && format.layout.source >= LayoutSource::kShape &&
@@ -286,7 +314,8 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (known.projection) {
     format.camera.projection = *known.projection;
   } else if (!camera) {
-    const Extent eye = whole_eye(layout, {info.width, info.height}).value_or(Extent{1, 1});
+    const Extent eye =
+        whole_eye(layout, without_middle(layout, Extent{info.width, info.height})).value_or(Extent{1, 1});
     format.camera.projection = guess_projection(eye, path, known, format.guesses);
     format.is_open = read_name(path).projection == nullptr && !known.seen &&
                      (format.layout.source >= LayoutSource::kShape || projection_of_shape(eye) == nullptr);

@@ -3,13 +3,15 @@
 //
 // Finds the format of a picture file: layout, projection, camera. In order of precedence: what the caller knows; the
 // sidecar beside it (NAME.camera.json); the file's own metadata (ods:*, GPano, envmap, the channels of two views, a
-// second eye); its name; what its pixels show, if the caller has looked (ods/identify); its shape. Names end in words after _ or . : those of layout_of() (_TB, _LR, _SBS, _OU ...),
-// mono, 180, vr180, 360 and the names of projections, in upper or lower case, possibly followed by numbers.
+// second eye); its name; what its pixels show, if the caller has looked (ods/identify); its shape. Names end in words
+// after _ or . : those of layout_of() (_TB, _LR, _SBS, _OU ...), mono, 180, vr180, 360 and the names of projections, in
+// upper or lower case, possibly followed by numbers.
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ods/camera/direction_map.h"
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
@@ -42,7 +44,7 @@ struct LayoutGuess {
 bool is_guess(const LayoutGuess& guess);
 
 // Guesses the layout from the file's metadata (ods:layout, or the channels of two views), else its name, else its
-// shape: that of one eye, two stacked or two side by side, in whole-sphere lat-long, cube-3x2, cube-6x1 or cube-1x6, or
+// shape: that of one eye, two stacked or two side by side, in whole-sphere lat-long, cube-6x1 or cube-1x6, or
 // in the projection of its name. `projection`: what is known of it.
 LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
                          const std::optional<ProjectionSetting>& projection = {});
@@ -60,13 +62,15 @@ struct FormatHint {
   std::optional<Layout> layout;
   std::optional<StereoCamera> camera;
   std::optional<ProjectionSetting> projection;  // of the camera, too
+  std::vector<FisheyeLens> lenses;              // of each eye, or one for both; their projection is not ours then
+  bool front_and_back = false;                  // the halves are fisheyes that look ahead and back: one eye
   std::optional<SeenFormat> seen;               // this alone does not take precedence, but over the shape
 };
 
 struct StereoFormat {
   LayoutGuess layout;
   int eye = kMono;        // which eye, if only one
-  bool is_photo = false;  // a Cardboard photo (vr_photo.h): layout kSeparate, both eyes in one file
+  bool is_photo = false;  // a VR photo (vr_photo.h): layout kSeparate, both eyes in one file
   StereoCamera camera;
   bool has_camera = false;           // known from caller, file or sidecar; else only its projection is guessed
   bool has_ipd = false;              // likewise; GPano and envmap do not give one

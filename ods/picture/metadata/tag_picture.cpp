@@ -13,6 +13,7 @@
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/tiff_directory.h"
 #include "ods/image/format/xmp_file.h"
+#include "ods/image/orientation.h"
 #include "ods/picture/metadata/metadata.h"
 
 namespace ods {
@@ -24,7 +25,7 @@ static Error unusable(const std::string& path, const std::string& why) {
 // The file's format, if it is one of the four that can be tagged.
 static FileFormat format_of(const FileInput& file) {
   const std::optional<FileFormat> format = format_of_file(file);
-  if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr) {
+  if (!format || *format == FileFormat::kWebp || *format == FileFormat::kHdr || *format == FileFormat::kHeif) {
     throw unusable(
         file.path(),
         "it is neither a video (mp4, mov, mkv, webm) nor a picture with room for 360 metadata "
@@ -36,7 +37,7 @@ static FileFormat format_of(const FileInput& file) {
 
 // --- what the file says ----------------------------------------------------------------------------------------------
 
-static Extent size_of(const FileInput& file, FileFormat format) {
+static Extent stored_size(const FileInput& file, FileFormat format) {
   if (format == FileFormat::kJpeg) return jpeg_size(read_jpeg_headers(file)).value_or(Extent());
   if (format == FileFormat::kPng) return png_size(file);
   const TiffDirectory directory = read_tiff_directory(file);
@@ -44,6 +45,12 @@ static Extent size_of(const FileInput& file, FileFormat format) {
     return static_cast<int>(std::min<uint64_t>(tiff_number(file, directory, tag).value_or(0), 1u << 30u));
   };
   return {side(kTiffWidth), side(kTiffHeight)};
+}
+
+// As it is shown.
+static Extent size_of(const FileInput& file, FileFormat format) {
+  const Extent stored = stored_size(file, format);
+  return orientation_of(file) >= 5 ? Extent{stored.height, stored.width} : stored;
 }
 
 FileInfo read_picture_header(const std::string& path) {
@@ -105,6 +112,11 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
   return properties;
 }
 
+// What readers of GPano need: it is added where a camera has left it out.
+static bool is_needed(const std::string& name) {
+  return name == "GPano:ProjectionType" || name.starts_with("GPano:CroppedArea") || name.starts_with("GPano:FullPano");
+}
+
 // A packet that says the same already stays. Otherwise only the GPano properties that differ change; the others, such
 // as the initial view, stay.
 static std::optional<std::string> tagged_packet(const FileInput& file, FileFormat format, const PictureTag& tag,
@@ -112,16 +124,16 @@ static std::optional<std::string> tagged_packet(const FileInput& file, FileForma
   std::vector<Attribute> wanted = gpano_of(file, format, tag);
   if (old.empty()) return make_xmp(wanted);
   const std::optional<StereoCamera> stereo = gpano_camera(old);
-  if (!stereo) return replace_gpano(old, wanted);
   std::vector<Attribute> before, kept = gpano_properties(old);
-  add_gpano(before, *stereo, size_of(file, format));
+  if (stereo) add_gpano(before, *stereo, size_of(file, format));
   const auto named = [](std::vector<Attribute>& list, const std::string& name) {
     return std::find_if(list.begin(), list.end(), [&](const Attribute& each) { return each.name == name; });
   };
   bool has_changed = false;
   for (const Attribute& each : wanted) {
     const auto was = named(before, each.name), there = named(kept, each.name);
-    if (was != before.end() && was->value == each.value) continue;
+    const bool is_missing = there == kept.end() && is_needed(each.name);
+    if (!is_missing && was != before.end() && was->value == each.value) continue;
     has_changed = true;
     if (there == kept.end()) {
       kept.push_back(each);

@@ -43,13 +43,39 @@ struct Piece {
 
 }  // namespace
 
+static std::string capitals(std::string_view id) {
+  std::string result(id);
+  std::transform(id.begin(), id.end(), result.begin(), [](char c) { return c >= 'a' && c <= 'f' ? c - 32 : c; });
+  return result;
+}
+
+static bool is_extended(const JpegSegment& segment) {
+  return segment.marker == kJpegApp1 && segment.data.size() >= kExtended && segment.data.starts_with(kJpegExtendedXmp);
+}
+
+static std::string id_of(const JpegSegment& segment) {
+  return capitals(std::string_view(segment.data).substr(kJpegExtendedXmp.size(), kId));
+}
+
+// The id that a packet gives, in capitals, if there are segments with it; else that of the first segment.
+static std::string find_id(const std::vector<JpegSegment>& segments, std::string_view packet) {
+  const std::string stated = capitals(xmp_property(packet, "xmpNote:HasExtendedXMP"));
+  std::string first;
+  for (const JpegSegment& segment : segments) {
+    if (!is_extended(segment)) continue;
+    const std::string id = id_of(segment);
+    if (id == stated) return id;
+    if (first.empty()) first = id;
+  }
+  return first;
+}
+
 // The segments of the packet with this id, in order of offset.
 static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, std::string_view id) {
   std::vector<Piece> pieces;
   for (const JpegSegment& segment : segments) {
+    if (!is_extended(segment) || id_of(segment) != id) continue;
     const std::string_view data = segment.data;
-    if (segment.marker != kJpegApp1 || data.size() < kExtended || !data.starts_with(kJpegExtendedXmp)) continue;
-    if (data.substr(kJpegExtendedXmp.size(), kId) != id) continue;
     const size_t numbers = kJpegExtendedXmp.size() + kId;
     pieces.push_back({get_number(data, numbers, 4), get_number(data, numbers + 4, 4), data.substr(kExtended)});
   }
@@ -70,18 +96,14 @@ static std::string join(const std::vector<Piece>& pieces, const std::string& pat
   return packet;
 }
 
-static std::string id_in(std::string_view packet) {
-  return std::string(xmp_property(packet, "xmpNote:HasExtendedXMP"));
-}
-
 static std::string extended_xmp(const std::vector<JpegSegment>& segments, std::string_view packet,
-                                const std::string& path) {
-  const std::string id = id_in(packet);
+                                const std::string& path, std::vector<std::string>& warnings) {
+  const std::string id = find_id(segments, packet);
   const std::string extended = join(pieces_of(segments, id), path);
-  std::string capitals = id;
-  std::transform(id.begin(), id.end(), capitals.begin(), [](char c) { return c >= 'a' && c <= 'f' ? c - 32 : c; });
   if (extended.empty()) throw damaged(path, "it is not there");
-  if (md5(extended) != capitals) throw damaged(path, "its MD5 does not match");
+  if (capitals(xmp_property(packet, "xmpNote:HasExtendedXMP")) != id || md5(extended) != id) {
+    warnings.push_back("the MD5 of the XMP that has its right eye does not match: another program changed it");
+  }
   return extended;
 }
 
@@ -92,14 +114,19 @@ static std::string_view standard_packet(const std::vector<JpegSegment>& segments
   return segment == nullptr ? std::string_view() : std::string_view(segment->data).substr(kJpegXmp.size());
 }
 
-// Other kinds of photo also embed a second picture, such as another focus or a depth map, but those have no GPano.
-static bool is_photo(const std::vector<JpegSegment>& segments) {
-  const std::string_view packet = standard_packet(segments);
-  if (xmp_property(packet, "GPano:ProjectionType") != "equirectangular") return false;
+static bool has_jpeg(const std::vector<JpegSegment>& segments, std::string_view packet) {
   if (xmp_property(packet, "GImage:Mime") == "image/jpeg") return true;
-  const std::string id = id_in(packet);
-  const std::vector<Piece> pieces = id.empty() ? std::vector<Piece>() : pieces_of(segments, id);
+  const std::vector<Piece> pieces = pieces_of(segments, find_id(segments, packet));
   return !pieces.empty() && pieces[0].bytes.find("GImage:") != std::string_view::npos;
+}
+
+// Other kinds of photo also embed a second picture, such as another focus or a depth map.
+static bool is_photo(const std::vector<JpegSegment>& segments) {
+  const std::string_view packet = standard_packet(segments), type = xmp_property(packet, "GPano:ProjectionType");
+  const auto has = [&](std::string_view name) { return packet.find(name) != std::string_view::npos; };
+  if (!type.empty() && type != "equirectangular") return false;
+  if (type.empty() && !has("GPano:") && (has("GFocus:") || has("GDepth:"))) return false;
+  return has_jpeg(segments, packet);
 }
 
 bool is_photo(const std::string& path) {
@@ -113,14 +140,26 @@ bool is_photo(const std::string& path) {
   }
 }
 
-std::string read_right_eye(const std::string& path) {
+static size_t count_right_eyes(std::string_view xmp) {
+  constexpr std::string_view kName = "GImage:Data";
+  size_t count = 0;
+  for (size_t at = xmp.find(kName); at != std::string_view::npos; at = xmp.find(kName, at + 1)) {
+    count += at == 0 || xmp[at - 1] != '/' ? 1 : 0;
+  }
+  return count;
+}
+
+std::string read_right_eye(const std::string& path, std::vector<std::string>& warnings) {
   const std::vector<JpegSegment> segments = read_jpeg_headers(FileInput(path));
   const std::string_view packet = standard_packet(segments);
   std::string_view data = xmp_property(packet, "GImage:Data");
   std::string extended;
   if (data.empty()) {
-    extended = extended_xmp(segments, packet, path);
+    extended = extended_xmp(segments, packet, path, warnings);
     data = xmp_property(extended, "GImage:Data");
+  }
+  if (count_right_eyes(packet) + count_right_eyes(extended) > 1) {
+    warnings.push_back("it has more than one right eye: the first is used");
   }
   const std::string right = decode_base64(data);
   if (!right.starts_with("\xff\xd8\xff")) throw damaged(path, "it is no JPEG");

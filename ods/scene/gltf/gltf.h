@@ -39,6 +39,8 @@ struct SceneOptions {
   int scene = -1;         // index of the file's scene; -1: its default, or the first
   std::string confine{};  // the only folder that files are read from (ods/files/confined_file.h); empty: no limit
   std::string variant{};  // one of the file's material variants, by name; empty: each mesh has its default material
+  std::string camera{};   // if no camera has this name, nodes that do become view points
+  bool z_up = false;      // the file's z axis points up, not its y axis as glTF has it
 };
 
 // Throws Error(kInput), naming the file: missing, damaged, or unsupported. Throws Error(kUsage):
@@ -49,7 +51,8 @@ Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options = {});
 
 // The files that it refers to, buffers and pictures, relative to its folder: sorted, without duplicates; none for an
-// archive. They need not exist. Throws Error(kInput) if its JSON cannot be read. confine: as in SceneOptions, for this file alone.
+// archive. They need not exist. Throws Error(kInput) if its JSON cannot be read. confine: as in SceneOptions, for this
+// file alone.
 std::vector<std::string> gltf_files(const std::string& path, const std::string& confine = {});
 
 }  // namespace ods

@@ -86,21 +86,27 @@ static Hierarchy read_hierarchy(const GltfFile& file) {
   return tree;
 }
 
+// What every root node stands in: glTF's world has y up.
+static dmat4 root_matrix(const SceneOptions& options) {
+  if (!options.z_up) return dmat4(1.0);
+  return dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 0, 0, 1));
+}
+
 // The world matrix of every node.
-static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& tree) {
+static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& tree, const dmat4& root) {
   std::vector<dmat4> world(tree.order.size());
   for (const int node : tree.order) {
     const auto i = static_cast<size_t>(node);
     const int parent = tree.parents[i];
-    world[i] = local_matrix(*file.nodes[i]);
-    if (parent != -1) world[i] = world[static_cast<size_t>(parent)] * world[i];
+    world[i] = (parent == -1 ? root : world[static_cast<size_t>(parent)]) * local_matrix(*file.nodes[i]);
     if (!is_bounded(world[i])) fail(file, fmt::format("node {} has a matrix that is not finite, or too large", node));
   }
   return world;
 }
 
-// The nodes of one scene, in tree order; -1 for the file's default scene, or all nodes if it has no scenes.
-static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen) {
+// The nodes of one scene, in tree order; -1 for the file's default scene, or all nodes if it has no scenes. Some
+// exporters list children among the roots: their parents place them all the same, and each is there once.
+static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen, Scene& scene) {
   const Records& scenes = file.scenes;
   const bool is_asked_for = chosen != -1;
   if (!is_asked_for) chosen = std::max(0, index_in(file, file.json.root(), "scene"));
@@ -114,14 +120,14 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
   for (const int root : indices(file, *scenes[static_cast<size_t>(chosen)], "nodes")) {
     element(file, file.nodes, root, "node");
     if (tree.parents[static_cast<size_t>(root)] != -1) {
-      fail(file, fmt::format("node {} is a root of the scene and has a parent; the file is damaged", root));
+      warn(scene, "the file lists nodes as roots of the scene that have a parent: their parents place them");
     }
     inside[static_cast<size_t>(root)] = 1;
   }
   std::vector<int> nodes;
   for (const int node : tree.order) {
     const int parent = tree.parents[static_cast<size_t>(node)];
-    if (parent != -1) inside[static_cast<size_t>(node)] = inside[static_cast<size_t>(parent)];
+    if (parent != -1 && inside[static_cast<size_t>(parent)]) inside[static_cast<size_t>(node)] = 1;
     if (inside[static_cast<size_t>(node)]) nodes.push_back(node);
   }
   return nodes;
@@ -150,7 +156,7 @@ static std::vector<char> find_hidden(const GltfFile& file, const Hierarchy& tree
 
 // Adds the file's moving nodes to Animation::nodes, including all descendants of a moving one.
 static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy& tree, const std::vector<dmat4>& world,
-                                          const std::vector<char>& named, Scene& scene) {
+                                          const std::vector<char>& named, const dmat4& root, Scene& scene) {
   std::vector<int> rows(tree.order.size(), -1);
   for (const int node : tree.order) {
     const auto i = static_cast<size_t>(node);
@@ -160,7 +166,7 @@ static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy&
     MovingNode moving;
     moving.parent = parent_row;
     moving.visible = starts_visible(*file.nodes[i]);
-    if (parent != -1 && parent_row == -1) moving.before = world[static_cast<size_t>(parent)];
+    if (parent_row == -1) moving.before = parent == -1 ? root : world[static_cast<size_t>(parent)];
     const JsonValue& source = *file.nodes[i];
     if (has_matrix(source)) {
       moving.before *= local_matrix(source);
@@ -391,27 +397,39 @@ void Placer::place_light(int node, int index, const dmat4& world) {
 void Placer::place_camera(int index, const dmat4& world) {
   const JsonValue& node = *file_.nodes[static_cast<size_t>(index)];
   const int camera = index_in(file_, node, "camera");
-  const std::string &name = *node["name"].text, &own = *record(file_, file_.cameras, camera, "camera")["name"].text;
+  std::string name = *node["name"].text;
+  const JsonValue& own = camera == -1 ? kNoJson : record(file_, file_.cameras, camera, "camera");
+  if (name.empty()) name = *own["name"].text;
   ViewPoint view;
-  view.name = printable(!name.empty() ? name : !own.empty() ? own : fmt::format("camera {}", camera));
+  view.name = printable(name.empty() ? fmt::format("camera {}", camera) : name);
   place_view(view, world);
   const int row = places_.nodes[static_cast<size_t>(index)];
   if (row != -1) scene_.animation.views.push_back({static_cast<int>(scene_.view_points.size()), row});
   scene_.view_points.push_back(view);
 }
 
-Places read_nodes(GltfFile& file, Scene& scene, int chosen, const AnimatedNodes& animated) {
+// Whether nodes that the user names are to be view points, as no camera has that name.
+static bool camera_is_missing(const GltfFile& file, const std::string& wanted) {
+  return !wanted.empty() && std::ranges::none_of(file.nodes, [&](const JsonValue* each) {
+    return index_in(file, *each, "camera") != -1 && printable(*(*each)["name"].text) == wanted;
+  });
+}
+
+Places read_nodes(GltfFile& file, Scene& scene, const SceneOptions& options, const AnimatedNodes& animated) {
   const Hierarchy tree = read_hierarchy(file);
-  const std::vector<dmat4> world = evaluate_nodes(file, tree);
+  const dmat4 root = root_matrix(options);
+  const std::vector<dmat4> world = evaluate_nodes(file, tree, root);
   const std::vector<char> hidden = find_hidden(file, tree, animated.blinks);
   Places places;
-  places.nodes = read_moving_nodes(file, tree, world, animated.moves, scene);
+  places.nodes = read_moving_nodes(file, tree, world, animated.moves, root, scene);
   places.weights.assign(places.nodes.size(), -1);
   Placer placer(file, scene, places);
-  for (const int i : nodes_of_scene(file, tree, chosen)) {
+  const bool node_is_camera = camera_is_missing(file, options.camera);
+  for (const int i : nodes_of_scene(file, tree, options.scene, scene)) {
     const JsonValue& node = *file.nodes[static_cast<size_t>(i)];
     const dmat4& matrix = world[static_cast<size_t>(i)];
-    if (index_in(file, node, "camera") != -1) placer.place_camera(i, matrix);
+    const bool stands_in = node_is_camera && printable(*node["name"].text) == options.camera;
+    if (stands_in || index_in(file, node, "camera") != -1) placer.place_camera(i, matrix);
     if (hidden[static_cast<size_t>(i)] != 0) continue;
     placer.place_meshes(i, matrix);
     const JsonValue& light = extension(node, "KHR_lights_punctual");

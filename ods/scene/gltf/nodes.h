@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "ods/scene/gltf/gltf.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
@@ -27,9 +28,9 @@ struct AnimatedNodes {
   std::vector<char> blinks;  // per node: whether an animation shows and hides it
 };
 
-// Reads the chosen scene (-1: the file's default): instances with their meshes, lights, cameras. Meshes and lights of
+// Reads the chosen scene: instances with their meshes, lights, cameras. Meshes and lights of
 // nodes that are always hidden are left out.
-Places read_nodes(GltfFile& file, Scene& scene, int chosen, const AnimatedNodes& animated);
+Places read_nodes(GltfFile& file, Scene& scene, const SceneOptions& options, const AnimatedNodes& animated);
 
 Lamp read_lamp(const GltfFile& file, int light);
 

@@ -6,7 +6,7 @@
 #pragma once
 #include <cstdint>
 
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 
 namespace ods {
 

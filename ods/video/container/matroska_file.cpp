@@ -111,6 +111,7 @@ static VideoTrack read_track(const Matroska& video, const Element& entry) {
     };
     track.size = {side(kPixelWidth), side(kPixelHeight)};
     track.v2 = parse_video(*pictures);
+    track.mesh = find_mesh(*pictures);
   }
   const uint64_t duration = child_number(entry, kDefaultDuration);  // nanoseconds
   track.fps = duration == 0 ? 0.0 : 1e9 / static_cast<double>(duration);

@@ -61,6 +61,17 @@ std::optional<SphericalMetadata> parse_video(const Element& video) {
   return metadata;
 }
 
+std::string find_mesh(const Element& video) {
+  const Element* found = find_child(video, kProjection);
+  if (found == nullptr) return {};
+  Element projection = *found;
+  open_element(projection);
+  const Element* type = find_child(projection, kProjectionType);
+  const Element* data = find_child(projection, kProjectionPrivate);
+  const bool is_mesh = type != nullptr && number_of(*type) == 3;
+  return is_mesh && data != nullptr ? data->body : "";
+}
+
 static Element projection_element(const SphericalMetadata& metadata) {
   Element projection;
   projection.id = kProjection;

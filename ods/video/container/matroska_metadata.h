@@ -64,6 +64,8 @@ std::string child_text(const Element& element, uint32_t id);
 
 // Parses StereoMode and Projection of an opened Video element. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_video(const Element& video);
+// The private data of a mesh projection, which is the body of an mshp box; empty if it has another projection.
+std::string find_mesh(const Element& video);
 
 // Sets, or removes, both elements. Elements that already match stay, apart from their angles. The display size becomes
 // one eye's. Throws MalformedFile.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ods/image/format/file_format.h"
 #include "ods/video/container/apple.h"
 #include "ods/video/container/box_offsets.h"
 #include "ods/video/container/complete_metadata.h"
@@ -29,12 +30,33 @@ struct Mp4 {
 constexpr BoxType kSampleTables[] = {box_type("moov"), box_type("trak"), box_type("mdia"), box_type("minf"),
                                      box_type("stbl")};
 
+// Other kinds of file begin like an mp4.
+static std::string without_header(const FileInput& file, const std::vector<FileBox>& boxes) {
+  constexpr std::pair<std::string_view, std::string_view> kOthers[] = {{"crx ", "a raw photo of a Canon camera (CR3)"},
+                                                                       {"jxl ", "a JPEG XL picture"},
+                                                                       {"jp2 ", "a JPEG 2000 picture"},
+                                                                       {"jpx ", "a JPEG 2000 picture"},
+                                                                       {"M4A ", "sound"},
+                                                                       {"M4B ", "sound"}};
+  const std::string brand = boxes.front().type == box_type("ftyp") && boxes.front().size >= 12
+                                ? file.read(boxes.front().offset + boxes.front().header, 4)
+                                : "";
+  for (const auto& [name, what] : kOthers) {
+    if (name == brand) return fmt::format("it is {}", what);
+  }
+  const auto has = [&](BoxType type) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const FileBox& box) { return box.type == type; });
+  };
+  if (has(box_type("meta")) && !has(box_type("mdat"))) return "it has no header of a video (moov)";
+  return "it has no header (moov): the recording was not finished";
+}
+
 static Mp4 open_mp4(const FileInput& file) {
   Mp4 video;
   video.boxes = scan_boxes(file);
   const auto is_header = [](const FileBox& box) { return box.type == box_type("moov"); };
   const auto found = std::find_if(video.boxes.begin(), video.boxes.end(), is_header);
-  if (found == video.boxes.end()) throw MalformedFile("it has no header (moov): the recording was not finished");
+  if (found == video.boxes.end()) throw MalformedFile(without_header(file, video.boxes));
   if (std::find_if(found + 1, video.boxes.end(), is_header) != video.boxes.end())
     throw MalformedFile("it has two headers");
   video.header = static_cast<size_t>(found - video.boxes.begin());
@@ -120,6 +142,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
       video.size.height = static_cast<int>(get_number(entry.body, 26, 2));
     }
     if (!video.v2) video.v2 = parse_v2(entry);
+    if (video.mesh.empty()) video.mesh = find_mesh(entry);
     if (!video.vexu) video.vexu = read_vexu(entry);
     video.has_layers = video.has_layers || has_layers(entry);
   }
@@ -149,6 +172,7 @@ static SoundTrack read_sound(Box& track) {
 
 bool is_mp4(std::string_view first_bytes) {
   if (first_bytes.size() < 8) return false;
+  if (format_of_bytes(std::as_bytes(std::span(first_bytes))) == FileFormat::kHeif) return false;
   const auto type = static_cast<BoxType>(get_number(first_bytes, 4, 4));
   const BoxType kFirst[] = {box_type("ftyp"), box_type("styp"), box_type("moov"), box_type("mdat"),
                             box_type("free"), box_type("skip"), box_type("wide"), box_type("pnot"),
@@ -376,15 +400,22 @@ static void write_header(const Mp4& video, const Plan& plan, AtomicFile& to) {
 }
 
 TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id,
-                  const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound) {
+                  const std::optional<SphericalMetadata>& metadata, const OtherTags& other) {
   Mp4 video = open_mp4(file);
   TagResult result;
+  size_t sounds = 0;
   for (Box& track : video.moov.children) {
     if (track.type != box_type("trak")) continue;
     open_box(track, 0);
-    if (is_video(track) && id_of(track) == track_id) result = tag_track(track, metadata, read_video(track, video.moov));
-    if (sound && handler_of(track) == box_type("soun")) tag_sound(track, *sound);
+    if (is_video(track) && id_of(track) == track_id) {
+      add_user_data(other.user.pictures, track);
+      result = tag_track(track, metadata, read_video(track, video.moov));
+    }
+    if (handler_of(track) != box_type("soun")) continue;
+    if (sounds < other.sound.size() && other.sound[sounds]) tag_sound(track, *other.sound[sounds]);
+    sounds++;
   }
+  add_user_data(other.user.movie, video.moov);
   const Plan plan = plan_move(video, file.size());
   move_header(video.moov, plan.move);
   result.moved = plan.move.growth != 0;
@@ -401,6 +432,7 @@ TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id,
       file.copy(box.offset, box.size, to);
     }
   }
+  for (const Box& box : other.user.file) write_box(box, to);
   return result;
 }
 

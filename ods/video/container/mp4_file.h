@@ -10,7 +10,7 @@
 #pragma once
 #include <optional>
 
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 #include "ods/video/container/video_file.h"
 
 namespace ods {
@@ -23,6 +23,6 @@ VideoFile read_mp4(const FileInput& file);
 // Throws MalformedFile, Error(kInput), Error(kOutput). The header keeps its place; a `free` box after it is shrunk or
 // grown before any data is moved.
 TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track,
-                  const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound = {});
+                  const std::optional<SphericalMetadata>& metadata, const OtherTags& other = {});
 
 }  // namespace ods

@@ -4,7 +4,7 @@
 // The sample entry of a sound track in mp4 and mov. Sources: ISO/IEC 14496-12, 12.2; 14496-1, 7.2.6 (esds); 14496-3,
 // 1.6.2 (AAC configuration); Apple, "QuickTime File Format", sound sample descriptions.
 #pragma once
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 
 namespace ods {
 

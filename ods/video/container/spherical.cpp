@@ -318,6 +318,15 @@ std::optional<SphericalMetadata> parse_v2(const Box& sample_entry) {
   return metadata;
 }
 
+std::string find_mesh(const Box& sample_entry) {
+  const Box* found = find_child(sample_entry, box_type("sv3d"));
+  if (found == nullptr) return {};
+  Box sphere = *found;
+  open_box(sphere, 0);
+  const Box* mesh = find_child(open_child(sphere, box_type("proj")), box_type("mshp"));
+  return mesh == nullptr ? "" : mesh->body;
+}
+
 // --- sound -----------------------------------------------------------------------------------------------------------
 
 std::optional<Ambisonics> parse_sa3d(const std::string& body) {

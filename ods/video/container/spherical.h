@@ -13,7 +13,7 @@
 
 #include "ods/base/names.h"
 #include "ods/camera/layout.h"
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 
 namespace ods {
 
@@ -120,6 +120,8 @@ Box sv3d_box(const SphericalMetadata& metadata);
 void update_sv3d(Box& sphere, const SphericalMetadata& metadata);
 // Parses the boxes of a sample entry; nothing if it has neither st3d nor sv3d. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_v2(const Box& sample_entry);
+// The body of a sample entry's mshp box (mesh_box.h); empty if there is none. Throws MalformedFile.
+std::string find_mesh(const Box& sample_entry);
 
 // The body of an equi or cbmp box including version and flags, which is Matroska's ProjectionPrivate.
 std::string projection_body(const SphericalMetadata& metadata);

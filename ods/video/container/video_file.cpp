@@ -69,7 +69,7 @@ const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, co
 }
 
 TagResult tag_video(const std::string& path, const std::string& to, uint64_t track,
-                    const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound,
+                    const std::optional<SphericalMetadata>& metadata, const OtherTags& other,
                     const std::function<void(double done)>& progress) {
   FileInput file(path);
   if (progress) {
@@ -79,7 +79,7 @@ TagResult tag_video(const std::string& path, const std::string& to, uint64_t tra
   AtomicFile output(to);
   TagResult result;
   try {
-    result = matroska ? tag_matroska(file, output, track, metadata) : tag_mp4(file, output, track, metadata, sound);
+    result = matroska ? tag_matroska(file, output, track, metadata) : tag_mp4(file, output, track, metadata, other);
   } catch (const MalformedFile& broken) {
     throw unusable(path, broken.what());
   }

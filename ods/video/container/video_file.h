@@ -13,6 +13,7 @@
 #include "ods/base/names.h"
 #include "ods/camera/layout.h"
 #include "ods/video/container/spherical.h"
+#include "ods/video/container/user_data.h"
 
 namespace ods {
 
@@ -40,6 +41,7 @@ struct VideoTrack {
   std::optional<SphericalMetadata> v1;    // Spherical Video V1
   std::optional<SphericalMetadata> v2;    // Spherical Video V2, in Matroska StereoMode and Projection
   std::optional<SphericalMetadata> vexu;  // the vexu for Apple's players
+  std::string mesh;                       // of v2: the body of its mshp box (mesh_box.h); empty: none
   bool has_layers = false;                // its eyes are layers of the stream (MV-HEVC), which its vexu describes
 };
 
@@ -74,13 +76,20 @@ struct TagResult {
   bool moved = false;  // everything after the header was moved and its offsets updated
 };
 
+// What else tag_video() writes into an mp4 or mov. In Matroska, Opus describes its own channels, and libavformat writes
+// all tags.
+struct OtherTags {
+  std::vector<std::optional<Ambisonics>> sound;  // of the sound tracks, in their order; none: stays as it is
+  UserData user;                                 // added to what the file has
+};
+
 // Writes the video with this metadata to `to`, which may be `path` itself: the complete new file then replaces it.
 // Without metadata, removes it. Boxes that already match stay byte-identical, even of kinds that we never write (a
 // mesh, a padded cubemap); with the result of complete_metadata(), only what was asked for changes. Samples stay
-// bit-identical. Throws Error(kInput), also if the container cannot express the metadata; Error(kOutput). `sound` tags
-// the sound of an mp4 or mov, too; in Matroska, Opus describes its own channels. `progress` reports the share copied.
+// bit-identical. Throws Error(kInput), also if the container cannot express the metadata; Error(kOutput). `progress`
+// reports the share copied.
 TagResult tag_video(const std::string& path, const std::string& to, uint64_t track,
-                    const std::optional<SphericalMetadata>& metadata, const std::optional<Ambisonics>& sound = {},
+                    const std::optional<SphericalMetadata>& metadata, const OtherTags& other = {},
                     const std::function<void(double done)>& progress = {});
 
 }  // namespace ods

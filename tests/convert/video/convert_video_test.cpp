@@ -267,9 +267,9 @@ std::string convert_file(const std::string& from, const std::string& to, const T
   video.choose(span);
   EncodeOptions options;
   options.packing = packing_like(video.stream(), *container_of_path(to)).value_or(Packing());
-  options.sound = video.video().has_sound ? from : "";
-  options.copies_sound = true;
-  options.sound_cut.is_cut = span.is_part();
+  options.keep.path = from;
+  options.keep.track = video.video().track;
+  options.keep.cut.is_cut = span.is_part();
   convert_video(video, turned_conversion(video), options, to);
   return to;
 }

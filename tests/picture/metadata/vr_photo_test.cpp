@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cardboard photos: both eyes come back, other programs find them, and packets that lie are refused in one line.
+// VR photos: both eyes come back, other programs find them, VR180 cameras' own are read, and packets that lie are
+// refused in one line.
 #include "ods/picture/metadata/vr_photo.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@
 #include "ods/lint/lint.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/tag_picture.h"
 #include "ods/picture/save.h"
 #include "tests/support/decoded_video.h"
 #include "tests/support/temporary_folder.h"
@@ -78,6 +80,18 @@ class Photo : public testing::Test {
     save_picture(two_eyes(size), camera, {}, path);
   }
 
+  std::string right_eye() const {
+    std::vector<std::string> warnings;
+    return read_right_eye(path, warnings);
+  }
+
+  // What is said of it although it can be read.
+  std::string guesses() const {
+    std::string all;
+    for (const std::string& guess : open_picture(path).guesses) all += guess + "\n";
+    return all;
+  }
+
   // Why it cannot be read; empty: it can.
   std::string error() const {
     try {
@@ -103,7 +117,7 @@ TEST_F(Photo, BothEyesComeBack) {
   const StoredPicture picture = open_picture(path);
   EXPECT_EQ(picture.size.width, 64);
   EXPECT_EQ(picture.size.height, 32);
-  EXPECT_EQ(picture.layout_reason, "it is a Cardboard photo with an embedded right eye");
+  EXPECT_EQ(picture.layout_reason, "it is a VR photo with an embedded right eye");
   EXPECT_TRUE(picture.guesses.empty());
   EXPECT_FLOAT_EQ(picture.camera.yaw, 30.0f);
   const LoadedEyes loaded = load_eyes(path);
@@ -119,7 +133,7 @@ TEST_F(Photo, TheLeftEyeIsTheJpegItself) {
   StereoCamera camera;
   save_picture(two_eyes({64, 32}), camera, {}, folder.path("%V.jpg"));
   EXPECT_EQ(read_image(path).pixels, read_image(folder.path("left.jpg")).pixels);
-  folder.write("right_of_a.jpg", read_right_eye(path));
+  folder.write("right_of_a.jpg", right_eye());
   EXPECT_EQ(read_image(folder.path("right_of_a.jpg")).pixels, read_image(folder.path("right.jpg")).pixels);
   EXPECT_EQ(load_eyes(path, Layout::kSeparate).eyes.size(), 1u) << "asked for as one eye";
 }
@@ -180,13 +194,11 @@ struct Lie {
 };
 
 TEST_F(Photo, PacketsThatLieAreRefused) {
-  const size_t id = 35, length = id + 32, offset = length + 4, data = offset + 4;
-  const Lie lies[] = {{"another MD5", id, std::string(32, 'A'), "it is not there"},
-                      {"a length of 2^32 - 1", length, "\xff\xff\xff\xff", "its length differs"},
+  const size_t length = 35 + 32, offset = length + 4;
+  const Lie lies[] = {{"a length of 2^32 - 1", length, "\xff\xff\xff\xff", "its length differs"},
                       {"no length", length, std::string(4, '\0'), "its length differs"},
                       {"an offset beyond the end", offset, "\xff\xff\xff\xf0", "missing or duplicated"},
-                      {"an offset before another", offset, std::string("\0\0\0\1", 4), "missing or duplicated"},
-                      {"other bytes", data + 200, "AAAAAAAAAAAA", "MD5"}};
+                      {"an offset before another", offset, std::string("\0\0\0\1", 4), "missing or duplicated"}};
   make({256, 128});
   const std::string whole = folder.read("a.vr.jpg");
   const size_t first = whole.find(kJpegExtendedXmp), second = whole.find(kJpegExtendedXmp, first + 1);
@@ -225,7 +237,7 @@ std::string with_right_eye(const std::string& photo, const std::string& data) {
 
 TEST_F(Photo, RightEyesThatAreNoPicturesAreRefused) {
   make();
-  const std::string photo = folder.read("a.vr.jpg"), right = read_right_eye(path);
+  const std::string photo = folder.read("a.vr.jpg"), right = right_eye();
   folder.write("a.vr.jpg", with_right_eye(photo, encode_base64(right)));
   EXPECT_EQ(error(), "") << "the way this test makes photos is wrong";
   for (const std::string& data : {std::string(), std::string("no letters!"), encode_base64("text"),
@@ -249,6 +261,193 @@ TEST_F(Photo, CutShortItIsOneLine) {
   }
 }
 
+// --- as others write them --------------------------------------------------------------------------------------------
+
+// A right eye is not lost because another program has changed the packet without its MD5.
+TEST_F(Photo, AWrongMd5IsAWarning) {
+  make({256, 128});
+  const std::string whole = folder.read("a.vr.jpg"), right = right_eye();
+  EXPECT_EQ(guesses(), "");
+  const size_t note = whole.find("HasExtendedXMP=\"") + 16;
+  std::string bytes = whole;
+  bytes.replace(note, 32, std::string(32, 'A'));  // of no segment
+  folder.write("a.vr.jpg", bytes);
+  EXPECT_NE(guesses().find("MD5"), std::string::npos);
+  EXPECT_EQ(right_eye(), right);
+  for (size_t at = bytes.find(kJpegExtendedXmp); at != std::string::npos; at = bytes.find(kJpegExtendedXmp, at + 1)) {
+    bytes.replace(at + kJpegExtendedXmp.size(), 32, std::string(32, 'a'));  // the segments agree, in other letters
+  }
+  folder.write("a.vr.jpg", bytes);
+  EXPECT_NE(guesses().find("MD5"), std::string::npos);
+  EXPECT_EQ(right_eye(), right);
+}
+
+// How an XMP of elements, with one quote and one description for each namespace, describes a photo of square eyes.
+std::string elements(const std::string& gpano, const std::string& id) {
+  const auto description = [](const std::string& name, const std::string& space, const std::string& inside) {
+    return "<rdf:Description rdf:about='' xmlns:" + name + "='" + space + "'>\n" + inside + "\n</rdf:Description>\n";
+  };
+  return "<?xpacket begin='' id='W5M0MpCehiHzreSzNTczkc9d'?>\n<x:xmpmeta xmlns:x='adobe:ns:meta/'>\n"
+         "<rdf:RDF xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'>\n" +
+         description("xmpNote", "http://ns.adobe.com/xmp/note/",
+                     "<xmpNote:HasExtendedXMP>" + id + "</xmpNote:HasExtendedXMP>") +
+         description("GImage", "http://ns.google.com/photos/1.0/image/", "<GImage:Mime>image/jpeg</GImage:Mime>") +
+         description("GPano", "http://ns.google.com/photos/1.0/panorama/", gpano) +
+         "</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end='w'?>";
+}
+
+std::string crop(const std::string& image, const std::string& whole, const std::string& left, const std::string& top) {
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += "<GPano:" + name + ">" + value + "</GPano:" + name + ">\n";
+  };
+  add("CroppedAreaImageHeightPixels", image), add("CroppedAreaImageWidthPixels", image);
+  add("CroppedAreaLeftPixels", left), add("CroppedAreaTopPixels", top);
+  add("FullPanoHeightPixels", whole), add("FullPanoWidthPixels", std::to_string(2 * std::stoi(whole)));
+  return text;
+}
+
+// A photo with this in its standard and in its extended XMP.
+std::string photo_of(const std::string& left, const std::string& gpano, const std::string& data) {
+  const auto number = [](size_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+    return bytes;
+  };
+  const std::string body = "<x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF><rdf:Description>" + data +
+                           "</rdf:Description></rdf:RDF></x:xmpmeta>";
+  const std::string id = md5(body);
+  std::string photo = left.substr(0, 2) + jpeg_segment(kJpegApp1, std::string(kJpegXmp) + elements(gpano, id));
+  for (size_t at = 0; at < body.size(); at += 3000) {
+    const std::string head = std::string(kJpegExtendedXmp) + id + number(body.size()) + number(at);
+    photo += jpeg_segment(kJpegApp1, head + body.substr(at, 3000));
+  }
+  return photo + left.substr(2);
+}
+
+// VR180 cameras and Google's own writer for them.
+struct Camera {
+  const char* what;
+  std::string gpano;
+  float longitude, latitude;  // of the right and upper edge
+};
+
+class Vr180 : public Photo, public testing::WithParamInterface<int> {
+ protected:
+  static const Camera& camera() {
+    static const Camera kCameras[] = {
+        {"with all of GPano",
+         crop("64", "64", "32", "0") + "<GPano:ProjectionType>equirectangular</GPano:ProjectionType>", 90.0f, 90.0f},
+        {"without ProjectionType",
+         crop("64", "64", "32", "0") + "<GPano:PoseHeadingDegrees>25</GPano:PoseHeadingDegrees>", 90.0f, 90.0f},
+        {"less than a half",
+         crop("64", "80", "48", "8") + "<GPano:InitialViewHeadingDegrees>180</GPano:InitialViewHeadingDegrees>", 72.0f,
+         72.0f},
+        {"only a heading", "<GPano:PoseHeadingDegrees>25</GPano:PoseHeadingDegrees>", 90.0f, 90.0f},
+        {"no GPano at all", "", 90.0f, 90.0f},
+        {"a crop that makes no sense", crop("64", "0", "32", "0"), 90.0f, 90.0f}};
+    return kCameras[GetParam()];
+  }
+  void SetUp() override {
+    const TemporaryFolder eyes;
+    save_picture(two_eyes({64, 64}), {}, eyes.path("%V.jpg"));
+    const std::string left = eyes.read("left.jpg"), right = eyes.read("right.jpg");
+    std::string letters = encode_base64(right);
+    for (size_t at = 76; at < letters.size(); at += 77) letters.insert(at, "\n");
+    const std::string data = "<GImage:Data>\n" + letters + "\n</GImage:Data>";
+    folder.write("a.vr.jpg", photo_of(left, camera().gpano, data));
+    right_ = right;
+  }
+
+  std::string right_;
+};
+
+TEST_P(Vr180, BothEyesAndTheirPartOfTheSphereAreRead) {
+  SCOPED_TRACE(camera().what);
+  EXPECT_TRUE(is_photo(path));
+  EXPECT_EQ(right_eye(), right_);
+  const StoredPicture picture = open_picture(path);
+  ASSERT_EQ(picture.eyes.size(), 2u);
+  EXPECT_EQ(picture.camera.projection.kind, kLatLong);
+  EXPECT_NEAR(picture.camera.projection.longitude.x, -camera().longitude, 1e-4f);
+  EXPECT_NEAR(picture.camera.projection.longitude.y, camera().longitude, 1e-4f);
+  EXPECT_NEAR(picture.camera.projection.latitude.y, camera().latitude, 1e-4f);
+  EXPECT_EQ(picture.camera.yaw, camera().gpano.find("PoseHeading") != std::string::npos ? 25.0f : 0.0f);
+  const LoadedEyes loaded = load_eyes(path);
+  EXPECT_NEAR(mean(loaded.eyes[0]).x, 0.6f, 0.05f);
+  EXPECT_NEAR(mean(loaded.eyes[1]).z, 0.6f, 0.05f);
+}
+
+// Tagging adds what readers need, and changes nothing else.
+TEST_P(Vr180, TaggingKeepsCropAndHeadings) {
+  SCOPED_TRACE(camera().what);
+  const StereoCamera before = open_picture(path).camera;
+  const std::vector<Attribute> old = gpano_properties(read_xmp(path));
+  for (const bool turns : {false, true}) {
+    std::vector<std::string> notes;
+    PictureTag tag = complete_tag({}, path, notes);
+    if (turns) tag.camera.yaw = 33.0f;
+    tag_picture(path, path, tag);
+    EXPECT_TRUE(is_photo(path));
+    EXPECT_EQ(right_eye(), right_);
+    const std::string xmp = read_xmp(path);
+    EXPECT_EQ(xmp_property(xmp, "GPano:ProjectionType"), "equirectangular");
+    ASSERT_TRUE(gpano_camera(xmp));
+    EXPECT_EQ(gpano_camera(xmp)->projection, before.projection);
+    EXPECT_EQ(gpano_camera(xmp)->yaw, turns ? 33.0f : before.yaw);
+    for (const Attribute& each : old) {
+      const bool changes = (turns && each.name == "GPano:PoseHeadingDegrees") ||
+                           camera().gpano.find(">0</GPano:FullPanoH") != std::string::npos;
+      if (changes) continue;
+      EXPECT_EQ(xmp_property(xmp, each.name), std::get<std::string>(each.value)) << each.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cameras, Vr180, testing::Range(0, 6));
+
+TEST_F(Photo, OfTwoRightEyesTheFirstIsUsed) {
+  make({64, 64}, "vr180");
+  const std::string right = right_eye();
+  save_picture(two_eyes({64, 64}), {}, folder.path("%V.jpg"));
+  const std::string data = "<GImage:Data>" + encode_base64(right) + "</GImage:Data>";
+  folder.write("a.vr.jpg",
+               photo_of(folder.read("left.jpg"), crop("64", "64", "32", "0"),
+                        data + "<GImage:Data>" + encode_base64(folder.read("left.jpg")) + "</GImage:Data>"));
+  EXPECT_EQ(right_eye(), right);
+  EXPECT_NE(guesses().find("more than one right eye"), std::string::npos) << guesses();
+}
+
+// Exiftool's own photo, which is how LR2VR and others make theirs.
+TEST_F(Photo, OfExiftoolIsRead) {
+  if (!is_installed("exiftool")) GTEST_SKIP() << "skipped: exiftool is not installed";
+  save_picture(two_eyes({64, 64}), {}, folder.path("%V.jpg"));
+  const std::string right = folder.read("right.jpg");
+  for (const std::string type : {"", "-XMP-GPano:ProjectionType=equirectangular "}) {
+    std::filesystem::remove(path);
+    output_of(
+        "exiftool -XMP-GPano:FullPanoWidthPixels=128 -XMP-GPano:FullPanoHeightPixels=64 "
+        "-XMP-GPano:CroppedAreaLeftPixels=32 -XMP-GPano:CroppedAreaTopPixels=0 "
+        "-XMP-GPano:CroppedAreaImageWidthPixels=64 -XMP-GPano:CroppedAreaImageHeightPixels=64 " +
+        type + "-XMP-GImage:ImageMimeType=image/jpeg '-XMP-GImage:ImageData<=" + folder.path("right.jpg") + "' " +
+        folder.path("left.jpg") + " -o " + path);
+    EXPECT_TRUE(is_photo(path));
+    EXPECT_EQ(right_eye(), right);
+    const StoredPicture picture = open_picture(path);
+    EXPECT_EQ(picture.eyes.size(), 2u);
+    EXPECT_TRUE(is_vr180(picture.camera.projection));
+  }
+}
+
+TEST_F(Photo, OfAnotherFocusItIsAPictureOfOneEye) {
+  save_picture(two_eyes({64, 64}), {}, folder.path("%V.jpg"));
+  const std::string data = "<GImage:Data>" + encode_base64(folder.read("right.jpg")) + "</GImage:Data>";
+  folder.write("a.jpg", photo_of(folder.read("left.jpg"), "<GFocus:BlurAtInfinity>0.02</GFocus:BlurAtInfinity>", data));
+  EXPECT_FALSE(is_photo(folder.path("a.jpg")));
+  folder.write("a.jpg", photo_of(folder.read("left.jpg"), "", data));
+  EXPECT_TRUE(is_photo(folder.path("a.jpg")));
+}
+
 // Other photos have a second picture in them, too.
 TEST_F(Photo, WithoutGpanoItIsAPictureOfOneEye) {
   make();
@@ -265,7 +464,7 @@ TEST_F(Photo, ExiftoolFindsTheRightEye) {
   EXPECT_EQ(output_of("exiftool -Warning -Error " + path), "");
   EXPECT_EQ(output_of("exiftool -s3 -XMP-GImage:ImageMimeType -XMP-GPano:ProjectionType " + path),
             "image/jpeg\nequirectangular\n");
-  EXPECT_EQ(output_of("exiftool -b -XMP-GImage:ImageData " + path), read_right_eye(path));
+  EXPECT_EQ(output_of("exiftool -b -XMP-GImage:ImageData " + path), right_eye());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/video/av.h"
+#include "ods/video/tracks/av.h"
 
 #include <gtest/gtest.h>
 

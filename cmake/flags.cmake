@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 The Omnistereo authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# How everything here is compiled.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+find_program(CCACHE ccache)
+if(CCACHE)  # what it asks for where headers are precompiled
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+endif()
+set(precompiled <algorithm> <filesystem> <functional> <optional> <string> <vector> <fmt/format.h> <glm/glm.hpp>)
+
+# The kernel gives the same bits with every compiler: no contraction, nothing that reorders floating point.
+# Release's -O3 rather than -O2 and no errno or traps is where its speed lies.
+add_library(ods_flags INTERFACE)
+target_compile_options(ods_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${ODS_WERROR}>:-Werror>
+  -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds -Wno-restrict
+    -Wno-stringop-overflow -Wno-stringop-overread>)  # it sees ghosts in strings
+target_link_options(ods_flags INTERFACE -Wl,--as-needed)  # a program starts faster without libraries that it never calls
+if(ODS_SANITIZE)  # g++ 12 sees ghosts in <regex>
+  target_compile_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE} -fno-sanitize-recover=all
+    -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_compile_definitions(ods_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  target_link_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE})
+endif()

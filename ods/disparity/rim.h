@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The rim of a fisheye's image circle: where the picture ends and the dark sensor around it begins.
+#pragma once
+#include <optional>
+
+#include "ods/camera/projection.h"
+#include "ods/image/image.h"
+
+namespace ods {
+
+struct Rim {
+  vec2 center{0.0f};  // pixels from the left and top edge
+  float radius = 0.0f;
+  float share = 0.0f;  // of the circle that is in the picture and was seen as a rim, 0..1
+};
+
+// The circle that fits most of the border between a dark surround and the picture, to about a tenth of a pixel where
+// the scene at the rim is bright. Circles may be cut by the image's edges, and their middle need not be its own.
+// Nothing if there is no dark surround with a round border. `image`: 1 channel, as a display shows it, 0..1.
+std::optional<Rim> find_rim(const Image& image);
+
+}  // namespace ods

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/identify/lenses.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ods/base/error.h"
+#include "ods/camera/odd_halves.h"
+#include "ods/disparity/rim.h"
+#include "ods/identify/identify.h"
+#include "ods/identify/pairs.h"
+#include "ods/identify/thumbnail.h"
+#include "ods/picture/load_eyes.h"
+#include "ods/video/container/complete_metadata.h"
+#include "ods/video/video_input.h"
+
+namespace ods {
+
+// --- front and back --------------------------------------------------------------------------------------------------
+
+constexpr float kLeastAlike = 0.5f;
+
+static float sample(const Image& image, vec2 uv) {
+  const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
+  const int x0 = std::clamp(static_cast<int>(x), 0, image.width - 2),
+            y0 = std::clamp(static_cast<int>(y), 0, image.height - 2);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const float top = std::lerp(*image.at(x0, y0), *image.at(x0 + 1, y0), fx);
+  return std::lerp(top, std::lerp(*image.at(x0, y0 + 1), *image.at(x0 + 1, y0 + 1), fx), fy);
+}
+
+namespace {
+
+struct Halves {
+  const Image& first;
+  const Image& second;
+};
+
+}  // namespace
+
+// The correlation of what both lenses see beside them; -1 if that is nothing.
+static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
+  constexpr int kAround = 720, kAcross = 9;
+  const Extent size{halves.first.width, halves.first.height};
+  FisheyeLens back = lenses[1];
+  back.yaw += 180.0f;
+  const auto first = make_map(lenses[0], size), second = make_map(back, size);
+  const float most = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the very rim is dark
+  double count = 0.0, a1 = 0.0, b1 = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  for (int i = 0; i < kAround * kAcross; i++) {
+    const float around = 2.0f * kPi * static_cast<float>(i % kAround) / kAround;
+    const float behind = most * (2.0f * static_cast<float>(i / kAround) / (kAcross - 1) - 1.0f);
+    const vec3 d(std::cos(behind) * std::cos(around), std::cos(behind) * std::sin(around), std::sin(behind));
+    const ImagePoint p = first->place(d), q = second->place(d);
+    if (!p.seen || !q.seen) continue;
+    const double a = static_cast<double>(sample(halves.first, p.uv)),
+                 b = static_cast<double>(sample(halves.second, q.uv));
+    count++, a1 += a, b1 += b, aa += a * a, bb += b * b, ab += a * b;
+  }
+  if (count < kAround) return -1.0f;
+  const double va = aa / count - a1 * a1 / count / count, vb = bb / count - b1 * b1 / count / count;
+  if (!(va > 1e-4 && vb > 1e-4)) return -1.0f;
+  return static_cast<float>((ab / count - a1 * b1 / count / count) / std::sqrt(va * vb));
+}
+
+static void set_fov(std::vector<FisheyeLens>& lenses, float fov) {
+  for (FisheyeLens& lens : lenses) lens.fov = fov;
+}
+
+// One number after the other, in ever smaller steps.
+static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
+  float best = alikeness(halves, lenses);
+  using Change = void (*)(std::vector<FisheyeLens>&, float);
+  const Change kChanges[] = {[](std::vector<FisheyeLens>& l, float by) { set_fov(l, l[0].fov + by); },
+                             [](std::vector<FisheyeLens>& l, float by) { l[1].roll += by; },
+                             [](std::vector<FisheyeLens>& l, float by) { l[1].yaw += by; },
+                             [](std::vector<FisheyeLens>& l, float by) { l[1].pitch += by; }};
+  for (float step = 1.0f; step > 0.04f; step *= 0.5f) {
+    for (int round = 0; round < 3; round++) {
+      for (const Change change : kChanges) {
+        for (const float by : {step, -step}) {
+          std::vector<FisheyeLens> tried = lenses;
+          change(tried, by);
+          if (!(tried[0].fov > 181.0f && tried[0].fov < 280.0f)) continue;
+          const float alike = alikeness(halves, tried);
+          if (alike > best) best = alike, lenses = tried;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+// How much brighter it is above than below, -1..1, in both lenses.
+static float light_from_above(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
+  const Extent size{halves.first.width, halves.first.height};
+  double up = 0.0, all = 0.0;
+  for (const size_t which : {0u, 1u}) {
+    FisheyeLens lens = lenses[which];
+    lens.yaw = lens.pitch = 0.0f;
+    const auto map = make_map(lens, size);
+    const Image& image = which == 0 ? halves.first : halves.second;
+    for (int i = 0; i < 90 * 30; i++) {
+      const float around = 2.0f * kPi * static_cast<float>(i % 90) / 90.0f;
+      const float off = 1.4f * static_cast<float>(i / 90 + 1) / 30.0f;
+      const vec3 d(std::sin(off) * std::cos(around), std::sin(off) * std::sin(around), -std::cos(off));
+      const ImagePoint p = map->place(d);
+      if (!p.seen) continue;
+      const double light = static_cast<double>(sample(image, p.uv)) * std::sin(static_cast<double>(off));
+      up += light * static_cast<double>(d.y), all += light * std::abs(static_cast<double>(d.y));
+    }
+  }
+  return all > 0.0 ? static_cast<float>(up / all) : 0.0f;
+}
+
+// The overlap tells how the lenses are rolled against each other, not which way is up: light comes from there.
+static void turn_upright(const Halves& halves, std::vector<FisheyeLens>& lenses) {
+  const float kLead = 0.15f;  // most cameras store what is above above
+  std::vector<FisheyeLens> best = lenses;
+  float lightest = light_from_above(halves, lenses) + kLead;
+  for (const float roll : {90.0f, 180.0f, 270.0f}) {
+    std::vector<FisheyeLens> turned = lenses;
+    turned[0].roll += roll;
+    // The world turns about the first one's axis; the second one looks the other way.
+    turned[1].roll -= roll;
+    const float c = std::cos(glm::radians(roll)), s = std::sin(glm::radians(roll));
+    const float yaw = turned[1].yaw, pitch = turned[1].pitch;
+    turned[1].yaw = c * yaw + s * pitch, turned[1].pitch = c * pitch - s * yaw;
+    if (alikeness(halves, turned) < 0.8f * alikeness(halves, lenses)) {
+      turned[1].yaw = c * yaw - s * pitch, turned[1].pitch = c * pitch + s * yaw;
+    }
+    const float light = light_from_above(halves, turned);
+    if (light > lightest) lightest = light, best = turned;
+  }
+  lenses = best;
+}
+
+// How alike the halves are where both lenses see, at best; the lenses then say so.
+static float align(const Halves& halves, std::vector<FisheyeLens>& lenses) {
+  std::vector<FisheyeLens> best = lenses;
+  float most = -1.0f;
+  for (const float roll : {0.0f, 90.0f, 180.0f, 270.0f}) {
+    for (float fov = 184.0f; fov <= 230.0f; fov += 2.0f) {
+      std::vector<FisheyeLens> tried = lenses;
+      set_fov(tried, fov);
+      tried[1].roll = roll;
+      const float alike = alikeness(halves, tried);
+      if (alike > most) most = alike, best = tried;
+    }
+  }
+  if (most < 0.3f) return most;
+  lenses = best;
+  return refine(halves, lenses);
+}
+
+std::optional<SeenLenses> find_lenses(const Image& first, const Image& second, float fov) {
+  const std::optional<Rim> rims[] = {find_rim(first), find_rim(second)};
+  if (!rims[0] || !rims[1]) return std::nullopt;
+  if (std::abs(rims[0]->radius / rims[1]->radius - 1.0f) > 0.08f) return std::nullopt;
+  SeenLenses seen;
+  for (const std::optional<Rim>& rim : rims) {
+    FisheyeLens& lens = seen.lenses.emplace_back();
+    lens.center = rim->center, lens.radius = rim->radius, lens.fov = fov;
+  }
+  const Halves halves{first, second};
+  std::vector<FisheyeLens> aligned = seen.lenses;
+  seen.alike = align(halves, aligned);
+  const PointPairs pairs = find_pairs(first, second);
+  const bool is_stereo = pairs.places > 0 && static_cast<double>(pairs.found.size()) > 0.3 * pairs.places;
+  seen.front_and_back = !is_stereo && seen.alike > kLeastAlike;
+  if (!seen.front_and_back && !is_stereo && pairs.places > 0) return std::nullopt;
+  if (!seen.front_and_back) return seen;
+  turn_upright(halves, aligned);
+  seen.lenses = aligned;
+  return seen;
+}
+
+// --- files -----------------------------------------------------------------------------------------------------------
+
+static Image cut(const Image& image, EyeCorner corner, Extent size) {
+  Image part(size.width, size.height, 1);
+  for (int y = 0; y < size.height; y++) std::copy_n(image.at(corner.x, corner.y + y), size.width, part.at(0, y));
+  return part;
+}
+
+// A file, or a frame of one, as one picture; nothing if it cannot be decoded.
+static std::optional<StoredPicture> look_at(const std::string& path) {
+  if (!is_video(path)) return open_whole(path);
+  try {
+    const VideoFile file = read_video_file(path);
+    VideoDecoder decoder(path, choose_track(file, {}, path).id);
+    VideoInput video;
+    video.prototype.size = decoder.stream().size;
+    video.prototype.eyes.resize(1);
+    const std::optional<DecodedFrame> frame = decoder.next();
+    return frame ? std::optional(picture_of(video, decoder.stream(), *frame)) : std::nullopt;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return std::nullopt;
+  }
+}
+
+// Whole pixels become one, so that no place moves.
+static Image smaller(const Image& image, int by) {
+  Image small(image.width / by, image.height / by, 1);
+  for (int y = 0; y < small.height; y++) {
+    for (int x = 0; x < small.width; x++) {
+      float sum = 0.0f;
+      for (int i = 0; i < by * by; i++) sum += std::max(0.0f, *image.at(x * by + i % by, y * by + i / by));
+      *small.at(x, y) = sum / static_cast<float>(by * by);
+    }
+  }
+  return small;
+}
+
+static bool is_inscribed(const FisheyeLens& lens, Extent eye) {
+  const vec2 size(static_cast<float>(eye.width), static_cast<float>(eye.height));
+  const float near = 0.008f * std::min(size.x, size.y);
+  return length(lens.center - 0.5f * size) < near && std::abs(lens.radius - 0.5f * std::min(size.x, size.y)) < near;
+}
+
+static std::string lens_text(const FisheyeLens& lens) {
+  return fmt::format("{:.1f},{:.1f},{:.1f}", lens.center.x, lens.center.y, lens.radius);
+}
+
+// Whether no word tells what the file shows. That of a video which was not stitched (V1) says only what it is not.
+static bool is_untold(const std::string& path, const FormatHint& known) {
+  if (!is_video(path)) return find_format(read_info(path), path, known).is_open;
+  const VideoFile file = read_video_file(path);
+  const VideoTrack& track = choose_track(file, {}, path);
+  const std::optional<SphericalMetadata> said = said_metadata(track);
+  return said ? said->projection == VideoProjection::kOther : is_told_by_shape({}, track, path);
+}
+
+FormatHint with_lenses(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
+  const std::optional<ProjectionSetting> told = known.projection ? known.projection
+                                                : known.seen     ? std::optional(known.seen->projection)
+                                                : read_name(path).projection != nullptr
+                                                    ? std::optional(read_name(path).projection->setting)
+                                                    : std::nullopt;
+  std::optional<Layout> layout = known.layout ? known.layout : known.seen ? known.seen->layout : read_name(path).layout;
+  const bool is_done = !known.lenses.empty() || known.camera || known.one_eye || names_eye(path);
+  if (is_done || (told && !is_fisheye(told->kind)) || (layout && !arrangement_of(*layout).is_halves())) return known;
+  if (!told && !known.front_and_back && !is_untold(path, known)) return known;
+  const std::optional<StoredPicture> whole = look_at(path);
+  if (!whole || whole->size.width < 64 || whole->size.height < 64) return known;
+  const bool is_wide = whole->size.width > whole->size.height;
+  if (!layout) layout = is_wide ? Layout::kSideBySide : Layout::kTopBottom;
+  const std::optional<Extent> eye = unpacked_size(*layout, without_middle(*layout, whole->size));
+  if (!eye) return known;
+  constexpr int kLongest = 1100;  // of a half
+  const int by = 1 + std::max(eye->width, eye->height) / kLongest;
+  const Image grey = grey_eyes(*whole)[0];
+  const auto half = [&](int index) { return shown(smaller(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
+  std::optional<SeenLenses> seen = find_lenses(half(0), half(1), told ? told->fov : 180.0f);
+  if (!seen) return known;
+  if (known.front_and_back && !seen->front_and_back) return known;  // as told, by the edges of the halves
+  for (FisheyeLens& lens : seen->lenses) lens.center *= static_cast<float>(by), lens.radius *= static_cast<float>(by);
+  FormatHint all = known;
+  all.layout = layout;
+  if (seen->front_and_back) {
+    all.front_and_back = true, all.lenses = seen->lenses, all.projection = find_projection("fisheye")->setting;
+    notes.push_back(
+        fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each (--circle {},{}): they agree by "
+                    "{:.2f} where both see",
+                    seen->lenses[0].fov, lens_text(seen->lenses[0]), lens_text(seen->lenses[1]), seen->alike));
+    return all;
+  }
+  if (is_inscribed(seen->lenses[0], *eye) && is_inscribed(seen->lenses[1], *eye)) return known;
+  all.lenses = seen->lenses, all.projection = told ? *told : find_projection("fisheye")->setting;
+  for (FisheyeLens& lens : all.lenses) lens.kind = all.projection->kind;
+  notes.push_back(fmt::format("a pair of fisheyes whose circles do not touch the edges: --circle {},{}",
+                              lens_text(seen->lenses[0]), lens_text(seen->lenses[1])));
+  return all;
+}
+
+}  // namespace ods

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// HEIC and AVIF through libheif, which turns, mirrors and crops them as they say.
+#include <fmt/format.h>
+#include <libheif/heif.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "ods/base/bytes.h"
+#include "ods/image/codec/decoder.h"
+#include "ods/image/format/image_limits.h"
+#include "ods/image/heif_items.h"
+
+namespace ods {
+
+namespace {
+
+struct Free {
+  void operator()(heif_context* context) const { heif_context_free(context); }
+  void operator()(heif_image_handle* handle) const { heif_image_handle_release(handle); }
+  void operator()(heif_image* image) const { heif_image_release(image); }
+  void operator()(heif_decoding_options* options) const { heif_decoding_options_free(options); }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Free>;
+
+// libheif decodes whole pictures: on the first read().
+class HeifDecoder final : public Decoder {
+ public:
+  HeifDecoder(const PictureBytes& file, int view);
+  void read(int begin, int end, size_t first, size_t count, std::byte* to) override;
+
+ private:
+  void check(const heif_error& error) const;
+  void decode();
+
+  std::string name_;
+  std::vector<uint8_t> file_;
+  Owned<heif_context> context_;
+  Owned<heif_image_handle> handle_;
+  Owned<heif_image> image_;
+  const uint8_t* pixels_ = nullptr;
+  size_t stride_ = 0;
+  int bits_ = 8;
+};
+
+HeifItems items_of(const PictureBytes& file) {
+  try {
+    return file.on_disk ? read_heif_items(FileInput(file.name)) : HeifItems();
+  } catch (const MalformedFile& fault) {
+    throw cannot_read(file.name, fault.what());
+  }
+}
+
+HeifDecoder::HeifDecoder(const PictureBytes& file, int view) : name_(file.name), file_(file.size) {
+  const HeifItems items = items_of(file);
+  if (!file.read(0, file_.data(), file_.size())) throw cannot_read(name_, "reading stopped halfway");
+  context_.reset(heif_context_alloc());
+  if (!context_) throw std::bad_alloc();
+  heif_context_set_maximum_image_size_limit(context_.get(), kMaxSide);
+  check(heif_context_read_from_memory_without_copy(context_.get(), file_.data(), file_.size(), nullptr));
+  heif_image_handle* handle = nullptr;
+  if (items.pair.size() == 2) {
+    check(heif_context_get_image_handle(context_.get(), items.pair[static_cast<size_t>(view)], &handle));
+  } else {
+    check(heif_context_get_primary_image_handle(context_.get(), &handle));
+  }
+  handle_.reset(handle);
+  info.width = heif_image_handle_get_width(handle), info.height = heif_image_handle_get_height(handle);
+  check_picture_size(file, info.width, info.height);
+  info.channels = {"R", "G", "B"};
+  if (heif_image_handle_has_alpha_channel(handle)) info.channels.emplace_back("A");
+  bits_ = heif_image_handle_get_luma_bits_per_pixel(handle);
+  info.samples.assign(info.channels.size(), bits_ > 8 ? SampleType::kUint16 : SampleType::kUint8);
+  info.is_pair = items.pair.size() == 2;
+  if (items.fov > 0.0f) info.numbers["heif:fov"] = {items.fov};
+}
+
+void HeifDecoder::check(const heif_error& error) const {
+  if (error.code == heif_error_Ok) return;
+  if (error.code == heif_error_Memory_allocation_error && error.subcode != heif_suberror_Security_limit_exceeded) {
+    throw std::bad_alloc();
+  }
+  if (error.subcode == heif_suberror_Unsupported_codec || error.code == heif_error_Unsupported_filetype) {
+    throw cannot_read(name_, fmt::format("this machine's libheif has no decoder for it ({}); the packages "
+                                         "libheif-plugin-libde265 (HEIC) and libheif-plugin-dav1d (AVIF) are some",
+                                         error.message));
+  }
+  throw cannot_read(name_, fmt::format("the HEIF is damaged or unusual: {}", error.message));
+}
+
+void HeifDecoder::decode() {
+  const bool has_alpha = info.channels.size() == 4, is_deep = bits_ > 8;
+  const heif_chroma chroma = is_deep
+                                 ? (has_alpha ? heif_chroma_interleaved_RRGGBBAA_LE : heif_chroma_interleaved_RRGGBB_LE)
+                                 : (has_alpha ? heif_chroma_interleaved_RGBA : heif_chroma_interleaved_RGB);
+  const Owned<heif_decoding_options> options(heif_decoding_options_alloc());
+  if (!options) throw std::bad_alloc();
+  options->convert_hdr_to_8bit = 0;
+#if LIBHEIF_HAVE_VERSION(1, 16, 0)
+  options->color_conversion_options.preferred_chroma_upsampling_algorithm = heif_chroma_upsampling_bilinear;
+#endif
+  heif_image* image = nullptr;
+  check(heif_decode_image(handle_.get(), &image, heif_colorspace_RGB, chroma, options.get()));
+  image_.reset(image);
+  handle_.reset(), context_.reset();
+  file_ = {};
+  int stride = 0;
+  pixels_ = heif_image_get_plane_readonly(image, heif_channel_interleaved, &stride);
+  stride_ = static_cast<size_t>(stride);
+  const int width = heif_image_get_width(image, heif_channel_interleaved);
+  const int height = heif_image_get_height(image, heif_channel_interleaved);
+  if (pixels_ == nullptr || width != info.width || height != info.height) {
+    throw cannot_read(name_, "the HEIF's pixels are not of the size that it states");
+  }
+}
+
+void HeifDecoder::read(int begin, int end, size_t first, size_t count, std::byte* to) {
+  if (!image_) decode();
+  const size_t channels = info.channels.size(), width = static_cast<size_t>(info.width);
+  const uint32_t most = (1u << bits_) - 1;
+  for (int y = begin; y < end; y++) {
+    const uint8_t* row = pixels_ + static_cast<size_t>(y) * stride_;
+    for (size_t x = 0; x < width; x++) {
+      for (size_t c = first; c < first + count; c++) {
+        const uint8_t* at = row + (x * channels + c) * (bits_ > 8 ? 2 : 1);
+        if (bits_ <= 8) {
+          *to++ = static_cast<std::byte>(*at);
+          continue;
+        }
+        const uint32_t code = std::min(static_cast<uint32_t>(at[0] | at[1] << 8), most);
+        const auto wide = static_cast<uint16_t>((code * 65535u + most / 2) / most);
+        std::memcpy(to, &wide, sizeof wide);
+        to += sizeof wide;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Decoder> open_heif(const PictureBytes& file, int view) {
+  return std::make_unique<HeifDecoder>(file, view);
+}
+
+}  // namespace ods

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Eyes that must turn outwards. What is very far has no parallax; what is nearer has it inwards. So if most of what is
+// far has parallax outwards, one picture is turned against the other, and nobody can look at it without pain: eyes
+// diverge by a degree at most (Shibata et al., "The zone of comfort", 2011).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "ods/lint/checks.h"
+
+namespace ods {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kHighest = 50.0;  // degrees: nearer to the poles, a difference of headings is a small angle
+constexpr double kFar = 0.25;      // the share of the places that is taken for far
+constexpr double kHarmless = 0.4, kPainful = 0.9;  // degrees; told from their middle on
+constexpr size_t kLeast = 20;                      // places
+
+// The parallax that this share of the places is below; its error is a quarter of the spread between its neighbours.
+Difference percentile(std::vector<double> angles, double share) {
+  std::sort(angles.begin(), angles.end());
+  const auto at = [&](double part) {
+    const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(angles.size() - 1);
+    return angles[static_cast<size_t>(std::lround(place))];
+  };
+  const double reach = 1.0 / std::sqrt(static_cast<double>(angles.size()));
+  return {at(share), 0.25 * (at(share + reach) - at(share - reach)), angles.size()};
+}
+
+}  // namespace
+
+void check_divergence(const Subject& subject, double swapped, LintReport& report) {
+  std::vector<double> angles;
+  for (const Match& match : subject.matches.back().found) {
+    const double phi = static_cast<double>(match.phi);
+    if (std::abs(phi) > kHighest * kDegree) continue;
+    angles.push_back((static_cast<double>(match.around) + convergence_at(subject, phi)) / kDegree);
+  }
+  if (angles.size() < kLeast) return skip(report, Check::kConvergence, "not enough detail that both eyes show");
+  judge(report, Check::kConvergence);
+  Difference far = percentile(angles, kFar);
+  const double yaw = -far.size;
+  far.size = std::max(0.0, yaw);
+  const double certainty = certainty_of(far, kHarmless, kPainful) * (1.0 - swapped);
+  if (certainty < 0.1) return;
+  report.findings.push_back(
+      {Fault::kEyesDiverge, certainty,
+       fmt::format("a quarter of {} places has parallax outwards by {:.2f} degrees and more, +-{:.2f}: eyes that look "
+                   "at what is far must diverge by that",
+                   angles.size(), yaw, far.error),
+       "turn the cameras inwards, or turn the picture: " +
+           convert_command(subject, fmt::format("--right-yaw {:.2f}", yaw))});
+}
+
+}  // namespace ods

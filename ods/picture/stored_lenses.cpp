@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/stored_lenses.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ods/base/error.h"
+
+namespace ods {
+
+static Error unreadable(const std::string& path, const std::string& why) {
+  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
+}
+
+FisheyeLens inscribed_lens(Extent eye, float fov) {
+  FisheyeLens lens;
+  lens.center = 0.5f * vec2(static_cast<float>(eye.width), static_cast<float>(eye.height));
+  lens.radius = std::min(lens.center.x, lens.center.y);
+  lens.fov = fov;
+  return lens;
+}
+
+void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path) {
+  constexpr float kUsualFov = 195.0f;  // of cameras that look ahead and back
+  if (known.lenses.empty() && !known.front_and_back) return;
+  if (known.front_and_back && (picture.eyes.size() != 2 || !arrangement_of(picture.layout).is_halves())) {
+    throw unreadable(path, "fisheyes that look ahead and back are two halves: --layout side-by-side or top-bottom");
+  }
+  std::vector<FisheyeLens> lenses = known.lenses;
+  if (lenses.empty()) lenses.push_back(inscribed_lens(picture.size, kUsualFov));
+  lenses.resize(picture.eyes.size(), lenses[0]);
+  if (known.front_and_back) lenses[1].yaw += 180.0f;
+  picture.maps.clear();
+  for (const FisheyeLens& lens : lenses) {
+    if (const std::string fault = lens_fault(lens, picture.size); !fault.empty()) throw unreadable(path, fault);
+    picture.maps.push_back(make_map(lens, picture.size));
+  }
+  picture.front_and_back = known.front_and_back;
+  picture.camera.projection = find_projection(known.front_and_back ? "lat-long" : "vr180")->setting;
+  for (StoredEye& eye : picture.eyes) eye.eye = known.front_and_back ? kMono : eye.eye;
+}
+
+}  // namespace ods

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures and frames as cameras store them: fisheye circles anywhere in the file.
+#pragma once
+#include <string>
+
+#include "ods/picture/stored_picture.h"
+
+namespace ods {
+
+// The lens whose circle touches the nearer edges of an eye's picture.
+FisheyeLens inscribed_lens(Extent eye, float fov);
+
+// Gives the picture the lenses that the caller knows (FormatHint::lenses, front_and_back), if any: its maps, and as its
+// projection the front half or, if they look ahead and back, the whole sphere of one eye. Throws Error(kInput): circles
+// outside the picture; not two halves, if they look ahead and back.
+void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path);
+
+}  // namespace ods

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/stage/upright.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "ods/kernel/surface.h"
+
+namespace ods {
+
+namespace {
+
+constexpr size_t kLeastInstances = 8;
+constexpr float kSlack = 0.01f;  // of the scene's height: things at one height
+
+// What stands on the lowest floor along an axis.
+struct Ground {
+  float standing = 0.0f;  // share of the instances
+  float floor = 0.0f;     // area of the level triangles there, over that of the scene's base
+};
+
+// Each visible instance's box.
+std::vector<Bounds> boxes_of(const Scene& scene) {
+  std::vector<Bounds> boxes;
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    if (is_hidden(scene, i)) continue;
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    Bounds box;
+    for (uint k = 0; k < mesh.vertex_count; k++) {
+      const vec3 p = to_world(instance, scene.vertices[mesh.first_vertex + k].position);
+      box.low = k == 0 ? p : min(box.low, p);
+      box.high = k == 0 ? p : max(box.high, p);
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+// The height at which most boxes stand, and their share.
+std::pair<float, float> common_height(const std::vector<Bounds>& boxes, int axis, float slack) {
+  std::vector<float> lows;
+  for (const Bounds& box : boxes) lows.push_back(box.low[axis]);
+  std::ranges::sort(lows);
+  size_t most = 0, first = 0;
+  float height = 0.0f;
+  for (size_t last = 0; last < lows.size(); last++) {
+    while (lows[last] - lows[first] > slack) first++;
+    if (last - first + 1 <= most) continue;
+    most = last - first + 1;
+    height = lows[last];
+  }
+  return {height, static_cast<float>(most) / static_cast<float>(lows.size())};
+}
+
+float floor_area(const Scene& scene, int axis, float height, float slack) {
+  double area = 0.0;
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    if (is_hidden(scene, i)) continue;
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    for (uint k = 0; k < mesh.triangle_count; k++) {
+      const uvec3 t = scene.triangles[mesh.first_triangle + k];
+      const auto at = [&](uint corner) {
+        return to_world(instance, scene.vertices[mesh.first_vertex + size_t{corner}].position);
+      };
+      const vec3 a = at(t.x), across = cross(at(t.y) - a, at(t.z) - a);
+      const bool level = std::abs(across[axis]) > 0.99f * length(across);
+      if (level && std::abs(a[axis] - height) < 2.0f * slack) area += 0.5 * static_cast<double>(length(across));
+    }
+  }
+  return static_cast<float>(area);
+}
+
+Ground ground_along(const Scene& scene, const std::vector<Bounds>& boxes, const Bounds& bounds, int axis) {
+  const vec3 size = bounds.high - bounds.low;
+  const float slack = kSlack * std::max({size.x, size.y, size.z});
+  const auto [height, share] = common_height(boxes, axis, slack);
+  const float base = size.x * (axis == 1 ? size.z : size.y);
+  return {share, base > 0.0f ? floor_area(scene, axis, height, slack) / base : 0.0f};
+}
+
+}  // namespace
+
+bool lies_on_its_back(const Scene& scene) {
+  constexpr float kMost = 0.5f, kFew = 0.2f, kFloor = 0.5f;
+  constexpr int kY = 1, kZ = 2;
+  const std::vector<Bounds> boxes = boxes_of(scene);
+  if (boxes.size() < kLeastInstances) return false;
+  const Bounds bounds = scene_bounds(scene);
+  const Ground z = ground_along(scene, boxes, bounds, kZ);
+  if (z.standing < kMost || z.floor < kFloor) return false;
+  return ground_along(scene, boxes, bounds, kY).standing < kFew;
+}
+
+}  // namespace ods

@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// HEIC and AVIF that libheif's own encoder writes, pairs of eyes as phones do, and pictures that are stored turned.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ods/base/bytes.h"
+#include "ods/base/error.h"
+#include "ods/image/format/boxes.h"
+#include "ods/image/heif_items.h"
+#include "ods/image/image_file.h"
+#include "ods/image/orientation.h"
+#include "ods/picture/stored_picture.h"
+#include "ods/video/container/video_file.h"
+#include "tests/support/programs.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+class Heif : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string why = missing("heif-enc", "heif-enc --help >/dev/null 2>&1"); !why.empty())
+      GTEST_SKIP() << why;
+  }
+
+  // Red grows to the right, green downwards, and blue is one of the eyes'.
+  void write_png(const std::string& name, Extent size, float blue = 0.2f, int bits = 8) const {
+    FileHeader header;
+    header.width = size.width, header.height = size.height;
+    const SampleType sample = bits > 8 ? SampleType::kUint16 : SampleType::kUint8;
+    header.channels = {{"R", sample}, {"G", sample}, {"B", sample}};
+    AtomicFile file(folder.path(name));
+    write_image(file, header, [&](int y, std::span<float> row) {
+      for (int x = 0; x < size.width; x++) {
+        float* pixel = &row[3 * static_cast<size_t>(x)];
+        pixel[0] = static_cast<float>(x) / static_cast<float>(size.width);
+        pixel[1] = static_cast<float>(y) / static_cast<float>(size.height), pixel[2] = blue;
+      }
+    });
+    file.commit();
+  }
+  Ran encode(const std::string& options, const std::string& from, const std::string& to) const {
+    return run_line("heif-enc " + options + " " + folder.path(from) + " -o " + folder.path(to));
+  }
+  std::string error(const std::string& name) const {
+    try {
+      read_image(folder.path(name));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder;
+};
+
+// The largest difference between two pictures as displays show them, in the mean over all pixels.
+double difference(const Image& a, const Image& b) {
+  EXPECT_EQ(a.pixels.size(), b.pixels.size());
+  double sum = 0.0;
+  for (size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); i++) {
+    sum += std::abs(std::pow(std::max(0.0, double{a.pixels[i]}), 0.45) -
+                    std::pow(std::max(0.0, double{b.pixels[i]}), 0.45));
+  }
+  return sum / static_cast<double>(a.pixels.size());
+}
+
+TEST_F(Heif, HeicAndAvifAreReadAsWhatTheyWereMadeOf) {
+  write_png("a.png", {128, 96});
+  for (const std::string options : {"-q 95", "-A -q 95"}) {
+    const std::string name = options.starts_with("-A") ? "a.avif" : "a.heic";
+    const Ran ran = encode(options, "a.png", name);
+    if (ran.code != 0) GTEST_SKIP() << "skipped: this heif-enc cannot: " << ran.out;
+    const FileInfo info = read_info(folder.path(name));
+    EXPECT_EQ(info.width, 128);
+    EXPECT_EQ(info.height, 96);
+    EXPECT_EQ(info.channels.size(), 3u);
+    EXPECT_FALSE(info.is_pair);
+    EXPECT_LT(difference(read_image(folder.path(name)), read_image(folder.path("a.png"))), 0.02) << name;
+    EXPECT_FALSE(is_video(folder.path(name)));
+    EXPECT_EQ(format_of_file(FileInput(folder.path(name))), FileFormat::kHeif);
+    const std::unique_ptr<RowReader> rows = open_rows(folder.path(name));
+    std::vector<std::byte> bytes(3 * 128 * 2);
+    rows->read(10, 12, 3, bytes.data());
+    EXPECT_NEAR(static_cast<double>(bytes[3 * 64]), 127.5, 8.0);
+  }
+}
+
+TEST_F(Heif, TenBitsStayTenBits) {
+  write_png("a.png", {128, 96}, 0.2f, 16);
+  if (encode("-b 10 -q 95", "a.png", "ten.heic").code != 0) GTEST_SKIP() << "skipped: no encoder of 10 bits";
+  EXPECT_EQ(read_info(folder.path("ten.heic")).samples[0], SampleType::kUint16);
+  EXPECT_LT(difference(read_image(folder.path("ten.heic")), read_image(folder.path("a.png"))), 0.02);
+}
+
+// --- boxes, as phones write them -------------------------------------------------------------------------------------
+
+std::string number(uint64_t value, int bytes) {
+  std::string text;
+  append_number(text, value, static_cast<size_t>(bytes));
+  return text;
+}
+
+// Adds boxes to `meta`, and moves what follows: the places of the pixels are absolute (iloc).
+std::string with_meta(const std::string& file, const std::string& added, const std::string& property = "") {
+  std::string tail, result = file;
+  size_t at = 0;
+  while (file.substr(at + 4, 4) != "meta") at += get_number(file, at, 4);
+  Box meta = std::move(parse_boxes(std::string_view(file).substr(at, get_number(file, at, 4)), tail)[0]);
+  open_box(meta, 4);
+  size_t grown = added.size();
+  if (!property.empty()) {
+    Box& properties = open_child(meta, box_type("iprp"));
+    Box& all = open_child(properties, box_type("ipco"));
+    Box box;
+    all.children.push_back(parse_boxes(property, tail)[0]);
+    const size_t index = all.children.size();
+    Box& associations = *find_child(properties, box_type("ipma"));
+    std::string& body = associations.body;  // of version 0 and small numbers, as heif-enc writes it
+    size_t entry = 8;
+    for (uint64_t i = 0; i < get_number(body, 4, 4); i++) {
+      const uint64_t count = get_number(body, entry + 2, 1);
+      set_number(body, entry + 2, count + 1, 1);
+      body.insert(entry + 3 + count, 1, static_cast<char>(index));
+      entry += 4 + count;
+      grown++;
+    }
+    grown += property.size();
+  }
+  Box* places = find_child(meta, box_type("iloc"));
+  std::string& iloc = places->body;
+  const uint64_t version = get_number(iloc, 0, 1);
+  EXPECT_LE(version, 1u);
+  const uint64_t sizes = get_number(iloc, 4, 2), offset_size = sizes >> 12, length_size = sizes >> 8 & 15,
+                 base_size = sizes >> 4 & 15;
+  size_t item = 8;
+  for (uint64_t i = 0; i < get_number(iloc, 6, 2); i++) {
+    item += version == 1 ? 4 : 2;
+    item += 2;
+    if (base_size > 0)
+      set_number(iloc, item, get_number(iloc, item, base_size) + (get_number(iloc, item, base_size) > 0 ? grown : 0),
+                 base_size);
+    const bool has_base = base_size > 0 && get_number(iloc, item, base_size) > 0;
+    item += base_size;
+    const uint64_t extents = get_number(iloc, item, 2);
+    item += 2;
+    for (uint64_t k = 0; k < extents; k++) {
+      if (!has_base) set_number(iloc, item, get_number(iloc, item, offset_size) + grown, offset_size);
+      item += offset_size + length_size;
+    }
+  }
+  std::string bytes;
+  write_box(meta, bytes);
+  bytes += added;
+  set_number(bytes, 0, bytes.size(), 4);
+  return result.replace(at, get_number(file, at, 4), bytes);
+}
+
+std::string box(const std::string& type, const std::string& body) {
+  return number(body.size() + 8, 4) + type + body;
+}
+
+// Two pictures in one file: heif-enc takes several.
+TEST_F(Heif, APhonesPairHasBothEyes) {
+  write_png("left.png", {128, 96}, 0.1f), write_png("right.png", {128, 96}, 0.8f);
+  const Ran ran = run_line("heif-enc -q 95 " + folder.path("left.png") + " " + folder.path("right.png") + " -o " +
+                           folder.path("a.heic"));
+  if (ran.code != 0) GTEST_SKIP() << "skipped: this heif-enc cannot: " << ran.out;
+  const std::string whole = folder.read("a.heic");
+  const HeifItems plain = read_heif_items(FileInput(folder.path("a.heic")));
+  EXPECT_TRUE(plain.pair.empty());
+  const std::string other = number(plain.primary == 1 ? 2 : 1, 4), primary = number(plain.primary, 4);
+  const std::string group = box("grpl", box("ster", number(0, 4) + number(99, 4) + number(2, 4) + primary + other));
+  // 0.809 of the width: 63.4 degrees.
+  const std::string camera = box("cmin", number(0x1000, 4) + number(static_cast<uint64_t>(0.8096 * 65536), 4) +
+                                             number(32768, 4) + number(32768, 4));
+  folder.write("pair.heic", with_meta(whole, group, camera));
+  const FileInfo info = read_info(folder.path("pair.heic"));
+  EXPECT_TRUE(info.is_pair);
+  const StoredPicture picture = open_picture(folder.path("pair.heic"));
+  ASSERT_EQ(picture.eyes.size(), 2u);
+  EXPECT_EQ(picture.camera.projection.kind, kPerspective);
+  EXPECT_NEAR(picture.camera.projection.fov, 63.4f, 0.1f);
+  EXPECT_NEAR(picture.camera.projection.aspect, 128.0f / 96.0f, 1e-4f);
+  const auto blue = [&](size_t eye) { return static_cast<int>(picture.eyes[eye].layers[0].first[2]); };
+  EXPECT_NEAR(blue(0), 0.1 * 255, 12);
+  EXPECT_NEAR(blue(1), 0.8 * 255, 12);
+  OpenOptions one;
+  one.format.layout = Layout::kSeparate;
+  EXPECT_EQ(open_picture(folder.path("pair.heic"), one).eyes.size(), 1u) << "asked for as one eye";
+  folder.write("turned.heic", with_meta(whole, "", box("irot", number(1, 1))));  // by 90 degrees to the left
+  EXPECT_EQ(read_info(folder.path("turned.heic")).width, 96);
+  const Image turned = read_image(folder.path("turned.heic"));
+  EXPECT_GT(turned.at(48, 4)[0], turned.at(48, 120)[0]) << "what was right is above";
+}
+
+TEST_F(Heif, DamagedOnesAreOneLine) {
+  write_png("a.png", {64, 64});
+  if (encode("-q 90", "a.png", "a.heic").code != 0) GTEST_SKIP() << "skipped: no encoder";
+  const std::string whole = folder.read("a.heic");
+  for (size_t size = 0; size < whole.size(); size += 1 + whole.size() / 60) {
+    folder.write("cut.heic", whole.substr(0, size));
+    const std::string fault = error("cut.heic");
+    EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+    EXPECT_EQ(fault.find("recording"), std::string::npos) << fault;
+  }
+  uint32_t state = 1;
+  for (int i = 0; i < 200; i++) {
+    std::string bytes = whole;
+    for (int k = 0; k <= i % 4; k++) {
+      state = state * 1664525u + 1013904223u;
+      bytes[16 + (state >> 8) % (bytes.size() - 16)] = static_cast<char>(state >> 24);
+    }
+    folder.write("damaged.heic", bytes);
+    error("damaged.heic");
+  }
+  // A picture of a billion pixels in a file of a thousand bytes.
+  std::string bomb = whole;
+  for (size_t at = bomb.find("ispe"); at != std::string::npos; at = bomb.find("ispe", at + 1)) {
+    bomb.replace(at + 8, 8, number(32768, 4) + number(32768, 4));
+  }
+  folder.write("bomb.heic", bomb);
+  EXPECT_NE(error("bomb.heic"), "");
+}
+
+TEST(HeifNames, OtherFilesThatBeginAlikeAreCalledByTheirNames) {
+  const TemporaryFolder folder;
+  const auto words = [&](const std::string& bytes) {
+    folder.write("a.bin", bytes);
+    try {
+      read_image(folder.path("a.bin"));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(words(std::string("\0\0\0\x18", 4) + "ftypcrx " + std::string(20, '\0')).find("Canon"), std::string::npos);
+  EXPECT_NE(words("GIF89a" + std::string(20, '\0')).find("GIF"), std::string::npos);
+  EXPECT_NE(words(std::string("\xff\x0a") + std::string(20, '\0')).find("JPEG XL"), std::string::npos);
+  EXPECT_EQ(words(std::string("\0\0\0\x18", 4) + "ftypheic" + std::string(12, '\0')).find("recording"),
+            std::string::npos);
+}
+
+// --- odd sides -------------------------------------------------------------------------------------------------------
+
+// Somebody has cut off a column or a row, at either end: the eyes are halves all the same, and as far apart.
+TEST(OddSides, EyesAreHalvesWithoutTheMiddle) {
+  const TemporaryFolder folder;
+  for (const bool stacked : {false, true}) {
+    for (const bool at_end : {false, true}) {
+      const Extent size = stacked ? Extent{64, 127} : Extent{127, 64};
+      FileHeader header;
+      header.width = size.width, header.height = size.height;
+      header.channels = {{"R", SampleType::kUint8}, {"G", SampleType::kUint8}, {"B", SampleType::kUint8}};
+      const std::string path = folder.path(stacked ? "a_TB.png" : "a_LR.png");
+      AtomicFile file(path);
+      const int cut = at_end ? 0 : 1;
+      write_image(file, header, [&](int y, std::span<float> row) {
+        for (int x = 0; x < size.width; x++) {
+          const int along = (stacked ? y : x) + cut, place = along % 64;  // in the eye
+          float* pixel = &row[3 * static_cast<size_t>(x)];
+          pixel[0] = static_cast<float>(place) / 255.0f, pixel[2] = along >= 64 ? 1.0f : 0.0f;
+        }
+      });
+      file.commit();
+      const StoredPicture picture = open_picture(path);
+      ASSERT_EQ(picture.eyes.size(), 2u);
+      EXPECT_EQ(picture.size.width, stacked ? 64 : 63);
+      EXPECT_EQ(picture.size.height, stacked ? 63 : 64);
+      const auto codes = [&](size_t eye, int at) {
+        const LayerPixels& layer = picture.eyes[eye].layers[0];
+        const std::byte* pixel = layer.first + at * (stacked ? layer.row_stride : layer.pixel_stride);
+        return std::pair(static_cast<int>(pixel[0]), static_cast<int>(pixel[2]));
+      };
+      for (const int at : {0, 31, 62}) {
+        EXPECT_EQ(codes(0, at), std::pair(at + cut, 0)) << stacked << at_end << at;
+        EXPECT_EQ(codes(1, at), std::pair(at + cut, 255)) << stacked << at_end << at;
+      }
+    }
+  }
+}
+
+// --- stored turned ---------------------------------------------------------------------------------------------------
+
+TEST(Orientation, PicturesAreReadAsProgramsShowThem) {
+  if (const std::string why = missing("exiftool", "exiftool -ver"); !why.empty()) GTEST_SKIP() << why;
+  const TemporaryFolder folder;
+  FileHeader header;
+  header.format = FileFormat::kJpeg;
+  header.width = 48, header.height = 32;
+  header.channels = {{"R", SampleType::kUint8}, {"G", SampleType::kUint8}, {"B", SampleType::kUint8}};
+  header.quality = 100;
+  {
+    AtomicFile file(folder.path("a.jpg"));
+    write_image(file, header, [](int y, std::span<float> row) {
+      for (size_t x = 0; x < 48; x++)
+        row[3 * x] = static_cast<float>(x) / 48.0f, row[3 * x + 1] = static_cast<float>(y) / 32.0f;
+    });
+    file.commit();
+  }
+  // Where red (the right of the stored picture) and green (its bottom) come to be: right 0, bottom 1, left 2, top 3.
+  const int red[] = {0, 2, 2, 0, 1, 1, 3, 3}, green[] = {1, 1, 3, 3, 0, 2, 2, 0};
+  for (int orientation = 1; orientation <= 8; orientation++) {
+    const std::string path = folder.path("turned.jpg");
+    std::filesystem::remove(path);
+    ASSERT_EQ(
+        run_line("exiftool -n -Orientation=" + std::to_string(orientation) + " " + folder.path("a.jpg") + " -o " + path)
+            .code,
+        0);
+    EXPECT_EQ(orientation_of(FileInput(path)), orientation);
+    const Image image = read_image(path);
+    EXPECT_EQ(image.width, orientation >= 5 ? 32 : 48);
+    const auto side = [&](int channel) {
+      const float ends[] = {image.at(image.width - 2, image.height / 2)[channel],
+                            image.at(image.width / 2, image.height - 2)[channel],
+                            image.at(1, image.height / 2)[channel], image.at(image.width / 2, 1)[channel]};
+      return static_cast<int>(std::max_element(ends, ends + 4) - ends);
+    };
+    EXPECT_EQ(side(0), red[orientation - 1]) << orientation;
+    EXPECT_EQ(side(1), green[orientation - 1]) << orientation;
+    EXPECT_EQ(open_picture(path, {}).size.width, image.width);
+  }
+}
+
+}  // namespace
+}  // namespace ods
