@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/video/container/boxes.h"
+#include "ods/image/format/boxes.h"
 
 namespace ods {
 
