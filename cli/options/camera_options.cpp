@@ -58,26 +58,6 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
   add_projection_options(options, camera.stereo.projection);
 }
 
-void add_place_options(Options& options, CameraOptions& camera) {
-  options.group("Camera");
-  options.text(
-      "--camera", "NAME", camera.view_point,
-      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
-      "a speck");
-  add_position_option(options, camera);
-}
-
-void add_camera_options(Options& options, CameraOptions& camera) {
-  add_place_options(options, camera);
-  add_attitude_options(options, camera);
-}
-
-void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
-  options.group("Camera");
-  add_position_option(options, camera);
-  add_attitude_options(options, camera);
-}
-
 void take_camera(CameraOptions& camera, const ForeignScene& scene) {
   if (!scene.camera) return;
   const StereoCamera& own = scene.camera->camera;
@@ -92,7 +72,7 @@ void take_camera(CameraOptions& camera, const ForeignScene& scene) {
   camera.stereo.bottom = own.bottom;
 }
 
-void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender) {
+static void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender) {
   std::vector<std::string> warnings;
   StereoCamera own;
   if (is_foreign_scene(path)) {
@@ -106,6 +86,35 @@ void take_camera_file(CameraOptions& camera, const std::string& path, const Blen
   for (const std::string& warning : warnings) note(warning);
   camera.position = own.position;
   camera.yaw = own.yaw, camera.pitch = own.pitch, camera.roll = own.roll;
+}
+
+static void add_view_options(Options& options, CameraOptions& camera) {
+  options.text(
+      "--camera", "NAME", camera.view_point,
+      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
+      "a speck");
+  add_position_option(options, camera);
+}
+
+void add_place_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  add_view_options(options, camera);
+}
+
+void add_camera_options(Options& options, CameraOptions& camera, const BlenderOptions& blender) {
+  options.group("Camera");
+  options.custom(
+      "--camera-from", ValueKind::input_file(), "",
+      [&](const std::string& path) { take_camera_file(camera, path, blender); },
+      "take the camera, its place too, from a .blend, a .camera.json or a picture that carries it");
+  add_view_options(options, camera);
+  add_attitude_options(options, camera);
+}
+
+void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
+  options.group("Camera");
+  add_position_option(options, camera);
+  add_attitude_options(options, camera);
 }
 
 void finish_camera_options(CameraOptions& camera, int width, int& height) {

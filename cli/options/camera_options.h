@@ -33,18 +33,15 @@ struct CameraOptions {
 // Parses a position X,Y,Z. name: of the option, for the message. Throws UsageError.
 ods::vec3 parse_point(const std::string& name, const std::string& word);
 
-// add_place_options() adds --camera and --position. add_camera_options() adds these, then the orientation, the eyes and
-// the projection.
+// add_place_options() adds --camera and --position. add_camera_options() adds --camera-from, which the others change
+// (it reads a .blend with that Blender), these, then the orientation, the eyes and the projection.
 void add_place_options(Options& options, CameraOptions& camera);
-void add_camera_options(Options& options, CameraOptions& camera);
+void add_camera_options(Options& options, CameraOptions& camera, const BlenderOptions& blender);
 // Likewise without --camera, where no scene could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
 // The lens, the tilt and, if it has any, the eyes of a foreign scene's camera. Its place is that of the view point.
 void take_camera(CameraOptions& camera, const ForeignScene& scene);
-
-// The camera, with its place, of a .blend (blender: what converts it), a .camera.json or a picture. Throws ods::Error.
-void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender);
 
 // Checks the options as a whole, reads the maps, and finds the height of the picture if it is 0. Throws UsageError
 // and ods::Error.

@@ -105,14 +105,6 @@ void check_rig(const Options& options, const RenderJob& job) {
 
 }  // namespace
 
-void add_camera_from_option(Options& options, RenderJob& job) {
-  options.group("Camera");
-  options.custom(
-      "--camera-from", ValueKind::input_file(), "",
-      [&](const std::string& path) { take_camera_file(job.camera, path, job.scene.blender); },
-      "take the camera, its place too, from a .blend, a .camera.json or a picture that carries it");
-}
-
 void take_foreign(RenderJob& job, const ForeignScene& scene) {
   take_camera(job.camera, scene);
   if (scene.fps) job.time.fps = *scene.fps;
@@ -159,8 +151,7 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_foreign(job, scene); });
   add_light_options(options, job.scene.light);
   add_picture_options(options, job);
-  add_camera_from_option(options, job);
-  add_camera_options(options, job.camera);
+  add_camera_options(options, job.camera, job.scene.blender);
   add_time_options(options, job.time);
   add_quality_options(options, job, quality);
   add_long_options(options, job);

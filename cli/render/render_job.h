@@ -45,9 +45,6 @@ void add_exposure_option(Options& options, RenderJob& job);
 // The exposure with --brighter, within what --exposure takes: rounded, so that printed it is the same number.
 float brightened(float exposure, float brighter);
 
-// Adds --camera-from; options that are added later change what it takes.
-void add_camera_from_option(Options& options, RenderJob& job);
-
 // What a scene of another program says of camera and time: the default of the options.
 void take_foreign(RenderJob& job, const ForeignScene& scene);
 

@@ -45,8 +45,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   add_picture_options(options, render.render, render.save);
   add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
-  add_camera_from_option(options, render);
-  add_camera_options(options, render.camera);
+  add_camera_options(options, render.camera, render.scene.blender);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);
   options.group("Console");
