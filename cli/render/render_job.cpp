@@ -101,6 +101,10 @@ void check_rig(const Options& options, const RenderJob& job) {
 
 }  // namespace
 
+bool gives(const RenderJob& job, std::string_view option) {
+  return std::ranges::any_of(job.given, [&](const GivenWord& word) { return word.name == option; });
+}
+
 void add_exposure_option(Options& options, RenderJob& job) {
   options.custom(
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
