@@ -36,8 +36,7 @@ constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
 // What suits the light, as ods render chooses it.
-float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera, bool is_ours) {
-  if (is_ours) return 0.0f;
+float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera) {
   const ods::Picture look = render_cpu(scene, ods::first_look_camera(camera), ods::first_look({}));
   return ods::suitable_exposure({&look, 1}).value_or(0.0f);
 }
@@ -113,7 +112,9 @@ Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& sc
   if (source.foreign) take_camera(camera, *source.foreign);
   settings.sidecar.camera = place_camera(camera, scene);
   settings.live.camera = settings.sidecar.camera;
-  settings.live.exposure = usual_exposure(scene, settings.live.camera, ods::find_builtin(source.name) != nullptr);
+  const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;
+  settings.live.exposure = needs_none ? 0.0f : usual_exposure(scene, settings.live.camera);
+  if (scene.as_painted) settings.live.tone = ods::ToneCurve::kLinear;
   settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;
   settings.variant = source.variant;
   return settings;
@@ -274,7 +275,7 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
-  if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
+  if (settings_.live.tone != usual_.live.tone) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
   add("--width", fmt::format("{}", settings_.width));
   return words;
 }

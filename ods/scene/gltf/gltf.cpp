@@ -115,7 +115,9 @@ static Scene read_scene(GltfFile& file, const SceneOptions& options) {
   choose_variant(file, scene, options.variant);
   read_materials(file, scene);
   decode_meshes(file, scene);
-  const Places places = read_nodes(file, scene, options, find_animated_nodes(file));
+  const AnimatedNodes animated = find_animated_nodes(file);
+  const Places places = read_nodes(file, scene, options, animated);
+  find_losses(file, scene, animated);
   read_image_light(file, scene, options.scene);
   read_clips(file, scene, places);
   warn_of_undrawn(file, scene);
