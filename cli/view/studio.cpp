@@ -263,6 +263,12 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (source_.solid_glass) words.emplace_back("--solid-glass");
   if (source_.portable) words.emplace_back("--portable");
   if (source_.unit != "auto") add("--unit", source_.unit);
+  const auto add_member = [&](const char* option, const auto& table, auto member) {
+    if (static_cast<int>(member) != 0) add(option, std::string(name_in(table, member)));
+  };
+  add_member("--as", ods::kTakenForTable, source_.taken_for);
+  add_member("--up", ods::kUpAxisTable, source_.up);
+  add_member("--light-unit", ods::kLampUnitTable, source_.light.lamp_unit);
   if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
   if (settings_.environment != "auto") {
     add("--env", is_shown ? settings_.environment : environment_of(settings_.environment));
@@ -275,7 +281,8 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
-  if (settings_.live.tone != usual_.live.tone) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
+  const ods::ToneCurve usual_tone = scene_->as_painted ? ods::ToneCurve::kLinear : ods::ToneCurve::kNeutral;
+  if (settings_.live.tone != usual_tone) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
   add("--width", fmt::format("{}", settings_.width));
   return words;
 }
