@@ -272,7 +272,11 @@ const std::set<std::string> kOthers = {"--output",
                                        "--merge-map-inverted",
                                        "--head-tilt-map",
                                        "--sensor",
-                                       "--lens-polynomial"};
+                                       "--lens-polynomial",
+                                       "--bake",
+                                       "--blender",
+                                       "--blender-limit",
+                                       "--camera-from"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
   ASSERT_EQ(run("video --help"), 0);
