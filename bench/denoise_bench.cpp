@@ -16,6 +16,7 @@
 #include "bench/subjects.h"
 #include "ods/denoise/denoise.h"
 #include "ods/kernel/camera/project.h"
+#include "ods/kernel/random.h"
 #include "ods/render/cpu/render.h"
 
 namespace {
@@ -174,6 +175,43 @@ void flicker(benchmark::State& state, const std::string& name, int width, int sa
   }
 }
 
+// The same of a picture whose indirect light comes out of a cache that each frame fills anew, over that of a picture of
+// whole paths. The camera turns, or moves by 2 cm between frames.
+void flicker_of_cache(benchmark::State& state, const std::string& name, bool moves) {
+  Stage stage = load_stage(name);
+  std::vector<StereoCamera> cameras;
+  std::vector<Picture> frames[2];
+  RenderOptions options;
+  options.width = 256, options.samples = 16, options.statistics = true, options.cache_paths = 1 << 19;
+  for (uint32_t frame = 0; frame < 4; frame++) {
+    if (moves) stage.camera.position.z -= 0.02f;
+    if (!moves) stage.camera.yaw += 0.6f;
+    cameras.push_back(stage.camera);
+    for (const Indirect indirect : {Indirect::kPath, Indirect::kCache}) {
+      options.indirect = indirect;
+      options.seed = hash_pair(1, frame);
+      frames[indirect == Indirect::kCache].push_back(render_cpu(stage.scene, stage.camera, options, {}));
+    }
+  }
+  for (auto _ : state) {
+    double apart[2];
+    for (const bool cached : {false, true}) {
+      std::vector<Picture> denoised;
+      for (const size_t i : {size_t{1}, size_t{2}}) {
+        const std::vector<Picture>& raw = frames[cached];
+        const std::vector<FrameBeside> both{{raw[i - 1], cameras[i - 1], {}}, {raw[i + 1], cameras[i + 1], {}}};
+        DenoiseOptions denoising;
+        denoising.beside = both;
+        denoise(denoised.emplace_back(raw[i]), cameras[i], denoising);
+      }
+      apart[cached] = difference_of({denoised[0].eyes[0], make_camera(cameras[1])},
+                                    {denoised[1].eyes[0], make_camera(cameras[2])}, shown);
+    }
+    state.counters["path"] = apart[0];
+    state.counters["cache_over_path"] = apart[1] / apart[0];
+  }
+}
+
 // Both eyes 4096x2048. Peak memory is that of the process: the picture with its statistics needs 940 MB.
 void large_picture(benchmark::State& state) {
   const Stage stage = load_stage("toys");
@@ -207,6 +245,15 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(("flicker/" + std::string(name)).c_str(), run)
         ->Iterations(1)
         ->Unit(benchmark::kSecond);
+  }
+  for (const char* name : {"atrium", "room"}) {
+    for (const bool moves : {false, true}) {
+      const auto run = [=](benchmark::State& state) { flicker_of_cache(state, name, moves); };
+      benchmark::RegisterBenchmark(
+          ("flicker_of_cache/" + std::string(name) + (moves ? "/dolly" : "/turntable")).c_str(), run)
+          ->Iterations(1)
+          ->Unit(benchmark::kSecond);
+    }
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

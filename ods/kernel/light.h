@@ -3,8 +3,11 @@
 //
 // Picks a light and a point on it, and gives the pdf (probability density) with which sampling would have found the
 // light that a given ray hits.
-// Lights are picked in proportion to their power from Walker's alias table,
-// which the host builds (ods/render/lights.h).
+// Suns, the environment, and all other lights as one are picked in proportion to their power, from Walker's alias
+// table, which the host builds (ods/render/lights.h). Among the others a tree decides, which the host builds, too: a
+// binary tree whose nodes know where their lights are, which way they shine, and their power. On the way down a random
+// number chooses at each node between its two children, in proportion to what they may bring to the surface.
+// Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/bsdf.h"
@@ -15,6 +18,37 @@ namespace ods {
 const float kChanceBesidePortals = 0.05f;
 
 const float kFarAway = 1e30f;  // distance of the environment and of directional lights
+
+const int kTreeRoot = 0;
+const int kTreeOfLights = -1;     // LightPick::light: whichever the tree picks
+const float kLeastFacing = 0.1f;  // of a light that a surface hardly faces: normals may be bent
+
+// A surface as a light sees it.
+struct Receiver {
+  vec3 position;
+  vec3 normal;  // 0: it takes light from both sides
+};
+
+struct TreePick {
+  int light;
+  float probability;  // 0: the tree's lights bring nothing
+};
+
+// What the node's lights may bring to the receiver. A light shines below 90 degrees from the way it faces; `spread` and
+// the angle under which the node is seen make that wider. It is 0 only where no light of the node shines.
+inline float node_importance(LightNode node, Receiver receiver) {
+  vec3 to_node = node.center - receiver.position;
+  float radius2 = node.radius * node.radius;
+  float distance2 = max(dot(to_node, to_node), max(radius2, 1e-20f));
+  float scale = 1.0f / sqrt(distance2);
+  float seen = node.radius * scale;
+  float along = dot(node.axis, to_node) * scale;
+  float power = node.power * clamp(node.spread + seen - along, 0.0f, 1.0f) +
+                node.back_power * clamp(node.spread + seen + along, 0.0f, 1.0f);
+  bool one_sided = receiver.normal != vec3(0.0f);
+  if (one_sided) power = power * clamp(dot(receiver.normal, to_node) * scale + seen, kLeastFacing, 1.0f);
+  return min(power / distance2, 1e30f);
+}
 
 struct LightSample {
   vec3 direction;  // towards the light, unit length
@@ -70,6 +104,50 @@ inline vec3 direction_in_cone(vec3 axis, float cosine, vec2 uv) {
 #ifdef __cplusplus
 struct LightSampler : BsdfEvaluator {
 #endif
+
+  // The share of the first of two children that are next to each other. If neither brings anything, by power.
+  inline float share_of_first(int first, Receiver receiver) {
+    float one = node_importance(scene_light_node(first), receiver);
+    float other = node_importance(scene_light_node(first + 1), receiver);
+    if (one + other > 0.0f) return one / (one + other);
+    one = scene_light_node(first).power + scene_light_node(first).back_power;
+    other = scene_light_node(first + 1).power + scene_light_node(first + 1).back_power;
+    return one / (one + other);
+  }
+
+  // draw: uniform in [0, 1). Precondition: there is a tree.
+  inline TreePick pick_in_tree(Receiver receiver, float draw) {
+    TreePick pick;
+    pick.light = 0;
+    pick.probability = 1.0f;
+    int node = kTreeRoot;
+    while (scene_light_node(node).child >= 0) {
+      int first = scene_light_node(node).child;
+      float share = share_of_first(first, receiver);
+      bool is_first = draw < share;
+      draw = min(is_first ? draw / share : (draw - share) / (1.0f - share), 0.9999999f);
+      pick.probability = pick.probability * (is_first ? share : 1.0f - share);
+      node = is_first ? first : first + 1;
+    }
+    pick.light = -1 - scene_light_node(node).child;
+    return pick;
+  }
+
+  // The probability with which pick_in_tree() finds the light at the end of this way.
+  inline float probability_in_tree(LightWay way, Receiver receiver) {
+    uint bits = way.bits;
+    float probability = 1.0f;
+    int node = kTreeRoot;
+    while (scene_light_node(node).child >= 0) {
+      int first = scene_light_node(node).child;
+      float share = share_of_first(first, receiver);
+      bool is_first = (bits & 1u) == 0u;
+      probability = probability * (is_first ? share : 1.0f - share);
+      node = is_first ? first : first + 1;
+      bits = bits >> 1u;
+    }
+    return probability;
+  }
 
   inline vec3 environment_texel(EnvironmentInfo info, int x, int y) {
     int column = wrap_texel(x, info.width, kWrapRepeat);
@@ -191,16 +269,20 @@ struct LightSampler : BsdfEvaluator {
     return texel_or_portal_pdf(info, direction, portal_pdf(from, direction));
   }
 
-  // Pdf with which sample_light() finds the triangle that a ray hit at this distance.
-  inline float hit_light_pdf(Hit hit, vec3 direction, float distance) {
+  // Pdf with which sample_light() finds the triangle that a ray from the receiver hit at this distance.
+  inline float hit_light_pdf(Hit hit, Receiver receiver, vec3 direction, float distance) {
     Instance instance = instance_now(hit.instance);
     if (instance.first_light < 0) return 0.0f;
     Triangle triangle = triangle_of(instance, corners_of(hit));
-    float pick = scene_light(instance.first_light + hit.triangle).probability;
+    int light = instance.first_light + hit.triangle;
+    float pick = scene_light(light).probability;
+    if (!(pick > 0.0f)) return 0.0f;
+    pick = pick * probability_in_tree(scene_light_way(light), receiver);
     return triangle_pdf(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
   }
 
-  inline LightSample sample_triangle(Light light, vec3 from, vec2 uv) {
+  // pick: the probability of the light.
+  inline LightSample sample_triangle(Light light, float pick, vec3 from, vec2 uv) {
     float root = sqrt(uv.x);
     Hit hit;
     hit.t = 0.0f;
@@ -218,7 +300,7 @@ struct LightSampler : BsdfEvaluator {
     result.end = offset_point(point, normalize(dot(area, to_light) > 0.0f ? -area : area));
     result.distance = length(to_light);
     result.direction = to_light * (1.0f / max(result.distance, 1e-20f));
-    result.pdf = triangle_pdf(light.probability, area, result.direction, result.distance);
+    result.pdf = triangle_pdf(pick, area, result.direction, result.distance);
     result.valid = result.pdf > 0.0f;
     Material material = scene_material(scene_mesh(instance.mesh).material);
     result.radiance = emission_at(material, k, dot(area, result.direction) * handedness_of(instance) < 0.0f);
@@ -232,14 +314,14 @@ struct LightSampler : BsdfEvaluator {
   }
 
   // A light with a size is a sphere of even radiance, or a disc in the sky. Its solid angle times its radiance is what
-  // it would bring as a point, times 2 / (1 + cosine of its half angle).
-  inline LightSample sample_punctual(Light light, vec3 from, vec2 uv) {
+  // it would bring as a point, times 2 / (1 + cosine of its half angle). pick: the probability of picking it.
+  inline LightSample sample_punctual(Light light, float pick, vec3 from, vec2 uv) {
     LightSample result = no_light();
     result.valid = true;
     result.distance = kFarAway;
     result.direction = -light.direction;
     result.end = light.position;
-    result.radiance = light.intensity * (1.0f / light.probability);
+    result.radiance = light.intensity * (1.0f / pick);
     if (light.kind == kLightDirectional) {
       if (light.size <= 0.0f) return result;
       float cosine = cos(light.size);
@@ -305,14 +387,23 @@ struct LightSampler : BsdfEvaluator {
 
   // pick chooses the light, cell a texel of an environment, uv the point on the light; all are uniform in [0, 1).
   // Precondition: at least one light has power.
-  inline LightSample sample_light(vec3 from, vec2 pick, vec2 cell, vec2 uv) {
+  inline LightSample sample_light(Receiver receiver, vec2 pick, vec2 cell, vec2 uv) {
     int count = scene_light_pick_count();
-    int index = min(int(pick.x * float(count)), count - 1);
+    float place = pick.x * float(count);
+    int index = min(int(place), count - 1);
     LightPick slot = scene_light_pick(index);
-    Light light = scene_light(pick.y < slot.threshold ? slot.light : slot.alias);
-    if (light.kind == kLightTriangle) return sample_triangle(light, from, uv);
-    if (light.kind == kLightEnvironment) return sample_environment(from, cell, uv);
-    return sample_punctual(light, from, uv);
+    int picked = pick.y < slot.threshold ? slot.light : slot.alias;
+    float probability = 1.0f;
+    if (picked == kTreeOfLights) {
+      TreePick among = pick_in_tree(receiver, place - float(index));
+      picked = among.light;
+      probability = among.probability;
+    }
+    Light light = scene_light(picked);
+    probability = probability * light.probability;
+    if (light.kind == kLightTriangle) return sample_triangle(light, probability, receiver.position, uv);
+    if (light.kind == kLightEnvironment) return sample_environment(receiver.position, cell, uv);
+    return sample_punctual(light, probability, receiver.position, uv);
   }
 
 #ifdef __cplusplus

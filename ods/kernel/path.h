@@ -50,6 +50,8 @@ struct PathTracer : LightCacheReader {
     path.passed = 0;
     path.pdf = 0.0f;
     path.travelled = 0.0f;
+    path.receiver.position = ray.origin;
+    path.receiver.normal = vec3(0.0f);
     path.media = media;
     path.shadow_media = media;
     path.wave = -1;
@@ -179,6 +181,7 @@ struct PathTracer : LightCacheReader {
     path.other_pdf = found.pdf;
     if (path.both_see && path.bounce == 0) share_scattered(found);
     path.travelled = 0.0f;
+    path.receiver = receiver_of(surface);
     path.passed = 0;
     if (found.through && surface.volume) {
       path.media = beyond;
@@ -294,7 +297,8 @@ struct PathTracer : LightCacheReader {
     if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
       if (path.mirrored) note_hit(surface, hit.t, false);
       path.mirrored = false;
-      float light_pdf = hit_light_pdf(hit, path.ray.direction, path.travelled + hit.t);
+      float light_pdf = 0.0f;
+      if (path.pdf > 0.0f) light_pdf = hit_light_pdf(hit, path.receiver, path.ray.direction, path.travelled + hit.t);
       meet_light(settings, emission_seen(surface, hit), light_pdf);
     }
     go_on(surface, hit.t);
@@ -348,7 +352,9 @@ struct PathTracer : LightCacheReader {
       surface.emission = emission_seen(surface, hit);
       if (path.bounce == 0 && scene_instance(hit.instance).role == kDimmedLamp)
         surface.emission = dimmed(surface.emission);
-      meet_light(settings, surface.emission, hit_light_pdf(hit, path.ray.direction, distance));
+      float light_pdf = 0.0f;
+      if (path.pdf > 0.0f) light_pdf = hit_light_pdf(hit, path.receiver, path.ray.direction, distance);
+      meet_light(settings, surface.emission, light_pdf);
     }
     // The wall of a volume inside a denser volume.
     if (volume && beyond == medium) {

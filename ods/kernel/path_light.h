@@ -42,7 +42,8 @@ struct PathState {
   int bounce;
   int passed;  // surfaces passed through since the last bounce
   float pdf;   // of the ray's direction; 0: the camera or a mirror chose it, and light sampling could not have found it
-  float travelled;  // distance from the last bounce to the ray's origin
+  float travelled;    // distance from the last bounce to the ray's origin
+  Receiver receiver;  // the surface of the last bounce
   Media media;
   int wave;         // the one colour of a path that dispersion has split; -1: all
   int chosen_wave;  // at a surface that splits colours: the one that the path keeps if it is refracted; else -1
@@ -103,9 +104,9 @@ const float kSeenLamp = 0.6f;
 // none, 1/4 reaches a given noise soonest on interiors (./run bench, equal noise).
 const float kRouletteThreshold = 0.25f;
 
-// The number of lights that the first surface considers for its shadow ray; it chooses one by the light that it would
-// bring. A room with several lamps reaches equal noise in four fifths of the time that a single candidate takes; deeper
-// surfaces gain nothing.
+// The most lights that the first surface considers for its shadow ray, one for each sun, the environment and the tree
+// of all others; it chooses one by the light that it would bring. More from the tree cost more than they bring, as do
+// more than one at deeper surfaces.
 const int kLightCandidates = 3;
 
 // The pairs of random numbers of a path: pair 0 places the sample in its pixel, one places it on the lens, one in the
@@ -206,8 +207,8 @@ struct PathLight : MediumReader {
       meet_light(settings, background_radiance(path.ray.direction), 0.0f);
     } else {
       if (path.mirrored) path.normal = path.albedo = vec3(0.0f);
-      vec3 from = path.ray.origin - path.ray.direction * path.travelled;
-      meet_light(settings, environment_radiance(path.ray.direction), environment_pdf(from, path.ray.direction));
+      meet_light(settings, environment_radiance(path.ray.direction),
+                 environment_pdf(path.receiver.position, path.ray.direction));
     }
     path.alive = false;
   }
@@ -305,7 +306,15 @@ struct PathLight : MediumReader {
     path.shadow_pending = path.shadow_length > 0.0f;
   }
 
-  // Leaves a shadow ray towards a light: of several picked by power, it chooses one by the light that it would bring
+  inline Receiver receiver_of(Surface surface) {
+    bool both_sides = surface.transmission > 0.0f || (surface.layered && surface_layers.diffuse_transmission > 0.0f);
+    Receiver receiver;
+    receiver.position = surface.position;
+    receiver.normal = both_sides ? vec3(0.0f) : surface.normal;
+    return receiver;
+  }
+
+  // Leaves a shadow ray towards a light: of several that are picked, it chooses one by the light that it would bring
   // here.
   // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
   inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, Media beyond) {
@@ -316,10 +325,10 @@ struct PathLight : MediumReader {
     LightSample chosen = no_light();
     vec3 chosen_light = vec3(0.0f);
     float chosen_brightness = 0.0f;
+    Receiver receiver = receiver_of(surface);
     for (int i = 0; i < candidates; i++) {
       uint pair = kLightPair + 3u * uint(i);
-      LightSample light =
-          sample_light(surface.position, path_random(pair), path_random(pair + 1u), path_random(pair + 2u));
+      LightSample light = sample_light(receiver, path_random(pair), path_random(pair + 1u), path_random(pair + 2u));
       if (!light.valid) continue;
       vec3 arriving = unshadowed_light(settings, bsdf, light);
       float brightness = luminance(arriving) * light.chance;

@@ -10,6 +10,22 @@
 namespace ods {
 #endif
 
+// A node of the tree of lights (ods/kernel/light.h).
+struct LightNode {
+  vec3 center;  // of a sphere around its lights
+  float radius;
+  vec3 axis;         // unit vector: the middle of the directions that they face
+  float spread;      // sine of how far from the axis they face at most; 2 from 90 degrees on
+  float power;       // that they send to the side that they face,
+  float back_power;  // and to the other
+  int child;         // the first of two, which are next to each other; negative: -1 - the only light
+};
+
+// The way from the root to each light: bit i is the child, 0 or 1, that follows after i others.
+struct LightWay {
+  uint bits;
+};
+
 // Tables that the host computes once (ods/render/tables.h), all in one array of floats.
 const int kSrgbTable = 0;  // 256 entries: an 8-bit sRGB value -> linear
 const int kSrgbSize = 256;
@@ -51,6 +67,8 @@ struct SceneView {
   const Light* lights = nullptr;
   const LightPick* light_picks = nullptr;
   int light_pick_count = 0;
+  const LightNode* light_nodes = nullptr;
+  const LightWay* light_ways = nullptr;  // by light
   EnvironmentInfo environment = {};
   EnvironmentInfo background = {};
   const EnvironmentTexel* environment_texels = nullptr;
@@ -77,6 +95,8 @@ struct SceneView {
   uint scene_reduced_texel(uint i) const { return reduced_texels[i]; }
   const Light& scene_light(int i) const { return lights[i]; }
   const LightPick& scene_light_pick(int i) const { return light_picks[i]; }
+  const LightNode& scene_light_node(int i) const { return light_nodes[i]; }
+  const LightWay& scene_light_way(int i) const { return light_ways[i]; }
   int scene_light_pick_count() const { return light_pick_count; }
   const EnvironmentInfo& scene_environment() const { return environment; }
   const EnvironmentInfo& scene_background() const { return background; }
@@ -89,5 +109,6 @@ struct SceneView {
   uint scene_cache_mask() const { return cache_mask; }
   vec3 scene_cache_viewer() const { return cache_viewer; }
 };
+static_assert(sizeof(LightNode) == 44 && sizeof(LightWay) == 4);
 }  // namespace ods
 #endif

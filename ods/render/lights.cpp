@@ -10,6 +10,7 @@
 #include "ods/kernel/light.h"
 #include "ods/render/tables.h"
 #include "ods/scene/placement.h"
+#include "ods/scene/sheet_glass.h"
 
 namespace ods {
 
@@ -89,6 +90,16 @@ static Light make_punctual(const PunctualLight& source) {
   return light;
 }
 
+namespace {
+
+// Something that the alias table picks: a light, or the tree.
+struct WeighedLight {
+  int light;
+  double power;
+};
+
+}  // namespace
+
 static double punctual_power(const PunctualLight& source, double scene_radius) {
   const double pi = std::acos(-1.0);
   const double strength = luminance(source.intensity);
@@ -97,7 +108,11 @@ static double punctual_power(const PunctualLight& source, double scene_radius) {
   return strength * 4.0 * pi;
 }
 
-static double triangle_power(LightSampler& reader, const Scene& scene, int instance_index, int triangle) {
+// The triangle as the tree sees it, or without power.
+static TreeLight triangle_in_tree(LightSampler& reader, const Scene& scene, bool closed, int instance_index,
+                                  int triangle) {
+  constexpr double kInside = 0.01;  // of the light: the viewer may be inside of what is closed
+  TreeLight result;
   Hit hit{0.0f, 0.0f, 0.0f, instance_index, triangle};
   const Instance& instance = scene.instances[static_cast<size_t>(instance_index)];
   const Material& material =
@@ -105,7 +120,7 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
   const auto place = reader.triangle_of(instance, reader.corners_of(hit));
   const vec3 area = 0.5f * cross(place.ab, place.ac);
   const float size = length(area);
-  if (!(size > 0.0f) || !std::isfinite(size)) return 0.0;
+  if (!(size > 0.0f) || !std::isfinite(size)) return result;
   double brightness = 0.0;
   for (int i = 0; i < 16; i++) {
     const float root = std::sqrt((static_cast<float>(i / 4) + 0.5f) / 4.0f);
@@ -114,10 +129,18 @@ static double triangle_power(LightSampler& reader, const Scene& scene, int insta
     hit.v = root * across;
     brightness += luminance(reader.emission_at(material, reader.corners_of(hit), true)) / 16.0;
   }
-  return brightness * static_cast<double>(size) * std::acos(-1.0) * (material.double_sided == 1 ? 2.0 : 1.0);
+  const vec3 corners[] = {place.a + place.ab, place.a + place.ac};
+  result.bounds = {place.a, place.a};
+  for (const vec3 corner : corners) {
+    result.bounds = {min(result.bounds.low, corner), max(result.bounds.high, corner)};
+  }
+  result.axis = area * (handedness_of(instance) / size);
+  result.power = brightness * static_cast<double>(size) * std::acos(-1.0);
+  if (material.double_sided == 1) result.back_power = result.power * (closed ? kInside : 1.0);
+  return result;
 }
 
-static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<double>& powers) {
+static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<TreeLight>& tree) {
   // Reads textures through the kernel, so that they have the same meaning here and there.
   LightSampler reader;
   set_scene(reader, scene, table);
@@ -127,12 +150,15 @@ static void add_triangle_lights(const Scene& scene, LightTable& table, std::vect
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
     if (!is_emissive(material) || is_hidden(scene, i)) continue;
     table.instances[i].first_light = static_cast<int>(table.lights.size());
+    const bool closed = table.closed[static_cast<size_t>(scene.instances[i].mesh)] != 0;
     for (uint t = 0; t < mesh.triangle_count; t++) {
+      TreeLight in_tree = triangle_in_tree(reader, scene, closed, static_cast<int>(i), static_cast<int>(t));
+      in_tree.light = static_cast<int>(table.lights.size());
+      if (in_tree.power > 0.0) tree.push_back(in_tree);
       Light light = blank_light(kLightTriangle);
       light.instance = static_cast<int>(i);
       light.triangle = static_cast<int>(t);
       table.lights.push_back(light);
-      powers.push_back(triangle_power(reader, scene, static_cast<int>(i), static_cast<int>(t)));
     }
   }
 }
@@ -167,16 +193,39 @@ static void read_background(const Scene& scene, LightTable& table) {
   }
 }
 
-static void add_environment_light(double scene_radius, LightTable& table, std::vector<double>& powers) {
+// Points and spots join the tree, suns do not.
+static void add_punctual_lights(const Scene& scene, double scene_radius, LightTable& table,
+                                std::vector<TreeLight>& tree, std::vector<WeighedLight>& picks) {
+  for (const PunctualLight& source : scene.lights) {
+    const double power = punctual_power(source, scene_radius);
+    if (!(power > 0.0)) continue;
+    const int index = static_cast<int>(table.lights.size());
+    table.lights.push_back(make_punctual(source));
+    if (source.kind == kLightDirectional) {
+      picks.push_back({index, power});
+      continue;
+    }
+    const bool spot = source.kind == kLightSpot;
+    tree.push_back({index,
+                    {source.position - source.size, source.position + source.size},
+                    spot ? source.direction : vec3(0.0f, 0.0f, 1.0f),
+                    spot ? static_cast<double>(source.outer_cone) : std::acos(-1.0),
+                    power,
+                    0.0});
+  }
+}
+
+static void add_environment_light(double scene_radius, LightTable& table, std::vector<WeighedLight>& picks) {
   table.environment.light = -1;
   // The weights are radiance times solid angle; the scene's cross-section receives all of it.
   double power = table.environment_power * std::acos(-1.0) * scene_radius * scene_radius;
   if (!(power > 0.0)) return;
-  const double others = std::accumulate(powers.begin(), powers.end(), 0.0);
+  double others = 0.0;
+  for (const WeighedLight& pick : picks) others += pick.power;
   if (others > 0.0) power = std::min(power, others);
   table.environment.light = static_cast<int>(table.lights.size());
+  picks.push_back({table.environment.light, power});
   table.lights.push_back(blank_light(kLightEnvironment));
-  powers.push_back(power);
 }
 
 void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
@@ -196,6 +245,8 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.reduced_texels = reduced ? scene.reduced_texels.data() : view.texels;
   view.lights = lights.lights.data();
   view.light_picks = lights.picks.data();
+  view.light_nodes = lights.tree.nodes.data();
+  view.light_ways = lights.tree.ways.data();
   view.light_pick_count = static_cast<int>(lights.picks.size());
   view.environment = lights.environment;
   view.background = scene.background ? lights.background : lights.environment;
@@ -211,19 +262,18 @@ void set_scene(SceneView& view, const Scene& scene, const LightTable& lights) {
   view.tables = kernel_tables(needs).data();
 }
 
-// Most triangles of a mesh with small lamps are dark: without them, the table is small enough for the cache.
-static void fill_picks(const std::vector<double>& powers, LightTable& table) {
-  std::vector<int> shining;
+static void fill_picks(const std::vector<WeighedLight>& wanted, const std::vector<TreeLight>& tree, LightTable& table) {
   std::vector<double> weights;
-  for (size_t i = 0; i < powers.size(); i++) {
-    if (!(powers[i] > 0.0)) continue;
-    shining.push_back(static_cast<int>(i));
-    weights.push_back(powers[i]);
-  }
+  for (const WeighedLight& each : wanted) weights.push_back(each.power);
   const std::vector<AliasEntry> entries = make_alias_table(weights);
   for (size_t i = 0; i < entries.size(); i++) {
-    table.lights[static_cast<size_t>(shining[i])].probability = entries[i].probability;
-    table.picks.push_back({shining[i], entries[i].threshold, shining[static_cast<size_t>(entries[i].alias)]});
+    const float probability = entries[i].probability;
+    table.picks.push_back({wanted[i].light, entries[i].threshold, wanted[static_cast<size_t>(entries[i].alias)].light});
+    if (wanted[i].light != kTreeOfLights) {
+      table.lights[static_cast<size_t>(wanted[i].light)].probability = probability;
+    } else {
+      for (const TreeLight& light : tree) table.lights[static_cast<size_t>(light.light)].probability = probability;
+    }
   }
 }
 
@@ -231,22 +281,30 @@ void update_lights(const Scene& scene, LightTable& table) {
   table.instances = scene.instances;
   table.lights.clear();
   table.picks.clear();
-  std::vector<double> powers;
+  std::vector<TreeLight> tree;
+  std::vector<WeighedLight> picks;
   const Bounds bounds = scene_bounds(scene);
   const double radius = std::max(0.5 * static_cast<double>(length(bounds.high - bounds.low)), 1e-3);
-  add_triangle_lights(scene, table, powers);
-  for (const PunctualLight& source : scene.lights) {
-    const double power = punctual_power(source, radius);
-    if (!(power > 0.0)) continue;
-    table.lights.push_back(make_punctual(source));
-    powers.push_back(power);
+  add_triangle_lights(scene, table, tree);
+  add_punctual_lights(scene, radius, table, tree, picks);
+  double power = 0.0;
+  for (const TreeLight& light : tree) power += light.power + light.back_power;
+  if (power > 0.0) picks.push_back({kTreeOfLights, power});
+  add_environment_light(radius, table, picks);
+  fill_picks(picks, tree, table);
+  table.tree = make_light_tree(std::move(tree), table.lights.size());
+}
+
+static void find_closed_emitters(const Scene& scene, LightTable& table) {
+  for (const Mesh& mesh : scene.meshes) {
+    const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+    table.closed.push_back(is_emissive(material) && material.double_sided == 1 && is_closed(scene, mesh));
   }
-  add_environment_light(radius, table, powers);
-  fill_picks(powers, table);
 }
 
 LightTable make_lights(const Scene& scene) {
   LightTable table;
+  find_closed_emitters(scene, table);
   read_environment(scene, table);
   read_background(scene, table);
   update_lights(scene, table);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's lights as the kernel picks them: in proportion to their power.
+// The scene's lights as the kernel picks them: by their power, or by what they may bring to a surface.
 #pragma once
 #include <vector>
 
@@ -10,9 +10,30 @@
 
 namespace ods {
 
+// A light that the tree is to hold.
+struct TreeLight {
+  int light = 0;  // its index among all lights
+  Bounds bounds;
+  vec3 axis{0.0f, 0.0f, 1.0f};  // unit vector: the direction that it faces, or the middle of several
+  double open = 0.0;            // radians: how far from the axis it faces at most; pi: all around
+  double power = 0.0;           // that it sends to the side that it faces,
+  double back_power = 0.0;      // and to the other; one of them is positive
+};
+
+struct LightTree {
+  std::vector<LightNode> nodes;  // the first is the root; empty: no light is in it
+  std::vector<LightWay> ways;    // by the index of the light
+};
+
+// Splits where the parts are small, bright and of one direction (Conty Estevez and Kulla 2018); the same lights make
+// the same tree. count: of all lights.
+LightTree make_light_tree(std::vector<TreeLight> lights, size_t count);
+
 struct LightTable {
   std::vector<Light> lights;  // each emissive triangle, each punctual light, and the environment last
   std::vector<LightPick> picks;
+  LightTree tree;            // of all lights that have a place
+  std::vector<char> closed;  // by mesh: emitters whose light does not leave by their backs
   std::vector<EnvironmentTexel> environment_texels;
   std::vector<AliasEntry> environment_rows;
   EnvironmentInfo environment;

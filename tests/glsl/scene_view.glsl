@@ -13,6 +13,8 @@ layout(buffer_reference, scalar) readonly buffer MaterialLayersArray { MaterialL
 layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
 layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
 layout(buffer_reference, scalar) readonly buffer Lights { Light at[]; };
+layout(buffer_reference, scalar) readonly buffer LightNodes { LightNode at[]; };
+layout(buffer_reference, scalar) readonly buffer LightWays { LightWay at[]; };
 layout(buffer_reference, scalar) readonly buffer LightPicks { LightPick at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
@@ -41,6 +43,8 @@ struct View {
   Texels reduced_texels;
   Lights lights;
   LightPicks light_picks;
+  LightNodes light_nodes;
+  LightWays light_ways;
   EnvironmentTexels environment_texels;
   EnvironmentRows environment_rows;
   Portals portals;
@@ -74,6 +78,8 @@ Texture scene_reduced_texture(int i) { return view.reduced_textures.at[i]; }
 uint scene_reduced_texel(uint i) { return view.reduced_texels.at[i]; }
 Light scene_light(int i) { return view.lights.at[i]; }
 LightPick scene_light_pick(int i) { return view.light_picks.at[i]; }
+LightNode scene_light_node(int i) { return view.light_nodes.at[i]; }
+LightWay scene_light_way(int i) { return view.light_ways.at[i]; }
 int scene_light_pick_count() { return view.light_pick_count; }
 EnvironmentInfo scene_environment() { return view.environment; }
 EnvironmentInfo scene_background() { return view.background; }

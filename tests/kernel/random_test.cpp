@@ -260,6 +260,8 @@ Scene lit_scene() {
   return scene;
 }
 
+const Receiver kHere{vec3(0.0f), vec3(0.0f)};
+
 LightSampler reader_of(const Scene& scene, const LightTable& table) {
   LightSampler kernel;
   set_scene(kernel, scene, table);
@@ -288,12 +290,12 @@ TEST(Density, Lights) {
   LightSampler kernel = reader_of(scene, table);
   const auto draw = [&](Dice& dice, bool environment) {
     const vec2 pick = dice.pair();
-    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair(), dice.pair());
+    const LightSample light = kernel.sample_light(kHere, pick, dice.pair(), dice.pair());
     return light.valid && (light.distance > 1e29f) == environment ? light.direction : vec3(0.0f);
   };
   const auto triangles = [&](vec3 w) {
     const Hit hit = meet_lamp(kernel, w);
-    return hit.t < 0.0f ? 0.0 : double{kernel.hit_light_pdf(hit, w, hit.t)};
+    return hit.t < 0.0f ? 0.0 : double{kernel.hit_light_pdf(hit, kHere, w, hit.t)};
   };
   const auto environment = [&](vec3 w) { return double{kernel.environment_pdf(vec3(0.0f), w)}; };
   EXPECT_GT(density_p(32, triangles, [&](Dice& dice) { return draw(dice, false); }), significance(2));
@@ -312,7 +314,7 @@ TEST(Density, SkyThroughPortals) {
   kernel.portal_count = 3;
   const auto draw = [&](Dice& dice) {
     const vec2 pick = dice.pair();
-    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair(), dice.pair());
+    const LightSample light = kernel.sample_light(kHere, pick, dice.pair(), dice.pair());
     return light.valid && light.distance > 1e29f ? light.direction : vec3(0.0f);
   };
   const auto density = [&](vec3 w) { return double{kernel.environment_pdf(vec3(0.0f), w)}; };
@@ -328,7 +330,7 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
   int lamps = 0;
   for (int i = 0; i < 10000; i++) {
     const vec2 pick = dice.pair();
-    const LightSample light = kernel.sample_light(vec3(0.0f), pick, dice.pair(), dice.pair());
+    const LightSample light = kernel.sample_light(kHere, pick, dice.pair(), dice.pair());
     ASSERT_TRUE(light.valid);
     ASSERT_NEAR(length(light.direction), 1.0f, 1e-6f);
     if (light.distance > 1e29f) {
@@ -338,7 +340,7 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
       lamps++;
       EXPECT_NEAR(light.distance, hit.t, 1e-5f);
       EXPECT_EQ(light.radiance, vec3(2.0f, 3.0f, 1.0f));
-      EXPECT_NEAR(kernel.hit_light_pdf(hit, light.direction, hit.t) / light.pdf, 1.0f, 1e-4f);
+      EXPECT_NEAR(kernel.hit_light_pdf(hit, kHere, light.direction, hit.t) / light.pdf, 1.0f, 1e-4f);
     }
   }
   EXPECT_GT(lamps, 1000);

@@ -97,6 +97,22 @@ TEST(SameLight, SingleSidedMirroredLamp) {
   expect_same_light(scene);
 }
 
+// Lamps all over a room: balls, of which the backs are dark or not seen, and panels that shine to one side. A tree picks
+// among their triangles.
+TEST(SameLight, ManyLamps) {
+  Material ball = glowing(vec3(3.0f)), panel = glowing(vec3(5.0f));
+  panel.double_sided = 0;
+  Scene scene = room(matte(vec3(0.6f)), glowing(vec3(0.5f)));
+  const int balls = add_material(scene, ball), panels = add_material(scene, panel);
+  Dice dice(3);
+  for (int i = 0; i < 12; i++) {
+    const vec3 at(dice.between(-1.8f, 1.8f), dice.between(-0.8f, 1.0f), dice.between(-1.8f, 1.8f));
+    if (i % 2 == 0) add_sphere(scene, at, 0.1f, balls, 4);
+    if (i % 2 == 1) add_rectangle(scene, at, vec3(0.2f, 0.1f, 0), vec3(0, 0.1f, 0.2f), panels);
+  }
+  expect_same_light(scene, 256);
+}
+
 TEST(SameLight, SkyOverAPlasticFloor) {
   expect_same_light(sky(rough(0.0f, 0.5f, 0.0f, false)), 128);
 }

@@ -160,6 +160,59 @@ TEST(CachedLight, StrangeScenesAreFinite) {
   }
 }
 
+// Mean light of the cache's picture over that of whole paths.
+double cached_over_path(const Scene& scene, const StereoCamera& camera, RenderOptions options) {
+  const Picture fast = render_cpu(scene, camera, options);
+  for (const float value : fast.eyes[0].radiance.pixels) EXPECT_TRUE(std::isfinite(value));
+  options.indirect = Indirect::kPath;
+  return mean_over_eyes(fast, 1) / mean_over_eyes(render_cpu(scene, camera, options), 1);
+}
+
+// Solid glass lets light pass unbent, as drafts have it: else no shadow ray would reach the lamp.
+TEST(CachedLight, ALampInsideGlassInsideAClosedBox) {
+  Scene scene;
+  add_box(scene, vec3(-2, -1, -2), vec3(2, 1.5f, 2), add_material(scene, matte(vec3(0.7f))));
+  Material glass = matte(vec3(1.0f));
+  glass.roughness = 0.0f;
+  glass.ior = 1.5f;
+  glass.transmission = 1.0f;
+  glass.thickness = 1.0f;
+  add_sphere(scene, vec3(0, 0.5f, -1), 0.3f, add_material(scene, glass), 8);
+  add_sphere(scene, vec3(0, 0.5f, -1), 0.1f, add_material(scene, matte(vec3(0.0f), vec3(30.0f))), 6);
+  RenderOptions options = cached(32, 128);
+  options.caustics = Caustics::kStraight;
+  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, options), 1.0, 0.02);
+}
+
+// A room of 6 m, open towards a landscape of 2 km, from inside and from 300 m away: cells of centimetres and of metres.
+TEST(CachedLight, ARoomInALandscape) {
+  Scene scene = room();
+  scene.instances.erase(scene.instances.begin());  // a wall
+  const int grass = add_material(scene, matte(vec3(0.2f, 0.4f, 0.1f)));
+  add_rectangle(scene, vec3(-1000, -1.3f, 1000), vec3(2000, 0, 0), vec3(0, 0, -2000), grass);
+  scene.environment.radiance = vec3(0.5f);
+  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 256)), 1.0, 0.02);
+  StereoCamera far;
+  far.position = vec3(0, 40, 300);
+  EXPECT_NEAR(cached_over_path(scene, far, cached(32, 64)), 1.0, 0.02);
+}
+
+// From a bright room through a doorway into a dark one: each frame has the light of its place, also within the wall.
+TEST(CachedLight, ACameraThatFliesFromRoomToRoom) {
+  Scene scene;
+  const int white = add_material(scene, matte(vec3(0.7f)));
+  add_box(scene, vec3(-6, -1.2f, -2), vec3(6, 1.4f, 2), white);
+  add_rectangle(scene, vec3(0, -1.2f, -2), vec3(0, 2.6f, 0), vec3(0, 0, 1.5f), white);
+  add_rectangle(scene, vec3(0, -1.2f, 0.5f), vec3(0, 2.6f, 0), vec3(0, 0, 1.5f), white);
+  add_rectangle(scene, vec3(-3, 1.3f, -0.5f), vec3(1, 0, 0), vec3(0, 0, 1),
+                add_material(scene, matte(vec3(0.0f), vec3(5.0f))));
+  for (const float x : {-3.0f, -0.2f, 0.0f, 0.2f, 3.0f}) {
+    StereoCamera camera;
+    camera.position = vec3(x, 0, 0);
+    EXPECT_NEAR(cached_over_path(scene, camera, cached(32, 256)), 1.0, 0.02) << x;
+  }
+}
+
 TEST(CachedLight, SameBitsForAnyThreads) {
   const Scene scene = room();
   RenderOptions options = cached(32, 16);
