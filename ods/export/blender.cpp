@@ -150,7 +150,7 @@ class Script {
     const bool wide = eyes.how == EyePacking::kBeside;
     const bool high = eyes.how == EyePacking::kStacked && !eyes.right_first;
     if (!wide && !high) {
-      warn(fmt::format("Blender is not told the layout {}; top-bottom stands in", layout_name(file_.layout)));
+      warn(fmt::format("Blender is not told the layout {}; using top-bottom instead", layout_name(file_.layout)));
     }
     line("packing.display_mode = \"{}\"", wide ? "SIDEBYSIDE" : "TOPBOTTOM");
     line("packing.use_squeezed_frame = {}", eyes.squeezed ? "True" : "False");

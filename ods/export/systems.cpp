@@ -90,7 +90,7 @@ CameraExport to_ospray(const Sidecar& file) {
   warnings = lacking(file, {.system = "OSPRay", .tilt = true, .partial = true});
   std::string_view mode = mode_name(file, {"none", "left", "right", "sideBySide", "topBottom"});
   if (mode.empty()) {
-    warnings.push_back(no_layout(file, "OSPRay") + "; topBottom stands in");
+    warnings.push_back(no_layout(file, "OSPRay") + "; using topBottom instead");
     mode = "topBottom";
   }
   warn_of_projection(file, "OSPRay", warnings);
@@ -144,7 +144,7 @@ VrCamera vr_camera(const Sidecar& file, std::vector<std::string>& warnings) {
                   90.0f,
                   90.0f};
   if (camera.mode.empty()) {
-    warnings.push_back(no_layout(file, "Arnold") + "; over_under stands in");
+    warnings.push_back(no_layout(file, "Arnold") + "; using over_under instead");
     camera.mode = "over_under";
   }
   if (stereo.projection.kind == kCube3x2) camera.projection = "cubemap_3x2";

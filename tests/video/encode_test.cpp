@@ -311,7 +311,7 @@ TEST_F(Encode, TenRunsAreTheSameBytes) {
         for (int run = 0; run < 10; run++) {
           mallopt(M_PERTURB, 25 * run);
           options.threads = run % 3;
-          files.insert(noisy_video(folder, side, side <= 64 ? 90 : 24, options));
+          files.insert(noisy_video(folder, side, side <= 64 ? 45 : 10, options));
         }
         mallopt(M_PERTURB, 0);
         EXPECT_EQ(files.size(), 1u) << encoder << " " << side << (bitrate ? " with a bit rate" : "");

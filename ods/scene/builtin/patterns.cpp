@@ -16,11 +16,14 @@ float hash01(int x, int y, uint seed) {
 float noise(vec2 p, int period, uint seed) {
   const vec2 cell = floor(p);
   const vec2 t = smoothstep(vec2(0.0f), vec2(1.0f), p - cell);
-  const auto corner = [&](int dx, int dy) {
-    const int x = (static_cast<int>(cell.x) + dx) % period, y = (static_cast<int>(cell.y) + dy) % period;
-    return hash01(x < 0 ? x + period : x, y < 0 ? y + period : y, seed);
+  const auto wrapped = [&](float at) {
+    const int rest = static_cast<int>(at) % period;
+    return rest < 0 ? rest + period : rest;
   };
-  return mix(mix(corner(0, 0), corner(1, 0), t.x), mix(corner(0, 1), corner(1, 1), t.x), t.y);
+  const auto after = [&](int at) { return at + 1 == period ? 0 : at + 1; };
+  const int x = wrapped(cell.x), y = wrapped(cell.y), right = after(x), below = after(y);
+  return mix(mix(hash01(x, y, seed), hash01(right, y, seed), t.x),
+             mix(hash01(x, below, seed), hash01(right, below, seed), t.x), t.y);
 }
 
 float fractal_noise(vec2 p, int period, int octaves, uint seed) {

@@ -73,20 +73,19 @@ Scene room() {
 
 TEST(CachedLight, AgreesWithPaths) {
   const Scene scene = room();
-  RenderOptions options = cached(64, 512);
-  options.eyes = Eyes::kBothEyes;
-  options.cache_paths = 1 << 20;
+  RenderOptions options = cached(64, 160);
+  options.cache_paths = 1 << 19;
   const Picture fast = render_cpu(scene, StereoCamera{}, options);
   options.indirect = Indirect::kPath;
   const Picture exact = render_cpu(scene, StereoCamera{}, options);
   for (int c = 0; c < 3; c++) EXPECT_NEAR(mean_over_eyes(fast, c) / mean_over_eyes(exact, c), 1.0, 0.01);
-  // Blocks of 8x8 pixels: noise and cache together.
-  for (int y = 0; y < 32; y += 8) {
-    for (int x = 0; x < 64; x += 8) {
+  // Blocks of 16x16 pixels: noise and cache together.
+  for (int y = 0; y < 32; y += 16) {
+    for (int x = 0; x < 64; x += 16) {
       double a = 0.0, b = 0.0;
-      for (int i = 0; i < 64; i++) {
-        a += double{fast.eyes[0].radiance.at(x + i % 8, y + i / 8)[1]};
-        b += double{exact.eyes[0].radiance.at(x + i % 8, y + i / 8)[1]};
+      for (int i = 0; i < 256; i++) {
+        a += double{fast.eyes[0].radiance.at(x + i % 16, y + i / 16)[1]};
+        b += double{exact.eyes[0].radiance.at(x + i % 16, y + i / 16)[1]};
       }
       EXPECT_NEAR(a / b, 1.0, 0.06) << x << "," << y;
     }
