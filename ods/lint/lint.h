@@ -35,7 +35,7 @@ struct NotJudged {
 struct LintOptions {
   std::optional<Layout> layout;                 // none: that of guess_layout()
   std::optional<ProjectionSetting> projection;  // none: that of the file, its sidecar or its name, else lat-long
-  std::vector<FisheyeLens> lenses;              // as in FormatHint: then the eyes are judged as they are when unwrapped
+  std::vector<FisheyeLens> lenses{};            // as in FormatHint: then the eyes are judged as they are when unwrapped
 };
 
 struct LintReport {

@@ -27,6 +27,7 @@ struct Cone {
 
 Cone cone_around(Cone a, Cone b) {
   if (a.open < b.open) std::swap(a, b);
+  if (a.open >= pi) return a;
   const double apart = std::acos(std::clamp(glm::dot(a.axis, b.axis), -1.0, 1.0));
   if (apart + b.open <= a.open) return a;
   const double open = 0.5 * (a.open + apart + b.open);
@@ -106,8 +107,9 @@ Split best_split(std::span<const TreeLight> lights) {
     }
     Group before;
     for (int i = 1; i < kBins; i++) {
+      if (bins[i - 1].count == 0) continue;  // as the plane before
       before.add(bins[i - 1]);
-      if (before.count == 0 || after[i].count == 0) continue;
+      if (after[i].count == 0) break;
       const double cost = longest / size[axis] * (before.cost() + after[i].cost());
       if (cost < least) least = cost, best = {axis, low[axis] + size[axis] * i / kBins};
     }
@@ -118,6 +120,7 @@ Split best_split(std::span<const TreeLight> lights) {
 // Puts the first child's lights in front. Returns their number: between 1 and all but one.
 size_t divide(std::span<TreeLight> lights, int depth) {
   const size_t half = lights.size() / 2;
+  if (lights.size() == 2) return half;
   if (static_cast<int>(std::bit_width(lights.size() - 1)) >= kDeepest - depth) return half;
   const Split split = best_split(lights);
   if (split.axis < 0) return half;

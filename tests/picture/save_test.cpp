@@ -77,6 +77,8 @@ float tolerance(FileFormat format) {
       return 0.6f;
     case FileFormat::kExr:
       return 0.05f;
+    case FileFormat::kHeif:
+      break;  // is read only
   }
   return 0.0f;
 }

@@ -109,7 +109,9 @@ TEST(Unseen, TheCameraSeesTheSkyThroughIt) {
         for (int x = 0; x < 32; x++) {
           EXPECT_NEAR(*eye.radiance.at(x, 0), 0.5f, 1e-5f) << role << pane;
           EXPECT_EQ(*eye.normal.at(x, 0), 0.0f);
-          if (!pane) EXPECT_EQ(*eye.depth.at(x, 0), kFarDepth);
+          if (!pane) {
+            EXPECT_EQ(*eye.depth.at(x, 0), kFarDepth);
+          }
         }
       }
     }
