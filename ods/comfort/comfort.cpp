@@ -59,7 +59,8 @@ class Judge {
   struct Point {
     bool is_shown = false;
     double solid_angle = 0.0;
-    double elevation = 0.0, azimuth = 0.0, distance = kFar, vergence = 0.0;
+    double elevation = 0.0, azimuth = 0.0, distance = kFar, half_parallax = 0.0, vergence = 0.0;
+    double across = 0.0, height = 0.0;  // from the circle's axis, above its plane
     std::array<double, 4> strains{};
     ComfortLevel level = ComfortLevel::kOk;
   };
@@ -70,6 +71,7 @@ class Judge {
   void rate(Point& point) const;
   Strain worst_of(const Point& point) const;
   double rank_of(const Point& point) const;
+  double circle_for(const Point& point) const;
   StrainedPlace describe(const Point& point, double share) const;
   void list_places(ComfortReport& report) const;
 
@@ -79,6 +81,7 @@ class Judge {
   bool is_whole_turn() const {
     return camera_.projection.kind == kLatLong && std::abs(double{camera_.projection.span.x} - 2.0 * pi) < 1e-4;
   }
+  double gaze() const { return double{options_.viewer.gaze_degrees} * kDegree; }
   vec3 look_at(int x, int y) const {
     const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width_),
                   (static_cast<float>(y) + 0.5f) / static_cast<float>(height_));
@@ -114,17 +117,17 @@ void Judge::place(int x, int y) {
   const Ray ray = camera_ray(camera_, seen_.eye, uv);
   const vec3 away = ray.origin + ray.direction * depth - camera_.center;
   const vec3 local(dot(away, camera_.right), dot(away, camera_.up), dot(away, camera_.back));
-  const double half = half_parallax_of(camera_, seen_.eye, look, local);
+  const double half = point.half_parallax = half_parallax_of(camera_, seen_.eye, look, local);
   point.distance = double{length(local)};
+  point.across = std::hypot(double{local.x}, double{local.z}), point.height = double{local.y};
   point.vergence = vergence(half, point.elevation);
   if (options_.rules != ComfortRules::kStrain) {
     point.strains[static_cast<size_t>(Strain::kRule)] = rule_distance(options_, point.elevation) / point.distance;
     return;
   }
-  const double gaze = double{options_.viewer.gaze_degrees} * kDegree;
   point.strains[static_cast<size_t>(Strain::kNear)] = vergence_dioptres(point.vergence, options_.viewer);
   point.strains[static_cast<size_t>(Strain::kVertical)] =
-      worst_vertical_disparity(half, point.elevation, gaze) / kArcMinute;
+      worst_vertical_disparity(half, point.elevation, gaze()) / kArcMinute;
 }
 
 void Judge::add_step(Point& point, const Point& beside) {
@@ -174,6 +177,26 @@ Strain Judge::worst_of(const Point& point) const {
 double Judge::rank_of(const Point& point) const {
   const auto i = static_cast<size_t>(worst_of(point));
   return static_cast<double>(point.level) * 1e6 + point.strains[i] / limits_[i].warning;
+}
+
+// The share of the circle's radius with which the point is no more than a caution. Strains are nearly proportional to
+// the radius, but for points near the axis, which change their elevation with it.
+double Judge::circle_for(const Point& point) const {
+  if (point.level < ComfortLevel::kWarning || options_.rules != ComfortRules::kStrain) return 1.0;
+  const auto limit = [&](Strain strain) { return limits_[static_cast<size_t>(strain)].warning; };
+  const double circle = point.across * std::sin(point.half_parallax);
+  double share = 1.0;
+  for (int i = 0; i < 8; i++) {
+    const double radius = share * circle;
+    const double half = std::asin(radius / point.across);
+    const double elevation = std::atan2(point.height, std::sqrt(point.across * point.across - radius * radius));
+    const double near = vergence_dioptres(vergence(half, elevation), options_.viewer);
+    const double vertical = worst_vertical_disparity(half, elevation, gaze()) / kArcMinute;
+    const double over = std::max(near / limit(Strain::kNear), vertical / limit(Strain::kVertical));
+    share = std::min(1.0, share / over);
+  }
+  const double step = limit(Strain::kStep) / std::max(point.strains[static_cast<size_t>(Strain::kStep)], 1e-9);
+  return std::min(share, step);
 }
 
 // Strains go nearly as one over the distance.
@@ -240,7 +263,7 @@ ComfortReport Judge::report() {
   if (options_.rules == ComfortRules::kStrain) add_steps();
   report.level = Image(width_, height_, 1);
   report.nearest = kFar;
-  double all = 0.0, over = 1.0;
+  double all = 0.0, circle = 1.0;
   for (size_t i = 0; i < points_.size(); i++) {
     Point& point = points_[i];
     rate(point);
@@ -248,14 +271,12 @@ ComfortReport Judge::report() {
     report.share[static_cast<size_t>(point.level)] += point.solid_angle;
     report.nearest = std::min(report.nearest, point.distance);
     report.level.pixels[i] = static_cast<float>(point.level);
-    for (size_t k = 0; k < limits_.size(); k++) {
-      report.most[k] = std::max(report.most[k], point.strains[k]);
-      over = std::max(over, point.strains[k] / limits_[k].warning);
-    }
+    for (size_t k = 0; k < limits_.size(); k++) report.most[k] = std::max(report.most[k], point.strains[k]);
+    circle = std::min(circle, circle_for(point));
   }
   for (double& share : report.share) share /= std::max(all, 1e-12);
   report.unknown = static_cast<double>(unknown) / static_cast<double>(points_.size());
-  report.largest_ipd = static_cast<float>(double{seen_.camera.ipd} / over);
+  report.largest_ipd = static_cast<float>(double{seen_.camera.ipd} * circle);
   list_places(report);
   return report;
 }

@@ -76,14 +76,4 @@ double worst_vertical_disparity(double half_parallax, double elevation, double g
   return std::abs(vertical_disparity(half_parallax, elevation, most_yaw(elevation, gaze)));
 }
 
-double half_parallax_within(double limit, double elevation, double gaze) {
-  double low = 0.0, high = 0.5 * pi;
-  if (worst_vertical_disparity(high, elevation, gaze) <= limit) return high;
-  for (int i = 0; i < 60; i++) {
-    const double middle = 0.5 * (low + high);
-    (worst_vertical_disparity(middle, elevation, gaze) <= limit ? low : high) = middle;
-  }
-  return low;
-}
-
 }  // namespace ods

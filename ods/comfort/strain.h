@@ -89,7 +89,4 @@ double vertical_disparity(double half_parallax, double elevation, double head_ya
 // ahead.
 double worst_vertical_disparity(double half_parallax, double elevation, double gaze);
 
-// The largest half parallax for which that is at most `limit`.
-double half_parallax_within(double limit, double elevation, double gaze);
-
 }  // namespace ods

@@ -79,7 +79,10 @@ TEST(Comfort, NearThingsAreNamedWithTheirPlaces) {
     // The cure by the eye distance cures.
     StereoCamera closer;
     closer.ipd = report.largest_ipd * 0.99f;
-    EXPECT_LE(worst_level(judge_comfort(see(closer, eye, balls))), ComfortLevel::kCaution);
+    const ComfortReport cured = judge_comfort(see(closer, eye, balls));
+    EXPECT_LE(worst_level(cured), ComfortLevel::kCaution)
+        << cured.places[0].name << strain_row(cured.places[0].strain).name << cured.places[0].value << " "
+        << cured.places[0].elevation << " " << closer.ipd;
     // Without names they are areas.
     seen.things.clear(), seen.names.clear();
     const ComfortReport areas = judge_comfort(seen);

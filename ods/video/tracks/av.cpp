@@ -51,7 +51,7 @@ static void listen(void*, int level, const char* format, va_list words) {
   char line[512];
   std::vsnprintf(line, sizeof(line), format, words);
   const std::lock_guard<std::mutex> lock(complaint_mutex);
-  complaint = line;
+  complaint = std::string(line);
 }
 
 void keep_complaints() {
