@@ -19,6 +19,7 @@
 // One a file, in the folders beside this one.
 int ods_blender(int argc, char** argv);
 int ods_camera(int argc, char** argv);
+int ods_comfort(int argc, char** argv);
 int ods_compare(int argc, char** argv);
 int ods_convert(int argc, char** argv);
 int ods_denoise(int argc, char** argv);
@@ -69,6 +70,7 @@ constexpr Command kCommands[] = {
     {"camera", "export a camera to another renderer", ods_camera},
     {"project", "project world points into each eye's picture", ods_project},
     {"compare", "measure the difference between two pictures", ods_compare},
+    {"comfort", "find what strains a viewer's eyes", ods_comfort},
     {"lint", "find faults in a stereo 360 picture", ods_lint},
     {"probe", "show a file's 360 metadata and how players will interpret it", ods_probe},
     {"inject", "write 360 and stereo metadata into a video or picture", ods_inject},

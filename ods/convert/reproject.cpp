@@ -12,14 +12,17 @@
 
 namespace ods {
 
-static float depth_at(const Reprojection& reprojection, const Texel& texel) {
-  const LayerPixels& layer =
-      reprojection.source->picture->eyes[static_cast<size_t>(texel.source_eye)].layers[reprojection.layer];
-  const std::byte* at = layer.first + texel.y * layer.row_stride + texel.x * layer.pixel_stride;
+static float depth_at(const LayerPixels& layer, int x, int y) {
+  const std::byte* at = layer.first + y * layer.row_stride + x * layer.pixel_stride;
   if (layer.sample != SampleType::kFloat) return sample_value(layer.sample, at);
   float depth;
   std::memcpy(&depth, at, sizeof depth);
   return depth;
+}
+
+static float depth_at(const Reprojection& reprojection, const Texel& texel) {
+  const StoredEye& eye = reprojection.source->picture->eyes[static_cast<size_t>(texel.source_eye)];
+  return depth_at(eye.layers[reprojection.layer], texel.x, texel.y);
 }
 
 // Depths are compared as 1/metres: nearly linear over the picture of a plane, and 0 where the ray hit nothing.
@@ -35,6 +38,15 @@ std::optional<size_t> depth_layer(const StoredPicture& picture) {
     if (fits && (layers[i].sample == SampleType::kFloat || layers[i].sample == SampleType::kHalf)) return i;
   }
   return {};
+}
+
+Image depth_of_eye(const StoredPicture& picture, size_t eye) {
+  const LayerPixels& layer = picture.eyes[eye].layers[*depth_layer(picture)];
+  Image depth(picture.size.width, picture.size.height, 1);
+  for (int y = 0; y < depth.height; y++) {
+    for (int x = 0; x < depth.width; x++) depth.at(x, y)[0] = depth_at(layer, x, y);
+  }
+  return depth;
 }
 
 Reprojection make_reprojection(const Source& source) {

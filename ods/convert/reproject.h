@@ -23,6 +23,9 @@ struct Reprojection {
 // The index of the layer with the distance along the ray, metres (Z, as save.h defines it).
 std::optional<size_t> depth_layer(const StoredPicture& picture);
 
+// An eye's depths as they are stored, 1 channel; eye: index in StoredPicture::eyes. Precondition: there is a depth layer.
+Image depth_of_eye(const StoredPicture& picture, size_t eye);
+
 // Reads all depths once. Precondition: there is a depth layer. The source must outlive the result and must not move.
 Reprojection make_reprojection(const Source& source);
 

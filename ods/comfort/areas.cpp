@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/comfort/areas.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ods {
+
+// Neighbours on one surface, not on a thing and its background.
+static bool touch(float a, float b) {
+  return std::abs(a - b) <= 0.1f * std::max(a, b);
+}
+
+std::vector<int> connected_areas(const AreaGrid& grid) {
+  std::vector<int> areas(grid.is_in.size(), -1);
+  std::vector<size_t> open;
+  int count = 0;
+  const auto width = static_cast<size_t>(grid.width);
+  const auto enter = [&](size_t from, size_t to) {
+    if (areas[to] >= 0 || !grid.is_in[to] || !touch(grid.nearness[from], grid.nearness[to])) return;
+    areas[to] = areas[from];
+    open.push_back(to);
+  };
+  for (size_t start = 0; start < areas.size(); start++) {
+    if (areas[start] >= 0 || !grid.is_in[start]) continue;
+    areas[start] = count++;
+    open.push_back(start);
+    while (!open.empty()) {
+      const size_t at = open.back(), x = at % width, row = at - x;
+      open.pop_back();
+      if (x > 0 || grid.wraps) enter(at, row + (x + width - 1) % width);
+      if (x + 1 < width || grid.wraps) enter(at, row + (x + 1) % width);
+      if (at >= width) enter(at, at - width);
+      if (at + width < areas.size()) enter(at, at + width);
+    }
+  }
+  return areas;
+}
+
+}  // namespace ods

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How much a point of an omni-directional stereo picture strains the eyes of a viewer with a headset, in closed form.
+//
+// A headset shows the eyes' pictures by direction. A point at the azimuth alpha is at alpha + delta in the left eye's
+// picture and at alpha - delta in the right one's, at the same elevation phi in both; delta, the half parallax, is
+// asin(r / rho) for eyes on a circle of radius r and a point at the distance rho from its axis. A pair of eyes fixed to
+// a head would see the point at one height, whatever the head's yaw; the pictures show it at two as soon as the head is
+// turned aside. The eyes must then turn apart vertically: the vertical disparity
+//
+//   V(beta) = atan2(tan phi, cos(beta + delta)) - atan2(tan phi, cos(beta - delta))
+//
+// for a head whose yaw is beta from the point; the head's pitch does not matter. Source: derived from the projection of
+// Google, "Rendering Omni-directional Stereo Content"; tests/comfort/strain_test.cpp searches head poses for worse
+// ones.
+//
+// Angles are radians unless a name says otherwise, lengths metres.
+#pragma once
+#include <string_view>
+
+#include "ods/base/names.h"
+
+namespace ods {
+
+struct Viewer {
+  float ipd = 0.065f;          // between the pupils
+  float focus = 1.3f;          // where the headset's lenses focus; may be infinite
+  float gaze_degrees = 15.0f;  // how far the eyes turn before the head does
+};
+
+// What strains.
+enum class Strain {
+  kNear,      // the eyes converge nearer than they focus; in dioptres, of the distance for which they converge
+  kVertical,  // worst_vertical_disparity(), in minutes of arc
+  kStep,      // vergence against what is a degree beside it, in degrees
+  kRule,      // a rule of ComfortOptions is broken; how many times too near it is
+};
+
+struct StrainRow {
+  Strain member;
+  std::string_view name;
+  std::string_view unit;
+  std::string_view title;
+  std::string_view source;  // of the limits
+};
+inline constexpr StrainRow kStrainTable[] = {
+    {Strain::kNear, "near", "dioptres", "the eyes converge nearer than they focus",
+     "one degree rule; Shibata et al. 2011, The zone of comfort; Google's 60 cm"},
+    {Strain::kVertical, "vertical", "minutes of arc", "the eyes must turn apart vertically when the head turns",
+     "Qin et al., limits of Panum's area; a degree: severe"},
+    {Strain::kStep, "step", "degrees", "a large step in depth to what is beside it",
+     "Nagata 2002, limits of fusion of 392 people"},
+    {Strain::kRule, "rule", "times too near", "nearer than the rule allows", ""},
+};
+static_assert(has_every_member(kStrainTable));
+inline constexpr auto kStrains = members_of(kStrainTable);
+constexpr const StrainRow& strain_row(Strain strain) {
+  return row_in(kStrainTable, strain);
+}
+
+enum class ComfortLevel { kOk, kCaution, kWarning, kError };
+inline constexpr NameRow<ComfortLevel> kComfortLevelTable[] = {
+    {ComfortLevel::kOk, "ok"},
+    {ComfortLevel::kCaution, "caution"},
+    {ComfortLevel::kWarning, "warning"},
+    {ComfortLevel::kError, "error"},
+};
+static_assert(has_every_member(kComfortLevelTable));
+inline constexpr auto kComfortLevels = members_of(kComfortLevelTable);
+
+// The values from which on a strain has a level; infinite: never.
+struct StrainLimits {
+  double caution, warning, error;
+};
+StrainLimits strain_limits(Strain strain, const Viewer& viewer);
+ComfortLevel level_of(double value, const StrainLimits& limits);
+
+// The angle between the eyes' lines of sight when they look at the point; negative if they must diverge.
+double vergence(double half_parallax, double elevation);
+
+// The distance for which eyes converge so, as dioptres: 1 / metres. 0 and less: beyond everything.
+double vergence_dioptres(double vergence, const Viewer& viewer);
+
+// V above.
+double vertical_disparity(double half_parallax, double elevation, double head_yaw);
+
+// The largest |V| over all heads, of any yaw and pitch, from which the point is at most `gaze` away from straight
+// ahead.
+double worst_vertical_disparity(double half_parallax, double elevation, double gaze);
+
+}  // namespace ods

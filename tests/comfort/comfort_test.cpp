@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Verdicts of pictures whose distances are known.
+#include "ods/comfort/comfort.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ods/base/error.h"
+#include "ods/picture/picture.h"
+
+namespace ods {
+namespace {
+
+// A hall of 20 m around, and spheres of light at places of their own: what one eye of the camera sees of them.
+struct Ball {
+  vec3 middle;
+  float radius;
+};
+
+SeenDepth see(const StereoCamera& camera, int eye, const std::vector<Ball>& balls, int width = 512) {
+  SeenDepth seen{camera, eye, Image(width, width / 2, 1), {}, {}};
+  const Camera kernel = make_camera(camera);
+  for (int y = 0; y < width / 2; y++) {
+    for (int x = 0; x < width; x++) {
+      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                    (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2));
+      const Ray ray = camera_ray(kernel, eye, uv);
+      float nearest = 20.0f;
+      int thing = -1;
+      for (size_t i = 0; i < balls.size(); i++) {
+        const vec3 to = balls[i].middle - ray.origin;
+        const float along = dot(to, ray.direction), miss2 = dot(to, to) - along * along;
+        const float r2 = balls[i].radius * balls[i].radius;
+        if (along < 0.0f || miss2 > r2) continue;
+        if (const float t = along - std::sqrt(r2 - miss2); t < nearest) nearest = t, thing = static_cast<int>(i);
+      }
+      seen.depth.at(x, y)[0] = nearest;
+      seen.things.push_back(thing);
+    }
+  }
+  for (size_t i = 0; i < balls.size(); i++) seen.names.push_back("ball " + std::to_string(i));
+  return seen;
+}
+
+TEST(Comfort, AHallIsComfortable) {
+  for (const int eye : {kLeft, kRight, kMono}) {
+    const ComfortReport report = judge_comfort(see(StereoCamera{}, eye, {}));
+    EXPECT_EQ(worst_level(report), ComfortLevel::kOk);
+    EXPECT_NEAR(report.share[0], 1.0, 1e-9);
+    EXPECT_NEAR(report.nearest, 20.0, 0.01);
+    EXPECT_EQ(report.largest_ipd, StereoCamera{}.ipd);
+    EXPECT_TRUE(report.places.empty());
+  }
+}
+
+// Each by name, with its place, its distance and the distance that would be enough.
+TEST(Comfort, NearThingsAreNamedWithTheirPlaces) {
+  const std::vector<Ball> balls = {{vec3(0.5f, 0, 0), 0.05f}, {vec3(0, 0, -3), 0.4f}, {vec3(0, 0.8f, 0.05f), 0.1f}};
+  for (const int eye : {kLeft, kRight, kMono}) {
+    SeenDepth seen = see(StereoCamera{}, eye, balls);
+    const ComfortReport report = judge_comfort(seen);
+    EXPECT_EQ(worst_level(report), ComfortLevel::kError);
+    ASSERT_EQ(report.places.size(), 2u);
+    const StrainedPlace& above = report.places[0].name == "ball 2" ? report.places[0] : report.places[1];
+    const StrainedPlace& beside = report.places[0].name == "ball 0" ? report.places[0] : report.places[1];
+    EXPECT_EQ(above.name, "ball 2");
+    EXPECT_EQ(above.strain, Strain::kVertical);
+    EXPECT_GT(above.elevation, 70.0);
+    EXPECT_EQ(beside.name, "ball 0");
+    EXPECT_EQ(beside.level, ComfortLevel::kError);
+    EXPECT_NEAR(beside.azimuth, 90.0, 6.0);
+    EXPECT_NEAR(beside.distance, 0.45, 0.02);
+    EXPECT_GT(beside.enough, 0.6);
+    EXPECT_GT(report.share[3], 0.0);
+    // The cure by the eye distance cures.
+    StereoCamera closer;
+    closer.ipd = report.largest_ipd * 0.99f;
+    const ComfortReport cured = judge_comfort(see(closer, eye, balls));
+    EXPECT_LE(worst_level(cured), ComfortLevel::kCaution)
+        << cured.places[0].name << strain_row(cured.places[0].strain).name << cured.places[0].value << " "
+        << cured.places[0].elevation << " " << closer.ipd;
+    // Without names they are areas.
+    seen.things.clear(), seen.names.clear();
+    const ComfortReport areas = judge_comfort(seen);
+    EXPECT_GE(areas.places.size(), 2u);
+    EXPECT_NEAR(areas.share[3], report.share[3], 1e-12);
+  }
+}
+
+// A merge takes the strain from above.
+TEST(Comfort, MergesCount) {
+  const std::vector<Ball> balls = {{vec3(0, 1.5f, 0), 0.1f}};
+  EXPECT_EQ(worst_level(judge_comfort(see(StereoCamera{}, kLeft, balls))), ComfortLevel::kError);
+  StereoCamera merged;
+  merged.top = {kMergeCosine, 0.0f, 80.0f, 1.0f};
+  EXPECT_LT(worst_level(judge_comfort(see(merged, kLeft, balls))), ComfortLevel::kError);
+}
+
+TEST(Comfort, RulesAreOfTheDistance) {
+  const std::vector<Ball> balls = {{vec3(0.85f, 0, 0), 0.05f}, {vec3(0, 3.3f, 0), 0.1f}};
+  ComfortOptions google;
+  google.rules = ComfortRules::kGoogle;
+  const ComfortReport report = judge_comfort(see(StereoCamera{}, kLeft, balls), google);
+  ASSERT_EQ(report.places.size(), 1u);
+  EXPECT_EQ(report.places[0].name, "ball 1");  // 3.2 m above; 0.8 m beside is enough
+  EXPECT_NEAR(report.places[0].enough, 3.5, 0.02);
+  ComfortOptions sphere;
+  sphere.rules = ComfortRules::kSafeSphere;
+  sphere.safe_radius = 1.0f;
+  const ComfortReport other = judge_comfort(see(StereoCamera{}, kLeft, balls), sphere);
+  ASSERT_EQ(other.places.size(), 1u);
+  EXPECT_EQ(other.places[0].name, "ball 0");
+}
+
+TEST(Comfort, DepthWithoutSenseIsAnErrorOrUnknown) {
+  SeenDepth seen = see(StereoCamera{}, kLeft, {});
+  seen.things.clear();
+  for (const float bad : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    std::ranges::fill(seen.depth.pixels, bad);
+    EXPECT_THROW(judge_comfort(seen), Error);
+  }
+  std::ranges::fill(seen.depth.pixels, std::numeric_limits<float>::infinity());
+  seen.depth.pixels[0] = std::numeric_limits<float>::quiet_NaN();
+  const ComfortReport report = judge_comfort(seen);
+  EXPECT_EQ(worst_level(report), ComfortLevel::kOk);
+  EXPECT_GT(report.unknown, 0.0);
+}
+
+TEST(Comfort, BlocksKeepWhatIsNearest) {
+  Image depth(9, 4, 1);
+  std::ranges::fill(depth.pixels, 5.0f);
+  depth.at(4, 1)[0] = 0.5f;
+  depth.at(8, 3)[0] = -1.0f;
+  const Image blocks = nearest_of_blocks(depth, 5);
+  EXPECT_EQ(blocks.width, 5);
+  EXPECT_EQ(blocks.height, 2);
+  EXPECT_EQ(blocks.at(2, 0)[0], 0.5f);
+  EXPECT_EQ(blocks.at(0, 0)[0], 5.0f);
+  EXPECT_EQ(blocks.at(4, 1)[0], 5.0f);
+}
+
+}  // namespace
+}  // namespace ods
