@@ -21,6 +21,9 @@
 #include "bench/subjects.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builder.h"
+#include "ods/stage/light/lamp_unit.h"
+#include "ods/stage/light/supply.h"
+#include "ods/stage/place.h"
 
 namespace {
 
@@ -75,14 +78,33 @@ struct Subjected {
   StereoCamera camera;
 };
 
+// A file as ods render has it: with the light that it lacks.
+Scene lit_scene(const std::string& path) {
+  Scene scene = load_scene(path, {});
+  if (lamps_are_in_watts(scene)) scale_lamps(scene, 1.0 / kLumensPerWatt);
+  Survey seen;
+  LightPlan plan;
+  settle(scene, {}, [&](const SceneRays& rays, const Survey& survey) {
+    seen = survey;
+    plan = plan_light(rays, survey);
+  });
+  apply_light(scene, seen, plan);
+  return scene;
+}
+
 Subjected subject_of(const std::string& name) {
   if (name == "leaks") {
     Subjected result{make_leaks(), {}};
     result.camera.position = default_view(result.scene).position;
     return result;
   }
+  if (std::filesystem::exists(name)) {
+    Subjected result{lit_scene(name), {}};
+    result.camera.position = default_view(result.scene).position;
+    return result;
+  }
   const Subject subject = name == kAtrium.name ? kAtrium : name == kHelmet.name ? kHelmet : Subject{name.c_str()};
-  Subjected result{std::filesystem::exists(name) ? load_scene(name, {}) : load(subject), {}};
+  Subjected result{load(subject), {}};
   result.camera = camera_of(subject, result.scene);
   return result;
 }

@@ -139,7 +139,7 @@ std::vector<ods::StereoCamera> FrameRenderer::set_time(const Frame& frame) {
 ods::RenderOptions FrameRenderer::options_for(const Frame& frame, const ods::StereoCamera& camera) const {
   ods::RenderOptions options = ods::with_height(options_to_finish(job_), camera);
   options.seed = frame.seed;
-  options.noise_exposure = exposure_;
+  options.noise_exposure = noise_exposure_;
   return options;
 }
 
@@ -165,12 +165,21 @@ ods::Picture FrameRenderer::first_look(const Frame& frame) {
 }
 
 float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
-  if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
-    return exposure_ = job_.exposure.value_or(job_.brighter);
+  const float exposure = choose_exposure(frames);
+  noise_exposure_ = exposure;
+  return exposure_ = is_looked_at(job_) || job_.exposure ? exposure : job_.brighter;
+}
+
+// Also for a scene-linear file whose noise is judged: somebody will look at it, too.
+float FrameRenderer::choose_exposure(const std::vector<Frame>& frames) {
+  const bool shown = is_looked_at(job_);
+  if (job_.exposure || !(shown || job_.render.noise > 0.0f) || is_made_for_it(job_) || frames.empty()) {
+    return job_.exposure.value_or(job_.brighter);
   }
   if (scene_.as_painted) {
-    note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
-    return exposure_ = 0.0f;
+    if (shown)
+      note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
+    return 0.0f;
   }
   std::set<size_t> chosen;
   for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
@@ -179,13 +188,16 @@ float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   const std::optional<float> stops = ods::suitable_exposure(looks);
   if (!stops) {
     warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
-    return exposure_ = job_.brighter;
+    return job_.brighter;
   }
-  exposure_ = brightened(*stops, job_.brighter);
+  const float exposure = brightened(*stops, job_.brighter);
+  if (!shown) {
+    note(fmt::format("noise is judged at {:+} stops, as the picture will be looked at", exposure));
+    return exposure;
+  }
   const std::string more = job_.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job_.brighter);
-  note(
-      fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure_, more, exposure_));
-  return exposure_;
+  note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure, more, exposure));
+  return exposure;
 }
 
 // Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and

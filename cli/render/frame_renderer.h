@@ -57,7 +57,8 @@ class FrameRenderer {
   // look at some of `frames`: all of the video, whatever exists already, or the one picture. It depends on the job
   // alone, so processes that share the frames or resume them find the same; --brighter is added. 0 where files keep the
   // scene's light, and for built-in scenes in their own light, which are made for it. Notes what it chose; warns if all
-  // is black. What is rendered from then on is as clean as asked for when it is shown with that exposure.
+  // is black. What is rendered from then on is as clean as asked for when it is shown with that exposure; files that
+  // keep the scene's light, with the one that they would be shown with.
   float find_exposure(const std::vector<Frame>& frames);
 
   // Reads what keep_raw() has written, if it is there; else renders.
@@ -75,6 +76,7 @@ class FrameRenderer {
  private:
   void say_where() const;
   ods::Picture first_look(const Frame& frame);
+  float choose_exposure(const std::vector<Frame>& frames);
   std::vector<ods::StereoCamera> set_time(const Frame& frame);
   ods::RenderOptions options_for(const Frame& frame, const ods::StereoCamera& camera) const;
 
@@ -84,5 +86,6 @@ class FrameRenderer {
   Frame first_;
   ods::SceneChange change_;  // since renderer_ was updated
   std::optional<ods::CpuRenderer> renderer_;
-  float exposure_ = 0.0f;  // of find_exposure()
+  float exposure_ = 0.0f;        // of find_exposure()
+  float noise_exposure_ = 0.0f;  // with which the noise is judged
 };

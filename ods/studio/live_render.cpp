@@ -38,6 +38,10 @@ constexpr Step kSteps[] = {
 constexpr size_t kFirstOfPatch = 2;
 static_assert(kSteps[kFirstOfPatch].is_patch);
 
+// From this step on a light cache pays: it takes a second or two of a core to fill.
+constexpr size_t kFirstCached = 4;
+constexpr int kCachePaths = 1 << 18;
+
 constexpr float kScreen = 1280.0f;      // pixels across a view
 constexpr float kMostOfPatch = 0.8e6f;  // pixels of an eye
 constexpr float kLookMargin = 1.15f;    // the patch is larger than the view, so that small turns stay in it
@@ -65,6 +69,7 @@ Canvas make_canvas(const StereoCamera& camera, bool is_patch, Extent size) {
   canvas.options.height = size.height;
   canvas.options.statistics = true;
   canvas.options.even_noise = false;
+  canvas.options.caustics = Caustics::kStraight;
   canvas.options = with_height(canvas.options, camera);
   canvas.samples = no_samples(canvas.options);
   return canvas;
@@ -188,7 +193,8 @@ struct LiveRender::State {
   double scene_time = 0.0;
   LiveSettings rendered;  // what the canvases show
   std::optional<Canvas> base, patch;
-  size_t next = 0;  // step
+  std::optional<LightCells> cells;  // for both; none: not yet
+  size_t next = 0;                  // step
   std::thread thread;
 
   void run();
@@ -196,6 +202,7 @@ struct LiveRender::State {
   void render_step(int mine);
   void wait_for_change(int mine);
   void wait_for_viewer(int mine) const;
+  void fill_cells(const Progress& progress);
   bool refine(Canvas& canvas, int samples, int mine);
   void publish(const Canvas& canvas, int mine, size_t coming);
   StereoCamera camera_of(const Step& step, const LiveView& here) const;
@@ -209,13 +216,22 @@ struct LiveRender::State {
   }
 };
 
+// Every direction may be looked at next: the whole picture's paths fill the cells.
+void LiveRender::State::fill_cells(const Progress& progress) {
+  RenderOptions options = base->options;
+  options.indirect = Indirect::kCache;
+  options.cache_paths = kCachePaths;
+  cells = renderer.fill_cells({&rendered.camera, 1}, options, progress);
+}
+
 // False if it was cancelled: the samples are of no use then.
 bool LiveRender::State::refine(Canvas& canvas, int samples, int mine) {
   Progress progress;
   progress.cancelled = [&] { return is_old(mine) || (canvas.is_patch && !shows(canvas.camera, view_now())); };
   canvas.options.samples = samples;
   try {
-    renderer.sample({&canvas.camera, 1}, canvas.options, canvas.samples, progress);
+    if (!cells && next >= kFirstCached) fill_cells(progress);
+    renderer.sample({&canvas.camera, 1}, canvas.options, canvas.samples, progress, {}, cells ? &*cells : nullptr);
     Picture picture = develop(canvas.samples, canvas.options);
     denoise(picture, canvas.camera, {}, progress);
     canvas.picture = std::make_shared<const Picture>(std::move(picture));
@@ -267,7 +283,7 @@ void LiveRender::State::begin(int mine, const LiveSettings& now) {
   const bool same_light = but_for_display == rendered;
   rendered = now;
   if (!same_light) {
-    base.reset(), patch.reset();
+    base.reset(), patch.reset(), cells.reset();
     next = 0;
     const std::lock_guard<std::mutex> lock(mutex);
     for (auto& frame : frames) frame = nullptr;
@@ -324,7 +340,7 @@ void LiveRender::State::run() {
         wait_for_viewer(mine);
       }
     } catch (const std::exception& error) {
-      base.reset(), patch.reset();
+      base.reset(), patch.reset(), cells.reset();
       rendered = LiveSettings();
       rendered.time = -1.0;  // nothing is rendered with it: the next settings begin anew
       const std::lock_guard<std::mutex> lock(mutex);

@@ -45,6 +45,22 @@ TEST_F(Light, IsSuppliedAndSaidInOneLine) {
   EXPECT_FALSE(says("light it")) << "scenes of ours have light: " << err;
 }
 
+// A scene of a hundredth of the light is looked at with more exposure, so its noise counts as much, also in a file that
+// keeps the light as it is.
+TEST_F(Light, NoiseIsJudgedAsThePictureWillBeLookedAt) {
+  const auto samples = [&](const std::string& light, const std::string& more) {
+    const std::string options = " --width 32 --samples 4096 --noise 0.002 --eyes mono --denoise none --env " + light;
+    EXPECT_EQ(run("render " + scene + " -o " + picture + options + more), 0) << err;
+    const size_t words = err.find(" samples per pixel");
+    return std::stod(err.substr(err.rfind(' ', words - 1)));
+  };
+  const double bright = samples("1", ""), dim = samples("0.01", "");
+  EXPECT_TRUE(says("noise is judged at +")) << err;
+  EXPECT_NEAR(dim / bright, 1.0, 0.1) << dim << " and " << bright;
+  const double dark = samples("0.01", " --exposure 0");
+  EXPECT_LT(dark, 0.7 * dim) << "the test would not notice";
+}
+
 TEST_F(Light, EnvironmentsHaveNames) {
   EXPECT_EQ(behind("--env white"), 1.0f);
   EXPECT_EQ(behind("--env 0.5"), 0.5f);

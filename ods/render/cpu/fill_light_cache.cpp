@@ -91,7 +91,7 @@ void trace_batch(Job job, uint first, LightCacheSums& sums) {
 
 }  // namespace
 
-std::vector<CacheCell> fill_light_cache(const Job& wanted, const Progress& progress) {
+LightCells fill_light_cache(const Job& wanted, const Progress& progress) {
   const int64_t most = light_cache_paths(wanted.options);
   if (most == 0) return {};
   Job job = wanted;
@@ -112,13 +112,13 @@ std::vector<CacheCell> fill_light_cache(const Job& wanted, const Progress& progr
     if (sums.error() < kWantedError) break;
     look += look / 2;
   }
-  return sums.table();
+  return {job.camera.center, sums.table()};
 }
 
-void show_light_cache(Job& job, const std::vector<CacheCell>& cells) {
-  job.tracer.cache_viewer = job.camera.center;
-  job.tracer.cache_cells = cells.data();
-  job.tracer.cache_mask = cells.empty() ? 0u : static_cast<uint>(cells.size() - 1);
+void show_light_cache(Job& job, const LightCells& cells) {
+  job.tracer.cache_viewer = cells.viewer;
+  job.tracer.cache_cells = cells.table.data();
+  job.tracer.cache_mask = cells.table.empty() ? 0u : static_cast<uint>(cells.table.size() - 1);
 }
 
 }  // namespace ods

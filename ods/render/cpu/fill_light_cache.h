@@ -3,19 +3,18 @@
 //
 // Fills a light cache (ods/kernel/light_cache.h) before a picture is rendered.
 #pragma once
-#include <vector>
-
 #include "ods/base/progress.h"
 #include "ods/render/cpu/job.h"
+#include "ods/render/cpu/light_cells.h"
 
 namespace ods {
 
 // Traces whole paths from all over the picture and keeps what they find at each surface, until the cells are certain or
 // the paths take a tenth of the picture's time. Small pictures get no cache. The result depends on the scene, the
 // camera and the options only, and not on options.part or the number of threads. Errors: ErrorKind::kCancelled.
-std::vector<CacheCell> fill_light_cache(const Job& job, const Progress& progress);
+LightCells fill_light_cache(const Job& job, const Progress& progress);
 
 // Lets the job's paths end in these cells, which must outlive it; in none if there are none.
-void show_light_cache(Job& job, const std::vector<CacheCell>& cells);
+void show_light_cache(Job& job, const LightCells& cells);
 
 }  // namespace ods

@@ -423,19 +423,35 @@ Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOpti
   return develop(std::move(samples), options);
 }
 
+static std::vector<Camera> cameras_of(std::span<const StereoCamera> path) {
+  std::vector<Camera> cameras;
+  for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
+  return cameras;
+}
+
 void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
-                         const Progress& progress, const KeepSamples& keep) const {
+                         const Progress& progress, const KeepSamples& keep, const LightCells* cells) const {
   assert(path.size() % 2 == 1 && fit(samples, options));
   assert(options.transparent || !has_catchers(parts_->scene));
   const StereoCamera& stereo = path[path.size() / 2];
-  std::vector<Camera> cameras;
-  for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
+  const std::vector<Camera> cameras = cameras_of(path);
   parts_->arena.execute([&] {
     Job job = parts_->make_job(stereo, cameras, options);
     parts_->use_portals(job.tracer, stereo.position);
-    const std::vector<CacheCell> cells = fill_light_cache(job, progress);
-    show_light_cache(job, cells);
+    const LightCells own = cells ? LightCells() : fill_light_cache(job, progress);
+    show_light_cache(job, cells ? *cells : own);
     render_passes(job, make_plan(stereo, options), samples, progress, keep);
+  });
+}
+
+LightCells CpuRenderer::fill_cells(std::span<const StereoCamera> path, const RenderOptions& options,
+                                   const Progress& progress) const {
+  const StereoCamera& stereo = path[path.size() / 2];
+  const std::vector<Camera> cameras = cameras_of(path);
+  return parts_->arena.execute([&] {
+    Job job = parts_->make_job(stereo, cameras, options);
+    parts_->use_portals(job.tracer, stereo.position);
+    return fill_light_cache(job, progress);
   });
 }
 

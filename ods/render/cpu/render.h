@@ -10,6 +10,7 @@
 #include "ods/base/progress.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/picture/picture.h"
+#include "ods/render/cpu/light_cells.h"
 #include "ods/render/keeper.h"
 #include "ods/render/picture_samples.h"
 #include "ods/render/render_options.h"
@@ -40,9 +41,15 @@ class CpuRenderer {
   // Likewise, in a way that can be interrupted: goes on from `samples`, which are no_samples() or those that an earlier
   // call has kept, and leaves what develop() makes the picture of. The result has the same bits, wherever it was
   // interrupted. `keep` gets the samples at least every 30 seconds, or, if it takes longer than 2.5 seconds, when ten
-  // times as much has passed; and before kCancelled is thrown. Precondition: options.height > 0, fit(samples, options).
+  // times as much has passed; and before kCancelled is thrown. cells: of fill_cells(), instead of a light cache of its
+  // own. Precondition: options.height > 0, fit(samples, options).
   void sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
-              const Progress& progress = {}, const KeepSamples& keep = {}) const;
+              const Progress& progress = {}, const KeepSamples& keep = {}, const LightCells* cells = nullptr) const;
+
+  // The light cache that sample() would fill, for several pictures from one place while the scene stays as it is.
+  // Without cells if the options ask for no cache. Precondition: options.height > 0.
+  LightCells fill_cells(std::span<const StereoCamera> path, const RenderOptions& options,
+                        const Progress& progress = {}) const;
 
   // What the depth layer shows: for each of eye_list(options.eyes) and each pixel, row by row, what the ray through its
   // centre hits; t is the depth, negative if there is nothing. Precondition: options.height > 0.

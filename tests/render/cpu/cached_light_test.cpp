@@ -4,9 +4,11 @@
 // Pictures whose indirect light comes out of a cache.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ods/render/cpu/render.h"
+#include "ods/render/picture_samples.h"
 #include "ods/render/render_target.h"
 #include "tests/support/pictures.h"
 
@@ -210,6 +212,76 @@ TEST(CachedLight, ACameraThatFliesFromRoomToRoom) {
     camera.position = vec3(x, 0, 0);
     EXPECT_NEAR(cached_over_path(scene, camera, cached(32, 256)), 1.0, 0.02) << x;
   }
+}
+
+// A room whose open side is behind six panes: the closed form of what they let through is in clear_glass_test.cpp.
+TEST(CachedLight, ASunBehindSixPanes) {
+  Scene scene = room();
+  scene.instances.erase(scene.instances.begin());  // a wall
+  Material glass = matte(vec3(1.0f));
+  glass.roughness = 0.0f;
+  glass.ior = 1.5f;
+  glass.transmission = 1.0f;
+  const int pane = add_material(scene, glass);
+  for (int i = 0; i < 6; i++) {
+    const float z = 3.1f + 0.05f * static_cast<float>(i);
+    add_rectangle(scene, vec3(-4, -2, z), vec3(8, 0, 0), vec3(0, 4, 0), pane);
+  }
+  scene.lights.push_back(make_sun(0.0f, 30.0f, vec3(4.0f)));
+  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 256)), 1.0, 0.02);
+}
+
+int count_cells(const LightCells& cells) {
+  const auto filled = [](const CacheCell& cell) { return cell.check != 0; };
+  return static_cast<int>(std::count_if(cells.table.begin(), cells.table.end(), filled));
+}
+
+// Cells grow with the distance: a landscape of 2 km needs about as many as a room of 6 m, and a table of no more than
+// four slots for each.
+TEST(CachedLight, CellsAreFewHoweverLargeTheScene) {
+  Scene scene = room();
+  scene.instances.erase(scene.instances.begin());
+  const int grass = add_material(scene, matte(vec3(0.2f, 0.4f, 0.1f)));
+  for (int i = 0; i < 400; i++) {
+    const vec3 corner(-1000 + 100 * static_cast<float>(i % 20), -1.3f, -1000 + 100 * static_cast<float>(i / 20));
+    add_box(scene, corner, corner + vec3(30, 20, 30), grass);
+  }
+  add_rectangle(scene, vec3(-1000, -1.3f, 1000), vec3(2000, 0, 0), vec3(0, 0, -2000), grass);
+  scene.environment.radiance = vec3(0.5f);
+  const CpuRenderer renderer(scene);
+  RenderOptions options = with_height(cached(32, 16), StereoCamera{});
+  options.cache_paths = 1 << 20;
+  for (const vec3 position : {vec3(0.0f), vec3(0, 40, 300), vec3(900, 300, 900)}) {
+    StereoCamera camera;
+    camera.position = position;
+    const LightCells cells = renderer.fill_cells({&camera, 1}, options);
+    const int count = count_cells(cells);
+    EXPECT_GT(count, 100);
+    EXPECT_LT(count, 120'000);
+    EXPECT_LE(cells.table.size(), 4 * static_cast<size_t>(count));
+  }
+}
+
+// One cache serves all pictures from one place, whatever their projection: the studio's.
+TEST(CachedLight, ACacheServesSeveralPictures) {
+  const Scene scene = room();
+  const CpuRenderer renderer(scene);
+  StereoCamera camera;
+  RenderOptions options = with_height(cached(64, 64), camera);
+  const LightCells cells = renderer.fill_cells({&camera, 1}, options);
+  const auto sampled = [&](const LightCells* given) {
+    PictureSamples samples = no_samples(options);
+    renderer.sample({&camera, 1}, options, samples, {}, {}, given);
+    return develop(std::move(samples), options);
+  };
+  EXPECT_EQ(digest(sampled(&cells)), digest(sampled(nullptr)));
+  camera.projection.longitude = vec2(20, 90);
+  camera.projection.latitude = vec2(-40, 30);
+  options = with_height(cached(64, 128), camera);
+  options.indirect = Indirect::kPath;
+  const Picture with = sampled(&cells), without = sampled(nullptr);
+  EXPECT_NE(digest(with), digest(without));
+  EXPECT_NEAR(mean_over_eyes(with, 1) / mean_over_eyes(without, 1), 1.0, 0.02);
 }
 
 TEST(CachedLight, SameBitsForAnyThreads) {
